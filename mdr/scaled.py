@@ -1,0 +1,153 @@
+"""The scaled form of a sliding contact: what is left of it when units, mu_0 and the moduli are divided out.
+
+Time is omega t, normal lengths are in du_z, tangential lengths in mu_0 kappa du_z, stiffnesses in that of the whole
+array. In this form Coulomb's law has no coefficient and everything is a function of
+
+    depth ratio u_z0/du_z,  v = v_0/(mu_0 kappa omega du_z),  T = omega tau,  body/contact stiffness ratios,  shape.
+
+The body obeys M y'' + C y' + K y = -(S + T S') with S the sum of w e over the springs. Over a step h it is advanced
+
+* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h, whose impulse is right even when
+  the force of a dashpot jumps: no dispersion of its own natural frequency, second order in the force;
+* without mass, or where the step cannot resolve the fast oscillation omega_1 = sqrt((k_x + k_xc)/m), by backward differences
+  of second order, which damp what the step does not resolve.
+
+Either way it is one recursion with five numbers,
+y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.contact import SlidingContact
+from mdr.pull import SpringPull
+from mdr.springs import SpringArray
+
+Array = NDArray[np.float64]
+
+RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
+
+
+@dataclass(frozen=True, eq=False)
+class ScaledContact:
+    """Arrays and floats that the march needs."""
+
+    gap: Array  #: (n,) depth of each foot below the mean surface position, over du_z
+    w: Array  #: (n,) share of each spring in the stiffness
+    z: Array  #: (n_steps + 1,) normal motion over one period
+    z_dot: Array  #: (n_steps + 1,) its rate
+    T: float  #: omega tau
+    body: Array  #: (5,) recursion of the body; zero for a rigid pull
+    M: float  #: mass
+    C: float  #: damping
+    K: float  #: system stiffness; zero stands for a rigid pull
+    lump_margin: float  #: the first spring stands for the core while L[e + s] exceeds this
+    n_lumped: int  #: how many springs of the array the first one stands for
+    length_x: float  #: tangential unit mu_0 kappa du_z [m]
+    length_z: float  #: normal unit du_z [m]
+    stiffness_x: float  #: tangential stiffness unit [N/m]
+    stiffness_z: float  #: normal stiffness unit [N/m]
+    omega: float  #: inverse time unit [rad/s]
+
+    @property
+    def steps(self) -> int:
+        """Steps per period."""
+        return self.z.size - 1
+
+    @property
+    def h(self) -> float:
+        """Step of the phase."""
+        return 2 * np.pi / self.steps
+
+    @property
+    def speed(self) -> float:
+        """Unit of velocity mu_0 kappa omega du_z [m/s], which is Eq. (1)."""
+        return self.length_x * self.omega
+
+    @classmethod
+    def of(cls, case: SlidingContact, springs: SpringArray, steps: int, lump: bool) -> ScaledContact:
+        """Scale a case, its springs and its motion; lump the core that never leaves into its first spring if asked."""
+        oscillation, kappa = case.oscillation, case.material.mindlin_ratio
+        width = float(springs.width.sum())
+        gap, w, margin, n_lumped = springs.gap / oscillation.du_z, springs.width / width, -np.inf, 1
+        if lump and springs.n_core > 1:
+            gap, w, margin, n_lumped = _lumped(gap, w, springs.n_core)
+        length_x = case.mu_0 * kappa * oscillation.du_z
+        phase = 2 * np.pi * np.arange(steps + 1) / steps
+        M, C, K = _body_groups(case, springs.G_star * width)
+        return cls(
+            gap=gap, w=w, z=np.cos(phase), z_dot=-np.sin(phase), T=case.T,
+            body=_recursion(M, C, K, case.T, 2 * np.pi / steps), M=M, C=C, K=K,
+            lump_margin=margin, n_lumped=n_lumped, length_x=length_x, length_z=oscillation.du_z,
+            stiffness_x=springs.G_star * width, stiffness_z=springs.E_star * width, omega=oscillation.omega,
+        )
+
+    def full_slip_history(self, S: Array) -> Array:
+        """State (5,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
+
+        Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
+        free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it.
+        """
+        if not self.K:
+            return np.array([0.0, 0.0, 0.0, S[0], S[-1]])
+        a_1, a_2, b_1, b_0, b_m = self.body
+        turn = np.exp(1j * self.h * np.arange(self.steps // 2 + 1))
+        inertia = turn - a_1 - a_2 / turn
+        S_n = np.fft.rfft(S)
+        resonant = np.abs(inertia) < max(1e-9 * self.h**2, 2e-15)
+        y_n = np.where(resonant, 0, -(b_1 * turn + b_0 + b_m / turn) * S_n / np.where(resonant, 1, inertia))
+        y = np.fft.irfft(y_n, self.steps)
+        return np.array([y[0], y[-1], y[-2], S[0], S[-1]])
+
+    def rest_history(self, v: float) -> Array:
+        """State (5,) of a body at rest with nothing stretched, from which the pull sets off at v."""
+        y = np.array([0.0, 1.0, 2.0]) * v * self.h if self.K else np.zeros(3)
+        return np.array([*y, 0.0, 0.0])
+
+
+def fast_ratio(case: SlidingContact) -> float:
+    """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
+    if not isinstance(case.pull, SpringPull):
+        return 0.0
+    M, _, K = _body_groups(case, 1.0)
+    k_xc = float(case.indenter.stiffness(case.u_z_max, case.material.G_star))
+    return float(np.sqrt((K + k_xc) / M)) if M > 0 else np.inf
+
+
+def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
+    pull, omega = case.pull, case.oscillation.omega
+    if not isinstance(pull, SpringPull):
+        return 0.0, 0.0, 0.0
+    return pull.m * omega**2 / stiffness, pull.c_x * omega / stiffness, pull.k_x / stiffness
+
+
+def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int]:
+    """The core as one spring: all its springs share the lag s - e, so only sums and means of them matter."""
+    w_core = float(w[:n_core].sum())
+    gap_core = float(w[:n_core] @ gap[:n_core]) / w_core
+    margin = 2 * (float(gap[:n_core].max()) - gap_core)  # where the outermost would slip backward
+    return np.r_[gap_core, gap[n_core:]], np.r_[w_core, w[n_core:]], margin, n_core
+
+
+def _recursion(M: float, C: float, K: float, T: float, h: float) -> Array:
+    """The five numbers of the body; see the module's docstring."""
+    if not K:
+        return np.zeros(5)
+    if M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED:
+        inertia = M / h**2 + 1.5 * C / h + K
+        return np.array([
+            (2 * M / h**2 + 2 * C / h) / inertia, -(M / h**2 + 0.5 * C / h) / inertia,
+            (1 + 1.5 * T / h) / inertia, -2 * T / h / inertia, 0.5 * T / h / inertia,
+        ])
+    from scipy.linalg import expm
+
+    A = expm(h * np.array([[0, 1, 0], [-K / M, -C / M, 1 / M], [0, 0, 0]]))  # last column: response to a unit force
+    now, before = A[0, 2], A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2]
+    new, old = 0.5 + T / h, 0.5 - T / h  # weights of S_new and S in the mean force
+    return np.array([
+        A[0, 0] + A[1, 1], -np.exp(-C / M * h), now * new, now * old + before * new, before * old,
+    ])

@@ -1,0 +1,586 @@
+"""The independent twin: friction of an oscillating contact, written from the physics alone.
+
+Nothing here comes from the library; it needs NumPy and SciPy only. It is slow, it has no options but the
+physics, and its schemes differ from the library's march wherever another scheme exists.
+
+Units. Normal lengths are measured in du_z, tangential lengths in mu_0 kappa du_z, time in 1/omega, tangential
+stiffness in k_xc0 = 2 G* a(u_z0), normal forces in 2 E* a(u_z0) du_z, friction in mu_0 times that. Then
+
+    n              shape: profile g ~ x**n, so contact radius a(d) ~ d**(1/n); inf is the flat punch
+    depth_ratio    u_z0 / du_z, above -1 (the depth is depth_ratio + cos t)
+    v_hat          v_0 / (mu_0 kappa omega du_z), above 0
+    T              omega tau of the Kelvin element; 0 is the elastic one
+    k_ratio        k_x / k_xc0
+    omega_0_ratio  omega_0 / omega with omega_0**2 = k_x / m
+    c_ratio        c_x omega / k_xc0
+    h              (u_z0 - g) / du_z of one spring, whose indentation is w(t) = h + cos t
+
+One spring. Normal compression s(t) = max(0, sup over theta >= 0 of w(t - theta) exp(-theta / T)), normal force
+N = s + T s' in contact and 0 in free flight; shear e with |e + T e'| <= N, where e' = u_x' in stick and equality
+holds in slip. Over a period <e + T e'> = <e> and <N> = <s>, so a rigid pull has COF / mu_0 = 1 - <s - e> / <s>,
+summed over the springs.
+"""
+
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+from scipy.optimize import brentq, minimize_scalar
+
+TWO_PI = 2 * np.pi
+
+
+# --- tools -----------------------------------------------------------------------------------------------------
+
+
+def bracketed_root(f, low, high, tol=4e-16, max_steps=80):
+    """Roots of the array function f, which changes sign between low and high, element by element.
+
+    Chandrupatla (1997): inverse quadratic interpolation where it is safe, bisection elsewhere. Where f has one
+    sign at both ends the answer is meaningless and the caller discards it.
+    """
+    a, b = (np.array(end, dtype=float) for end in np.broadcast_arrays(high, low))
+    fa, fb = f(a), f(b)
+    c, fc, t = a.copy(), fa.copy(), np.full(a.shape, 0.5)
+    for _ in range(max_steps):
+        x = a + t * (b - a)
+        fx = f(x)
+        same = np.sign(fx) == np.sign(fa)
+        c, fc = np.where(same, a, b), np.where(same, fa, fb)
+        b, fb = np.where(same, b, a), np.where(same, fb, fa)
+        a, fa = x, fx
+        best = np.where(np.abs(fa) < np.abs(fb), a, b)
+        smallest = tol * (1 + np.abs(best))
+        width = np.abs(b - a)
+        if np.all((width <= 2 * smallest) | (fa == 0) | (fb == 0)):
+            break
+        with np.errstate(all="ignore"):
+            xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+            smooth = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
+            step = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+            t = np.where(smooth & np.isfinite(step), step, 0.5)
+            edge = np.where(width > 0, np.minimum(smallest / width, 0.5), 0.5)
+        t = np.clip(t, edge, 1 - edge)
+    return np.where(np.abs(fa) < np.abs(fb), a, b)
+
+
+def gauss_panels(breaks, n_nodes):
+    """Gauss nodes and weights on the panels between breaks, crowded to every break.
+
+    x = a + (b - a) u**2 (3 - 2 u) turns a square root at either end of a panel into a smooth function of u.
+    """
+    z, w = np.polynomial.legendre.leggauss(n_nodes)
+    u, w = (z + 1) / 2, w / 2
+    a, b = np.asarray(breaks)[:-1, None], np.asarray(breaks)[1:, None]
+    return (a + (b - a) * u**2 * (3 - 2 * u)).ravel(), ((b - a) * 6 * u * (1 - u) * w).ravel()
+
+
+def graded(breaks, ratio, levels):
+    """Breaks with geometrically shrinking panels added at both ends of every panel."""
+    shrink = ratio ** np.arange(1, levels + 1)
+    out = [np.asarray(breaks)]
+    for a, b in zip(breaks[:-1], breaks[1:], strict=True):
+        out += [a + (b - a) * shrink, b - (b - a) * shrink]
+    return np.unique(np.concatenate(out))
+
+
+def springs(n, depth_ratio, breaks_h, n_nodes, ratio=0.1, levels=0, reference_depth=None):
+    """Springs of a power-law indenter: their h and stiffness share dx / a(reference depth).
+
+    breaks_h lists values of h at which the behaviour of a spring changes; the array ends at h = -1, the spring
+    that is just touched at the deepest point. Both are (n_springs,); springs at x and -x are counted together.
+    """
+    if depth_ratio <= -1:
+        raise ValueError(f"depth_ratio = {depth_ratio}: the indenter never touches")
+    if math.isinf(n):
+        return np.array([float(depth_ratio)]), np.array([1.0])
+    inside = [h for h in breaks_h if -1 < h < depth_ratio]
+    ends = graded(np.unique([-1.0, *inside, float(depth_ratio)]), ratio, levels)
+    reach = depth_ratio + 1.0
+    breaks_x = np.sort(((depth_ratio - ends) / reach) ** (1 / n))
+    x, dx = gauss_panels(breaks_x, n_nodes)
+    reference = depth_ratio if reference_depth is None else reference_depth
+    x_ref = (reference / reach) ** (1 / n) if reference > 0 else 1.0
+    return depth_ratio - reach * x**n, dx / x_ref
+
+
+# --- normal motion of one spring -------------------------------------------------------------------------------
+
+
+def always_touches(h, T):
+    """Whether a spring never leaves the plane: N = h + cos t - T sin t >= 0 throughout."""
+    return np.asarray(h) >= math.hypot(1, T)
+
+
+def contact_times(h, T):
+    """Touch and loss of contact, (t_on, t_off) with t_on < t_off < t_on + 2 pi, for -1 < h < sqrt(1 + T**2).
+
+    Contact is lost where N = w + T w' falls to 0; it returns where w meets the surface that relaxes as
+    exp(-t / T). W = w exp(t / T) falls between the zeros of N and rises after, so that root is bracketed.
+    Springs that always touch are given the span [0, 2 pi].
+    """
+    h = np.atleast_1d(np.asarray(h, dtype=float))
+    root, delta = math.hypot(1, T), math.atan(T)
+    phase = np.arccos(np.clip(-h / root, -1, 1))
+    off, rising = phase - delta, TWO_PI - phase - delta
+    on = rising
+    if T > 0:
+        w_off = h + np.cos(off)
+        on = bracketed_root(lambda t: h + np.cos(t) - w_off * np.exp(-(t - off) / T), rising, off + TWO_PI)
+    always = always_touches(h, T)
+    return np.where(always, 0.0, on), np.where(always, TWO_PI, off + TWO_PI)
+
+
+def mean_compression(h, T):
+    """<s> over a period, which is also the mean normal force of the spring."""
+    h = np.atleast_1d(np.asarray(h, dtype=float))
+    on, off = contact_times(h, T)
+    touching = h * (off - on) + np.sin(off) - np.sin(on)
+    flying = T * (np.cos(off) - np.cos(on))  # exp decay from s(t_off) to s(t_on); 0 for springs that always touch
+    return (touching + flying) / TWO_PI
+
+
+# --- rigid pull, elastic ---------------------------------------------------------------------------------------
+
+
+def elastic_stick(h, v_hat):
+    """Stick interval (t_a, t_b) of an elastic spring under a rigid pull; t_a = t_b where it only slips.
+
+    In forward slip e = s, so stick starts where s' = -sin t grows past v_hat, or at first touch if s' is already
+    larger there. It ends where e = e_a + v_hat (t - t_a) meets s again.
+    """
+    h = np.atleast_1d(np.asarray(h, dtype=float))
+    on, off = contact_times(h, 0.0)
+    if v_hat >= 1:
+        return on, on
+    steep, flat = np.pi + math.asin(v_hat), TWO_PI - math.asin(v_hat)  # s' > v_hat between these
+    start = np.where(always_touches(h, 0.0), steep, np.maximum(on, steep))
+    end = np.where(always_touches(h, 0.0), steep + TWO_PI, np.minimum(off, steep + TWO_PI))
+    sticks = start < flat
+    stop = bracketed_root(
+        lambda t: np.cos(t) - np.cos(start) - v_hat * (t - start), np.minimum(flat, end), end
+    )
+    return start, np.where(sticks, stop, start)
+
+
+def elastic_lag(h, v_hat):
+    """<s - e> of an elastic spring under a rigid pull, in closed form between its two events."""
+    start, stop = elastic_stick(h, v_hat)
+    span = stop - start
+    lag = np.sin(stop) - np.sin(start) - np.cos(start) * span - v_hat * span**2 / 2
+    return lag / TWO_PI
+
+
+def elastic_shear_by_definition(h, v_hat, t, n_theta=200_000):
+    """The shear e(t) = inf over theta >= 0 of [s(t - theta) + v_hat theta], by brute force."""
+    theta = np.linspace(0, TWO_PI, n_theta)
+    return np.array([np.min(np.maximum(h + np.cos(ti - theta), 0) + v_hat * theta) for ti in t])
+
+
+def rigid_elastic_cof(n, depth_ratio, v_hat, n_nodes=40, levels=2):
+    """COF / mu_0 of an elastic power-law indenter under a rigid pull, v_hat > 0.
+
+    Panels are split at h = 1 (contact is lost below) and at h = +-sqrt(1 - v_hat**2) (stick from first touch
+    between them, none below, after the start of stick above).
+    """
+    edge = math.sqrt(max(1 - v_hat**2, 0))
+    h, dx = springs(n, depth_ratio, [-edge, 0.0, edge, 1.0], n_nodes, levels=levels)
+    return 1 - (elastic_lag(h, v_hat) @ dx) / (mean_compression(h, 0.0) @ dx)
+
+
+def flat_punch_deficit(v_hat):
+    """The function psi(v_hat) of a flat punch that never leaves the plane: COF / mu_0 = 1 - psi / depth_ratio."""
+    phi_1 = np.pi + math.asin(v_hat)
+    phi_2 = brentq(lambda t: math.cos(phi_1) - math.cos(t) + v_hat * (t - phi_1),
+                   TWO_PI - math.asin(v_hat), phi_1 + TWO_PI, xtol=1e-15)
+    span = phi_2 - phi_1
+    return (math.sin(phi_2) - math.sin(phi_1) - math.cos(phi_1) * span - v_hat * span**2 / 2) / TWO_PI
+
+
+# --- rigid pull, Kelvin ----------------------------------------------------------------------------------------
+
+
+def kelvin_lag(h, v_hat, T):
+    """<p> of Kelvin springs under a rigid pull, p = s - e, and the kind of their motion (a small integer).
+
+    e + T e' <= s + T s' is p' >= -p / T, so p' = max(s' - v_hat, -p / T) in contact and p' = -p / T in flight.
+    Stick is D > 0, D = s' - v_hat + p / T. In contact s' = -sin t, and in stick and in slip alike D rises exactly
+    where sin t + T cos t < -v_hat, i.e. between the angles t_1 and t_2. So every change of mode is bracketed:
+
+        until t_1: D falls (stick may end);  t_1 to t_2: D rises (stick may begin);  after t_2: D falls.
+
+    The period map of p is monotone and does not expand distances, and 0 <= p <= s, so its fixed point is bracketed.
+    """
+    h = np.atleast_1d(np.asarray(h, dtype=float))
+    if v_hat >= 1:
+        return np.zeros_like(h), np.zeros(h.shape, dtype=int)
+    root, delta = math.hypot(1, T), math.atan(T)
+    t_1, t_2 = np.pi + math.asin(v_hat / root) - delta, TWO_PI - math.asin(v_hat / root) - delta
+    on, off = contact_times(h, T)
+    always = always_touches(h, T)
+    on, off = np.where(always, t_1, on), np.where(always, t_1 + TWO_PI, off)
+
+    def slip(t_0, p_0, t):
+        return p_0 * np.exp(-(t - t_0) / T)
+
+    def stick(t_0, p_0, t):
+        return p_0 + np.cos(t) - np.cos(t_0) - v_hat * (t - t_0)
+
+    def stick_area(t_0, p_0, t):
+        dt = t - t_0
+        return np.sin(t) - np.sin(t_0) + (p_0 - np.cos(t_0)) * dt - v_hat * dt**2 / 2
+
+    def drive(t, p):
+        return -np.sin(t) - v_hat + p / T
+
+    def falling(t_0, p_0, t_end):
+        """From t_0 to t_end while D falls: stick as long as D > 0, then slip."""
+        sticks = drive(t_0, p_0) > 0
+        still = drive(t_end, stick(t_0, p_0, t_end)) > 0
+        change = bracketed_root(lambda t: drive(t, stick(t_0, p_0, t)), t_0, t_end)
+        change = np.where(sticks, np.where(still, t_end, change), t_0)
+        p = stick(t_0, p_0, change)
+        p_end = slip(change, p, t_end)
+        return p_end, stick_area(t_0, p_0, change) + T * (p - p_end), sticks & (t_end > t_0)
+
+    def rising(t_0, p_0, t_end):
+        """From t_0 to t_end while D rises: slip as long as D < 0, then stick."""
+        slips = drive(t_0, p_0) <= 0
+        still = drive(t_end, slip(t_0, p_0, t_end)) <= 0
+        change = bracketed_root(lambda t: drive(t, slip(t_0, p_0, t)), t_0, t_end)
+        change = np.where(slips, np.where(still, t_end, change), t_0)
+        p = slip(t_0, p_0, change)
+        p_end = stick(change, p, t_end)
+        began = np.where(slips & ~still, 1, np.where(~slips, 2, 0)) * (t_end > t_0)
+        return p_end, T * (p_0 - p) + stick_area(change, p, t_end), began
+
+    def period(p_0):
+        first, second = np.clip(t_1, on, off), np.clip(t_2, on, off)
+        p_1, area_1, early = falling(on, p_0, first)
+        p_2, area_2, began = rising(first, p_1, second)
+        p_3, area_3, late = falling(second, p_2, off)
+        p_4 = slip(off, p_3, on + TWO_PI)
+        return p_4, area_1 + area_2 + area_3 + T * (p_3 - p_4), early + 2 * began + 6 * late
+
+    p_start = bracketed_root(lambda p: period(p)[0] - p, np.zeros_like(h), h + np.cos(on))
+    _, area, kind = period(p_start)
+    return area / TWO_PI, np.where(always, 100, kind)
+
+
+def kelvin_breaks(depth_ratio, v_hat, T, n_scan=600):
+    """Values of h at which the kind of motion of a Kelvin spring changes, found by bisection between scanned ones."""
+    top = min(depth_ratio, math.hypot(1, T))
+    u = (1 - np.cos(np.pi * np.arange(1, n_scan) / n_scan)) / 2
+    h = -1 + (top + 1) * u
+    kind = kelvin_lag(h, v_hat, T)[1]
+    at = np.flatnonzero(kind[1:] != kind[:-1])
+    low, high, kind_low = h[at], h[at + 1], kind[at]
+    for _ in range(48 if at.size else 0):
+        middle = (low + high) / 2
+        same = kelvin_lag(middle, v_hat, T)[1] == kind_low
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return [*low, math.hypot(1, T)]
+
+
+def rigid_kelvin_cof(n, depth_ratio, v_hat, T, n_nodes=20, levels=5):
+    """COF / mu_0 of a Kelvin power-law indenter under a rigid pull, v_hat > 0, T > 0."""
+    breaks = [] if math.isinf(n) else kelvin_breaks(depth_ratio, v_hat, T)
+    h, dx = springs(n, depth_ratio, breaks, n_nodes, levels=levels)
+    return 1 - (kelvin_lag(h, v_hat, T)[0] @ dx) / (mean_compression(h, T) @ dx)
+
+
+# --- full slip of the whole array ------------------------------------------------------------------------------
+
+
+def edge_of_contact(t, T):
+    """The h of the spring at the edge of contact at time t (springs of larger h touch).
+
+    Springs leave from the edge inwards while w + T w' of the edge spring is 0, until t = pi - arctan T; then they
+    come back from the inside out, each on the surface that relaxed since it left.
+    """
+    t = t % TWO_PI
+    root, delta = math.hypot(1, T), math.atan(T)
+    if T == 0:
+        return -math.cos(t)
+    if t <= np.pi - delta:
+        return -(math.cos(t) - T * math.sin(t))
+
+    def above_surface(h):
+        off = math.acos(max(-1.0, min(1.0, -h / root))) - delta
+        return h + math.cos(t) - (h + math.cos(off)) * math.exp(-(t - off) / T)
+
+    low, high = -1.0, root
+    if above_surface(low) >= 0:
+        return low
+    if above_surface(high) <= 0:
+        return high
+    return brentq(above_surface, low, high, xtol=1e-15)
+
+
+def full_slip_force(t, n, depth_ratio, T, reference_depth=None):
+    """Normal force of the whole array at times t, in units where dF/dd = 1 at the reference depth (or u_z0)."""
+    t = np.atleast_1d(np.asarray(t, dtype=float))
+    reference = depth_ratio if reference_depth is None else reference_depth
+    load = depth_ratio + np.cos(t) - T * np.sin(t)  # w + T w' at the tip
+    if math.isinf(n):
+        on, off = contact_times([depth_ratio], T)
+        touching = ((t - on) % TWO_PI <= off - on) | always_touches(depth_ratio, T)
+        return np.where(touching, np.maximum(load, 0), 0.0)
+    edge = np.array([edge_of_contact(ti, T) for ti in t])
+    depth_of_edge = np.maximum(depth_ratio - edge, 0)  # g at the edge
+    x = (depth_of_edge / reference) ** (1 / n) if reference > 0 else depth_of_edge ** (1 / n)
+    return np.maximum(x * (load - depth_of_edge / (n + 1)), 0)
+
+
+def mean_force(n, depth_ratio, T, reference_depth=None):
+    """Mean normal force over a period, from the mean compression of every spring."""
+    h, dx = springs(n, depth_ratio, [math.hypot(1, T)], 40, levels=4, reference_depth=reference_depth)
+    return float(mean_compression(h, T) @ dx)
+
+
+def extreme(f, low, high, n_scan=400):
+    """(t, f) of the largest f on [low, high]: a scan, then a bounded search around the best point."""
+    t = np.linspace(low, high, n_scan)
+    value = np.array([f(ti) for ti in t])
+    i = int(np.argmax(value))
+    found = minimize_scalar(lambda x: -f(x), bounds=(t[max(i - 1, 0)], t[min(i + 1, n_scan - 1)]),
+                            method="bounded", options={"xatol": 1e-10})
+    return (t[i], value[i]) if value[i] >= -found.fun else (found.x, -found.fun)
+
+
+def static_cof(n, depth_ratio, T):
+    """Static COF / mu_0: least over mean normal force; 0 as soon as the tip leaves the plane."""
+    if not always_touches(depth_ratio, T):
+        return 0.0
+    _, value = extreme(lambda t: -full_slip_force(t, n, depth_ratio, T)[0], 0, TWO_PI, 200)
+    return -value / mean_force(n, depth_ratio, T)
+
+
+def body_matrix(k_ratio, omega_0_ratio, c_ratio):
+    """(mass, A) of the body: m y'' + c y' + k y = -F as z' = A z - (0, F / m), z = (y, y')."""
+    mass = k_ratio / omega_0_ratio**2
+    return mass, np.array([[0.0, 1.0], [-k_ratio / mass, -c_ratio / mass]])
+
+
+def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth=None):
+    """Periodic motion of the body in full slip: a list of (t_low, t_high, z), z(t) = (y, y') about u_x = v_hat t.
+
+    The oscillator is linear: one run from rest over the period, split where F_N is not smooth, gives the periodic
+    start (1 - exp(2 pi A))**-1 z(2 pi), and a second run from there the motion.
+    """
+    mass, matrix = body_matrix(k_ratio, omega_0_ratio, c_ratio)
+    on, off = (float(t[0]) for t in contact_times([depth_ratio], T))
+    if always_touches(depth_ratio, T):
+        cuts = sorted({0.0, np.pi - math.atan(T), TWO_PI})
+        start = 0.0
+    else:
+        start = on
+        cuts = sorted({on, off, TWO_PI, on + TWO_PI})
+
+    mean = mean_force(n, depth_ratio, T, reference_depth)
+
+    def pieces(z):
+        out = []
+        for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+            inner = 1e-13 * (high - low)  # keep one-sided values of a force that jumps
+
+            def rate(t, z, low=low, high=high, inner=inner):
+                at = min(max(t, low + inner), high - inner)
+                force = full_slip_force([at], n, depth_ratio, T, reference_depth)[0] - mean
+                return matrix @ z - np.array([0.0, force / mass])
+
+            run = solve_ivp(rate, (low, high), z, method="DOP853", rtol=1e-11, atol=1e-12 / mass,
+                            dense_output=True)
+            out.append((low, high, run.sol))
+            z = run.y[:, -1]
+        return out, z
+
+    _, driven = pieces(np.zeros(2))
+    z = np.linalg.solve(np.eye(2) - expm(TWO_PI * matrix), driven)
+    motion, _ = pieces(z)
+    return start, motion, mean
+
+
+def full_slip_critical_velocity(n, depth_ratio, T, k_ratio=math.inf, omega_0_ratio=1.0, c_ratio=0.0,
+                                reference_depth=None):
+    """Critical velocity in units of mu_0 kappa omega du_z: the largest du_z/dt - dy/dt over the instants of contact.
+
+    Every spring slides forward as long as v_hat + y' exceeds s' = -sin t of the springs in contact. k_ratio = inf
+    is the rigid pull, y = 0: then v_c is 1 if the tip touches at t = 3 pi / 2, and less if it comes back later.
+    """
+    on, off = (float(t[0]) for t in contact_times([depth_ratio], T))
+    if math.isinf(k_ratio):
+        return 1.0 if on <= 1.5 * np.pi else max(-math.sin(on), 0.0)
+    _, motion, _ = full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth)
+    best = -math.inf
+    for low, high, z in motion:
+        middle = (low + high) / 2
+        if (middle - on) % TWO_PI <= off - on or always_touches(depth_ratio, T):
+            best = max(best, extreme(lambda t, z=z: -math.sin(t) - z(t)[1], low, high)[1])
+    return float(best)
+
+
+def eq_15(T, k_ratio, omega_0_ratio, c_ratio=0.0):
+    """Eq. (15) in these units, with system damping: |1 + (1 + i T) / (k - m + i c)|. Flat punch, no loss of contact."""
+    mass = k_ratio / omega_0_ratio**2
+    return abs(1 + (1 + 1j * T) / (k_ratio - mass + 1j * c_ratio))
+
+
+# --- spring pull -----------------------------------------------------------------------------------------------
+
+
+def damping_for(zeta, k_ratio, omega_0_ratio):
+    """The c_ratio that gives the damping ratio zeta = c_x / (2 sqrt(k_x m))."""
+    return 2 * zeta * k_ratio / omega_0_ratio
+
+
+class _Period:
+    """One period of the springs, cut at every touch and loss of contact, and between these as finely as asked."""
+
+    def __init__(self, n, depth_ratio, T, breaks, n_nodes, reference_depth):
+        self.h, self.w = springs(n, depth_ratio, [math.hypot(1, T), *breaks], n_nodes,
+                                 reference_depth=reference_depth)
+        self.T = T
+        self.on, self.off = contact_times(self.h, T)
+        self.always = always_touches(self.h, T)
+        self.events = np.concatenate([self.on[~self.always], self.off[~self.always]]) % TWO_PI
+
+    def grid(self, steps):
+        """Times that hold every event, no two further apart than 2 pi / steps, and who touches in each interval."""
+        cuts = np.unique(np.concatenate([[0.0, np.pi], self.events]))
+        cuts = np.append(cuts[np.concatenate([[True], np.diff(cuts) > 1e-10])], TWO_PI)
+        t = [low + (high - low) * np.arange(parts) / parts
+             for low, high in zip(cuts[:-1], cuts[1:], strict=True)
+             for parts in [math.ceil((high - low) * steps / TWO_PI)]]
+        t = np.append(np.concatenate(t), TWO_PI)
+        middle = (t[:-1] + t[1:])[:, None] / 2
+        return t, ((middle - self.on) % TWO_PI < self.off - self.on) | self.always
+
+    def load(self, t, touching):
+        """N = w + T w' of every spring in contact, 0 otherwise; (n_t, n_springs)."""
+        return np.where(touching, np.maximum(self.h + (np.cos(t) - self.T * np.sin(t))[:, None], 0), 0.0)
+
+
+def _kelvin_period(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
+    """One period of classical Runge-Kutta 4 for T > 0: e' = (clip(e + T u_x', -N, N) - e) / T, and the body.
+
+    The law is Lipschitz, N is smooth within every step. e is (n_cases, n_springs), y and v are (n_cases,).
+    """
+    mass, k, c = body
+    left, middle, right = loads
+
+    def rate(e, y, v, load):
+        f = e + (T * (v_hat + v))[:, None]
+        np.minimum(f, load, out=f)
+        np.maximum(f, -load, out=f)
+        force = f @ w
+        f -= e
+        f /= T
+        return f, -(k * y + c * v + force) / mass, force
+
+    for j, h in enumerate(dt):
+        e1, a1, f1 = rate(e, y, v, left[j])
+        v1 = v
+        v2 = v + h / 2 * a1
+        e2, a2, f2 = rate(e + h / 2 * e1, y + h / 2 * v1, v2, middle[j])
+        v3 = v + h / 2 * a2
+        e3, a3, f3 = rate(e + h / 2 * e2, y + h / 2 * v2, v3, middle[j])
+        v4 = v + h * a3
+        e4, a4, f4 = rate(e + h * e3, y + h * v3, v4, right[j])
+        e = e + h / 6 * (e1 + 2 * (e2 + e3) + e4)
+        y = y + h / 6 * (v1 + 2 * (v2 + v3) + v4)
+        v = v + h / 6 * (a1 + 2 * (a2 + a3) + a4)
+        force_sum = force_sum + h / 6 * (f1 + 2 * (f2 + f3) + f4)
+    return e, y, v, force_sum
+
+
+def _elastic_period(e, y, v, force_sum, v_hat, w, body, dt, surface):
+    """One period of velocity Verlet for T = 0, with the return mapping e -> clip(e + du_x, -s, s)."""
+    mass, k, c = body
+    force = e @ w
+    a = -(k * y + c * v + force) / mass
+    for j, h in enumerate(dt):
+        du = h * v + h * h / 2 * a
+        e = e + (du + h * v_hat)[:, None]
+        np.minimum(e, surface[j], out=e)
+        np.maximum(e, -surface[j], out=e)
+        y = y + du
+        before = force
+        force = e @ w
+        half = v + h / 2 * a
+        v = (half - h / 2 * (k * y + force) / mass) / (1 + h / 2 * c / mass)
+        a = -(k * y + c * v + force) / mass
+        force_sum = force_sum + h / 2 * (before + force)
+    return e, y, v, force_sum
+
+
+def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=64, steps=(256, 1024),
+                    window=4, tol=1e-9, max_periods=4000, start="full_slip", breaks=(), reference_depth=None):
+    """COF / mu_0 of the settled motion, a list with one array (n_cases,) for every entry of steps.
+
+    v_hat may be an array: its cases run side by side. T > 0 is integrated by Runge-Kutta 4, T = 0 by Verlet with
+    the return mapping, both on steps that end at every touch and loss of contact. A run goes on until two
+    successive windows of whole periods agree to tol; the next entry of steps begins where it ended. Start is the
+    full-slip periodic motion, or "rest": springs unloaded, body still, its own spring relaxed. n_nodes springs stand
+    in each panel: between the tip, the spring that only just keeps contact, the values in breaks, and the edge.
+    """
+    v_hat = np.atleast_1d(np.asarray(v_hat, dtype=float))
+    period = _Period(n, depth_ratio, T, breaks, n_nodes, reference_depth)
+    mass, _ = body_matrix(k_ratio, omega_0_ratio, c_ratio)
+    body = mass, k_ratio, c_ratio
+    cases, f_mean = v_hat.size, float(mean_compression(period.h, T) @ period.w)
+    if start == "rest":
+        e, y, v = np.zeros((cases, period.h.size)), np.zeros(cases), -v_hat
+    else:
+        e = np.tile(period.h + 1, (cases, 1))  # at t = 0 every spring that touches at all does so
+        t = np.arange(2048) * TWO_PI / 2048
+        harmonic = np.fft.rfft(full_slip_force(t, n, depth_ratio, T, reference_depth)) / t.size
+        i = np.arange(harmonic.size)
+        spectrum = harmonic / (k_ratio - mass * i**2 + 1j * i * c_ratio)
+        y = np.full(cases, -(spectrum[0].real + 2 * spectrum[1:].real.sum()))
+        v = np.full(cases, -2 * (1j * i * spectrum)[1:].real.sum())
+    results = []
+    for level in steps:
+        t, touching = period.grid(level)
+        dt = np.diff(t)
+        if T > 0:
+            loads = [period.load(at, touching) for at in (t[:-1], t[:-1] + dt / 2, t[1:])]
+        else:
+            loads = np.maximum(period.h + np.cos(t[1:])[:, None], 0)
+        last, done = np.inf, False
+        for _ in range(max_periods // window):
+            force_sum = np.zeros(cases)
+            for _ in range(window):
+                if T > 0:
+                    e, y, v, force_sum = _kelvin_period(e, y, v, force_sum, v_hat, T, period.w, body, dt, loads)
+                else:
+                    e, y, v, force_sum = _elastic_period(e, y, v, force_sum, v_hat, period.w, body, dt, loads)
+            cof = force_sum / (window * TWO_PI) / f_mean
+            done = bool(np.all(np.abs(cof - last) < tol))
+            last = cof
+            if done:
+                break
+        if not done:
+            raise RuntimeError(f"unsettled after {max_periods} periods at {level} steps: COF / mu_0 = {last}")
+        results.append(last)
+    return results
+
+
+def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=64, steps=None, **knobs):
+    """COF / mu_0 of the settled motion under a spring pull, and an estimate of its error, each shaped like v_hat.
+
+    Stick and slip put kinks into the steps and, at any instant, into the row of springs, so both errors are of
+    second order but erratic, and nothing is extrapolated. The estimate adds what a coarser step and three quarters
+    of the springs change. knobs: see spring_pull_run.
+    """
+    steps = steps or ((256, 1024, 4096) if T == 0 else (256, 1024, 2048))
+    case = n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio
+    *_, coarser, cof = spring_pull_run(*case, n_nodes=n_nodes, steps=steps, **knobs)
+    error = np.abs(cof - coarser)
+    if not math.isinf(n):
+        one, other = (spring_pull_run(*case, n_nodes=nodes, steps=steps[:2], **knobs)[-1]
+                      for nodes in (n_nodes * 3 // 4, n_nodes)) if len(steps) > 2 else (
+            spring_pull_run(*case, n_nodes=n_nodes * 3 // 4, steps=steps, **knobs)[-1], cof)
+        error = error + np.abs(one - other)
+    return (float(cof[0]), float(error[0])) if np.ndim(v_hat) == 0 else (cof, error)

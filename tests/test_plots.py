@@ -1,0 +1,204 @@
+"""Figures draw what the records say; small made-up records stand in for runs and curves."""
+
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import matplotlib
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from mdr import plots
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+FREE, STICK, SLIP, SLIP_BACK = range(4)
+
+
+@pytest.fixture(autouse=True)
+def close_figures():
+    yield
+    plt.close("all")
+
+
+def made_up_curve(v_c=0.04, static=0.3, **changes):
+    v_0 = np.linspace(0.0, 0.05, 6)
+    cof = np.minimum(0.5, static + 5 * v_0)
+    curve = SimpleNamespace(
+        v_0=v_0,
+        cof=cof,
+        cof_error=np.full(6, 1e-5),
+        settled=np.ones(6, dtype=bool),
+        stick_share=np.zeros(6),
+        v_c=v_c,
+        mu_0=0.5,
+        static_cof=static,
+    )
+    return SimpleNamespace(**{**vars(curve), **changes})
+
+
+def made_up_run(n_t=64, v_0=1e-3):
+    """Two periods of a rigid body over three springs: the outer one touches half the time and then sticks."""
+    omega = 2 * np.pi * 50
+    t = 7.25 * 0.02 + np.arange(n_t) * 0.04 / n_t
+    u_x = v_0 * t
+    state = np.full((n_t, 3), SLIP, dtype=np.uint8)
+    state[:, 2] = np.where(np.sin(omega * t) > 0, STICK, FREE)
+    e = np.stack([1e-6 * np.cos(omega * t), 1e-6 * np.cos(omega * t), u_x - u_x[0]], axis=1)
+    F_z = 2 + np.cos(omega * t)
+    return SimpleNamespace(
+        t=t, u_x=u_x, F_x=0.4 * F_z, F_z=F_z, x=np.array([1e-5, 1e-4, 4e-4]), e=e, state=state, v_0=v_0,
+        mu_0=0.5, omega=omega,
+    )  # fmt: skip
+
+
+class Ball:
+    """A shape that ends at R, as a sphere does."""
+
+    R = 1e-3
+
+    def profile_3d(self, r):
+        return self.profile_1d(r) / 2
+
+    def profile_1d(self, x):
+        if np.any(np.asarray(x) > self.R):
+            raise ValueError("beyond R")
+        return np.asarray(x) ** 2 / self.R
+
+    def contact_radius(self, d):
+        return np.sqrt(d * self.R)
+
+
+def line(ax, label):
+    return next(drawn for drawn in ax.lines if drawn.get_label() == label)
+
+
+def legend_texts(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_a_curve_is_drawn_over_v_c_and_mu_0():
+    curve = made_up_curve()
+    ax = plots.plot_curve(curve, labels=["cone"])
+    assert_allclose(line(ax, "cone").get_xdata(), curve.v_0 / 0.04)
+    assert_allclose(line(ax, "cone").get_ydata(), curve.cof / 0.5)
+    assert legend_texts(ax) == ["cone", "static limit"]
+    assert any(np.allclose(drawn.get_ydata(), 0.3 / 0.5) for drawn in ax.lines)
+    assert "v_c" in ax.get_xlabel()
+
+
+def test_unsettled_points_are_hollow_and_their_error_shows():
+    settled = np.array([True, True, False, True, True, True])
+    curve = made_up_curve(settled=settled, cof_error=np.where(settled, 1e-5, 0.05))
+    ax = plots.plot_curve(curve)
+    hollow = [drawn for drawn in ax.lines if drawn.get_markerfacecolor() == "white"]
+    assert_allclose(np.concatenate([drawn.get_xdata() for drawn in hollow]), curve.v_0[2] / 0.04)
+    assert len(ax.containers) == 1
+    assert "not settled" in legend_texts(ax)
+    assert not plots.plot_curve(made_up_curve()).containers
+
+
+def test_several_curves_share_given_axes():
+    _, ax = plt.subplots()
+    curves = [made_up_curve(static=s) for s in np.linspace(0.1, 0.4, 9)]
+    assert plots.plot_curve(curves, ax, labels=[f"case {i}" for i in range(9)]) is ax
+    assert len(legend_texts(ax)) == 10
+    assert len({str(line(ax, f"case {i}").get_color()) for i in range(9)}) == 9
+
+
+@pytest.mark.parametrize("v_c", [np.inf, np.nan, None, 0.0])
+def test_without_a_finite_v_c_the_axis_is_the_velocity_itself(v_c):
+    ax = plots.plot_curve([made_up_curve(v_c=v_c), made_up_curve()], labels=["a", "b"])
+    assert "m/s" in ax.get_xlabel()
+    assert_allclose(line(ax, "b").get_xdata(), made_up_curve().v_0)
+
+
+def test_too_few_labels_are_refused():
+    with pytest.raises(ValueError, match="2 curves, got 1"):
+        plots.plot_curve([made_up_curve(), made_up_curve()], labels=["a"])
+
+
+def test_spring_map_shows_every_spring_at_its_place():
+    run = made_up_run()
+    ax = plots.plot_spring_map(run)
+    mesh = ax.collections[0]
+    assert mesh.get_rasterized()
+    assert_allclose(np.asarray(mesh.get_array()).reshape(3, -1), run.state.T)
+    corners = np.asarray(mesh.get_coordinates())
+    assert_allclose(corners[:, 0, 1], [0, 55, 250, 550])  # half-way between neighbours, never below 0 [µm]
+    assert_allclose(
+        corners[0, [0, -1], 0], [0.25 - 1 / 64, 2.25 - 1 / 64]
+    )  # the record begins at 7.25 periods
+    assert legend_texts(ax) == ["free", "stick", "slip"]
+    assert "[µm]" in ax.get_ylabel()
+
+
+def test_spring_map_of_one_spring_out_of_order_and_of_a_long_record():
+    run = made_up_run(n_t=9000)
+    run.x, run.state = run.x[::-1], run.state[:, ::-1]
+    mesh = plots.plot_spring_map(run).collections[0]
+    cells = np.asarray(mesh.get_array()).reshape(3, -1)
+    assert cells.shape[1] <= 2000
+    assert set(np.unique(cells[2])) == {FREE, STICK}
+    run.x, run.state = run.x[:1], run.state[:, :1]
+    plots.plot_spring_map(run).figure.canvas.draw()
+
+
+def test_modes_follow_the_library():
+    State = pytest.importorskip("mdr.sliding").State
+    assert [name for name, _ in plots.MODES] == [State(i).name.lower().replace("_", " ") for i in range(4)]
+
+
+def test_traces_show_forces_and_feet():
+    run = made_up_run()
+    forces, places, velocities = plots.plot_traces(run).axes
+    assert_allclose(line(forces, "$F_x$").get_ydata(), run.F_x)
+    assert_allclose(line(places, "body").get_ydata(), 0.0, atol=1e-9)
+    edge = line(velocities, "foot, mean edge").get_ydata()
+    assert np.all(np.isnan(edge[run.state[:, 2] == FREE]))
+    assert_allclose(edge[np.isfinite(edge)], 0.0, atol=1e-9)  # it sticks whenever it touches
+    centre = line(velocities, "foot, centre").get_ydata()
+    slip = 1 + 1e-6 * run.omega * np.sin(run.omega * run.t) / run.v_0
+    assert_allclose(centre[1:-1], slip[1:-1], atol=0.01)  # differences over 1/32 period: (2 pi/32)²/6 of 0.3
+
+
+def test_a_run_without_a_record_is_refused():
+    for draw in (plots.plot_spring_map, plots.plot_traces):
+        with pytest.raises(ValueError, match="record=2"):
+            draw(SimpleNamespace(t=None))
+
+
+@pytest.mark.parametrize("d", [2e-5, 8e-4])
+def test_profile_shows_springs_down_to_the_indenter(d):
+    left, right = plots.plot_profile(Ball(), d, n_springs=40).axes
+    springs = {
+        drawn.get_label(): drawn for drawn in right.collections if drawn.get_label() in ("in contact", "free")
+    }
+    tops = np.array([segment[1] for segment in springs["in contact"].get_segments()]) * 1e-6
+    assert_allclose(tops[:, 1], tops[:, 0] ** 2 / Ball.R - d, atol=1e-12)
+    assert np.all(np.abs(tops[:, 0]) < Ball().contact_radius(d))
+    assert len(springs["in contact"].get_segments()) + len(springs["free"].get_segments()) == 40
+    assert left.get_title() != right.get_title()
+
+
+def test_profile_takes_positions_or_a_record_of_springs():
+    x = np.array([1e-5, 9e-5, 2e-4])
+    for springs in (x, SimpleNamespace(x=x)):
+        _, right = plots.plot_profile(Ball(), 2e-5, springs=springs).axes
+        assert sum(len(d.get_segments()) for d in right.collections if hasattr(d, "get_segments")) == 6
+
+
+@pytest.mark.parametrize(
+    ("largest", "expected"), [(3e-6, "µm"), (1e-3, "mm"), (0.0, "m"), (2e4, "km"), (1e-30, "pm")]
+)
+def test_prefix(largest, expected):
+    factor, unit = plots._prefix([0.0, -largest, np.nan], "m")
+    assert unit == expected
+    assert factor == pytest.approx(10.0 ** {"µm": 6, "mm": 3, "m": 0, "km": -3, "pm": 12}[expected])
+
+
+def test_importing_plots_leaves_matplotlib_alone():
+    code = "import sys, mdr.plots; assert 'matplotlib' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,311 @@
+"""The report: what a check holds, what the page and checks.json say, how a run of all claims ends."""
+
+import json
+import math
+import pickle
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+import validation
+import validation.__main__ as command
+from validation.report import Check, Claim, Figure, html_page, markup, number, text_table, write_report
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+ROOT = Path(__file__).parents[1]
+
+
+def made_up_figure(name="curve"):
+    fig, ax = plt.subplots(figsize=(2, 1.5))
+    ax.pcolormesh([[0, 1], [2, 3]], rasterized=True)
+    ax.set_xlabel("$v_0/v_c$")
+    return Figure(name, "See the step at v_c.", fig, 'a "step"')
+
+
+def made_up_claim(name="pull", verdict="holds", **changes):
+    parts = {
+        "name": name,
+        "title": "v_c of a rigid pull",
+        "quote": "Eq. (1): v_c = μ_0 ω Δu_z κ",
+        "range": "α < 1 & T > 0",
+        "measured": "less than 10^-5",
+        "verdict": verdict,
+        "sentence": "v_c is the same for all.",
+        "checks": [
+            Check("v_c", 1.0, 1.0, 1e-4, "the bracket"),
+            Check.at_least("ratio", 3.0, 2.0, "far above"),
+        ],
+    }
+    return Claim(**{**parts, **changes})
+
+
+class Tags(HTMLParser):
+    """Collects tags and complains where one is not closed."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.open, self.seen, self.links, self.ids = [], [], [], []
+        self.feed(page)
+        assert not self.open
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append(tag)
+        self.links += [value for key, value in attrs if key in ("href", "src")]
+        self.ids += [value for key, value in attrs if key == "id"]
+        if tag not in ("meta", "img", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+@pytest.mark.parametrize(
+    ("check", "held"),
+    [
+        (Check("c", 1.0, 1.1, 0.11, "w"), True),
+        (Check("c", 1.0, 1.1, 0.09, "w"), False),
+        (Check("c", None, 0, 1, "w"), False),
+        (Check("c", math.nan, 0, 1, "w"), False),
+        (Check("c", math.inf, 1, 1, "w"), False),
+        (Check("c", math.inf, math.inf, 0, "w"), True),
+        (Check("c", True, True, 0, "w"), True),
+        (Check.at_most("c", 1, 1, "w"), True),
+        (Check.at_most("c", -9, 1, "w"), True),
+        (Check.at_most("c", 1.1, 1, "w"), False),
+        (Check.at_most("c", math.nan, 1, "w"), False),
+        (Check.at_least("c", 9, 1, "w"), True),
+        (Check.at_least("c", 0.9, 1, "w"), False),
+        (Check.at_least("c", None, 1, "w"), False),
+        (Check.between("c", 0.5, 0, 1, "w"), True),
+        (Check.between("c", 1.5, 0, 1, "w"), False),
+    ],
+)
+def test_when_a_check_holds(check, held):
+    assert check.held is held
+    assert pickle.loads(pickle.dumps(check)) == check
+
+
+@pytest.mark.parametrize(
+    ("expected", "tolerance", "side"),
+    [
+        (math.nan, 1, "within"),
+        (0, -1, "within"),
+        (0, math.nan, "within"),
+        (0, math.inf, "within"),
+        (0, 1, "up"),
+    ],
+)
+def test_a_check_that_cannot_fail_or_cannot_hold_is_refused(expected, tolerance, side):
+    with pytest.raises(ValueError, match="check 'c'"):
+        Check("c", 0.0, expected, tolerance, "w", side)
+
+
+@pytest.mark.parametrize("verdict", ["holds", "holds if α < 0.1", "fails when ω = ω_0", "not tested"])
+def test_verdicts(verdict):
+    assert made_up_claim(verdict=verdict).held
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"verdict": "maybe"}, {"verdict": "holds ifs"}, {"verdict": "fails"}, {"checks": ()}, {"name": "A b"}],
+)
+def test_a_claim_without_verdict_checks_or_name_is_refused(changes):
+    with pytest.raises(ValueError, match="must|proves nothing"):
+        made_up_claim(**changes)
+
+
+def test_figures_are_drawn_once_and_travel_as_bytes():
+    before = plt.get_fignums()
+    first, second = made_up_figure(), made_up_figure()
+    assert plt.get_fignums() == before
+    assert first == second == pickle.loads(pickle.dumps(first))
+    assert first.png.startswith(b"\x89PNG")
+    assert b"<svg" in first.svg
+    with pytest.raises(ValueError, match="same name"):
+        made_up_claim(figures=[first, second])
+
+
+def test_page_is_well_formed_and_needs_nothing_else():
+    claims = [
+        made_up_claim(figures=[made_up_figure()]),
+        made_up_claim("map", figures=[made_up_figure("glance")]),
+    ]
+    page = html_page(claims, "quick")
+    tags = Tags(page)
+    assert not re.search(r"https?:|//[a-z]|<script|url\(", re.sub(r"base64,[^\"]*", "", page))
+    assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in tags.links)
+    assert {link[1:] for link in tags.links if link.startswith("#")} <= set(tags.ids)
+    assert len(tags.ids) == len(set(tags.ids))
+    assert str(ROOT) not in page
+    assert "4 of 4 checks held" in page
+    assert "--quick" in page
+    assert page.index('id="glance"') < page.index("<section")
+    assert page.count("<img") == 2
+
+
+def test_a_failed_check_is_told_everywhere(tmp_path):
+    claim = made_up_claim(
+        checks=[Check("F_x <i>mean</i>", math.nan, 1.5, 0.1, "because"), Check("b", 1, 1, 0, "w")]
+    )
+    write_report([claim], tmp_path)
+    record = json.loads((tmp_path / "checks.json").read_text(encoding="utf-8"))
+    assert record["checks"][0] == {
+        "claim": "pull", "name": "F_x mean", "got": None, "expected": 1.5, "tolerance": 0.1, "why": "because",
+        "held": False,
+    }  # fmt: skip
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "<span class=no>1/2</span>" in page
+    assert "✗" in page
+    assert "NOT HELD F_x mean" in text_table([claim])
+
+
+def test_checks_json_has_exactly_the_promised_keys(tmp_path):
+    write_report([made_up_claim(figures=[made_up_figure()])], tmp_path)
+    record = json.loads((tmp_path / "checks.json").read_text(encoding="utf-8"))
+    assert record["claims"] == [{"name": "pull", "verdict": "holds", "sentence": "v_c is the same for all."}]
+    keys = {"claim", "name", "got", "expected", "tolerance", "why", "held"}
+    assert [set(check) for check in record["checks"]] == [keys, keys]
+    assert record["checks"][1]["why"] == "at least 2: far above"
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "index.html", "checks.json", "pull-curve.svg", "pull-curve.png",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("v_c < 1", "<i>v</i><sub>c</sub> &lt; 1"),
+        ("mu_0 Δu_z/u_z0", "<i>μ</i><sub>0</sub> Δ<i>u</i><sub>z</sub>/<i>u</i><sub>z0</sub>"),
+        ("k_x,c, rigid_pull, at_most", "<i>k</i><sub>x,c</sub>, rigid_pull, at_most"),
+        ("T = ωτ in 5 μm", "T = <i>ωτ</i> in 5 μm"),
+        ("α^2 10^-5 x^{1/2}", "<i>α</i><sup>2</sup> 10<sup>−5</sup> x<sup>1/2</sup>"),
+        ("<b>a</b><script>", "<b>a</b>&lt;script&gt;"),
+    ],
+)
+def test_markup(text, expected):
+    assert markup(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "tolerance", "expected"),
+    [
+        (0.0, 1e-9, "0"),
+        (1.0, 0.0, "1"),
+        (-0.123456789, 1e-4, "−0.123457"),
+        (0.123456789, 0.0, "0.1235"),
+        (1e-5, 1e-5, "10<sup>−5</sup>"),
+        (2.5e-5, 0.0, "2.5·10<sup>−5</sup>"),
+        (1.23e-17, 1e-12, "1.23·10<sup>−17</sup>"),
+        (3.2e12, 0.0, "3.2·10<sup>12</sup>"),
+        (None, 0.0, "none"),
+        (math.nan, 0.0, "not a number"),
+        (-math.inf, 0.0, "−∞"),
+    ],
+)
+def test_number(value, tolerance, expected):
+    assert number(value, tolerance) == expected
+
+
+CLAIM = """
+from validation.report import Check, Claim, Figure
+def claim(effort):
+    {body}
+    import matplotlib.pyplot as plt
+    fig, ax = plt.subplots()
+    ax.plot([0, 1])
+    checks = [Check("x", {got}, 1.0, 0.1, "why")]
+    return Claim({name!r}, "t", "q", "r", "m", "holds", "Done with " + effort, checks, [Figure("f", "c", fig, "a")])
+"""
+
+
+@pytest.fixture
+def claims(tmp_path, monkeypatch):
+    """A folder of made-up claim modules, which processes started here find too: name -> (got, first line)."""
+
+    def make(package, **modules):
+        folder = tmp_path / package
+        folder.mkdir()
+        (folder / "__init__.py").write_text(f"CLAIMS = {tuple(modules)!r}", encoding="utf-8")
+        for name, (got, body) in modules.items():
+            text = CLAIM.format(body=body, got=got, name=name)
+            (folder / f"{name}.py").write_text(text, encoding="utf-8")
+        return package
+
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return make
+
+
+def test_all_held_gives_0_and_the_default_folder(claims, capsys):
+    package = claims("all_held", one=(1.0, "pass"), two=(1.05, "pass"))
+    assert command.main(["--jobs", "1", "--long"], package) == 0
+    out, err = capsys.readouterr()
+    assert "one: holds [1/1 checks held]" in out
+    assert "Done with long" in out
+    assert re.search(r"two: 1/1 checks held, \d+\.\d s", err)
+    assert Path("report/index.html").exists()
+
+
+def test_a_failed_check_gives_1_and_only_asks_for_some(claims):
+    package = claims("one_fails", one=(1.0, "pass"), two=(2.0, "pass"))
+    assert command.main(["--jobs", "1", "-o", "out"], package) == 1
+    assert command.main(["--jobs", "1", "-o", "out", "--only", "one"], package) == 0
+    assert [c["name"] for c in json.loads(Path("out/checks.json").read_text())["claims"]] == ["one"]
+
+
+def test_claims_that_raise_die_or_are_missing_leave_the_others_alone(claims, capsys):
+    package = claims(
+        "some_raise", one=(1.0, "pass"), two=(1.0, "import os; os._exit(3)"), four=(1.0, "1 / 0")
+    )
+    assert command.main(["-o", "out", "--jobs", "3"], package) == 1
+    record = json.loads(Path("out/checks.json").read_text(encoding="utf-8"))
+    assert [c["verdict"] for c in record["claims"]] == ["holds", "not tested", "not tested"]
+    assert [c["held"] for c in record["checks"]] == [True, False, False]
+    assert "ZeroDivisionError" in record["checks"][2]["why"]
+    assert "ZeroDivisionError" in Path("out/index.html").read_text(encoding="utf-8")
+    assert "Traceback" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("body", ["return 3", "raise SystemExit('x')", "open('/no/such/file')"])
+def test_wrong_results_are_reported(claims, body, tmp_path):
+    package = claims("wrong_" + str(abs(hash(body))), one=(1.0, body))
+    assert command.main(["--jobs", "1"], package) == 1
+    assert str(tmp_path) not in Path("report/index.html").read_text(encoding="utf-8")
+
+
+def test_a_claim_carries_its_modules_name(claims, capsys):
+    claims("misnamed", one=(1.0, "pass"))
+    Path("misnamed/one.py").write_text(Path("misnamed/one.py").read_text().replace("'one'", "'two'"))
+    assert command.main(["--jobs", "1"], "misnamed") == 1
+    assert "must carry its module's name, got 'two'" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "argv", [["--only", "nothing"], ["--quick", "--long"], ["--jobs", "0"], ["--effort"]]
+)
+def test_wrong_arguments_give_2(argv):
+    with pytest.raises(SystemExit) as stop:
+        command.main(argv)
+    assert stop.value.code == 2
+
+
+def test_two_processes_write_the_same_bytes(claims):
+    claims("same", one=(1.0, "pass"))
+    for seed in ("1", "2"):
+        code = f"from validation.__main__ import main; main(['--jobs', '1', '-o', 'out{seed}'], 'same')"
+        environment = {"PYTHONHASHSEED": seed, "PYTHONPATH": f"{Path.cwd()}:{ROOT}", "PATH": ""}
+        subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, env=environment)
+    assert {p.name for p in Path("out1").iterdir()} == {"index.html", "checks.json", "one-f.svg", "one-f.png"}
+    for path in Path("out1").iterdir():
+        assert path.read_bytes() == Path("out2", path.name).read_bytes()
+
+
+def test_claims_are_listed_once():
+    assert len(set(validation.CLAIMS)) == len(validation.CLAIMS)

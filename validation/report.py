@@ -1,0 +1,399 @@
+"""A claim of the paper, the checks and figures that test it, and the page that shows them all.
+
+Text is written plainly and set by the page: `v_c`, `mu_0`, `Δu_z` and `ωτ` read as symbols, `x^2` as a power,
+and the tags i, b, em, code, sub, sup and br pass through; everything else is escaped.
+"""
+
+import base64
+import html
+import io
+import json
+import math
+import platform
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import InitVar, dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+VERDICTS = ("holds", "holds if …", "fails when …")  #: a verdict reads or starts like one of these
+SIDES = ("within", "at most", "at least")  #: of the expected number a check allows
+NOT_TESTED = "not tested"  #: the verdict on a claim whose module raised
+
+
+@dataclass(frozen=True)
+class Check:
+    """One number against another: held while |got − expected| ≤ tolerance; None and NaN never hold.
+
+    `at_most` and `at_least` are one-sided, `between` is an interval; `why` is the reason for the tolerance.
+    """
+
+    name: str
+    got: float | None
+    expected: float
+    tolerance: float
+    why: str
+    side: str = "within"
+
+    def __post_init__(self) -> None:
+        """Plain floats only, so that a check pickles, prints and turns into JSON."""
+        object.__setattr__(self, "got", None if self.got is None else float(self.got))
+        object.__setattr__(self, "expected", float(self.expected))
+        object.__setattr__(self, "tolerance", float(self.tolerance))
+        check = f"check {self.name!r}: "
+        if math.isnan(self.expected):
+            raise ValueError(check + "expected must be a number, got nan")
+        if not 0 <= self.tolerance < math.inf:
+            raise ValueError(check + f"tolerance must be finite and >= 0, got {self.tolerance!r}")
+        if self.side not in SIDES:
+            raise ValueError(check + f"side must be one of {SIDES}, got {self.side!r}")
+
+    @classmethod
+    def at_most(cls, name: str, got: float | None, bound: float, why: str) -> "Check":
+        """Held while got ≤ bound."""
+        return cls(name, got, bound, 0.0, why, "at most")
+
+    @classmethod
+    def at_least(cls, name: str, got: float | None, bound: float, why: str) -> "Check":
+        """Held while got ≥ bound."""
+        return cls(name, got, bound, 0.0, why, "at least")
+
+    @classmethod
+    def between(cls, name: str, got: float | None, low: float, high: float, why: str) -> "Check":
+        """Held while low ≤ got ≤ high."""
+        return cls(name, got, (low + high) / 2, (high - low) / 2, why)
+
+    @property
+    def held(self) -> bool:
+        """Whether the number is where it is expected."""
+        got = math.nan if self.got is None else self.got
+        if got == self.expected:
+            return True  # two infinities agree, though their difference is nan
+        excess = got - self.expected
+        miss = {"within": abs(excess), "at most": excess, "at least": -excess}[self.side]
+        return miss <= self.tolerance
+
+    def record(self, claim: str) -> dict[str, Any]:
+        """Give the check as a row of checks.json; a one-sided check says so in front of its reason."""
+        side = "" if self.side == "within" else f"{self.side} {self.expected:.6g}: "
+        return {
+            "claim": claim,
+            "name": plain(self.name),
+            "got": _json_number(self.got),
+            "expected": _json_number(self.expected),
+            "tolerance": self.tolerance,
+            "why": side + plain(self.why),
+            "held": self.held,
+        }
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A matplotlib figure drawn to bytes at once (and closed), with a caption saying what to see.
+
+    Draw heavy meshes with `rasterized=True`. A figure named "glance" opens the page.
+    """
+
+    name: str
+    caption: str
+    drawing: InitVar[Any]  #: the matplotlib figure; only its bytes are kept
+    alt: str
+    svg: bytes = field(init=False, repr=False)
+    png: bytes = field(init=False, repr=False)
+
+    def __post_init__(self, drawing: Any) -> None:
+        """Draw the same bytes from the same drawing: no date, no program name, fixed identifiers."""
+        import matplotlib as mpl
+        import matplotlib.pyplot as plt
+
+        _require_slug("figure", self.name)
+        nothing = {"svg": ("Date", "Creator", "Format", "Type"), "png": ("Software",)}
+        with mpl.rc_context({"svg.hashsalt": "mdr", "svg.fonttype": "path"}):
+            for kind, keys in nothing.items():
+                out = io.BytesIO()
+                metadata = dict.fromkeys(keys)
+                drawing.savefig(out, format=kind, dpi=160, bbox_inches="tight", metadata=metadata)
+                object.__setattr__(self, kind, out.getvalue())
+        plt.close(drawing)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What the paper says, over which range it was tested, what was found, and the verdict."""
+
+    name: str  #: the module's name
+    title: str
+    quote: str  #: what the paper says, with equation or section
+    range: str  #: over which it was tested
+    measured: str  #: what was found, in words
+    verdict: str  #: "holds", "holds if …" or "fails when …"
+    sentence: str  #: the conclusion in one line
+    checks: tuple[Check, ...]
+    figures: tuple[Figure, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Ask for a name to link to, a verdict, and at least one check."""
+        _require_slug("claim", self.name)
+        object.__setattr__(self, "checks", tuple(self.checks))
+        object.__setattr__(self, "figures", tuple(self.figures))
+        if not re.match(rf"holds$|holds if \S|fails when \S|{NOT_TESTED}", self.verdict):
+            raise ValueError(f"claim {self.name}: verdict must be one of {VERDICTS}, got {self.verdict!r}")
+        if not self.checks:
+            raise ValueError(f"claim {self.name}: a claim without checks proves nothing; add a Check")
+        if len({figure.name for figure in self.figures}) < len(self.figures):
+            raise ValueError(f"claim {self.name}: two figures have the same name; rename one")
+
+    @classmethod
+    def broken(cls, name: str, error: str) -> "Claim":
+        """Stands in the report for a claim whose module raised `error`."""
+        check = Check("the claim runs to its end", 0, 1, 0, error)
+        text = f"The claim's module stopped: {error}"
+        return cls(name, name.replace("_", " "), "", "", "", NOT_TESTED, text, (check,))
+
+    @property
+    def n_held(self) -> int:
+        """How many checks held."""
+        return sum(check.held for check in self.checks)
+
+    @property
+    def held(self) -> bool:
+        """Whether all of them did."""
+        return self.n_held == len(self.checks)
+
+
+def write_report(claims: Sequence[Claim], folder: str | Path, effort: str = "full") -> Path:
+    """Write index.html, checks.json and the figures into `folder`; return the page."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    for claim in claims:
+        for figure in claim.figures:
+            (folder / f"{claim.name}-{figure.name}.svg").write_bytes(figure.svg)
+            (folder / f"{claim.name}-{figure.name}.png").write_bytes(figure.png)
+    record = {
+        "claims": [
+            {"name": c.name, "verdict": plain(c.verdict), "sentence": plain(c.sentence)} for c in claims
+        ],
+        "checks": [check.record(claim.name) for claim in claims for check in claim.checks],
+    }
+    text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
+    (folder / "checks.json").write_text(text + "\n", encoding="utf-8")
+    page = folder / "index.html"
+    page.write_text(html_page(claims, effort), encoding="utf-8")
+    return page
+
+
+def text_table(claims: Iterable[Claim]) -> str:
+    """Give the verdict table for a terminal, with every check that did not hold."""
+    lines = []
+    for claim in claims:
+        lines.append(f"{claim.name}: {plain(claim.verdict)} [{claim.n_held}/{len(claim.checks)} checks held]")
+        lines.append(f"    {plain(claim.sentence)}")
+        for c in claim.checks:
+            if not c.held:
+                side = "" if c.side == "within" else f"{c.side} "
+                numbers = f"got {c.got!r}, expected {side}{c.expected!r}, tolerance {c.tolerance!r}"
+                lines.append(f"    NOT HELD {plain(c.name)}: {numbers} ({plain(c.why)})")
+    return "\n".join(lines)
+
+
+def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
+    """Give the whole report as one page that needs no other file."""
+    glance = [(c, f) for c in claims for f in c.figures if f.name == "glance"][:1]
+    n_checks, n_held = sum(len(c.checks) for c in claims), sum(c.n_held for c in claims)
+    parts = [
+        _HEAD,
+        f"<p class=count>{n_held} of {n_checks} checks held.</p>",
+        _table("verdicts", ("Claim", "Verdict", "In one sentence", "Checks"), claims, _verdict_row),
+        *(_figure(claim, figure) for claim, figure in glance),
+        *(_section(claim, [figure for _, figure in glance]) for claim in claims),
+        f"<footer><p>Made by <code>{_command(effort)}</code> with {_versions()}.</p></footer>",
+        "</main></body></html>\n",
+    ]
+    return "\n".join(parts)
+
+
+def markup(text: str) -> str:
+    """Plain text as HTML: symbols with subscripts, powers, and the few tags that pass."""
+    text = re.sub(rf"&lt;(/?(?:{_TAGS}))&gt;", r"<\1>", html.escape(text, quote=False))
+    text = re.sub(r"\^\{([^}]*)\}|\^([-−]?\w+(?:\.\w+)?)", _power, text)
+    symbol = r"(?<!\w)(Δ?)([^\W\d_]|mu)_(\w(?:[\w,]{0,2}\w)?)(?!\w)"
+    return re.sub(symbol + r"|([α-ω]+)(?!m\b)", _symbol, text)  # μm is a unit
+
+
+def plain(text: str) -> str:
+    """Give the text without the tags that the page understands."""
+    return re.sub(rf"</?(?:{_TAGS})>", "", text)
+
+
+def number(value: float | None, tolerance: float = 0.0) -> str:
+    """Print a number as HTML, with two digits more than the tolerance can tell apart (3 to 10 digits)."""
+    if value is None or not math.isfinite(value):
+        return "none" if value is None else {math.inf: "∞", -math.inf: "−∞"}.get(value, "not a number")
+    if value == round(value) and abs(value) < 1e6:
+        digits = 7
+    elif tolerance > 0:
+        digits = min(max(math.ceil(math.log10(abs(value) / tolerance)) + 2, 3), 10)
+    else:
+        digits = 4
+    mantissa, _, exponent = f"{value:.{digits}g}".replace("-", "−").partition("e")
+    if not exponent:
+        return mantissa
+    power = f"10<sup>{exponent[0].replace('+', '')}{exponent[1:].lstrip('0')}</sup>"
+    return power if mantissa == "1" else f"{mantissa}·{power}"
+
+
+def _verdict_row(claim: Claim) -> tuple[str, ...]:
+    kind = claim.verdict.split()[0] + ("-if" if claim.verdict.startswith("holds if") else "")
+    count = f"<span class={'yes' if claim.held else 'no'}>{claim.n_held}/{len(claim.checks)}</span>"
+    link = f'<a href="#{claim.name}">{markup(claim.title)}</a>'
+    return link, f"<span class={kind}>{markup(claim.verdict)}</span>", markup(claim.sentence), count
+
+
+def _check_row(check: Check) -> tuple[str, ...]:
+    sign = {"within": "", "at most": "≤ ", "at least": "≥ "}[check.side]
+    numbers = (check.got, check.expected, check.tolerance)
+    got, expected, tolerance = (number(value, check.tolerance) for value in numbers)
+    held = "<span class=yes>✓</span>" if check.held else "<span class=no>✗</span>"
+    return markup(check.name), got, sign + expected, "–" if sign else tolerance, held, markup(check.why)
+
+
+def _section(claim: Claim, above: Sequence[Figure]) -> str:
+    """One claim: quote, range, what was measured, figures, checks."""
+    shown = [figure for figure in claim.figures if all(figure is not other for other in above)]
+    head = ("Check", "Got", "Expected", "Tolerance", "Held", "Why")
+    parts = [f'<section id="{claim.name}"><h2>{markup(claim.title)}</h2>']
+    if claim.quote:
+        parts.append(f"<blockquote>{markup(claim.quote)}</blockquote>")
+    for label, text in (("Tested over", claim.range), ("Measured", claim.measured)):
+        if text:
+            parts.append(f"<p><b>{label}:</b> {markup(text)}</p>")
+    link = (
+        "" if len(shown) == len(claim.figures) else ' <a href="#glance">Its main figure opens this page.</a>'
+    )
+    parts += [
+        f"<p><b>Verdict:</b> {_verdict_row(claim)[1]}. {markup(claim.sentence)}{link}</p>",
+        *(_figure(claim, figure) for figure in shown),
+        _table("checks", head, claim.checks, _check_row),
+        "</section>",
+    ]
+    return "\n".join(parts)
+
+
+def _table(
+    kind: str, head: Sequence[str], items: Iterable[Any], row: Callable[[Any], tuple[str, ...]]
+) -> str:
+    """Set a table whose cells carry their heading, so that a narrow screen can stack them."""
+    rows = [
+        "<tr>" + "".join(f'<td data-label="{h}">{cell}</td>' for h, cell in zip(head, row(item), strict=True))
+        for item in items
+    ]
+    heading = "".join(f"<th scope=col>{h}</th>" for h in head)
+    body = "\n".join(rows)
+    return f"<table class={kind}><thead><tr>{heading}</tr></thead><tbody>\n{body}\n</tbody></table>"
+
+
+def _figure(claim: Claim, figure: Figure) -> str:
+    name = "glance" if figure.name == "glance" else f"{claim.name}-{figure.name}"
+    data = base64.b64encode(figure.svg).decode("ascii")
+    image = f'<img src="data:image/svg+xml;base64,{data}" alt="{html.escape(plain(figure.alt))}">'
+    return f'<figure id="{name}">{image}<figcaption>{markup(figure.caption)}</figcaption></figure>'
+
+
+def _symbol(match: re.Match[str]) -> str:
+    if match[4]:
+        return f"<i>{match[4]}</i>"
+    letter = "μ" if match[2] == "mu" else match[2]
+    return f"{match[1]}<i>{letter}</i><sub>{match[3]}</sub>"
+
+
+def _power(match: re.Match[str]) -> str:
+    return f"<sup>{(match[1] or match[2]).replace('-', '−')}</sup>"
+
+
+def _command(effort: str) -> str:
+    return "python -m validation" + ("" if effort == "full" else f" --{effort}")
+
+
+def _versions() -> str:
+    def of(name: str) -> str:
+        try:
+            return version(name)
+        except PackageNotFoundError:
+            return "(not installed)"
+
+    parts = [f"{name} {of(name)}" for name in ("numpy", "scipy", "numba", "matplotlib")]
+    return ", ".join([f"mdr {of('mdr-friction')}", *parts, f"Python {platform.python_version()}"])
+
+
+def _json_number(value: float | None) -> float | str | None:
+    """JSON has no NaN (null here) and no infinity ("inf", which float() reads back)."""
+    if value is None or math.isnan(value):
+        return None
+    return str(value) if math.isinf(value) else value
+
+
+def _require_slug(what: str, name: str) -> None:
+    if not re.fullmatch(r"[a-z0-9][a-z0-9_-]*", name):
+        raise ValueError(f"{what} name must be lower-case letters, digits, _ and -, got {name!r}")
+
+
+_TAGS = "i|b|em|code|sub|sup|br"
+
+_EQ_15 = """
+<p class=equation aria-label="Eq. (15)"><i>v</i><sub>c</sub> = <span class=fraction><span><i>μ</i><sub>0</sub>
+Δ<i>u<sub>z</sub></i> <i>ω</i></span><span>|<i>mω</i>² − <i>k<sub>x</sub></i>|</span></span>
+√<span class=root>(<i>γ</i><sub>z,c</sub> <i>ω</i>)² + [ <i>κ</i> (<i>mω</i>² − <i>k</i><sub>x,c</sub> −
+<i>k<sub>x</sub></i>) ]²</span>, <span class=where><i>κ</i> = <i>k</i><sub>z,c</sub> /
+<i>k</i><sub>x,c</sub></span> <span class=tag>(15)</span></p>"""
+
+_CSS = """
+body { margin: 0; font: 17px/1.5 Georgia, "Times New Roman", serif; color: #1a1a1a; background: #fff; }
+main { max-width: 62rem; margin: 0 auto; padding: 1.5rem; }
+h1, h2, th, .count, figcaption, footer, .tag { font-family: "Helvetica Neue", Arial, sans-serif; }
+h1 { font-size: 1.8rem; line-height: 1.2; } h2 { font-size: 1.25rem; line-height: 1.25; }
+section { border-top: 1px solid #bbb; margin-top: 2.5rem; } a { color: #00518a; } 
+sub, sup { font-size: .75em; line-height: 0; }
+blockquote { margin: 1rem 0; padding: .1rem 0 .1rem 1rem; border-left: 4px solid #bbb; }
+.equation { font-size: 1.1rem; margin: 1.2rem 0; line-height: 2.2; } .tag, .where { margin-left: 1.2em; }
+.fraction { display: inline-flex; flex-direction: column; vertical-align: middle; text-align: center;
+  line-height: 1.5; margin: 0 .3em; } .fraction span + span { border-top: 1px solid; }
+.root { border-top: 1px solid; padding: .15em .2em 0; }
+table { border-collapse: collapse; width: 100%; margin: 1rem 0; font-size: .88rem; line-height: 1.4; }
+th, td { text-align: left; vertical-align: top; padding: .35rem .7rem .35rem 0; border-bottom: 1px solid #ddd;
+  overflow-wrap: anywhere; }
+th { border-bottom: 2px solid #555; white-space: nowrap; }
+.verdicts td:nth-child(1) { width: 24%; } .verdicts td:nth-child(2) { width: 24%; }
+.checks td:nth-child(2), .checks td:nth-child(3), .checks td:nth-child(4) { white-space: nowrap;
+  font-variant-numeric: tabular-nums; }
+.checks td:nth-child(1) { width: 26%; } .checks td:nth-child(6) { width: 32%; }
+.holds, .yes { color: #00603a; font-weight: bold; } .holds-if { color: #7a5200; font-weight: bold; }
+.fails, .not, .no { color: #a3180c; font-weight: bold; }
+figure { margin: 1.5rem 0; break-inside: avoid; } img { max-width: 100%; height: auto; }
+figcaption { font-size: .85rem; line-height: 1.45; color: #333; max-width: 46rem; }
+footer { border-top: 1px solid #bbb; margin-top: 2.5rem; font-size: .8rem; color: #444; }
+@media screen and (max-width: 40rem) {
+  body { font-size: 16px; } main { padding: 1rem; } .equation { font-size: 1rem; }
+  table, tbody, tr, td { display: block; width: auto !important; } thead { display: none; }
+  tr { border-bottom: 2px solid #bbb; padding: .5rem 0; } td { border: 0; padding: .1rem 0; }
+  .checks td:nth-child(n+2):nth-child(-n+5) { display: inline-block; margin-right: 1em; }
+  td::before { content: attr(data-label) ": "; font: bold .75rem Arial, sans-serif; color: #555; }
+}
+@media print { body { font-size: 10.5pt; } main { max-width: none; padding: 0; } tr { break-inside: avoid; } }
+"""
+
+_HEAD = f"""<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Does Eq. (15) hold for general contacts?</title>
+<style>{_CSS}</style></head><body><main>
+<h1>Does Eq. (15) hold for general contacts?</h1>
+<p>A body is pulled over a viscoelastic half-space while it oscillates in the normal direction. Above
+the critical velocity <i>v</i><sub>c</sub> the oscillation no longer lowers friction. M. Popov
+(<i>Facta Universitatis, Series Mechanical Engineering</i> 14 (2016) 335) derives it for one spring and
+damper in contact,</p>
+{_EQ_15}
+<p>and argues that it “is valid not only for the simple considered model with a single spring-damper
+combination, but also for quite general contacts (so long as the amplitude of oscillation remains
+small)”. Here each step of that argument is tested with arrays of springs, each of which sticks, slips
+and leaves contact on its own.</p>"""
