@@ -1,8 +1,9 @@
 """Has a run settled? Decided by comparing windows of whole periods, never by waiting a fixed time.
 
-A run gives one value a period, the mean of F_x. Three windows of a quarter of the run each are compared. Where
-their means creep towards a limit, the rest of the way is extrapolated geometrically; where they scatter (the beat of a lightly damped
-body), the scatter itself is the spread. The run has settled when the spread is below the tolerance.
+A run gives one value a period, the mean of F_x. Compared are three windows of doubling length, the last of them the second half of the run. What
+is missing to the limit then shrinks by a constant ratio from window to window not only for a transient that dies out exponentially (ratio near
+zero) but also for one that dies like a power of time (ratio 2^-p), as an undamped body does whose free oscillation is trimmed by instants of stick. Where the means
+scatter instead (the beat of a lightly damped body), the scatter itself is the spread. The run has settled when the spread is below the tolerance.
 """
 
 from __future__ import annotations
@@ -12,14 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-MIN_PERIODS = 4  #: fewer give no three windows
+MIN_PERIODS = 8  #: fewer give no three windows
 
 
 @dataclass(frozen=True)
 class Settling:
     """What the windows say."""
 
-    mean: float  #: mean of the last window
+    mean: float  #: mean of the second half
     spread: float  #: bound on what is missing to the limit; infinite when the run is too short to tell
     settled: bool  #: whether the spread is below the tolerance
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
@@ -27,18 +28,20 @@ class Settling:
 
 def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
     """Judge a run by its values per period, shape (n_periods,)."""
-    length = values.size // 4
-    if values.size < MIN_PERIODS:
+    n = values.size
+    if n < MIN_PERIODS:
         return Settling(float(values[-1]), np.inf, False, "unsettled")
-    windows = values[values.size - 3 * length :].reshape(3, length).mean(axis=1)
-    before, last = np.diff(windows)
+    first, second, third = (float(values[low:high].mean()) for low, high in ((n // 8, n // 4), (n // 4, n // 2), (n // 2, n)))
+    before, last = second - first, third - second
     ratio = last / before if before else 0.0
     if 0 <= ratio < 0.9:
-        spread = abs(last) * max(1.0, ratio / (1 - ratio))
+        spread = abs(last) * max(0.5, ratio / (1 - ratio))
     else:  # scatter, or a creep too slow to extrapolate
         spread = max(abs(before), abs(last)) * (1 if ratio < 0 else 10)
+    if last == 0:
+        spread = 0.0
     settled = bool(spread <= tolerance)
-    return Settling(float(windows[-1]), float(spread), settled, _kind(values, tolerance) if settled else "unsettled")
+    return Settling(third, float(spread), settled, _kind(values, tolerance) if settled else "unsettled")
 
 
 def _kind(values: NDArray[np.float64], tolerance: float) -> str:

@@ -366,7 +366,7 @@ def _finish(march: _March, error: float = 0.0, why: str = "") -> SlidingRun:
 def _why_not(march: _March) -> str:
     settling, n = march.settling, march.n_periods
     if not np.isfinite(settling.spread):
-        return f"{n} periods are too few to compare windows: raise n_periods to 4 or more"
+        return f"{n} periods are too few to compare windows: raise n_periods to 8 or more"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.K and march.scaled.C == 0:
         return f"{change}: the body has no damper, so its free oscillation does not die out; add c_x or start from full slip"

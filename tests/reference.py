@@ -3,8 +3,9 @@
 Nothing here comes from the library; it needs NumPy and SciPy only. It is slow, it has no options but the
 physics, and its schemes differ from the library's march wherever another scheme exists.
 
-Units. Normal lengths are measured in du_z, tangential lengths in mu_0 kappa du_z, time in 1/omega, tangential
-stiffness in k_xc0 = 2 G* a(u_z0), normal forces in 2 E* a(u_z0) du_z, friction in mu_0 times that. Then
+Units. Normal lengths are measured in du_z, tangential lengths in mu_0 kappa du_z, time in 1/omega,
+tangential stiffness in k_xc0 = 2 G* a(u_z0), normal forces in 2 E* a(u_z0) du_z, friction in mu_0 times
+that. Then
 
     n              shape: profile g ~ x**n, so contact radius a(d) ~ d**(1/n); inf is the flat punch
     depth_ratio    u_z0 / du_z, above -1 (the depth is depth_ratio + cos t)
@@ -15,13 +16,15 @@ stiffness in k_xc0 = 2 G* a(u_z0), normal forces in 2 E* a(u_z0) du_z, friction 
     c_ratio        c_x omega / k_xc0
     h              (u_z0 - g) / du_z of one spring, whose indentation is w(t) = h + cos t
 
-One spring. Normal compression s(t) = max(0, sup over theta >= 0 of w(t - theta) exp(-theta / T)), normal force
-N = s + T s' in contact and 0 in free flight; shear e with |e + T e'| <= N, where e' = u_x' in stick and equality
-holds in slip. Over a period <e + T e'> = <e> and <N> = <s>, so a rigid pull has COF / mu_0 = 1 - <s - e> / <s>,
-summed over the springs.
+One spring. Normal compression s(t) = max(0, sup over theta >= 0 of w(t - theta) exp(-theta / T)), normal
+force N = s + T s' in contact and 0 in free flight; shear e with |e + T e'| <= N, where e' = u_x' in stick
+and equality holds in slip. Over a period <e + T e'> = <e> and <N> = <s>, so a rigid pull has COF / mu_0 = 1
+- <s - e> / <s>, summed over the springs.
 """
 
+import json
 import math
+from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -31,17 +34,18 @@ from scipy.optimize import brentq, minimize_scalar
 TWO_PI = 2 * np.pi
 
 
-# --- tools -----------------------------------------------------------------------------------------------------
+# --- tools --------------------------------------------------------------------------------------------------
 
 
 def bracketed_root(f, low, high, tol=4e-16, max_steps=80):
     """Roots of the array function f, which changes sign between low and high, element by element.
 
-    Chandrupatla (1997): inverse quadratic interpolation where it is safe, bisection elsewhere. Where f has one
-    sign at both ends the answer is meaningless and the caller discards it.
+    Chandrupatla (1997): inverse quadratic interpolation where it is safe, bisection elsewhere. Where f has
+    one sign at both ends the answer is meaningless and the caller discards it.
     """
     a, b = (np.array(end, dtype=float) for end in np.broadcast_arrays(high, low))
     fa, fb = f(a), f(b)
+    one_sign = np.sign(fa) * np.sign(fb) > 0
     c, fc, t = a.copy(), fa.copy(), np.full(a.shape, 0.5)
     for _ in range(max_steps):
         x = a + t * (b - a)
@@ -53,7 +57,7 @@ def bracketed_root(f, low, high, tol=4e-16, max_steps=80):
         best = np.where(np.abs(fa) < np.abs(fb), a, b)
         smallest = tol * (1 + np.abs(best))
         width = np.abs(b - a)
-        if np.all((width <= 2 * smallest) | (fa == 0) | (fb == 0)):
+        if np.all((width <= 2 * smallest) | (fa == 0) | (fb == 0) | one_sign):
             break
         with np.errstate(all="ignore"):
             xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
@@ -80,7 +84,7 @@ def graded(breaks, ratio, levels):
     """Breaks with geometrically shrinking panels added at both ends of every panel."""
     shrink = ratio ** np.arange(1, levels + 1)
     out = [np.asarray(breaks)]
-    for a, b in zip(breaks[:-1], breaks[1:], strict=True):
+    for a, b in pairwise(breaks):
         out += [a + (b - a) * shrink, b - (b - a) * shrink]
     return np.unique(np.concatenate(out))
 
@@ -88,8 +92,9 @@ def graded(breaks, ratio, levels):
 def springs(n, depth_ratio, breaks_h, n_nodes, ratio=0.1, levels=0, reference_depth=None):
     """Springs of a power-law indenter: their h and stiffness share dx / a(reference depth).
 
-    breaks_h lists values of h at which the behaviour of a spring changes; the array ends at h = -1, the spring
-    that is just touched at the deepest point. Both are (n_springs,); springs at x and -x are counted together.
+    breaks_h lists values of h at which the behaviour of a spring changes; the array ends at h = -1, the
+    spring that is just touched at the deepest point. Both are (n_springs,); springs at x and -x are counted
+    together.
     """
     if depth_ratio <= -1:
         raise ValueError(f"depth_ratio = {depth_ratio}: the indenter never touches")
@@ -105,7 +110,7 @@ def springs(n, depth_ratio, breaks_h, n_nodes, ratio=0.1, levels=0, reference_de
     return depth_ratio - reach * x**n, dx / x_ref
 
 
-# --- normal motion of one spring -------------------------------------------------------------------------------
+# --- normal motion of one spring ----------------------------------------------------------------------------
 
 
 def always_touches(h, T):
@@ -137,18 +142,18 @@ def mean_compression(h, T):
     h = np.atleast_1d(np.asarray(h, dtype=float))
     on, off = contact_times(h, T)
     touching = h * (off - on) + np.sin(off) - np.sin(on)
-    flying = T * (np.cos(off) - np.cos(on))  # exp decay from s(t_off) to s(t_on); 0 for springs that always touch
+    flying = T * (np.cos(off) - np.cos(on))  # decay from s(t_off) to s(t_on)
     return (touching + flying) / TWO_PI
 
 
-# --- rigid pull, elastic ---------------------------------------------------------------------------------------
+# --- rigid pull, elastic ------------------------------------------------------------------------------------
 
 
 def elastic_stick(h, v_hat):
     """Stick interval (t_a, t_b) of an elastic spring under a rigid pull; t_a = t_b where it only slips.
 
-    In forward slip e = s, so stick starts where s' = -sin t grows past v_hat, or at first touch if s' is already
-    larger there. It ends where e = e_a + v_hat (t - t_a) meets s again.
+    In forward slip e = s, so stick starts where s' = -sin t grows past v_hat, or at first touch if s' is
+    already larger there. It ends where e = e_a + v_hat (t - t_a) meets s again.
     """
     h = np.atleast_1d(np.asarray(h, dtype=float))
     on, off = contact_times(h, 0.0)
@@ -181,8 +186,8 @@ def elastic_shear_by_definition(h, v_hat, t, n_theta=200_000):
 def rigid_elastic_cof(n, depth_ratio, v_hat, n_nodes=40, levels=2):
     """COF / mu_0 of an elastic power-law indenter under a rigid pull, v_hat > 0.
 
-    Panels are split at h = 1 (contact is lost below) and at h = +-sqrt(1 - v_hat**2) (stick from first touch
-    between them, none below, after the start of stick above).
+    Panels are split at h = 1 (contact is lost below) and at h = +-sqrt(1 - v_hat**2) (stick from first
+    touch between them, none below, after the start of stick above).
     """
     edge = math.sqrt(max(1 - v_hat**2, 0))
     h, dx = springs(n, depth_ratio, [-edge, 0.0, edge, 1.0], n_nodes, levels=levels)
@@ -190,7 +195,7 @@ def rigid_elastic_cof(n, depth_ratio, v_hat, n_nodes=40, levels=2):
 
 
 def flat_punch_deficit(v_hat):
-    """The function psi(v_hat) of a flat punch that never leaves the plane: COF / mu_0 = 1 - psi / depth_ratio."""
+    """psi(v_hat) of a flat punch that never leaves the plane: COF / mu_0 = 1 - psi / depth_ratio."""
     phi_1 = np.pi + math.asin(v_hat)
     phi_2 = brentq(lambda t: math.cos(phi_1) - math.cos(t) + v_hat * (t - phi_1),
                    TWO_PI - math.asin(v_hat), phi_1 + TWO_PI, xtol=1e-15)
@@ -198,19 +203,21 @@ def flat_punch_deficit(v_hat):
     return (math.sin(phi_2) - math.sin(phi_1) - math.cos(phi_1) * span - v_hat * span**2 / 2) / TWO_PI
 
 
-# --- rigid pull, Kelvin ----------------------------------------------------------------------------------------
+# --- rigid pull, Kelvin -------------------------------------------------------------------------------------
 
 
 def kelvin_lag(h, v_hat, T):
     """<p> of Kelvin springs under a rigid pull, p = s - e, and the kind of their motion (a small integer).
 
-    e + T e' <= s + T s' is p' >= -p / T, so p' = max(s' - v_hat, -p / T) in contact and p' = -p / T in flight.
-    Stick is D > 0, D = s' - v_hat + p / T. In contact s' = -sin t, and in stick and in slip alike D rises exactly
-    where sin t + T cos t < -v_hat, i.e. between the angles t_1 and t_2. So every change of mode is bracketed:
+    e + T e' <= s + T s' is p' >= -p / T, so p' = max(s' - v_hat, -p / T) in contact and p' = -p / T in
+    flight. Stick is D > 0, D = s' - v_hat + p / T. In contact s' = -sin t, and in stick and in slip alike D
+    rises exactly where sin t + T cos t < -v_hat, i.e. between the angles t_1 and t_2. So every change of
+    mode is bracketed:
 
         until t_1: D falls (stick may end);  t_1 to t_2: D rises (stick may begin);  after t_2: D falls.
 
-    The period map of p is monotone and does not expand distances, and 0 <= p <= s, so its fixed point is bracketed.
+    The period map of p is monotone and does not expand distances, and 0 <= p <= s, so its fixed point is
+    bracketed.
     """
     h = np.atleast_1d(np.asarray(h, dtype=float))
     if v_hat >= 1:
@@ -269,14 +276,14 @@ def kelvin_lag(h, v_hat, T):
 
 
 def kelvin_breaks(depth_ratio, v_hat, T, n_scan=600):
-    """Values of h at which the kind of motion of a Kelvin spring changes, found by bisection between scanned ones."""
+    """Values of h at which the kind of motion of a Kelvin spring changes: a scan, then bisection."""
     top = min(depth_ratio, math.hypot(1, T))
     u = (1 - np.cos(np.pi * np.arange(1, n_scan) / n_scan)) / 2
     h = -1 + (top + 1) * u
     kind = kelvin_lag(h, v_hat, T)[1]
     at = np.flatnonzero(kind[1:] != kind[:-1])
     low, high, kind_low = h[at], h[at + 1], kind[at]
-    for _ in range(48 if at.size else 0):
+    for _ in range(26 if at.size else 0):  # to 1e-10: a misplaced break costs its square
         middle = (low + high) / 2
         same = kelvin_lag(middle, v_hat, T)[1] == kind_low
         low, high = np.where(same, middle, low), np.where(same, high, middle)
@@ -290,14 +297,14 @@ def rigid_kelvin_cof(n, depth_ratio, v_hat, T, n_nodes=20, levels=5):
     return 1 - (kelvin_lag(h, v_hat, T)[0] @ dx) / (mean_compression(h, T) @ dx)
 
 
-# --- full slip of the whole array ------------------------------------------------------------------------------
+# --- full slip of the whole array ---------------------------------------------------------------------------
 
 
 def edge_of_contact(t, T):
     """The h of the spring at the edge of contact at time t (springs of larger h touch).
 
-    Springs leave from the edge inwards while w + T w' of the edge spring is 0, until t = pi - arctan T; then they
-    come back from the inside out, each on the surface that relaxed since it left.
+    Springs leave from the edge inwards while w + T w' of the edge spring is 0, until t = pi - arctan T;
+    then they come back from the inside out, each on the surface that relaxed since it left.
     """
     t = t % TWO_PI
     root, delta = math.hypot(1, T), math.atan(T)
@@ -319,7 +326,7 @@ def edge_of_contact(t, T):
 
 
 def full_slip_force(t, n, depth_ratio, T, reference_depth=None):
-    """Normal force of the whole array at times t, in units where dF/dd = 1 at the reference depth (or u_z0)."""
+    """Normal force of the whole array at times t, in units where dF/dd = 1 at the reference depth (u_z0)."""
     t = np.atleast_1d(np.asarray(t, dtype=float))
     reference = depth_ratio if reference_depth is None else reference_depth
     load = depth_ratio + np.cos(t) - T * np.sin(t)  # w + T w' at the tip
@@ -364,25 +371,23 @@ def body_matrix(k_ratio, omega_0_ratio, c_ratio):
 
 
 def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth=None):
-    """Periodic motion of the body in full slip: a list of (t_low, t_high, z), z(t) = (y, y') about u_x = v_hat t.
+    """Periodic motion of the body in full slip: list of (t_low, t_high, z), z = (y, y'), u_x = v_hat t + y.
 
-    The oscillator is linear: one run from rest over the period, split where F_N is not smooth, gives the periodic
-    start (1 - exp(2 pi A))**-1 z(2 pi), and a second run from there the motion.
+    The oscillator is linear: one run from rest over the period, split where F_N is not smooth, gives the
+    periodic start (1 - exp(2 pi A))**-1 z(2 pi), and a second run from there the motion.
     """
     mass, matrix = body_matrix(k_ratio, omega_0_ratio, c_ratio)
     on, off = (float(t[0]) for t in contact_times([depth_ratio], T))
     if always_touches(depth_ratio, T):
         cuts = sorted({0.0, np.pi - math.atan(T), TWO_PI})
-        start = 0.0
     else:
-        start = on
         cuts = sorted({on, off, TWO_PI, on + TWO_PI})
 
     mean = mean_force(n, depth_ratio, T, reference_depth)
 
     def pieces(z):
         out = []
-        for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+        for low, high in pairwise(cuts):
             inner = 1e-13 * (high - low)  # keep one-sided values of a force that jumps
 
             def rate(t, z, low=low, high=high, inner=inner):
@@ -399,20 +404,21 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
     _, driven = pieces(np.zeros(2))
     z = np.linalg.solve(np.eye(2) - expm(TWO_PI * matrix), driven)
     motion, _ = pieces(z)
-    return start, motion, mean
+    return motion
 
 
 def full_slip_critical_velocity(n, depth_ratio, T, k_ratio=math.inf, omega_0_ratio=1.0, c_ratio=0.0,
                                 reference_depth=None):
-    """Critical velocity in units of mu_0 kappa omega du_z: the largest du_z/dt - dy/dt over the instants of contact.
+    """Critical velocity / (mu_0 kappa omega du_z): the largest du_z/dt - dy/dt over the instants of contact.
 
-    Every spring slides forward as long as v_hat + y' exceeds s' = -sin t of the springs in contact. k_ratio = inf
-    is the rigid pull, y = 0: then v_c is 1 if the tip touches at t = 3 pi / 2, and less if it comes back later.
+    Every spring slides forward as long as v_hat + y' exceeds s' = -sin t of the springs in contact. k_ratio
+    = inf is the rigid pull, y = 0: then v_c is 1 if the tip touches at t = 3 pi / 2, and less if it comes
+    back later.
     """
     on, off = (float(t[0]) for t in contact_times([depth_ratio], T))
     if math.isinf(k_ratio):
         return 1.0 if on <= 1.5 * np.pi else max(-math.sin(on), 0.0)
-    _, motion, _ = full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth)
+    motion = full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth)
     best = -math.inf
     for low, high, z in motion:
         middle = (low + high) / 2
@@ -422,12 +428,12 @@ def full_slip_critical_velocity(n, depth_ratio, T, k_ratio=math.inf, omega_0_rat
 
 
 def eq_15(T, k_ratio, omega_0_ratio, c_ratio=0.0):
-    """Eq. (15) in these units, with system damping: |1 + (1 + i T) / (k - m + i c)|. Flat punch, no loss of contact."""
+    """Eq. (15) in these units, with damping of the body: flat punch that never leaves the plane."""
     mass = k_ratio / omega_0_ratio**2
     return abs(1 + (1 + 1j * T) / (k_ratio - mass + 1j * c_ratio))
 
 
-# --- spring pull -----------------------------------------------------------------------------------------------
+# --- spring pull --------------------------------------------------------------------------------------------
 
 
 def damping_for(zeta, k_ratio, omega_0_ratio):
@@ -436,7 +442,7 @@ def damping_for(zeta, k_ratio, omega_0_ratio):
 
 
 class _Period:
-    """One period of the springs, cut at every touch and loss of contact, and between these as finely as asked."""
+    """One period of the springs, cut at every touch and loss of contact, and as finely as asked between."""
 
     def __init__(self, n, depth_ratio, T, breaks, n_nodes, reference_depth):
         self.h, self.w = springs(n, depth_ratio, [math.hypot(1, T), *breaks], n_nodes,
@@ -447,11 +453,11 @@ class _Period:
         self.events = np.concatenate([self.on[~self.always], self.off[~self.always]]) % TWO_PI
 
     def grid(self, steps):
-        """Times that hold every event, no two further apart than 2 pi / steps, and who touches in each interval."""
+        """Times with every event among them, at most 2 pi / steps apart, and who touches in each interval."""
         cuts = np.unique(np.concatenate([[0.0, np.pi], self.events]))
         cuts = np.append(cuts[np.concatenate([[True], np.diff(cuts) > 1e-10])], TWO_PI)
         t = [low + (high - low) * np.arange(parts) / parts
-             for low, high in zip(cuts[:-1], cuts[1:], strict=True)
+             for low, high in pairwise(cuts)
              for parts in [math.ceil((high - low) * steps / TWO_PI)]]
         t = np.append(np.concatenate(t), TWO_PI)
         middle = (t[:-1] + t[1:])[:, None] / 2
@@ -495,7 +501,7 @@ def _kelvin_period(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
     return e, y, v, force_sum
 
 
-def _elastic_period(e, y, v, force_sum, v_hat, w, body, dt, surface):
+def _elastic_period(e, y, v, force_sum, v_hat, _, w, body, dt, surface):
     """One period of velocity Verlet for T = 0, with the return mapping e -> clip(e + du_x, -s, s)."""
     mass, k, c = body
     force = e @ w
@@ -515,15 +521,17 @@ def _elastic_period(e, y, v, force_sum, v_hat, w, body, dt, surface):
     return e, y, v, force_sum
 
 
-def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=64, steps=(256, 1024),
-                    window=4, tol=1e-9, max_periods=4000, start="full_slip", breaks=(), reference_depth=None):
+def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=64,
+                    steps=(256, 1024), window=4, tol=1e-9, max_periods=4000, start="full_slip", breaks=(),
+                    reference_depth=None):
     """COF / mu_0 of the settled motion, a list with one array (n_cases,) for every entry of steps.
 
-    v_hat may be an array: its cases run side by side. T > 0 is integrated by Runge-Kutta 4, T = 0 by Verlet with
-    the return mapping, both on steps that end at every touch and loss of contact. A run goes on until two
-    successive windows of whole periods agree to tol; the next entry of steps begins where it ended. Start is the
-    full-slip periodic motion, or "rest": springs unloaded, body still, its own spring relaxed. n_nodes springs stand
-    in each panel: between the tip, the spring that only just keeps contact, the values in breaks, and the edge.
+    v_hat may be an array: its cases run side by side. T > 0 is integrated by Runge-Kutta 4, T = 0 by Verlet
+    with the return mapping, both on steps that end at every touch and loss of contact. A run goes on until
+    two successive windows of whole periods agree to tol; the next entry of steps begins where it ended.
+    Start is the full-slip periodic motion, or "rest": springs unloaded, body still, its own spring relaxed.
+    n_nodes springs stand in each panel: between the tip, the spring that only just keeps contact, the
+    values in breaks, and the edge.
     """
     v_hat = np.atleast_1d(np.asarray(v_hat, dtype=float))
     period = _Period(n, depth_ratio, T, breaks, n_nodes, reference_depth)
@@ -540,6 +548,7 @@ def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *
         spectrum = harmonic / (k_ratio - mass * i**2 + 1j * i * c_ratio)
         y = np.full(cases, -(spectrum[0].real + 2 * spectrum[1:].real.sum()))
         v = np.full(cases, -2 * (1j * i * spectrum)[1:].real.sum())
+    _one_period = _kelvin_period if T > 0 else _elastic_period
     results = []
     for level in steps:
         t, touching = period.grid(level)
@@ -550,12 +559,10 @@ def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *
             loads = np.maximum(period.h + np.cos(t[1:])[:, None], 0)
         last, done = np.inf, False
         for _ in range(max_periods // window):
-            force_sum = np.zeros(cases)
+            state = e, y, v, np.zeros(cases)
             for _ in range(window):
-                if T > 0:
-                    e, y, v, force_sum = _kelvin_period(e, y, v, force_sum, v_hat, T, period.w, body, dt, loads)
-                else:
-                    e, y, v, force_sum = _elastic_period(e, y, v, force_sum, v_hat, period.w, body, dt, loads)
+                state = _one_period(*state, v_hat, T, period.w, body, dt, loads)
+            e, y, v, force_sum = state
             cof = force_sum / (window * TWO_PI) / f_mean
             done = bool(np.all(np.abs(cof - last) < tol))
             last = cof
@@ -567,20 +574,43 @@ def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *
     return results
 
 
-def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=64, steps=None, **knobs):
-    """COF / mu_0 of the settled motion under a spring pull, and an estimate of its error, each shaped like v_hat.
+def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=96, steps=None,
+                    **knobs):
+    """COF / mu_0 of the settled motion under a spring pull and an estimate of its error, both like v_hat.
 
-    Stick and slip put kinks into the steps and, at any instant, into the row of springs, so both errors are of
-    second order but erratic, and nothing is extrapolated. The estimate adds what a coarser step and three quarters
-    of the springs change. knobs: see spring_pull_run.
+    Stick and slip put kinks into the steps and, at any instant, into the row of springs, so both errors are
+    of second order but erratic, and nothing is extrapolated. The estimate adds what the last refinement of
+    the steps and a quarter of the springs change. knobs: see spring_pull_run.
     """
-    steps = steps or ((256, 1024, 4096) if T == 0 else (256, 1024, 2048))
+    steps = steps or ((256, 1024, 4096) if T == 0 or math.isinf(n) else (256, 1024, 2048))
     case = n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio
     *_, coarser, cof = spring_pull_run(*case, n_nodes=n_nodes, steps=steps, **knobs)
     error = np.abs(cof - coarser)
     if not math.isinf(n):
-        one, other = (spring_pull_run(*case, n_nodes=nodes, steps=steps[:2], **knobs)[-1]
-                      for nodes in (n_nodes * 3 // 4, n_nodes)) if len(steps) > 2 else (
-            spring_pull_run(*case, n_nodes=n_nodes * 3 // 4, steps=steps, **knobs)[-1], cof)
-        error = error + np.abs(one - other)
+        sparser = spring_pull_run(*case, n_nodes=n_nodes * 3 // 4, steps=steps[:-1], **knobs)[-1]
+        error = error + np.abs(sparser - coarser)
     return (float(cof[0]), float(error[0])) if np.ndim(v_hat) == 0 else (cof, error)
+
+
+# --- the table ----------------------------------------------------------------------------------------------
+
+SHAPES = {"flat": math.inf, "cone": 1, "paraboloid": 2, "r4": 4}
+BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "zeta": 0.07}
+
+
+def table(depth_ratio=3.0, relaxation=(0.0, 0.3, 1.0, 3.0), shares=(0.2, 0.5, 0.8)):
+    """Converged spring-pull values, one record a shape and relaxation time, at the given shares of v_c."""
+    k, omega_0 = BODY["k_ratio"], BODY["omega_0_ratio"]
+    c = damping_for(BODY["zeta"], k, omega_0)
+    for shape, n in SHAPES.items():
+        for T in relaxation:
+            v_c = full_slip_critical_velocity(n, depth_ratio, T, k, omega_0, c)
+            cof, error = spring_pull_cof(n, depth_ratio, v_c * np.array(shares), T, k, omega_0, c)
+            yield {"shape": shape, "depth_ratio": depth_ratio, "T": T, **BODY, "v_c": v_c,
+                   "static_cof": static_cof(n, depth_ratio, T), "v_hat": [v_c * share for share in shares],
+                   "cof": cof.tolist(), "error": error.tolist()}
+
+
+if __name__ == "__main__":
+    for record in table():
+        print(json.dumps(record), flush=True)

@@ -4,6 +4,16 @@ A module has `claim(effort) -> Claim` with effort "quick", "full" or "long" and 
 order of the report. `python -m validation` runs them all and writes the page.
 """
 
+import importlib
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+from typing import NamedTuple
+
+from validation.report import Claim
+
 CLAIMS = (
     "mapping",
     "full_slip_motion",
@@ -14,3 +24,32 @@ CLAIMS = (
     "resolution",
     "energy",
 )
+
+
+class Outcome(NamedTuple):
+    """A claim as it ended."""
+
+    claim: Claim
+    seconds: float
+    trace: str = ""  #: of the exception, where there was one
+
+
+def run_claim(name: str, effort: str, package: str = "validation") -> Outcome:
+    """Run one claim; an exception becomes a claim that is not tested."""
+    begin = time.perf_counter()
+    try:
+        claim = importlib.import_module(f"{package}.{name}").claim(effort)
+        if not isinstance(claim, Claim):
+            raise TypeError(f"claim() of {name} must return a Claim, got {type(claim).__name__}")
+        if claim.name != name:
+            raise ValueError(f"the claim of {name} must carry its module's name, got {claim.name!r}")
+    except (Exception, SystemExit) as error:
+        return not_tested(name, error, time.perf_counter() - begin)
+    return Outcome(claim, time.perf_counter() - begin)
+
+
+def not_tested(name: str, error: BaseException, seconds: float) -> Outcome:
+    """Say what went wrong, without the machine's paths, which have no place in a report."""
+    text = "".join(traceback.format_exception_only(error)).strip().splitlines()[-1]
+    text = text.replace(f"{Path.cwd()}{os.sep}", "").replace(sys.prefix, "...")
+    return Outcome(Claim.broken(name, text), seconds, "".join(traceback.format_exception(error)))

@@ -6,21 +6,12 @@ import multiprocessing
 import os
 import sys
 import time
-import traceback
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from pathlib import Path
-from typing import NamedTuple
 
-from validation.report import Claim, text_table, write_report
-
-
-class Outcome(NamedTuple):
-    """A claim as it ended."""
-
-    claim: Claim
-    seconds: float
-    trace: str = ""  #: of the exception, where there was one
+from validation import Outcome, not_tested, run_claim
+from validation.report import text_table, write_report
 
 
 def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
@@ -38,20 +29,6 @@ def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
     return 0 if all(claim.held for claim in claims) else 1
 
 
-def run_claim(name: str, effort: str, package: str) -> Outcome:
-    """Run one claim here; an exception becomes a claim that is not tested."""
-    begin = time.perf_counter()
-    try:
-        claim = importlib.import_module(f"{package}.{name}").claim(effort)
-        if not isinstance(claim, Claim):
-            raise TypeError(f"claim() of {name} must return a Claim, got {type(claim).__name__}")
-        if claim.name != name:
-            raise ValueError(f"the claim of {name} must carry its module's name, got {claim.name!r}")
-    except (Exception, SystemExit) as error:
-        return Outcome(_broken(name, error), time.perf_counter() - begin, traceback.format_exc())
-    return Outcome(claim, time.perf_counter() - begin)
-
-
 def run_apart(name: str, effort: str, package: str) -> Outcome:
     """Run one claim in a fresh process, whose death is this claim's alone."""
     begin = time.perf_counter()
@@ -59,7 +36,7 @@ def run_apart(name: str, effort: str, package: str) -> Outcome:
         with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as process:
             return process.submit(run_claim, name, effort, package).result()
     except Exception as error:
-        return Outcome(_broken(name, error), time.perf_counter() - begin, traceback.format_exc())
+        return not_tested(name, error, time.perf_counter() - begin)
 
 
 def run_all(names: Sequence[str], effort: str, package: str, jobs: int) -> Iterator[tuple[str, Outcome]]:
@@ -83,12 +60,6 @@ def _progress(ended: Iterator[tuple[str, Outcome]], total: int) -> Iterator[tupl
             tqdm.write(f"{trace}{name}: {count}, {seconds:.1f} s", file=sys.stderr)
             bar.update()
             yield name, outcome
-
-
-def _broken(name: str, error: BaseException) -> Claim:
-    """Say what went wrong without the machine's paths, which have no place in a report."""
-    text = "".join(traceback.format_exception_only(error)).strip().splitlines()[-1]
-    return Claim.broken(name, text.replace(f"{Path.cwd()}{os.sep}", "").replace(sys.prefix, "..."))
 
 
 def _arguments(known: Sequence[str]) -> argparse.ArgumentParser:

@@ -285,11 +285,11 @@ def _table(
 ) -> str:
     """Set a table whose cells carry their heading, so that a narrow screen can stack them."""
     rows = [
-        "<tr>" + "".join(f'<td data-label="{h}">{cell}</td>' for h, cell in zip(head, row(item), strict=True))
+        "".join(f'<td data-label="{h}">{cell}</td>' for h, cell in zip(head, row(item), strict=True))
         for item in items
     ]
     heading = "".join(f"<th scope=col>{h}</th>" for h in head)
-    body = "\n".join(rows)
+    body = "\n".join(f"<tr>{cells}</tr>" for cells in rows)
     return f"<table class={kind}><thead><tr>{heading}</tr></thead><tbody>\n{body}\n</tbody></table>"
 
 
