@@ -1,7 +1,8 @@
 """From runs to answers: the COF curve, the measured critical velocity, and the verdict on Eq. (15).
 
 The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own error. Near v_c that
-deficit vanishes like (1 - v_0/v_c)², so the COF alone reads v_c low. Two sharper signs give the digits:
+deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a Kelvin one, whose lag behind full slip lasts for the relaxation time
+instead of the stick phase; so the COF alone reads v_c low. Two sharper signs give the digits:
 
 * a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull does not depend on v_0.
   One such run therefore locates v_c by v_0 less its smallest slip velocity;
@@ -175,18 +176,19 @@ class _Search:
 
     def _by_friction(self, high: float) -> MeasuredVelocity:
         """Let the COF speak, whose root of the deficit falls linearly to zero at v_c."""
-        v_0, roots = high * (1 - APART), []
+        v_0 = high * (1 - APART)
+        roots: list[tuple[float, float]] = []
         while v_0 > 1e-6 * self.scale and len(roots) < 3:
             run = self.run(v_0)
             if _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
-                roots.append((v_0, float(np.sqrt(run.mu_0 - run.cof))))
+                roots.append((v_0, (run.mu_0 - run.cof) ** (2 / 3)))
             v_0 *= 1 - APART
         if len(roots) < 3:
             return self._none("stick never reduces friction by more than its numerical error")
         velocities, deficits = np.array(roots).T
         v_c = float(np.polyfit(deficits, velocities, 2)[-1])
         why = (f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body without inertia jumps when single springs touch; "
-               "v_c is read off the root of the COF deficit, which falls smoothly to zero")
+               "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero")
         return MeasuredVelocity(v_c, roots[0][0], high, "end of friction reduction", why, self.n_runs)
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:

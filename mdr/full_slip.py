@@ -49,7 +49,7 @@ class FullSlip:
 def contact_edge(phase: Array, T: float) -> Array:
     """(g_c - u_z0)/du_z at phases omega t of a harmonic motion, shape of phase; T = omega tau."""
     if T == 0:
-        return np.cos(phase)
+        return np.asarray(np.cos(phase))
     theta = np.concatenate([np.geomspace(1e-6, 0.2, 80)[:-1], np.linspace(0.2, 2 * np.pi, 320)])
     values = _edge_at(phase[:, None], theta, T)
     best = np.clip(np.argmin(values, axis=1), 1, theta.size - 2)
@@ -59,7 +59,8 @@ def contact_edge(phase: Array, T: float) -> Array:
         left_is_lower = _edge_at(phase, low + step, T) < _edge_at(phase, high - step, T)
         low, high = np.where(left_is_lower, low, low + step), np.where(left_is_lower, high - step, high)
     inner = _edge_at(phase, 0.5 * (low + high), T)
-    return np.minimum.reduce([inner, values.min(axis=1), np.cos(phase), np.cos(phase) - T * np.sin(phase)])
+    edges: Array = np.minimum.reduce([inner, values.min(axis=1), np.cos(phase), np.cos(phase) - T * np.sin(phase)])
+    return edges
 
 
 def _edge_at(phase: Array, theta: Array, T: float) -> Array:
@@ -99,10 +100,30 @@ def full_slip_critical_velocity(case: SlidingContact, n_t: int = N_INSTANTS) -> 
     Infinite on an undamped resonance: k_x = m (n omega)² with a harmonic F_n that is not zero.
     """
     motion = full_slip(case, n_t)
-    slope = case.mu_0 * case.material.mindlin_ratio * motion.u_z_dot - _body_velocity(case, motion)
-    if np.isnan(slope).any():
+    body = _body_velocity(case, motion)
+    if np.isnan(body).any():
         return np.inf
-    return _peak(np.where(motion.in_contact, slope, -np.inf))
+    slope = case.mu_0 * case.material.mindlin_ratio * motion.u_z_dot - body
+    highest = _peak(np.where(motion.in_contact, slope, -np.inf))
+    return max([highest, *_at_touch(case, motion, body)])
+
+
+def _at_touch(case: SlidingContact, motion: FullSlip, body: Array) -> list[float]:
+    """The condition at the very instants at which the centre of the contact touches and leaves."""
+    oscillation = case.oscillation
+    n_t = motion.t.size
+    values = []
+    for k in np.flatnonzero(motion.in_contact != np.roll(motion.in_contact, 1)):
+        low, high = 2 * np.pi * (k - 1) / n_t, 2 * np.pi * k / n_t
+        for _ in range(40):
+            middle = 0.5 * (low + high)
+            touches = oscillation.u_z0 + oscillation.du_z * contact_edge(np.array([middle]), case.T)[0] > 0
+            low, high = (low, middle) if touches == motion.in_contact[k] else (middle, high)
+        u_z_dot = -oscillation.omega * oscillation.du_z * np.sin(low)
+        share = low * n_t / (2 * np.pi) - (k - 1)
+        body_dot = (1 - share) * body[k - 1] + share * body[k]
+        values.append(float(case.mu_0 * case.material.mindlin_ratio * u_z_dot - body_dot))
+    return values
 
 
 def _body_velocity(case: SlidingContact, motion: FullSlip) -> Array:

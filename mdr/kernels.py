@@ -48,13 +48,21 @@ def after_change(D_0, D_1, h, rate):
 
 
 @_inline
-def elastic_spring(e, gap, z_1, du, inverse_dz, late):
+def bend_of(closing_0, closing_1):
+    """How much the closing of a gap speeds up within a step: what turns a share of the way into a share of the time."""
+    mean = abs(closing_0 + closing_1) + 1e-300
+    return min(max((closing_1 - closing_0) / mean, -0.5), 0.5)
+
+
+@_inline
+def elastic_spring(e, gap, z_1, du, inverse_dz, bend, late):
     """One elastic spring over one step: new extension, compression, share of the step in contact, trial extension.
 
     late: what a spring that turned from slip to stick within the step falls behind.
     """
     s = max(z_1 - gap, 0.0)
-    travelled = min(s * inverse_dz, 1.0)
+    way = min(s * inverse_dz, 1.0)
+    travelled = way * (1.0 - bend * (1.0 - way))
     trial = e + travelled * du
     return max(min(trial, s - travelled * late), -s), s, travelled, trial
 
@@ -71,7 +79,8 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, de
     leaving = after_change(-(zd_0 + s_0 * rate), -(zd_1 + pressed * rate), h, rate) if ahead <= 0.0 else 0.0
     s = max(pressed + leaving, relaxed)
     rise = s - relaxed
-    travelled = rise / (rise + ahead + 1e-300)
+    way = rise / (rise + ahead + 1e-300)
+    travelled = way * (1.0 - bend_of(zd_0 + s_0 * rate, zd_1 + relaxed * rate) * (1.0 - way))
     trial = e * (travelled + (1.0 - travelled) * decay) + travelled * du
     lag = s_0 - e
     D_0 = zd_0 - ud_0 + lag * rate  # > 0: sticks at the start
@@ -90,11 +99,12 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, de
 def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
     """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
+    bend = bend_of(zd_0, zd_1)
     late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
     total = 0.0
     stuck = 0.0
     for i in range(e_0.size):
-        e, s, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, inverse_dz, late)
+        e, s, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, inverse_dz, bend, late)
         e_1[i] = e
         total += w[i] * e
         stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
@@ -246,11 +256,14 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
 
     e, s: (m + 1, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot: (m + 1,).
     Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the least slip velocity
-    of a spring that is in contact through the step (infinite when there is none), and mode (m, n), or (0, n) for none.
+    of a spring in contact, at its touch where it touched within the step (infinite when none is in contact), and mode (m, n), or (0, n) for none.
     """
+    rate = 1.0 / T if T > 0.0 else 0.0
     for k in range(e.shape[0] - 1):
         du = v * h + (y[k + 3] - y[k + 2])
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
+        ux_dot_0 = v + (3.0 * y[k + 2] - 4.0 * y[k + 1] + y[k]) / (2.0 * h)
+        growth = ((ux_dot - z_dot[k + 1]) - (ux_dot_0 - z_dot[k])) / h  # of the common slip velocity
         dz = z[k + 1] - z[k]
         slip[k] = np.inf
         F_x[k] = 0.0
@@ -270,6 +283,7 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
             rise = max(s_1 - s_0 * decay, 0.0)
             ahead = max(s_0 - (z[k] - gap[i]), 0.0)
             touched = rise / (rise + ahead) if rise > 0.0 else 0.0
+            touched *= 1.0 - bend_of(z_dot[k] + s_0 * rate, z_dot[k + 1] + s_0 * decay * rate) * (1.0 - touched)
             if touched == 0.0 and ahead == 0.0:
                 touched = 1.0 if s_1 > 0.0 else 0.0
             relaxed = 1.0 - (1.0 - touched) * (1.0 - decay)
@@ -277,12 +291,13 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
             shear_impulse = 0.5 * h * (e_0 + e_1) + T * (e_1 - e_0)
             if touched > 0.0:
                 slipped = touched * du - (e_1 - e_0 * relaxed)
-                rate = slipped / (touched * h)
-                sums[FRICTION_LOSS] += w[i] * max(normal_impulse, 0.0) * abs(rate)
+                slip_rate = slipped / (touched * h)
+                sums[FRICTION_LOSS] += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
                 sums[SHEAR_VISCOUS] += w[i] * T * (e_1 - e_0 * relaxed) ** 2 / (touched * h)
                 sums[NORMAL_VISCOUS] += w[i] * T * (s_1 - s_0 * relaxed) ** 2 / (touched * h)
-                if touched > 0.999999 and s_1 == z[k + 1] - gap[i] and s_1 > 0.0:
-                    slip[k] = min(slip[k], rate)
+                if touched > 1e-3 and s_1 == z[k + 1] - gap[i] and s_1 > 0.0:
+                    at_touch = slip_rate - 0.5 * touched * h * max(growth, 0.0) if touched < 0.999999 else slip_rate
+                    slip[k] = min(slip[k], at_touch)
             if touched < 1.0:
                 sums[SHEAR_VISCOUS] += w[i] * T * (e_0 * (1.0 - relaxed)) ** 2 / ((1.0 - touched) * h)
                 sums[NORMAL_VISCOUS] += w[i] * T * (s_0 * (1.0 - relaxed)) ** 2 / ((1.0 - touched) * h)

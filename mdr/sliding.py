@@ -337,7 +337,7 @@ class _Line:
         springs = 0.5 * float(scaled.w @ self.e**2)
         normal = 0.5 * float(scaled.w @ self._compression(0) ** 2)
         ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)
-        return springs + normal * ratio + 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2
+        return float(springs + normal * ratio + 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2)
 
 
 def _parts(total: int, most: int) -> list[int]:

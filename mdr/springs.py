@@ -117,13 +117,17 @@ def _share_out(panels: list[_Panel], n_springs: int) -> list[int]:
 
 
 def _cells(case: SlidingContact, panel: _Panel, n: int) -> tuple[Array, Array, Array]:
-    """Centres, mean gaps and widths of n equal cells of a panel."""
+    """Centres, mean gaps and widths of the n cells of a panel."""
     span = panel.x_hi - panel.x_lo
-    share = (np.arange(n)[:, None] + _NODES) / n  # of the panel, (n, 4)
+    edges = np.arange(n + 1) / n  # shares of the panel
+    if panel.x_lo == 0 and not panel.permanent:
+        edges = edges**2  # the tip leaves: the instant of its touch counts
+    part = np.diff(edges)
+    share = edges[:-1, None] + part[:, None] * _NODES  # (n, 4)
     rise = _rise(case.indenter, panel, share, case.oscillation.u_z0)
     gap = panel.gap_lo + (panel.gap_hi - panel.gap_lo) * (rise @ _WEIGHTS)
-    gap += _missing_mean(case, panel, gap)
-    return panel.x_lo + span * (np.arange(n) + 0.5) / n, gap, np.full(n, 2 * span / n)
+    gap += _missing_mean(case, panel, float(part @ gap))
+    return panel.x_lo + span * (edges[:-1] + 0.5 * part), gap, 2 * span * part
 
 
 def _rise(shape: Indenter, panel: _Panel, share: Array, u_z0: float) -> Array:
@@ -133,14 +137,15 @@ def _rise(shape: Indenter, panel: _Panel, share: Array, u_z0: float) -> Array:
     if height <= 0 or span < 1e-9 * panel.x_hi or height < 1e-9 * (u_z0 + panel.gap_hi):
         return share
     g_lo, g_hi = u_z0 + panel.gap_lo, u_z0 + panel.gap_hi
-    return np.clip((shape.profile_1d(panel.x_lo + span * share) - g_lo) / (g_hi - g_lo), 0, 1)
+    rise: Array = np.clip((shape.profile_1d(panel.x_lo + span * share) - g_lo) / (g_hi - g_lo), 0, 1)
+    return rise
 
 
-def _missing_mean(case: SlidingContact, panel: _Panel, gap: Array) -> float:
+def _missing_mean(case: SlidingContact, panel: _Panel, mean: float) -> float:
     """What the quadrature missed of the mean of g over a panel, known exactly from F_N; rounding is left alone."""
     shape, u_z0 = case.indenter, case.oscillation.u_z0
     g_lo, g_hi = u_z0 + panel.gap_lo, u_z0 + panel.gap_hi
     area = panel.x_hi * g_hi - panel.x_lo * g_lo - 0.5 * (float(shape.force(g_hi, 1.0)) - float(shape.force(g_lo, 1.0)))
-    missing = area / (panel.x_hi - panel.x_lo) - u_z0 - float(np.mean(gap))
+    missing = area / (panel.x_hi - panel.x_lo) - u_z0 - mean
     noise = 64 * np.finfo(float).eps * panel.x_hi * abs(g_hi) / (panel.x_hi - panel.x_lo)
     return missing if abs(missing) > noise else 0.0

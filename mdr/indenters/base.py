@@ -139,7 +139,8 @@ class Indenter(ABC):
             total += (s_hi - s_lo) * ((np.asarray(self._slope_1d(x, start, end)) * rate) @ (weight * 6 * t * (1 - t)))
         jump = d - float(self.profile_1d(np.nextafter(a, 0)))
         edge = jump / np.sqrt(np.maximum(a**2 - safe**2, np.finfo(float).tiny)) if jump > 1e-9 * d else 0.0
-        return np.where(inside, (total + edge) / np.pi, 0.0)
+        result: Array = np.where(inside, (total + edge) / np.pi, 0.0)
+        return result
 
     def _slope_1d(self, x: Array, low: float = 0.0, high: float = np.inf) -> Array:
         """g'(x) for x > 0 between two kinks, by a polynomial in sqrt(x - low) through nearby values of g."""
@@ -196,4 +197,5 @@ def slope(function: Callable[[Array], Array], x: Array, low: float = 0.0, high: 
     values = function(centre[..., None] + half[..., None] * _CHEB)
     coefficients = (values @ _TO_COEFFICIENTS.T) @ _DERIVATIVE.T
     basis = np.polynomial.chebyshev.chebvander((x - centre) / half, 15)
-    return np.asarray((coefficients * basis).sum(axis=-1) / half)
+    result: Array = (coefficients * basis).sum(axis=-1) / half
+    return result

@@ -1,0 +1,53 @@
+"""The contacts on which the claims are tested: four shapes on a soft rubber, shaken at 50 Hz.
+
+All four touch over the same disc of 1 mm radius at a depth of 20 µm, so that their stiffness at the mean
+depth is the same, k_zc = 8 N/mm for rubber of E = 3 MPa; only how it changes with the depth tells them apart.
+
+Symbols: alpha = du_z/u_z0, T = omega tau, k_x, m, c_x spring, mass and damper of the pull, k_xc tangential
+contact stiffness at u_z0, omega_0² = k_x/m.
+"""
+
+import math
+
+import mdr
+
+DEPTH = 20e-6  #: mean depth u_z0 [m]
+RADIUS = 1e-3  #: contact radius there [m]
+OMEGA = 2 * math.pi * 50  #: angular frequency [rad/s]
+E = 3e6  #: Young's modulus of the rubber [Pa]
+
+SHAPES: dict[str, mdr.Indenter] = {
+    "flat punch": mdr.FlatPunch(a=RADIUS),
+    "cone": mdr.Cone(theta=math.atan(2 * DEPTH / (math.pi * RADIUS))),  # g = (pi/2) x tan(theta)
+    "paraboloid": mdr.Paraboloid(R=RADIUS**2 / DEPTH),  # g = x²/R
+    "r^4": mdr.PowerLaw(n=4, c=3 * DEPTH / (8 * RADIUS**4)),  # g = (8/3) c x⁴
+}
+
+
+def contact(
+    shape: str,
+    alpha: float,
+    T: float = 0.0,
+    *,
+    k_ratio: float | None = None,
+    omega_0_ratio: float = 0.0,
+    damping_ratio: float = 0.0,
+    u_z0: float = DEPTH,
+    mu_0: float = 0.5,
+    nu: float = 0.5,
+) -> mdr.SlidingContact:
+    """One of the SHAPES on an elastic (T = 0) or Kelvin rubber, pulled rigidly or through a spring.
+
+    k_ratio: k_x/k_xc at u_z0; None is a rigid pull. omega_0_ratio: omega_0/omega; 0 is a body without mass.
+    damping_ratio: c_x/(2 sqrt(k_x m)). u_z0 [m]: mean depth.
+    """
+    material = mdr.KelvinVoigt(E=E, nu=nu, tau=T / OMEGA) if T else mdr.Elastic(E=E, nu=nu)
+    oscillation = mdr.NormalOscillation(u_z0=u_z0, du_z=alpha * u_z0, omega=OMEGA)
+    pull: mdr.Pull = mdr.RigidPull()
+    if k_ratio is not None:
+        k_x = k_ratio * float(SHAPES[shape].stiffness(u_z0, material.G_star))
+        m = k_x / (omega_0_ratio * OMEGA) ** 2 if omega_0_ratio else 0.0
+        if damping_ratio and not m:
+            raise ValueError("damping_ratio refers to a mass; give omega_0_ratio > 0 too")
+        pull = mdr.SpringPull(k_x=k_x, m=m, c_x=2 * damping_ratio * math.sqrt(k_x * m))
+    return mdr.SlidingContact(SHAPES[shape], material, mu_0, oscillation, pull)

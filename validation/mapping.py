@@ -1,0 +1,286 @@
+"""The springs stand for the half-space: force, stiffness, contact radius and pressure of the four shapes.
+
+Truth here is three-dimensional and older than the springs: Hertz (1881), Boussinesq's punch, Sneddon's cone and power
+law (1965), and the half-space itself, which a pressure p(r) sinks by
+
+    u(r) = 4/(pi E*) int_0^a p(s) s/(r + s) K(m) ds,    m = 4 r s/(r + s)²,
+
+K the complete elliptic integral. Inside the contact this must be d - f(r).
+
+Symbols (SI): d depth, a contact radius, F_N force, k_zc = dF_N/dd stiffness, p pressure, E_star contact modulus, alpha = du_z/u_z0.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from validation.cases import DEPTH, RADIUS, SHAPES, E, contact
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+E_STAR = E / (1 - 0.5**2)  # of the rubber
+ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim
+AMPLITUDES = {
+    "quick": (1e-9, 1e-3, 0.3, 1.0, 2.0),
+    "full": (1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9, 1.0, 1.3, 2.0),
+}
+
+
+def claim(effort: str) -> Claim:
+    """Test shapes, quadrature and spring array against three-dimensional contact mechanics."""
+    amplitudes = AMPLITUDES["quick" if effort == "quick" else "full"]
+    counts = (32, 64, 128, 256, 512) if effort == "quick" else (32, 64, 128, 256, 512, 1024, 2048)
+    orders = {shape: _errors(shape, 0.3, counts) for shape in SHAPES if shape != "flat punch"}
+    checks = [*_shape_checks(), *_profile_checks(), *_sum_checks(amplitudes), *_order_checks(orders, counts)]
+    return Claim(
+        name="mapping",
+        title="A row of independent springs stands for the contact",
+        quote=(
+            "According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be "
+            "equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)"
+        ),
+        range=(
+            "flat punch, cone, paraboloid and r^4, depths from 20 pm to 40 µm, each also given as a mere function f(r); "
+            f"spring arrays for Δu_z/u_z0 from 10^-9 to 2, with {counts[0]} to {counts[-1]} springs."
+        ),
+        measured=(
+            "Contact radius, force, stiffness and pressure agree with the solutions of Hertz, Sneddon and Boussinesq to rounding, "
+            "and that pressure, put on an elastic half-space, sinks its surface into the shape. The springs add up to F_N and "
+            "k_zc exactly at u_z0 and at both extremes of the oscillation, however small it is. In between a force is off by "
+            "the one spring that is about to touch: an error that falls with the square of the number of springs."
+        ),
+        verdict="holds",
+        sentence="The springs carry the force, stiffness and pressure of the three-dimensional contact, to rounding.",
+        checks=tuple(checks),
+        figures=(_pressure_figure(), _error_figure(orders, counts)),
+    )
+
+
+# --- three dimensions, written from the textbooks ---
+
+
+def textbook(shape: str, d: Any) -> tuple[Any, Any, Any]:
+    """Contact radius [m], force [N] and stiffness [N/m] at depth d [m] after Boussinesq, Sneddon, Hertz, Sneddon."""
+    indenter: Any = SHAPES[shape]
+    if shape == "flat punch":
+        return indenter.a + 0 * d, 2 * E_STAR * indenter.a * d, 2 * E_STAR * indenter.a + 0 * d
+    if shape == "cone":
+        slope = math.tan(indenter.theta)
+        return 2 * d / (np.pi * slope), 2 * E_STAR * d**2 / (np.pi * slope), 4 * E_STAR * d / (np.pi * slope)
+    if shape == "paraboloid":
+        root = np.sqrt(indenter.R * d)
+        return root, 4 / 3 * E_STAR * root * d, 2 * E_STAR * root
+    a = (3 * d / (8 * indenter.c)) ** 0.25
+    return a, 8 / 5 * E_STAR * a * d, 2 * E_STAR * a
+
+
+def textbook_pressure(shape: str, r: Array, d: float) -> Array:
+    """Pressure [Pa] at radii r < a [m]."""
+    indenter: Any = SHAPES[shape]
+    a = float(textbook(shape, d)[0])
+    chord = np.sqrt((a - r) * (a + r))
+    if shape == "flat punch":
+        return np.asarray(E_STAR * d / (np.pi * chord))
+    if shape == "cone":
+        return np.asarray(E_STAR / 2 * math.tan(indenter.theta) * np.arccosh(a / r))
+    if shape == "paraboloid":
+        return np.asarray(2 * E_STAR / (np.pi * indenter.R) * chord)
+    return np.asarray(32 * E_STAR * indenter.c / (9 * np.pi) * chord * (a**2 + 2 * r**2))
+
+
+def sunk_surface(indenter: mdr.Indenter, r: float, d: float) -> float:
+    """Displacement [m] of the half-space at r under the indenter's own pressure; s = a sin t tames the rim."""
+    from scipy.integrate import quad
+    from scipy.special import ellipkm1
+
+    a = float(indenter.contact_radius(d))
+
+    def density(t: float) -> float:
+        s = a * math.sin(t)
+        return float(indenter.pressure(s, d, E_STAR) * s / (r + s) * ellipkm1(((r - s) / (r + s)) ** 2) * a * math.cos(t))
+
+    middle = math.asin(r / a)
+    parts = (quad(density, low, high, epsabs=0, epsrel=1e-9, limit=200)[0] for low, high in ((0, middle), (middle, np.pi / 2)))
+    return 4 / (np.pi * E_STAR) * sum(parts)
+
+
+# --- checks ---
+
+
+def _off(got: Any, expected: Any) -> float:
+    """Greatest relative difference."""
+    return float(np.max(np.abs(np.asarray(got) / np.asarray(expected) - 1)))
+
+
+def _shape_checks() -> list[Check]:
+    depths = DEPTH * np.array([1e-6, 1e-3, 0.1, 1.0, 2.0])
+    checks = []
+    for shape, indenter in SHAPES.items():
+        a, F_N, k_zc = textbook(shape, depths)
+        r = RADIUS * np.array([0.01, 0.2, 0.5, 0.8, 0.99])
+        pairs = (
+            (indenter.contact_radius(depths), a),
+            (indenter.force(depths, E_STAR), F_N),
+            (indenter.stiffness(depths, E_STAR), k_zc),
+            (indenter.pressure(r, DEPTH, E_STAR), textbook_pressure(shape, r, DEPTH)),
+        )
+        off = max(_off(got, expected) for got, expected in pairs)
+        why = "closed forms on both sides: rounding, a hundred times larger next to the rim"
+        checks.append(Check.at_most(f"{shape}: a, F_N, k_zc, p against the textbook", off, ROUNDING, why))
+        why = "Gauss quadrature of 200 nodes, smooth after r = a sin t with t graded towards the tip"
+        checks.append(Check.at_most(f"{shape}: integral of p over the disc against F_N", abs(_disc(indenter) - 1), 1e-10, why))
+        places = RADIUS * np.array([0.05, 0.4, 0.7, 0.95])
+        sunk = np.array([sunk_surface(indenter, r, DEPTH) for r in places])
+        off = float(np.max(np.abs(sunk - DEPTH + np.asarray(indenter.profile_3d(places))))) / DEPTH
+        why = "adaptive quadrature to 1e-9 with a logarithmic singularity at each end"
+        checks.append(Check.at_most(f"{shape}: half-space under p takes the shape d - f(r), over d", off, 1e-7, why))
+    return checks
+
+
+def _disc(indenter: mdr.Indenter) -> float:
+    """2 pi int p r dr over F_N, with r = a sin t and t graded like u³ towards the tip."""
+    u, weight = np.polynomial.legendre.leggauss(200)
+    u, weight = 0.5 * (u + 1), 0.5 * weight
+    t, dt = np.pi / 2 * u**3, np.pi / 2 * 3 * u**2
+    a = float(indenter.contact_radius(DEPTH))
+    p = np.asarray(indenter.pressure(a * np.sin(t), DEPTH, E_STAR))
+    total = 2 * np.pi * a**2 * float(np.sum(weight * dt * p * np.sin(t) * np.cos(t)))
+    return total / float(indenter.force(DEPTH, E_STAR))
+
+
+def _profile_checks() -> list[Check]:
+    """Give each curved shape as a mere function f(r): the library then maps it by quadrature."""
+    depths = DEPTH * np.array([1e-3, 0.1, 1.0, 2.0])
+    r = RADIUS * np.array([0.01, 0.2, 0.5, 0.8, 0.99])
+    checks = []
+    for shape in ("cone", "paraboloid", "r^4"):
+        mapped = mdr.Profile(SHAPES[shape].profile_3d)
+        a, F_N, k_zc = textbook(shape, depths)
+        off = max(
+            _off(mapped.contact_radius(depths), a), _off(mapped.force(depths, E_STAR), F_N),
+            _off(mapped.stiffness(depths, E_STAR), k_zc),
+            _off(mapped.pressure(r, DEPTH, E_STAR), textbook_pressure(shape, r, DEPTH)),
+        )
+        why = "what Profile promises for a smooth f(r): its own estimate warns above 1e-9"
+        checks.append(Check.at_most(f"{shape} as a function f(r): a, F_N, k_zc, p against the textbook", off, 1e-9, why))
+    return checks
+
+
+def _sum_checks(amplitudes: tuple[float, ...]) -> list[Check]:
+    checks = []
+    for shape in SHAPES:
+        worst = {"F_N": 0.0, "k_zc": 0.0}
+        for alpha in amplitudes:
+            for n_springs in (16, 100, 384):
+                springs = mdr.SpringArray.of(contact(shape, alpha), n_springs)
+                for u_z in (DEPTH - alpha * DEPTH, DEPTH, DEPTH + alpha * DEPTH):
+                    _, F_N, k_zc = textbook(shape, max(u_z, 0.0))
+                    off = springs.normal_force(u_z, DEPTH) - F_N
+                    worst["F_N"] = max(worst["F_N"], abs(off) / (2 * E_STAR * RADIUS * DEPTH))
+                    k_zc = k_zc if u_z > 0 else 0.0
+                    worst["k_zc"] = max(worst["k_zc"], abs(springs.normal_stiffness(u_z, DEPTH) - k_zc) / (2 * E_STAR * RADIUS))
+        for what, off in worst.items():
+            scale = "2 E* a u_z0" if what == "F_N" else "2 E* a"
+            name = f"{shape}: {what} of 16, 100 and 384 springs at u_z0 and u_z0 ± Δu_z, over {scale}"
+            checks.append(Check.at_most(name, off, ROUNDING, "the panels end there and each keeps its mean depth: only rounding is left"))
+    return checks
+
+
+def _errors(shape: str, alpha: float, counts: tuple[int, ...]) -> tuple[Array, Array]:
+    """Greatest error of the array's force over the oscillation, and E* dx times a cell's own depth over 4, (n_counts,)."""
+    case = contact(shape, alpha)
+    u_z = DEPTH * (1 + alpha * np.linspace(-1, 1, 8001))
+    F_N = textbook(shape, u_z)[1]
+    errors, bounds = [], []
+    for n_springs in counts:
+        springs = mdr.SpringArray.of(case, n_springs)
+        F_z = np.sum(springs.dk_z * np.maximum(u_z[:, None] - DEPTH - springs.gap, 0), axis=1)
+        half = springs.width / 4
+        cell = np.asarray(case.indenter.profile_1d(springs.x + half)) - np.asarray(case.indenter.profile_1d(springs.x - half))
+        outside = np.arange(springs.x.size) >= springs.n_core
+        errors.append(np.max(np.abs(F_z - F_N)))
+        bounds.append(np.max((springs.dk_z * cell / 8)[outside]))
+    scale = 2 * E_STAR * RADIUS * DEPTH
+    return np.array(errors) / scale, np.array(bounds) / scale
+
+
+def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> list[Check]:
+    checks = []
+    for shape, (errors, bounds) in orders.items():
+        order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
+        why = "slope of a least-squares line; panels share out whole springs, which bends it by a few hundredths"
+        checks.append(Check(f"{shape}: order in the number of springs of F_N(u_z) between the extremes", order, 2.0, 0.1, why))
+        why = "a cell of stiffness dk over which g rises by dg errs by dk dg/8 when half of it touches; g bends within a cell by less than 5 %"
+        checks.append(Check(f"{shape}: greatest error of F_N over that of its widest cell, {counts[-1]} springs",
+                            errors[-1] / bounds[-1], 1.0, 0.05, why))
+    return checks
+
+
+# --- figures ---
+
+
+def _pressure_figure() -> Figure:
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import COLOURS, style
+
+    r = np.linspace(0.002, 0.998, 400)
+    few = np.linspace(0.05, 0.95, 13)
+    with style():
+        fig, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.9))
+        d = DEPTH * np.geomspace(0.05, 2, 100)
+        some = DEPTH * np.geomspace(0.06, 1.9, 9)
+        for (shape, indenter), colour in zip(SHAPES.items(), COLOURS, strict=False):
+            mean = float(indenter.force(DEPTH, E_STAR)) / (np.pi * RADIUS**2)
+            left.plot(r, np.asarray(indenter.pressure(r * RADIUS, DEPTH, E_STAR)) / mean, color=colour, label=shape)
+            left.plot(few, textbook_pressure(shape, few * RADIUS, DEPTH) / mean, "o", mfc="white", mec=colour, ms=4.5)
+            right.loglog(d * 1e6, np.asarray(indenter.force(d, E_STAR)), color=colour)
+            right.loglog(some * 1e6, textbook(shape, some)[1], "o", mfc="white", mec=colour, ms=4.5)
+        left.set(ylim=(0, 3.2), xlim=(0, 1.02), xlabel="radius $r/a$", ylabel="pressure over its mean", title="pressure at 20 µm")
+        right.set(xlabel="depth $d$ [µm]", ylabel="normal force $F_N$ [N]", title="force")
+        left.plot([], [], "o", mfc="white", mec="0.3", ms=4.5, label="textbook")
+        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    return Figure(
+        "shapes",
+        "The four test shapes on rubber of E = 3 MPa. Lines: from the springs; circles: Boussinesq, Sneddon, Hertz, Sneddon. They "
+        "differ as widely as shapes can, with infinite pressure at the rim or at the tip, yet touch over the same disc at 20 µm and have there "
+        "the same stiffness: the slopes of F_N differ on logarithmic scales only because the forces do.",
+        fig, "Pressure over radius and normal force over depth for flat punch, cone, paraboloid and r^4, lines on textbook circles.",
+    )
+
+
+def _error_figure(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> Figure:
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import COLOURS, style
+
+    with style():
+        fig, ax = plt.subplots()
+        for (shape, (errors, _)), colour, marker in zip(orders.items(), COLOURS[1:], "osD", strict=False):
+            ax.loglog(counts, errors, marker, color=colour, ms=6, mfc="white", label=f"{shape}, between the extremes")
+            at_ends = [_at_ends(shape, n) for n in counts]
+            ax.loglog(counts, np.maximum(at_ends, 1e-17), marker, color=colour, ms=4)
+        n = np.array([counts[0], counts[-1]], dtype=float)
+        ax.loglog(n, 1.6 * orders["cone"][0][0] * (n[0] / n) ** 2, color="0.4", lw=1, ls="--", label="second order")
+        ax.plot([], [], "o", color="0.3", ms=4, label="at $u_{z0}$ and $u_{z0}\\pm\\Delta u_z$")
+        ax.set(xlabel="number of springs", ylabel=r"error of $F_N$ over $2E^{*}a\,u_{z0}$", ylim=(1e-17, 1e-2))
+        ax.set_xticks(counts, [str(n) for n in counts])
+        ax.minorticks_off()
+        ax.legend(loc="center right", bbox_to_anchor=(1.0, 0.4))
+    return Figure(
+        "springs",
+        "Force of the spring array at Δu_z/u_z0 = 0.3. Hollow: the greatest error in between falls by four when the springs are doubled. "
+        "Full: at the mean depth and at both extremes the sum is exact to rounding with any number of springs.",
+        fig, "Error of the normal force against the number of springs, with a line of second order and points at rounding.",
+    )
+
+
+def _at_ends(shape: str, n_springs: int) -> float:
+    springs = mdr.SpringArray.of(contact(shape, 0.3), n_springs)
+    depths = [DEPTH * (1 + share) for share in (-0.3, 0.0, 0.3)]
+    off = [abs(springs.normal_force(u_z, DEPTH) - textbook(shape, u_z)[1]) for u_z in depths]
+    return max(off) / (2 * E_STAR * RADIUS * DEPTH)
