@@ -1,7 +1,7 @@
 """mdr: sliding friction of axisymmetric contacts under normal oscillation, spring by spring.
 
-The names below stand in the order of the chain: from an indenter and a material, through springs, motion and pull, to a sliding
-contact; from there to closed forms, runs, curves and the verdict on the closed-form critical velocity.
+The names below stand in the order of the chain: from an indenter and a material, through springs, motion and pull, to
+a sliding contact; from there to closed forms, runs, curves and the verdict on the closed-form critical velocity.
 """
 
 from importlib.metadata import PackageNotFoundError, version
@@ -12,7 +12,8 @@ from mdr.motion import NormalOscillation
 from mdr.pull import Pull, RigidPull, SpringPull
 from mdr.contact import SlidingContact
 from mdr.springs import SpringArray
-#from mdr.case_files import CaseFileError, parse_case, read_case, write_case
+
+# from mdr.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.theory import critical_velocity
 from mdr.full_slip import full_slip, full_slip_critical_velocity, static_cof
 from mdr.sliding import EnergyBalance, SlidingRun, State, slide
@@ -24,8 +25,38 @@ except PackageNotFoundError:  # run from a folder that was never installed
     __version__ = "0+unknown"
 
 __all__ = [
-    "CaseFileError", "CofCurve", "Cone", "Elastic", "ElasticPair", "EnergyBalance", "FlatPunch", "Indenter", "KelvinVoigt",
-    "Material", "MeasuredVelocity", "NormalOscillation", "Paraboloid", "PowerLaw", "Profile", "Pull", "RigidPull", "SlidingContact",
-    "SlidingRun", "SpringArray", "SpringPull", "State", "Verdict", "cof_curve", "critical_velocity", "full_slip",
-    "full_slip_critical_velocity", "measure_critical_velocity", "parse_case", "read_case", "slide", "static_cof", "verdict", "write_case",
+    "CaseFileError",
+    "CofCurve",
+    "Cone",
+    "Elastic",
+    "ElasticPair",
+    "EnergyBalance",
+    "FlatPunch",
+    "Indenter",
+    "KelvinVoigt",
+    "Material",
+    "MeasuredVelocity",
+    "NormalOscillation",
+    "Paraboloid",
+    "PowerLaw",
+    "Profile",
+    "Pull",
+    "RigidPull",
+    "SlidingContact",
+    "SlidingRun",
+    "SpringArray",
+    "SpringPull",
+    "State",
+    "Verdict",
+    "cof_curve",
+    "critical_velocity",
+    "full_slip",
+    "full_slip_critical_velocity",
+    "measure_critical_velocity",
+    "parse_case",
+    "read_case",
+    "slide",
+    "static_cof",
+    "verdict",
+    "write_case",
 ]

@@ -1,7 +1,7 @@
 """Case files: one TOML file describes one SlidingContact, strictly.
 
-Tables and keys carry the names of the records and their fields, in SI; a key left out takes the record's default, and no [pull] is a
-rigid pull:
+Tables and keys carry the names of the records and their fields, in SI. A key left out takes the record's
+default, and no [pull] is a rigid pull:
 
     mu_0 = 0.5
     [indenter]
@@ -19,8 +19,9 @@ rigid pull:
     [pull]
     k_x = 2e4
 
-A file that is wrong is refused with every fault at once. Values are checked by the records themselves; to go on behind a wrong or missing
-one, several harmless numbers take its place in turn, and only what is refused with each of them counts as a further fault.
+A file that is wrong is refused with every fault at once. Values are checked by the records themselves. To see
+behind a wrong or missing value, harmless numbers of several magnitudes take its place in turn: what is refused
+with each of them, in the same words, is a further fault.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from difflib import get_close_matches
 from inspect import isabstract
-from os import PathLike, fspath
+from os import PathLike, fsdecode
 from types import ModuleType
 from typing import Any
 
@@ -62,11 +63,11 @@ class CaseFileError(ValueError):
 
 def read_case(path: str | PathLike[str]) -> SlidingContact:
     """The case in a TOML file. Raises CaseFileError with every fault."""
-    return parse_case(_read(path), source=fspath(path))
+    return parse_case(_read(path), source=fsdecode(path))
 
 
 def parse_case(text: str, source: str = "<string>") -> SlidingContact:
-    """The case in a TOML text; source is what messages call it. Raises CaseFileError with every fault."""
+    """The case in a TOML text; messages call it `source`. Raises CaseFileError with every fault."""
     try:
         return case_of(parse_toml(text, source), source)
     except RecursionError:
@@ -76,10 +77,10 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
 def write_case(case: SlidingContact) -> str:
     """The TOML text that reads back as an equal case.
 
-    Raises CaseFileError for what a file cannot carry: a Profile, whose shape is a Python function, or a record of your own.
+    Raises CaseFileError for what a file cannot carry: a Profile, which is a Python function, or a class of your own.
     """
     top, tables = [], []
-    for field in fields(case):
+    for field in _inputs(SlidingContact):
         value = getattr(case, field.name)
         if field.name not in _TABLES:
             top.append(f"{field.name} = {_toml(value)}")
@@ -100,17 +101,17 @@ def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
 
 def case_of(content: Mapping[str, Any], source: str = "<string>") -> SlidingContact:
     """The case in tables already parsed. Raises CaseFileError with every fault."""
-    faults = [_unknown_key(None, key) for key in content if key not in _top_level()]
+    known = _top_level()
+    faults = [_unknown_top(key, value) for key, value in content.items() if key not in known]
     parts: dict[str, Any] = {}
     for table in _TABLES.values():
         part, found = table.read(content)
         faults += found
         if part is not None:
             parts[table.name] = part
-    sound = not faults
-    given = {key: _number(value) for key, value in content.items() if key in _top_level() and key not in _TABLES}
-    case, found = _build(SlidingContact, {**(parts if sound else _HARMLESS), **given})
-    if faults or found or case is None:
+    given = {key: _number(value) for key, value in content.items() if key in known and key not in _TABLES}
+    case, found = _build(SlidingContact, {**(_HARMLESS if faults else parts), **given})
+    if faults or found:
         raise _error(source, [*faults, *found])
     assert isinstance(case, SlidingContact)
     return case
@@ -132,54 +133,72 @@ class _Table:
         """Public records by name; for a new one it is enough to be public in its module."""
         if self.module is None:
             return {self.kind.__name__: self.kind}
-        names = getattr(self.module, "__all__", None) or [name for name in vars(self.module) if name[0] != "_"]
-        found = {name: getattr(self.module, name) for name in sorted(names)}
-        return {name: record for name, record in found.items() if self._is_record(record)}
+        public = [name for name in vars(self.module) if not name.startswith("_")]
+        found = {name: getattr(self.module, name) for name in getattr(self.module, "__all__", public)}
+        return {name: found[name] for name in sorted(found) if self._is_record(found[name])}
 
-    def _is_record(self, record: Any) -> bool:
-        return isinstance(record, type) and is_dataclass(record) and issubclass(record, self.kind) and not isabstract(record)
+    def _is_record(self, one: Any) -> bool:
+        is_class = isinstance(one, type) and is_dataclass(one)
+        return is_class and issubclass(one, self.kind) and not isabstract(one)
 
-    def keys(self, record: type[Any] | None = None) -> list[str]:
-        """Keys of one record, or of all that the table may describe."""
-        chosen = self.records().values() if record is None else [record]
-        names = dict.fromkeys(field.name for one in chosen for field in _inputs(one))
-        return [*([self.choice] if self.choice else []), *names]
+    def writable(self) -> dict[str, type[Any]]:
+        """The records that a file can carry."""
+        return {name: record for name, record in self.records().items() if _fits_a_file(record)}
+
+    def keys(self, record: type[Any]) -> list[str]:
+        """Keys of the table when it describes this record."""
+        return [*([self.choice] if self.choice else []), *(field.name for field in _inputs(record))]
+
+    def all_keys(self) -> set[str]:
+        """Keys of the table whatever it describes."""
+        return {key for record in self.writable().values() for key in self.keys(record)}
 
     def read(self, content: Mapping[str, Any]) -> tuple[Any, list[str]]:
         """The record described, or None; and the faults."""
         if self.name not in content:
-            needed = any(f.name == self.name and _is_required(f) for f in fields(SlidingContact))
+            needed = any(field.name == self.name and _is_required(field) for field in fields(SlidingContact))
             return None, [f"[{self.name}] is missing"] if needed else []
         table = content[self.name]
         if not isinstance(table, dict):
-            return None, [f"[{self.name}] must be a table of keys, got {_kind(table)}"]
-        record, faults = self._choose(table)
+            return None, [f"[{self.name}] must be one table of keys, got {_kind(table)}"]
+        record, fault = self._choose(table)
         if record is None:
-            return None, [f"[{self.name}] {fault}" for fault in faults]
-        known = self.keys(record)
-        faults = [_unknown_key(self, key, record) for key in table if key not in known]
-        given = {key: _number(value) for key, value in table.items() if key in known and key != self.choice}
-        made, found = _build(record, given, "; leave [pull] out for a rigid pull" if record is SpringPull else "")
-        faults += [f"[{self.name}] {fault}" for fault in found]
-        return (None if faults else made), faults
+            return None, [f"[{self.name}] {fault}"]
+        made, faults = self._describe(record, table)
+        return made, [f"[{self.name}] {fault}" for fault in faults]
 
-    def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, list[str]]:
-        records = self.records()
-        names = [name for name, record in records.items() if _fits_a_file(record)]
+    def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, str]:
+        """The record that the table names, or what is wrong with the name."""
         if not self.choice:
-            return self.kind, []
+            return self.kind, ""
+        names, name = self.writable(), table.get(self.choice)
+        others = f"choose one of {', '.join(names)}"
         if self.choice not in table:
-            near = _near(self.choice, [key for key in table if key not in self.keys()])
-            instead = f" ({_bare(near)} is unknown)" if near else ""
-            return None, [f"{self.choice} is missing{instead}; choose one of {', '.join(names)}"]
-        name = table[self.choice]
+            near = _near(self.choice, [key for key in table if key not in self.all_keys()])
+            return None, f"{self.choice} is missing{f', and {_bare(near)} unknown' if near else ''}; {others}"
         if not isinstance(name, str):
-            return None, [f"{self.choice} must be a name in quotes, got {_kind(name)}; choose one of {', '.join(names)}"]
-        if name in names:
-            return records[name], []
-        if name in records:
-            return None, [f"{self.choice} {name}: {_CALLABLE}; choose one of {', '.join(names)}"]
-        return None, [f"{self.choice} {_bare(name)} is unknown; {_offer(name, names)}"]
+            return None, f"{self.choice} must be a name in quotes, got {_kind(name)}; {others}"
+        if name not in names and name in self.records():
+            return None, f'{self.choice} "{name}": {_CALLABLE}; {others}'
+        return names.get(name), f"{self.choice} {_short(json.dumps(name))} is unknown; {_offer(name, list(names))}"
+
+    def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, list[str]]:
+        """The record made of the keys of the table, or None; and the faults."""
+        known = self.keys(record)
+        unknown = [self._unknown(key, record) for key in table if key not in known]
+        given = {key: _number(table[key]) for key in table if key in known and key != self.choice}
+        made, faults = _build(record, given, "leave [pull] out for a rigid pull" if record is SpringPull else "")
+        return made, [*unknown, *faults]
+
+    def _unknown(self, key: str, record: type[Any]) -> str:
+        """Say that a key is unknown, and its right spelling, its right place, or all there are."""
+        known, whose = self.keys(record), f"{_bare(key)} is no key of {record.__name__}"
+        if key.casefold() not in {one.casefold() for one in known}:
+            if key in _top_level() and key not in _TABLES:
+                return f"{whose}; write it at the top of the file, above the first table"
+            if homes := _homes(key, self):
+                return f"{whose}; it belongs to {homes}"
+        return f"{whose}; {_offer(key, known)}"
 
 
 _TABLES = {
@@ -215,13 +234,29 @@ def _top_level() -> list[str]:
     return [field.name for field in _inputs(SlidingContact)]
 
 
+def _homes(key: str, here: _Table | None = None) -> str:
+    """The other tables that know a key."""
+    return " or ".join(f"[{name}]" for name, one in _TABLES.items() if one is not here and key in one.all_keys())
+
+
+def _unknown_top(key: str, value: Any) -> str:
+    """Say that a table, or a key outside the tables, is unknown."""
+    if isinstance(value, dict):
+        near = _near(key, list(_TABLES))
+        there = f"did you mean [{near}]?" if near else f"there are {', '.join(f'[{name}]' for name in _TABLES)}"
+        return f"[{_bare(key)}] is no table of a case; {there}"
+    keys = [name for name in _top_level() if name not in _TABLES]
+    homes = _homes(key)
+    return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else _offer(key, keys))
+
+
 # --- from values to records ---
 
 
 def _build(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> tuple[Any, list[str]]:
-    """The record made of the given values, or None; and every fault: what is missing, then what the record refuses."""
-    free = [f.name for f in _inputs(record) if _is_required(f) and f.name not in given]
-    faults = [f"{name} is missing{way_out}" for name in free]
+    """The record made of the given values, or None; and every fault: what is missing, then what is refused."""
+    free = [field.name for field in _inputs(record) if _is_required(field) and field.name not in given]
+    faults = [f"{name} is missing" + (f"; {way_out}" if way_out else "") for name in free]
     while True:
         known = {name: value for name, value in given.items() if name not in free}
         outcomes = [_make(record, {**known, **fill}) for fill in _fillings(free)]
@@ -237,6 +272,7 @@ def _build(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> tu
 
 
 def _make(record: type[Any], values: Mapping[str, Any]) -> tuple[Any, str]:
+    """The record, or None and the words of its refusal."""
     try:
         return record(**values), ""
     except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
@@ -244,7 +280,7 @@ def _make(record: type[Any], values: Mapping[str, Any]) -> tuple[Any, str]:
 
 
 def _fillings(names: list[str]) -> Iterator[dict[str, float]]:
-    """Numbers for fields without a usable value, of several magnitudes and in either order; one empty filling for none."""
+    """Numbers for fields without a usable value: several magnitudes, in both orders; nothing for no fields."""
     for size in _STAND_INS if names else (1.0,):
         for order in (names, names[::-1]):
             yield {name: size * (1 + 0.1 * i) for i, name in enumerate(order)}
@@ -257,14 +293,14 @@ def _subject(message: str) -> str:
 
 
 def _number(value: Any) -> Any:
-    """The value, with an integer beyond the range of floats taken as infinite, which every record refuses by name."""
+    """The value; an integer beyond the range of floats becomes infinite, which every record refuses by name."""
     if isinstance(value, list):
         return [_number(one) for one in value]
     if isinstance(value, int) and not isinstance(value, bool):
         try:
             float(value)
         except OverflowError:
-            return math.copysign(math.inf, value)
+            return math.inf if value > 0 else -math.inf
     return value
 
 
@@ -273,15 +309,16 @@ def _number(value: Any) -> Any:
 
 def _written(table: _Table, record: Any) -> str:
     """One table of the file."""
-    name = type(record).__name__
+    name, writable = type(record).__name__, table.writable()
     if table.records().get(name) is not type(record):
-        raise CaseFileError(f"{table.name}: {name} is none of the records a file can name: {', '.join(table.records())}")
-    if not _fits_a_file(type(record)):
-        names = [name for name, one in table.records().items() if _fits_a_file(one)]
-        raise CaseFileError(f"{table.name} {name}: {_CALLABLE}; keep the case in a script, or use one of {', '.join(names)}")
-    lines = [f"[{table.name}]", *([f"{table.choice} = {_toml(name)}"] if table.choice else [])]
+        raise CaseFileError(f"[{table.name}] {name} is none of the records a file can name: {', '.join(writable)}")
+    if name not in writable:
+        way_out = f"keep the case in a script, or use one of {', '.join(writable)}"
+        raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
     values = {field.name: getattr(record, field.name) for field in _inputs(type(record))}
-    return "\n".join(lines + [f"{key} = {_toml(value)}" for key, value in values.items() if value is not None])
+    lines = [f"{key} = {_toml(value)}" for key, value in values.items() if value is not None]
+    head = [f"[{table.name}]", *([f"{table.choice} = {_toml(name)}"] if table.choice else [])]
+    return "\n".join(head + lines)
 
 
 def _toml(value: Any) -> str:
@@ -296,11 +333,11 @@ def _toml(value: Any) -> str:
     return repr(float(value))
 
 
-# --- reading and messages ---
+# --- reading ---
 
 
 def _read(path: str | PathLike[str]) -> str:
-    source = fspath(path)
+    source = fsdecode(path)
     try:
         with open(path, "rb") as file:
             data = file.read(MAX_BYTES + 1)
@@ -311,41 +348,30 @@ def _read(path: str | PathLike[str]) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
-        line = data.count(b"\n", 0, fault.start) + 1
-        raise _error(source, [f"line {line} is not UTF-8 text (byte 0x{data[fault.start]:02x}); save the file as UTF-8"]) from None
+        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
+        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
+        raise _error(source, [what]) from None
 
 
 def _syntax_fault(text: str, message: str) -> str:
     """What is no TOML, where it stands, and what is usually meant."""
     what, _, where = message.partition(" (at ")
-    place = re.match(r"line (\d+), column (\d+)", where)
-    if place is None:
-        return f"{where.rstrip(')') or 'no TOML'}: {what}"
     lines = text.splitlines()
-    line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
+    place = re.match(r"line (\d+)", where)
+    number = int(place[1]) if place else len(lines)
+    line = lines[number - 1].strip() if 0 < number <= len(lines) else ""
     if what.startswith("Expected newline") and "=" in line:
         what = "more than one value; write one number in SI, without unit or arithmetic"
-    elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate")):
+    elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
         what += "; is it given twice?"
-    return f"{place[0]}: {_short(line)}: {what}"
+    return f"line {number}: {_short(line)}: {what}" if where else what
+
+
+# --- messages ---
 
 
 def _error(source: str, faults: Iterable[str]) -> CaseFileError:
     return CaseFileError("\n".join(_one_line(f"{source}: {fault}") for fault in faults))
-
-
-def _unknown_key(table: _Table | None, key: str, record: type[Any] | None = None) -> str:
-    """Say that a key is unknown, and the right spelling, the right place, or all there are."""
-    known = table.keys(record) if table else _top_level()
-    where, whose = (f"[{table.name}] ", record.__name__) if table and record else ("", "a case")
-    others = [other for other in _TABLES.values() if other is not table]
-    homes = [f"[{other.name}]" for other in others if key in other.keys()]
-    if not any(key.casefold() == one.casefold() for one in known):
-        if table and key in _top_level() and key not in _TABLES:
-            return f"{where}{_bare(key)} stands in the wrong place; write it at the top of the file, above the first table"
-        if homes:
-            return f"{where}{_bare(key)} is no key of {whose}; it belongs to {' or '.join(homes)}"
-    return f"{where}{_bare(key)} is no key of {whose}; {_offer(key, known)}"
 
 
 def _offer(word: str, known: list[str]) -> str:
@@ -367,7 +393,7 @@ def _bare(name: str) -> str:
 def _kind(value: Any) -> str:
     """What a TOML value is called."""
     names = {dict: "a table", list: "an array", str: "a string", bool: "true or false"}
-    return names.get(type(value), _short(str(value)))
+    return names.get(type(value)) or _short(str(value))
 
 
 def _short(text: str, longest: int = 60) -> str:

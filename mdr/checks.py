@@ -13,7 +13,8 @@ from typing import Any
 def finite(name: str, value: Any, meaning: str = "a finite number") -> float:
     """A real number that is neither NaN nor infinite.
 
-    Raises TypeError for anything that is not a real number (bool, str, array, complex, None), ValueError for NaN and infinity.
+    Raises TypeError for anything that is not a real number (bool, str, array, complex, None), ValueError for NaN and
+    infinity.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})")
@@ -44,5 +45,6 @@ def between(name: str, value: Any, low: float, high: float, meaning: str = "") -
     number = finite(name, value)
     if not low < number < high:
         raise ValueError(
-            f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}" + (f" ({meaning})" if meaning else ""))
+            f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}" + (f" ({meaning})" if meaning else "")
+        )
     return number

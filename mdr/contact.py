@@ -6,7 +6,7 @@ the mean depth u_z0: k_zc = 2 E* a(u_z0), k_xc = 2 G* a(u_z0), and gamma = tau k
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class SlidingContact:
     material: Material  #: half-space
     mu_0: float  #: local (Amontons) coefficient of friction [-]
     oscillation: NormalOscillation  #: imposed normal motion
-    pull: Pull = RigidPull()  #: what pulls in the plane
+    pull: Pull = field(default_factory=RigidPull)  #: what pulls in the plane
 
     def __post_init__(self) -> None:
         for name, kind in _KINDS.items():

@@ -1,16 +1,18 @@
 """From runs to answers: the COF curve, the measured critical velocity, and the verdict on Eq. (15).
 
-The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own error. Near v_c that
-deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a Kelvin one, whose lag behind full slip lasts for the relaxation time
-instead of the stick phase; so the COF alone reads v_c low. Two sharper signs give the digits:
+The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own
+error. Near v_c that deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a
+Kelvin one, whose lag behind full slip lasts for the relaxation time instead of the stick phase; so the COF alone
+reads v_c low. Two sharper signs give the digits:
 
-* a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull does not depend on v_0.
-  One such run therefore locates v_c by v_0 less its smallest slip velocity;
+* a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull
+  does not depend on v_0. One such run therefore locates v_c by v_0 less its smallest slip velocity;
 * stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket.
 
-Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body has no other way to lose a free oscillation than to
-trim it by instants of stick (theory of that: the oscillation is cut back until slip just grazes zero), so grazing stick with a full COF is no
-friction reduction and is named, not counted.
+Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
+has no other way to lose a free oscillation than to trim it by instants of stick (theory of that: the oscillation is
+cut back until slip just grazes zero), so grazing stick with a full COF is no friction reduction and is named, not
+counted.
 """
 
 from __future__ import annotations
@@ -26,9 +28,9 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.contact import SlidingContact
 from mdr.full_slip import full_slip_critical_velocity, static_cof
 from mdr.progress import progress
-from mdr.pull import SpringPull
+from mdr.pull import RigidPull, SpringPull
 from mdr.sliding import SlidingRun, slide
-from mdr.theory import critical_velocity, eq_1
+from mdr.theory import critical_velocity
 
 Array = NDArray[np.float64]
 
@@ -66,7 +68,8 @@ class CofCurve:
 def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None) -> CofCurve:
     """COF of a case over pulling velocities v_0 >= 0 [m/s], shape (n_v,).
 
-    method: None chooses; "march" forces the time march. Raises ValueError for velocities that are negative, infinite or NaN.
+    method: None chooses; "march" forces the time march. Raises ValueError for velocities that are negative, infinite
+    or NaN.
     """
     if method not in (None, "march"):
         raise ValueError(f'method must be None or "march", got {method!r}')
@@ -83,7 +86,10 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
         cof_error=np.array([run.cof_error if run else 0.0 for run in runs]),
         settled=np.array([run.settled if run else True for run in runs]),
         stick_share=np.array([run.stick_share if run else 1.0 for run in runs]),
-        v_c=critical_velocity(case), mu_0=case.mu_0, static_cof=static, why=tuple(run.why if run else "" for run in runs),
+        v_c=critical_velocity(case),
+        mu_0=case.mu_0,
+        static_cof=static,
+        why=tuple(run.why if run else "" for run in runs),
     )
 
 
@@ -169,9 +175,13 @@ class _Search:
         return 0.5 * (low + high), low, high
 
     def _jumps(self) -> bool:
-        """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid first touch of a dashpot."""
+        """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid
+        first touch of a dashpot.
+        """
         pull = self.case.pull
-        moving_edge = self.case.indenter.contact_radius(self.case.u_z_max) > self.case.indenter.contact_radius(self.case.oscillation.u_z0)
+        moving_edge = self.case.indenter.contact_radius(self.case.u_z_max) > self.case.indenter.contact_radius(
+            self.case.oscillation.u_z0
+        )
         return isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0 and self.case.T > 0 and moving_edge
 
     def _by_friction(self, high: float) -> MeasuredVelocity:
@@ -187,8 +197,11 @@ class _Search:
             return self._none("stick never reduces friction by more than its numerical error")
         velocities, deficits = np.array(roots).T
         v_c = float(np.polyfit(deficits, velocities, 2)[-1])
-        why = (f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body without inertia jumps when single springs touch; "
-               "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero")
+        why = (
+            f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body "
+            "without inertia jumps when single springs touch; "
+            "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero"
+        )
         return MeasuredVelocity(v_c, roots[0][0], high, "end of friction reduction", why, self.n_runs)
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
@@ -212,7 +225,14 @@ class _Search:
     def _lasts(self, run: SlidingRun, start: str) -> bool:
         """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""
         self.n_runs += 1
-        longer = slide(self.case, run.v_0, start=start, n_springs=run.n_springs, steps_per_period=run.steps_per_period, n_periods=4 * run.n_periods)
+        longer = slide(
+            self.case,
+            run.v_0,
+            start=start,
+            n_springs=run.n_springs,
+            steps_per_period=run.steps_per_period,
+            n_periods=4 * run.n_periods,
+        )
         return longer.mu_0 - longer.cof > 0.7 * (run.mu_0 - run.cof)
 
     def _hysteresis(self, reduced: SlidingRun, v_c: float) -> MeasuredVelocity:
@@ -226,7 +246,10 @@ class _Search:
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
             low, high = (middle, high) if _is_reduced(self.run(middle, start)) else (low, middle)
-        why = f"between {v_c:.6g} m/s, where stick ends from full slip, and this velocity, a run from rest keeps friction reduced"
+        why = (
+            f"between {v_c:.6g} m/s, where stick ends from full slip, and this velocity, "
+            "a run from rest keeps friction reduced"
+        )
         return MeasuredVelocity(0.5 * (low + high), low, high, "hysteresis", why, self.n_runs)
 
 
@@ -269,10 +292,16 @@ def verdict(case: SlidingContact) -> Verdict:
     found = measure_critical_velocity(case)
     if found.v_c is None or not np.isfinite(eq_15):
         holds = found.v_c is None and not np.isfinite(eq_15)
-        return Verdict(eq_15, full, found.v_c, None, holds, "; ".join([*_reasons(case, eq_15, full, found), found.why]), found)
+        return Verdict(
+            eq_15, full, found.v_c, None, holds, "; ".join([*_reasons(case, eq_15, full, found), found.why]), found
+        )
     deviation = found.v_c / eq_15 - 1
     holds = abs(deviation) <= CLOSE
-    reasons = list(_reasons(case, eq_15, full, found)) if not holds else ["all springs leave stick together, at the velocity of one element"]
+    reasons = (
+        list(_reasons(case, eq_15, full, found))
+        if not holds
+        else ["all springs leave stick together, at the velocity of one element"]
+    )
     return Verdict(eq_15, full, found.v_c, deviation, holds, "; ".join([*reasons, *_left_out(case)]), found)
 
 
@@ -283,10 +312,15 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
         yield "a harmonic of the normal force drives the body at its undamped natural frequency"
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"
-    if np.isfinite(full) and np.isfinite(eq_15) and found.v_c is not None and abs(full / found.v_c - 1) < 10 * CLOSE:
-        rigid = eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
-        if eq_15 != rigid:
-            yield "at this amplitude the contact stiffness changes within the period and the normal force has harmonics; with them the full-slip condition gives the measured value"
+    confirmed = found.v_c is not None and abs(full / found.v_c - 1) < 10 * CLOSE
+    if isinstance(case.pull, RigidPull):
+        if full < eq_15 * (1 - CLOSE):
+            yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
+    elif np.isfinite(eq_15) and confirmed:
+        yield (
+            "at this amplitude the contact stiffness changes within the period and the normal force has harmonics; "
+            "with them the full-slip condition gives the measured value"
+        )
     if found.kind == "hysteresis":
         yield found.why
 
@@ -295,7 +329,7 @@ def _left_out(case: SlidingContact) -> Iterator[str]:
     """What the springs leave out where it matters."""
     beta = case.material.dundurs_beta
     if abs(beta) > 0.02:
-        yield (f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions friction is lower than here, and part of "
-               "the contact may still stick above this velocity")
-
-
+        yield (
+            f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions "
+            "friction is lower than here, and part of the contact may still stick above this velocity"
+        )

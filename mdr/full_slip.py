@@ -1,19 +1,20 @@
 """The full-slip periodic solution: any shape, any amplitude, elastic or Kelvin material.
 
-While every spring slides forward, e_i = mu_0 kappa s_i for all of them, through loss and return of contact too, because the
-same operator acts on both sides of Coulomb's law. The tangential force is then mu_0 F_N(t), whatever the velocity, and
-every spring in contact slips at the same velocity u_x' - mu_0 kappa u_z'. They all reach the stick limit together: this is why one closed form can
-hold for an array.
+While every spring slides forward, e_i = mu_0 kappa s_i for all of them, through loss and return of contact too,
+because the same operator acts on both sides of Coulomb's law. The tangential force is then mu_0 F_N(t), whatever the
+velocity, and every spring in contact slips at the same velocity u_x' - mu_0 kappa u_z'. They all reach the stick
+limit together: this is why one closed form can hold for an array.
 
-Contact edge. A spring of depth g has s(t) = sup over theta >= 0 of (u_z - g)(t - theta) exp(-theta/tau) and is in contact when the
-supremum is attained at theta = 0, i.e. for all g below
+Contact edge. A spring of depth g has s(t) = sup over theta >= 0 of (u_z - g)(t - theta) exp(-theta/tau) and is in
+contact when the supremum is attained at theta = 0, i.e. for all g below
 
     g_c(t) = inf over theta of [u_z(t) - u_z(t - theta) exp(-theta/tau)] / [1 - exp(-theta/tau)],
 
-whose limits are u_z + tau u_z' (theta -> 0, the retreating edge, released while still compressed) and u_z (full relaxation). The
-force follows from the elastic law alone, F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
+whose limits are u_z + tau u_z' (theta -> 0, the retreating edge, released while still compressed) and u_z (full
+relaxation). The force follows from the elastic law alone, F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
 
-Body and critical velocity. With harmonics F_n of F_N and the receptance H, y = -mu_0 sum F_n H(n omega) exp(i n omega t), and
+Body and critical velocity. With harmonics F_n of F_N and the receptance H, y = -mu_0 sum F_n H(n omega) exp(i n omega
+t), and
 
     v_c = max over instants with contact of [mu_0 kappa u_z' - y'].
 
@@ -84,7 +85,9 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
 
 
 def static_cof(case: SlidingContact) -> float:
-    """COF in the limit v_0 -> 0: mu_0 min F_N / mean F_N over the period; Eq. (7) for the flat punch that keeps contact."""
+    """COF in the limit v_0 -> 0: mu_0 min F_N / mean F_N over the period; Eq. (7) for the flat punch that keeps
+    contact.
+    """
     F_N = full_slip(case).F_N
     return case.mu_0 * float(F_N.min() / F_N.mean())
 

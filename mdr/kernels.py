@@ -104,7 +104,7 @@ def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
     total = 0.0
     stuck = 0.0
     for i in range(e_0.size):
-        e, s, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, inverse_dz, bend, late)
+        e, _, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, inverse_dz, bend, late)
         e_1[i] = e
         total += w[i] * e
         stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
@@ -118,7 +118,8 @@ def kelvin_step(e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1
     stuck = 0.0
     for i in range(e_0.size):
         e, s, travelled, trial = kelvin_spring(
-            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay)
+            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay
+        )
         e_1[i] = e
         s_1[i] = s
         total += w[i] * e
@@ -145,7 +146,8 @@ def settle_normal(s, gap, w, z, zd, T):
             for k in range(n_z):
                 if decay > 0.0:
                     value = kelvin_spring(
-                        0.0, value, gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, h, 1.0 / T, decay)[1]
+                        0.0, value, gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, h, 1.0 / T, decay
+                    )[1]
                 else:
                     value = max(z[k + 1] - gap[i], 0.0)
                 mean += w[i] * value if turn == 1 else 0.0
@@ -188,7 +190,8 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
                 S_1, stuck = elastic_step(e_0, e_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h)
             else:
                 S_1, stuck = kelvin_step(
-                    e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay)
+                    e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay
+                )
             excess = y_1 - pull + b_1 * S_1
             if abs(excess) <= 4e-16 * (abs(y_1) + abs(pull) + abs(b_1 * S_1)):
                 break
@@ -232,8 +235,18 @@ FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3
 
 # what `observe` adds up, in the order of its `sums`
 N_SUMS = 10
-(SUM_E, SUM_S, STICK_TIME, CONTACT_TIME, SHEAR_WORK, NORMAL_WORK,
- FRICTION_LOSS, SHEAR_VISCOUS, NORMAL_VISCOUS, LEAST_SLIP) = range(N_SUMS)
+(
+    SUM_E,
+    SUM_S,
+    STICK_TIME,
+    CONTACT_TIME,
+    SHEAR_WORK,
+    NORMAL_WORK,
+    FRICTION_LOSS,
+    SHEAR_VISCOUS,
+    NORMAL_VISCOUS,
+    LEAST_SLIP,
+) = range(N_SUMS)
 
 
 @_inline
@@ -255,8 +268,9 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
     """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
 
     e, s: (m + 1, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot: (m + 1,).
-    Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the least slip velocity
-    of a spring in contact, at its touch where it touched within the step (infinite when none is in contact), and mode (m, n), or (0, n) for none.
+    Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the least slip
+    velocity of a spring in contact, at its touch where it touched within the step (infinite when none is in contact),
+    and mode (m, n), or (0, n) for none.
     """
     rate = 1.0 / T if T > 0.0 else 0.0
     for k in range(e.shape[0] - 1):

@@ -166,8 +166,13 @@ class ElasticPair(Material):
         for field in fields(self):
             value: Any = getattr(self, field.name)
             ratio = field.name.startswith("nu")
-            self._set(**{field.name: poisson_ratio(field.name, value) if ratio else
-                         positive(field.name, value, "Young's modulus in Pa")})
+            self._set(
+                **{
+                    field.name: poisson_ratio(field.name, value)
+                    if ratio
+                    else positive(field.name, value, "Young's modulus in Pa")
+                }
+            )
 
     @property
     def tau(self) -> float:  # type: ignore[override]

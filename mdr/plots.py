@@ -120,9 +120,7 @@ def plot_traces(run: Any) -> "Figure":
     return fig
 
 
-def plot_profile(
-    indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLike | None" = None
-) -> "Figure":
+def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLike | None" = None) -> "Figure":
     """Show the shape f(r) and its image g(x) pressed to depth d into its springs, with the contact radius.
 
     `springs` gives their positions x ≥ 0 (or a record with `.x`); otherwise `n_springs` stand evenly on both
@@ -279,9 +277,7 @@ def _is_scale(v_c: Any) -> bool:
 
 def _require_record(run: Any) -> None:
     if run.t is None:
-        raise ValueError(
-            "the run kept no arrays to draw; call slide(case, v_0, record=2) to keep two periods"
-        )
+        raise ValueError("the run kept no arrays to draw; call slide(case, v_0, record=2) to keep two periods")
 
 
 def _periods(run: Any) -> "NDArray[np.float64]":

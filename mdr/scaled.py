@@ -7,10 +7,10 @@ array. In this form Coulomb's law has no coefficient and everything is a functio
 
 The body obeys M y'' + C y' + K y = -(S + T S') with S the sum of w e over the springs. Over a step h it is advanced
 
-* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h, whose impulse is right even when
-  the force of a dashpot jumps: no dispersion of its own natural frequency, second order in the force;
-* without mass, or where the step cannot resolve the fast oscillation omega_1 = sqrt((k_x + k_xc)/m), by backward differences
-  of second order, which damp what the step does not resolve.
+* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h, whose impulse is right
+  even when the force of a dashpot jumps: no dispersion of its own natural frequency, second order in the force;
+* without mass, or where the step cannot resolve the fast oscillation omega_1 = sqrt((k_x + k_xc)/m), by backward
+  differences of second order, which damp what the step does not resolve.
 
 Either way it is one recursion with five numbers,
 y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old).
@@ -80,10 +80,22 @@ class ScaledContact:
         phase = 2 * np.pi * np.arange(steps + 1) / steps
         M, C, K = _body_groups(case, springs.G_star * width)
         return cls(
-            gap=gap, w=w, z=np.cos(phase), z_dot=-np.sin(phase), T=case.T,
-            body=_recursion(M, C, K, case.T, 2 * np.pi / steps), M=M, C=C, K=K,
-            lump_margin=margin, n_lumped=n_lumped, length_x=length_x, length_z=oscillation.du_z,
-            stiffness_x=springs.G_star * width, stiffness_z=springs.E_star * width, omega=oscillation.omega,
+            gap=gap,
+            w=w,
+            z=np.cos(phase),
+            z_dot=-np.sin(phase),
+            T=case.T,
+            body=_recursion(M, C, K, case.T, 2 * np.pi / steps),
+            M=M,
+            C=C,
+            K=K,
+            lump_margin=margin,
+            n_lumped=n_lumped,
+            length_x=length_x,
+            length_z=oscillation.du_z,
+            stiffness_x=springs.G_star * width,
+            stiffness_z=springs.E_star * width,
+            omega=oscillation.omega,
         )
 
     def full_slip_history(self, S: Array) -> Array:
@@ -139,15 +151,26 @@ def _recursion(M: float, C: float, K: float, T: float, h: float) -> Array:
         return np.zeros(5)
     if M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED:
         inertia = M / h**2 + 1.5 * C / h + K
-        return np.array([
-            (2 * M / h**2 + 2 * C / h) / inertia, -(M / h**2 + 0.5 * C / h) / inertia,
-            (1 + 1.5 * T / h) / inertia, -2 * T / h / inertia, 0.5 * T / h / inertia,
-        ])
+        return np.array(
+            [
+                (2 * M / h**2 + 2 * C / h) / inertia,
+                -(M / h**2 + 0.5 * C / h) / inertia,
+                (1 + 1.5 * T / h) / inertia,
+                -2 * T / h / inertia,
+                0.5 * T / h / inertia,
+            ]
+        )
     from scipy.linalg import expm
 
     A = expm(h * np.array([[0, 1, 0], [-K / M, -C / M, 1 / M], [0, 0, 0]]))  # last column: response to a unit force
     now, before = A[0, 2], A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2]
     new, old = 0.5 + T / h, 0.5 - T / h  # weights of S_new and S in the mean force
-    return np.array([
-        A[0, 0] + A[1, 1], -np.exp(-C / M * h), now * new, now * old + before * new, before * old,
-    ])
+    return np.array(
+        [
+            A[0, 0] + A[1, 1],
+            -np.exp(-C / M * h),
+            now * new,
+            now * old + before * new,
+            before * old,
+        ]
+    )

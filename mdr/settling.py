@@ -1,9 +1,11 @@
 """Has a run settled? Decided by comparing windows of whole periods, never by waiting a fixed time.
 
-A run gives one value a period, the mean of F_x. Compared are three windows of doubling length, the last of them the second half of the run. What
-is missing to the limit then shrinks by a constant ratio from window to window not only for a transient that dies out exponentially (ratio near
-zero) but also for one that dies like a power of time (ratio 2^-p), as an undamped body does whose free oscillation is trimmed by instants of stick. Where the means
-scatter instead (the beat of a lightly damped body), the scatter itself is the spread. The run has settled when the spread is below the tolerance.
+A run gives one value a period, the mean of F_x. Compared are three windows of doubling length, the last of them the
+second half of the run. What is missing to the limit then shrinks by a constant ratio from window to window not only
+for a transient that dies out exponentially (ratio near zero) but also for one that dies like a power of time (ratio
+2^-p), as an undamped body does whose free oscillation is trimmed by instants of stick. Where the means scatter
+instead (the beat of a lightly damped body), the scatter itself is the spread. The run has settled when the spread is
+below the tolerance.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
     n = values.size
     if n < MIN_PERIODS:
         return Settling(float(values[-1]), np.inf, False, "unsettled")
-    first, second, third = (float(values[low:high].mean()) for low, high in ((n // 8, n // 4), (n // 4, n // 2), (n // 2, n)))
+    first, second, third = (
+        float(values[low:high].mean()) for low, high in ((n // 8, n // 4), (n // 4, n // 2), (n // 2, n))
+    )
     before, last = second - first, third - second
     ratio = last / before if before else 0.0
     if 0 <= ratio < 0.9:

@@ -1,11 +1,13 @@
 """slide(): march a sliding contact, every spring with its own stick/slip state, and say what came out.
 
-The one bridge to the compiled march. A run starts on the full-slip solution (or from rest), goes on until windows of periods
-agree (settling.py), and looks closely at its last period: modes, forces and energies. Beside it run two companions, one with half the
-steps and one with half the springs. The scheme is of second order in both, so the difference to a companion is three times
-the error, and their sum with the spread of the windows bounds the error of the COF.
+The one bridge to the compiled march. A run starts on the full-slip solution (or from rest), goes on until windows of
+periods agree (settling.py), and looks closely at its last period: modes, forces and energies. Beside it run two
+companions, one with half the steps and one with half the springs. The scheme is of second order in both, so the
+difference to a companion is three times the error, and their sum with the spread of the windows bounds the error of
+the COF.
 
-Sign and symbols: F_x > 0 holds the indenter back [N], F_z > 0 presses [N], v_0 pulling velocity [m/s], u_x position of the body [m].
+Sign and symbols: F_x > 0 holds the indenter back [N], F_z > 0 presses [N], v_0 pulling velocity [m/s], u_x position
+of the body [m].
 """
 
 from __future__ import annotations
@@ -45,7 +47,8 @@ class State(IntEnum):
 class EnergyBalance:
     """Energies [J] of the observed periods, each from its own definition.
 
-    pull_work + normal_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the residual of the scheme.
+    pull_work + normal_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the residual of the
+    scheme.
     """
 
     pull_work: float  #: of the far end of the pull, v_0 times the pulling force
@@ -110,16 +113,21 @@ def slide(
 ) -> SlidingRun:
     """Slide a contact at v_0 > 0 [m/s] under its normal oscillation.
 
-    n_springs, steps_per_period: None chooses them, so that cof_error meets 1e-5 mu_0 where possible. n_periods: None marches until
-    settled; a number runs exactly that many and makes no companion runs. start: "full_slip" or "rest" (unloaded in the plane).
-    record: number of last periods kept as arrays. lump: let springs that provably move as one be computed once.
+    n_springs, steps_per_period: None chooses them, so that cof_error meets 1e-5 mu_0 where possible. n_periods: None
+    marches until settled; a number runs exactly that many and makes no companion runs. start: "full_slip" or "rest"
+    (unloaded in the plane). record: number of last periods kept as arrays. lump: let springs that provably move as
+    one be computed once.
 
     Raises TypeError and ValueError for arguments out of range; v_0 = 0 is `static_cof`.
     """
     v_0 = positive("v_0", v_0, "pulling velocity in m/s; the limit of zero velocity is static_cof(case)")
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    for name, value, least in (("n_springs", n_springs, 16), ("steps_per_period", steps_per_period, 16), ("n_periods", n_periods, 1)):
+    for name, value, least in (
+        ("n_springs", n_springs, 16),
+        ("steps_per_period", steps_per_period, 16),
+        ("n_periods", n_periods, 1),
+    ):
         if value is not None:
             _count(name, value, least)
     _count("record", record, 0)
@@ -134,7 +142,11 @@ def slide(
 def default_steps(case: SlidingContact) -> int:
     """Steps per period that resolve the oscillation of the body on the contact, if that can be afforded."""
     fast = fast_ratio(case)
-    return _STEPS if fast * 2 * RESOLVED < _STEPS or not np.isfinite(fast) else int(min(2 * RESOLVED * np.ceil(fast), 16384))
+    return (
+        _STEPS
+        if fast * 2 * RESOLVED < _STEPS or not np.isfinite(fast)
+        else int(min(2 * RESOLVED * np.ceil(fast), 16384))
+    )
 
 
 @dataclass(frozen=True)
@@ -146,7 +158,9 @@ class _Knobs:
     record: int = 0
 
     def coarser(self, n_springs: int = 1, steps: int = 1) -> _Knobs:
-        return replace(self, n_springs=max(self.n_springs // n_springs, 16), steps=max(self.steps // steps, 16), record=0)
+        return replace(
+            self, n_springs=max(self.n_springs // n_springs, 16), steps=max(self.steps // steps, 16), record=0
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -258,16 +272,49 @@ class _Line:
         S = np.empty(scaled.steps)
         fast = 1e9  # sliding at any high velocity is full slip
         nothing = np.empty((0, s.size))
-        kernels.march(s.copy(), s, np.zeros(5), np.zeros(5), scaled.gap, scaled.w, scaled.z, scaled.z_dot, fast, scaled.T,
-                      -np.inf, scaled.steps, 0, np.empty(scaled.steps), S, nothing, nothing)
+        kernels.march(
+            s.copy(),
+            s,
+            np.zeros(5),
+            np.zeros(5),
+            scaled.gap,
+            scaled.w,
+            scaled.z,
+            scaled.z_dot,
+            fast,
+            scaled.T,
+            -np.inf,
+            scaled.steps,
+            0,
+            np.empty(scaled.steps),
+            S,
+            nothing,
+            nothing,
+        )
         return np.roll(S, 1)
 
     def _call(self, n_steps: int, k_0: int, e_out: Array, s_out: Array) -> tuple[Array, Array]:
         scaled = self.scaled
         y, S = np.empty(n_steps), np.empty(n_steps)
         as_one = kernels.march(
-            self.e, self.s, self.history, scaled.body, scaled.gap, scaled.w, scaled.z, scaled.z_dot, self.v, scaled.T,
-            scaled.lump_margin, n_steps, k_0, y, S, e_out, s_out)
+            self.e,
+            self.s,
+            self.history,
+            scaled.body,
+            scaled.gap,
+            scaled.w,
+            scaled.z,
+            scaled.z_dot,
+            self.v,
+            scaled.T,
+            scaled.lump_margin,
+            n_steps,
+            k_0,
+            y,
+            S,
+            e_out,
+            s_out,
+        )
         self.as_one = self.as_one and bool(as_one)
         return y, S
 
@@ -314,9 +361,23 @@ class _Line:
             k[-1] = k[-2] + 1
             now = slice(done, done + part)
             kernels.observe(
-                e, s, np.concatenate([history, y]), scaled.z[k], scaled.z_dot[k], scaled.gap, scaled.w, scaled.T, self.v,
-                np.exp(-scaled.h / scaled.T) if scaled.T else 0.0, scaled.h, sums, F_x[now], F_z[now], slip[now],
-                mode[now] if keep else mode)
+                e,
+                s,
+                np.concatenate([history, y]),
+                scaled.z[k],
+                scaled.z_dot[k],
+                scaled.gap,
+                scaled.w,
+                scaled.T,
+                self.v,
+                np.exp(-scaled.h / scaled.T) if scaled.T else 0.0,
+                scaled.h,
+                sums,
+                F_x[now],
+                F_z[now],
+                slip[now],
+                mode[now] if keep else mode,
+            )
             if keep:
                 e_kept[now] = e[1:]
             y_all.append(y)
@@ -331,7 +392,9 @@ class _Line:
         return self.s if scaled.T else np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0)
 
     def _stored(self) -> float:
-        """Elastic and kinetic energy of springs, body and system spring, tangential unit of energy; u_z part included."""
+        """Elastic and kinetic energy of springs, body and system spring, tangential unit of energy; u_z part
+        included.
+        """
         scaled, (y, y_old, y_older) = self.scaled, self.history[:3]
         u_dot = self.v + (1.5 * y - 2 * y_old + 0.5 * y_older) / scaled.h
         springs = 0.5 * float(scaled.w @ self.e**2)
@@ -355,11 +418,23 @@ def _finish(march: _March, error: float = 0.0, why: str = "") -> SlidingRun:
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     return SlidingRun(
-        cof=mu_0 * settling.mean, cof_error=mu_0 * (error + settling.spread + 1e-12), settled=settling.settled, kind=kind,
-        why=why if settling.settled else _why_not(march), stick_share=sticks,
-        least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed, mean_F_x=mu_0 * settling.mean * mean_F_z, mean_F_z=mean_F_z,
-        energy_balance=_energy_balance(march), v_0=march.v_0, mu_0=mu_0, omega=scaled.omega, n_springs=march.knobs.n_springs,
-        steps_per_period=scaled.steps, n_periods=march.n_periods, **(_recorded(march) if march.knobs.record else {}),
+        cof=mu_0 * settling.mean,
+        cof_error=mu_0 * (error + settling.spread + 1e-12),
+        settled=settling.settled,
+        kind=kind,
+        why=why if settling.settled else _why_not(march),
+        stick_share=sticks,
+        least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
+        mean_F_x=mu_0 * settling.mean * mean_F_z,
+        mean_F_z=mean_F_z,
+        energy_balance=_energy_balance(march),
+        v_0=march.v_0,
+        mu_0=mu_0,
+        omega=scaled.omega,
+        n_springs=march.knobs.n_springs,
+        steps_per_period=scaled.steps,
+        n_periods=march.n_periods,
+        **(_recorded(march) if march.knobs.record else {}),
     )
 
 
@@ -369,7 +444,7 @@ def _why_not(march: _March) -> str:
         return f"{n} periods are too few to compare windows: raise n_periods to 8 or more"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.K and march.scaled.C == 0:
-        return f"{change}: the body has no damper, so its free oscillation does not die out; add c_x or start from full slip"
+        return f"{change}: the free oscillation of a body without damper does not die out; add c_x"
     return f"{change}: raise n_periods" + ("" if march.knobs.start == "full_slip" else " or start from full slip")
 
 
@@ -386,9 +461,12 @@ def _energy_balance(march: _March) -> EnergyBalance:
         damper = scaled.C * h * float(np.sum(y_dot**2))
     viscous = unit_x * sums[kernels.SHEAR_VISCOUS] + unit_z * sums[kernels.NORMAL_VISCOUS]
     return EnergyBalance(
-        pull_work=unit_x * pull, normal_work=unit_z * float(sums[kernels.NORMAL_WORK]),
-        friction_loss=unit_x * float(sums[kernels.FRICTION_LOSS]), viscous_loss=float(viscous),
-        damper_loss=unit_x * damper, stored_change=unit_x * (seen.stored[1] - seen.stored[0]),
+        pull_work=unit_x * pull,
+        normal_work=unit_z * float(sums[kernels.NORMAL_WORK]),
+        friction_loss=unit_x * float(sums[kernels.FRICTION_LOSS]),
+        viscous_loss=float(viscous),
+        damper_loss=unit_x * damper,
+        stored_change=unit_x * (seen.stored[1] - seen.stored[0]),
     )
 
 
@@ -396,7 +474,9 @@ def _recorded(march: _March) -> dict[str, Any]:
     """The last periods in SI, the lumped core spread over the springs it stands for."""
     scaled, seen, springs = march.scaled, march.seen, march.springs
     n_steps = seen.F_x.size
-    t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(1, n_steps + 1) * scaled.h / scaled.omega
+    t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
+        1, n_steps + 1
+    ) * scaled.h / scaled.omega
     e, mode, n = seen.e, seen.mode, scaled.n_lumped
     if n > 1:
         core = springs.gap[:n] / scaled.length_z - scaled.gap[0]
@@ -405,7 +485,12 @@ def _recorded(march: _March) -> dict[str, Any]:
     phase = np.arange(1, n_steps + 1) % scaled.steps
     oscillation = march.case.oscillation
     return {
-        "t": t, "u_x": march.v_0 * t + seen.y[3:] * scaled.length_x, "u_z": oscillation.u_z0 + oscillation.du_z * scaled.z[phase],
-        "F_x": seen.F_x * scaled.stiffness_x * scaled.length_x, "F_z": seen.F_z * scaled.stiffness_z * scaled.length_z,
-        "x": springs.x, "e": e * scaled.length_x, "state": mode,
+        "t": t,
+        "u_x": march.v_0 * t + seen.y[3:] * scaled.length_x,
+        "u_z": oscillation.u_z0 + oscillation.du_z * scaled.z[phase],
+        "F_x": seen.F_x * scaled.stiffness_x * scaled.length_x,
+        "F_z": seen.F_z * scaled.stiffness_z * scaled.length_z,
+        "x": springs.x,
+        "e": e * scaled.length_x,
+        "state": mode,
     }

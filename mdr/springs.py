@@ -16,6 +16,7 @@ form because u_z0 may be many orders larger than du_z), width 2 dx [m].
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -97,7 +98,7 @@ def _panels(case: SlidingContact) -> list[_Panel]:
     marks.sort()
     return [
         _Panel(x_lo, x_hi, gap_lo, gap_hi, permanent=gap_hi <= kept)
-        for (x_lo, gap_lo), (x_hi, gap_hi) in zip(marks, marks[1:], strict=False)
+        for (x_lo, gap_lo), (x_hi, gap_hi) in pairwise(marks)
         if x_hi > x_lo
     ]
 

@@ -1,12 +1,12 @@
 """Closed forms of the paper, on plain floats, and thin functions that read a case. No solver here.
 
-"Eq. (n)" is M. Popov, Critical velocity of controllability of sliding friction by normal oscillations in viscoelastic contacts,
-Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. All of it is one Kelvin element, or an array of them that all
-stay in contact, while every one slides forward; each function says when it holds.
+"Eq. (n)" is M. Popov, Critical velocity of controllability of sliding friction by normal oscillations in viscoelastic
+contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. All of it is one Kelvin element, or an
+array of them that all stay in contact, while every one slides forward; each function says when it holds.
 
-Symbols (SI): mu_0 coefficient of friction [-]; u_z0, du_z, omega mean depth, amplitude [m], angular frequency [rad/s] of Eq. (3);
-k_zc, k_xc, gamma_zc contact stiffness [N/m] and damping [N s/m]; k_x, m, c_x system spring, mass, damper; v_0, v_c velocities [m/s];
-mindlin_ratio kappa = k_zc/k_xc = E*/G* [-]; t time [s].
+Symbols (SI): mu_0 coefficient of friction [-]; u_z0, du_z, omega mean depth, amplitude [m], angular frequency [rad/s]
+of Eq. (3); k_zc, k_xc, gamma_zc contact stiffness [N/m] and damping [N s/m]; k_x, m, c_x system spring, mass, damper;
+v_0, v_c velocities [m/s]; mindlin_ratio kappa = k_zc/k_xc = E*/G* [-]; t time [s].
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ def eq_6(du_z: float, omega: float, k_zc: float, gamma_zc: float) -> float:
 
 
 def eq_7(mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float) -> float:
-    """Static friction force [N]: mu_0 times the least normal force, Eq. (7). Holds under Eq. (5), for constant stiffness (flat punch)."""
+    """Static friction force [N]: mu_0 times the least normal force, Eq. (7). Holds under Eq. (5), for constant
+    stiffness (flat punch).
+    """
     return mu_0 * (k_zc * u_z0 - eq_6(du_z, omega, k_zc, gamma_zc))
 
 
@@ -46,12 +48,21 @@ def eq_7(mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma
 
 
 def eq_10(
-    t: Any, v_0: float, mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float, k_x: float, m: float
+    t: Any,
+    v_0: float,
+    mu_0: float,
+    u_z0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    gamma_zc: float,
+    k_x: float,
+    m: float,
 ) -> Any:
     """Position u_x(t) [m] of the body in full slip, Eq. (10).
 
-    The particular solution of Eq. (8); a free oscillation of the body may ride on it, as friction does not damp it in full slip. Holds for
-    v_0 > v_c, under Eq. (5), without a system damper and for k_x != m omega².
+    The particular solution of Eq. (8); a free oscillation of the body may ride on it, as friction does not damp it in
+    full slip. Holds for v_0 > v_c, under Eq. (5), without a system damper and for k_x != m omega².
     """
     phase = omega * np.asarray(t, dtype=float)
     swing = mu_0 * du_z / (m * omega**2 - k_x) * (k_zc * np.cos(phase) - gamma_zc * omega * np.sin(phase))
@@ -64,13 +75,24 @@ def eq_11(gamma_zc: float, mindlin_ratio: float) -> float:
 
 
 def eq_12(t: Any, mu_0: float, u_z0: float, du_z: float, omega: float, mindlin_ratio: float) -> Any:
-    """Tangential extension u_x - u_xc [m] in full slip, Eq. (12): mu_0 kappa times the depth. Holds as Eq. (10) does."""
+    """Tangential extension u_x - u_xc [m] in full slip, Eq. (12): mu_0 kappa times the depth. Holds as Eq. (10)
+    does.
+    """
     return mu_0 * mindlin_ratio * (u_z0 + du_z * np.cos(omega * np.asarray(t, dtype=float)))
 
 
 def eq_13(
-    t: Any, v_0: float, mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float,
-    mindlin_ratio: float, k_x: float, m: float,
+    t: Any,
+    v_0: float,
+    mu_0: float,
+    u_z0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    gamma_zc: float,
+    mindlin_ratio: float,
+    k_x: float,
+    m: float,
 ) -> Any:
     """Position u_xc(t) [m] of the foot in full slip, Eq. (13): Eq. (10) less Eq. (12)."""
     body = eq_10(t, v_0, mu_0, u_z0, du_z, omega, k_zc, gamma_zc, k_x, m)
@@ -78,8 +100,16 @@ def eq_13(
 
 
 def eq_14(
-    t: Any, v_0: float, mu_0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float, mindlin_ratio: float,
-    k_x: float, m: float,
+    t: Any,
+    v_0: float,
+    mu_0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    gamma_zc: float,
+    mindlin_ratio: float,
+    k_x: float,
+    m: float,
 ) -> Any:
     """Velocity of the foot [m/s] in full slip, Eq. (14), second line. Slip stops where it would turn negative."""
     phase = omega * np.asarray(t, dtype=float)
@@ -106,13 +136,21 @@ def eq_2(mu_0: float, du_z: float, omega: float, k_zc: float, k_xc: float, k_x: 
 
 
 def eq_15(
-    mu_0: float, du_z: float, omega: float, k_zc: float, k_xc: float, gamma_zc: float, k_x: float, m: float, c_x: float = 0.0
+    mu_0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    k_xc: float,
+    gamma_zc: float,
+    k_x: float,
+    m: float,
+    c_x: float = 0.0,
 ) -> float:
     """Pulling velocity [m/s] above which the oscillation no longer lowers friction, Eq. (15).
 
-    Eq. (2) is its limit gamma_zc -> 0 and Eq. (1) its limit k_x -> infinity. The system damper c_x extends it: k_x becomes k_x + i omega c_x.
-    Holds while no spring leaves the plane, Eq. (5), for an oscillation so small that the contact stiffness is constant, and for
-    k_x != m omega²: on that resonance the answer is infinite.
+    Eq. (2) is its limit gamma_zc -> 0 and Eq. (1) its limit k_x -> infinity. The system damper c_x extends it: k_x
+    becomes k_x + i omega c_x. Holds while no spring leaves the plane, Eq. (5), for an oscillation so small that the
+    contact stiffness is constant, and for k_x != m omega²: on that resonance the answer is infinite.
     """
     inertia = complex(m * omega**2 - k_x, -omega * c_x)
     if inertia == 0:
@@ -125,13 +163,22 @@ def eq_15(
 def critical_velocity(case: SlidingContact) -> float:
     """Eq. (15) [m/s] with the contact stiffness at the mean depth u_z0; Eq. (1) for a rigid pull.
 
-    Infinite on the undamped resonance k_x = m omega². With u_z0 <= 0 (tapping) the contact has no stiffness at the mean depth, and Eq. (1) is left.
+    Infinite on the undamped resonance k_x = m omega². With u_z0 <= 0 (tapping) the contact has no stiffness at the
+    mean depth, and Eq. (1) is left.
     """
     oscillation, kappa = case.oscillation, case.material.mindlin_ratio
     if not isinstance(case.pull, SpringPull) or case.k_zc == 0:
         return eq_1(case.mu_0, oscillation.du_z, oscillation.omega, kappa)
     return eq_15(
-        case.mu_0, oscillation.du_z, oscillation.omega, case.k_zc, case.k_xc, case.gamma_zc, case.pull.k_x, case.pull.m, case.pull.c_x
+        case.mu_0,
+        oscillation.du_z,
+        oscillation.omega,
+        case.k_zc,
+        case.k_xc,
+        case.gamma_zc,
+        case.pull.k_x,
+        case.pull.m,
+        case.pull.c_x,
     )
 
 
@@ -141,9 +188,10 @@ def critical_velocity(case: SlidingContact) -> float:
 def deficit(v_hat: float) -> float:
     """psi(v_hat) [-] of a rigid pull, elastic: mu/mu_0 = 1 - (k_zc du_z/F_N) psi(v_0/v_c).
 
-    Exact for the flat punch that keeps contact, and the limit of small amplitude for every shape. psi(0) = 1 and psi(1) = 0. A spring sticks from
-    phi_1 = pi + arcsin v_hat, where the depth begins to rise faster than the pull can follow, to phi_2 with
-    cos phi_2 = cos phi_1 + v_hat (phi_2 - phi_1); psi is the mean lag in between. Derived here from the motion of one spring.
+    Exact for the flat punch that keeps contact, and the limit of small amplitude for every shape. psi(0) = 1 and
+    psi(1) = 0. A spring sticks from phi_1 = pi + arcsin v_hat, where the depth begins to rise faster than the pull
+    can follow, to phi_2 with cos phi_2 = cos phi_1 + v_hat (phi_2 - phi_1); psi is the mean lag in between. Derived
+    here from the motion of one spring.
 
     Raises ValueError for v_hat outside [0, 1].
     """
@@ -155,6 +203,8 @@ def deficit(v_hat: float) -> float:
 
     phi_1 = np.pi + np.arcsin(v_hat)
     turn = 3 * np.pi - np.arcsin(v_hat)  # the depth falls faster than -v_hat only beyond this
-    phi_2 = brentq(lambda phi: np.cos(phi) - np.cos(phi_1) - v_hat * (phi - phi_1), 2 * np.pi - np.arcsin(v_hat), turn, xtol=1e-15)
+    phi_2 = brentq(
+        lambda phi: np.cos(phi) - np.cos(phi_1) - v_hat * (phi - phi_1), 2 * np.pi - np.arcsin(v_hat), turn, xtol=1e-15
+    )
     span = phi_2 - phi_1
     return float((np.sin(phi_2) - np.sin(phi_1) - np.cos(phi_1) * span - v_hat * span**2 / 2) / (2 * np.pi))

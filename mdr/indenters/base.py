@@ -6,9 +6,9 @@ The three-dimensional shape f(r) is mapped to the one-dimensional profile g(x), 
     g(x) = |x| int_0^|x| f'(r)/sqrt(x² - r²) dr,      d = g(a),      F_N = 2 E* int_0^a (d - g) dx,
     dF_N/dd = 2 E* a,      p(r) = -(1/pi) int_r^a q'(x)/sqrt(x² - r²) dx + q(a)/(pi sqrt(a² - r²)),  q = E* (d - g).
 
-A shape of your own gives `profile_3d` and `profile_1d`; contact radius, force and pressure then come from g by root finding and
-quadrature, and each may be overridden by a closed form. Valid for a half-space and small slopes, and while the contact is a full disc:
-g must not decrease.
+A shape of your own gives `profile_3d` and `profile_1d`; contact radius, force and pressure then come from g by root
+finding and quadrature, and each may be overridden by a closed form. Valid for a half-space and small slopes, and
+while the contact is a full disc: g must not decrease.
 
 Symbols: r, x radius and position [m], d indentation depth [m], a contact radius [m], E_star contact modulus [Pa].
 Arrays go in and come out in their common shape; a scalar gives a float.
@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -75,7 +76,9 @@ class Indenter(ABC):
         return 2 * positive("E_star", E_star, "contact modulus in Pa") * self.contact_radius(d)
 
     def pressure(self, r: ArrayLike, d: float, E_star: float) -> Any:
-        """Pressure p [Pa] at radii r [m] of the elastic contact at depth d [m]; zero outside, and at the rim of a punch itself."""
+        """Pressure p [Pa] at radii r [m] of the elastic contact at depth d [m]; zero outside, and at the rim of a
+        punch itself.
+        """
         E_star = positive("E_star", E_star, "contact modulus in Pa")
         a = float(self.contact_radius(d))
         return each(lambda r: E_star * self._pressure(r, float(depth(d)), a), np.abs(radius(r)))
@@ -95,7 +98,9 @@ class Indenter(ABC):
         low, high = (high, np.minimum(2 * high, self.max_radius))
         if np.any((d > 0) & (np.asarray(self.profile_1d(high)) < d)):
             raise ValueError(
-                f"{self!r} ends at radius {self.max_radius:.6g} m: a depth of {d.max():.6g} m is beyond it; press less deep")
+                f"{self!r} ends at radius {self.max_radius:.6g} m: "
+                f"a depth of {d.max():.6g} m is beyond it; press less deep"
+            )
         low = np.where(np.asarray(self.profile_1d(low)) < d, low, 0.0)
         for _ in range(90):
             middle = 0.5 * (low + high)
@@ -108,7 +113,7 @@ class Indenter(ABC):
         t, weight = unit_nodes(N_NODES)
         total = np.zeros(d.shape)
         ends = [0.0, *self.kinks, np.inf]
-        for start, end in zip(ends, ends[1:], strict=False):
+        for start, end in pairwise(ends):
             low, high = np.minimum(start, a), np.minimum(end, a)
             # x = low + span t²(3 - 2t) softens root-like ends on both sides
             x = low[..., None] + (high - low)[..., None] * t**2 * (3 - 2 * t)
@@ -125,7 +130,7 @@ class Indenter(ABC):
         t, weight = unit_nodes(N_NODES)
         total = np.zeros(r.shape)
         ends = [0.0, *[x for x in self.kinks if x < a], a]
-        for start, end in zip(ends, ends[1:], strict=False):
+        for start, end in pairwise(ends):
             low, high = np.maximum(start, safe), np.maximum(end, safe)
             low = np.maximum(low, 1e-12 * a)
             high = np.maximum(high, low)
@@ -147,7 +152,8 @@ class Indenter(ABC):
         if low == 0:
             return slope(lambda x: np.asarray(self.profile_1d(x)), x, low, high)
         root = np.sqrt(np.maximum(x - low, 1e-24 * low))  # behind a kink of f, g is smooth in this root
-        return slope(lambda u: np.asarray(self.profile_1d(low + u**2)), root, 0.0, np.sqrt(high - low)) / (2 * root)
+        by_root = slope(lambda u: np.asarray(self.profile_1d(low + u**2)), root, 0.0, float(np.sqrt(high - low)))
+        return np.asarray(by_root / (2 * root))
 
 
 # --- shared by the shapes ---

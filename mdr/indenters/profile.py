@@ -1,7 +1,8 @@
 """Profile: any shape f(r) given as a function, mapped to g(x) by quadrature.
 
-With r = x sin t the map g(x) = |x| int_0^(pi/2) f'(x sin t) dt has no singular end; f' comes from Chebyshev polynomials through values of f
-near each point (no length scale enters). Where f has kinks or flat parts the integral is cut at them, if they are named.
+With r = x sin t the map g(x) = |x| int_0^(pi/2) f'(x sin t) dt has no singular end; f' comes from Chebyshev
+polynomials through values of f near each point (no length scale enters). Where f has kinks or flat parts the integral
+is cut at them, if they are named.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ ACCURACY = 1e-9  #: of g, relative, for smooth f with its kinks named
 class Profile(Indenter):
     """The indenter of shape f(r).
 
-    f takes and returns arrays in m (wrap a function of one number in numpy.vectorize), is smooth between its kinks, and has f(0) = 0.
-    The contact must remain a full disc: where g decreases the contact would be annular, and the shape is refused.
-    A warning tells the error of the mapping when it exceeds 1e-9, as with kinks that were not named.
+    f takes and returns arrays in m (wrap a function of one number in numpy.vectorize), is smooth between its kinks,
+    and has f(0) = 0. The contact must remain a full disc: where g decreases the contact would be annular, and the
+    shape is refused. A warning tells the error of the mapping when it exceeds 1e-9, as with kinks that were not named.
     """
 
     f: Callable[[Array], Array]  #: shape [m] over radius [m]
@@ -42,7 +43,9 @@ class Profile(Indenter):
         if name is not None and not isinstance(name, str):
             raise TypeError(f"name must be a string, got {name!r}")
         object.__setattr__(self, "f", f)
-        object.__setattr__(self, "kinks", tuple(sorted(positive("kinks", k, "radii in m") for k in np.atleast_1d(kinks))))
+        object.__setattr__(
+            self, "kinks", tuple(sorted(positive("kinks", k, "radii in m") for k in np.atleast_1d(kinks)))
+        )
         object.__setattr__(self, "r_max", None if r_max is None else positive("r_max", r_max, "radius in m"))
         object.__setattr__(self, "name", name)
         self._check_apex()
@@ -50,7 +53,9 @@ class Profile(Indenter):
     def _check_apex(self) -> None:
         height = np.asarray(self.f(np.zeros(1)), dtype=float)
         if height.shape != (1,):
-            raise TypeError("f must return an array of the shape it is given; wrap a function of one number in numpy.vectorize")
+            raise TypeError(
+                "f must return an array of the shape it is given; wrap a function of one number in numpy.vectorize"
+            )
         if height[0] != 0:
             raise ValueError(f"f(0) must be 0, the apex of the indenter, got {height[0]!r}; subtract it")
 
@@ -70,7 +75,8 @@ class Profile(Indenter):
     def contact_radius(self, d: ArrayLike) -> Any:
         """Contact radius a [m] at depth d [m], g(a) = d.
 
-        Raises ValueError if the contact would be annular or beyond r_max; warns when the mapping is less accurate than 1e-9.
+        Raises ValueError if the contact would be annular or beyond r_max; warns when the mapping is less accurate
+        than 1e-9.
         """
         a = super().contact_radius(d)
         largest = float(np.max(a, initial=0.0))
@@ -82,17 +88,24 @@ class Profile(Indenter):
         x = a * np.linspace(1 / 64, 1, 64)
         g, rough = self._g(x, 32), self._g(x, 20)
         if np.any(np.diff(g) < -1e-9 * g[-1]) or np.any(g < -1e-9 * abs(g[-1])):
-            raise ValueError(f"{self!r}: g(x) decreases within radius {a:.6g} m, so the contact is annular, not a full disc; "
-                             "the springs represent full-disc contacts only")
+            raise ValueError(
+                f"{self!r}: g(x) decreases within radius {a:.6g} m, so the contact is annular, not a full disc; "
+                "the springs represent full-disc contacts only"
+            )
         error = float(np.max(np.abs(g - rough)) / g[-1])
         if error > ACCURACY:
-            warnings.warn(f"the mapping of {self!r} to g(x) is accurate to {error:.1g} only; name the kinks of f in kinks=(...)", stacklevel=3)
+            warnings.warn(
+                f"the mapping of {self!r} to g(x) is accurate to {error:.1g} only; name the kinks of f in kinks=(...)",
+                stacklevel=3,
+            )
 
     def _f(self, r: Array) -> Array:
         inside = r <= self.max_radius
         heights = np.where(inside, np.asarray(self.f(np.where(inside, r, 0.0)), dtype=float), np.inf)
         if np.any(~np.isfinite(heights[inside])):
-            raise ValueError(f"{self!r}: f is not finite at r = {r[inside][~np.isfinite(heights[inside])][0]:.6g} m; give r_max=")
+            raise ValueError(
+                f"{self!r}: f is not finite at r = {r[inside][~np.isfinite(heights[inside])][0]:.6g} m; give r_max="
+            )
         return heights
 
     def _g(self, x: Array, n_nodes: int) -> Array:
