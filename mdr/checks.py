@@ -1,6 +1,7 @@
 """Checks of the numbers a record is made of: quantity, rule, value, way out.
 
-Each returns the value as a float, so that records compare and hash alike whether an int or a numpy scalar went in.
+Each returns the value as a float, so that records compare and hash alike whether an
+int or a numpy scalar went in.
 """
 
 from __future__ import annotations
@@ -9,12 +10,17 @@ import math
 from numbers import Real
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
 
 def finite(name: str, value: Any, meaning: str = "a finite number") -> float:
     """A real number that is neither NaN nor infinite.
 
-    Raises TypeError for anything that is not a real number (bool, str, array, complex, None), ValueError for NaN and
-    infinity.
+    Raises TypeError for anything that is not a real number (bool, str, array, complex, None), ValueError for
+    NaN and infinity.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})")
@@ -36,7 +42,8 @@ def not_negative(name: str, value: Any, meaning: str = "") -> float:
     """A number at or above zero."""
     number = finite(name, value)
     if number < 0:
-        raise ValueError(f"{name} must not be negative, got {number!r}" + (f" ({meaning})" if meaning else ""))
+        note = f" ({meaning})" if meaning else ""
+        raise ValueError(f"{name} must not be negative, got {number!r}{note}")
     return number
 
 
@@ -44,7 +51,38 @@ def between(name: str, value: Any, low: float, high: float, meaning: str = "") -
     """A number strictly between low and high."""
     number = finite(name, value)
     if not low < number < high:
-        raise ValueError(
-            f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}" + (f" ({meaning})" if meaning else "")
-        )
+        note = f" ({meaning})" if meaning else ""
+        raise ValueError(f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}{note}")
     return number
+
+
+def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
+    """Real numbers of any shape as float64 (a number becomes shape ()), refused if one is NaN or infinite."""
+    try:
+        array = np.asarray(values)
+    except ValueError as ragged:
+        raise TypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}") from ragged
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}")
+    if not np.all(np.isfinite(array)):
+        bad = array[~np.isfinite(array)].flat[0]
+        raise ValueError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}")
+    return array.astype(np.float64, copy=False)
+
+
+def positive_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
+    """As `finite_array`, every number above zero."""
+    array = finite_array(name, values, unit)
+    if not np.all(array > 0):
+        raise ValueError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}")
+    return array
+
+
+def plain(values: Any) -> FloatArray:
+    """An answer as its asker expects it: float64 array, or a float where plain numbers were asked with."""
+    answer: FloatArray = np.asarray(values, dtype=np.float64)[()]
+    return answer
+
+
+def _in(unit: str) -> str:
+    return f" in {unit}" if unit else ""

@@ -182,7 +182,8 @@ class _Search:
         moving_edge = self.case.indenter.contact_radius(self.case.u_z_max) > self.case.indenter.contact_radius(
             self.case.oscillation.u_z0
         )
-        return isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0 and self.case.T > 0 and moving_edge
+        light = isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0
+        return bool(light and self.case.T > 0 and moving_edge)
 
     def _by_friction(self, high: float) -> MeasuredVelocity:
         """Let the COF speak, whose root of the deficit falls linearly to zero at v_c."""

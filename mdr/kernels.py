@@ -139,19 +139,20 @@ def settle_normal(s, gap, w, z, zd, T):
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
     decay = np.exp(-h / T) if T > 0.0 else 0.0
+    rate = 1.0 / T if decay > 0.0 else 0.0
     mean = 0.0
     for i in range(s.size):
-        value = max(z[0] - gap[i], 0.0)
-        for turn in range(2):
-            for k in range(n_z):
-                if decay > 0.0:
-                    value = kelvin_spring(
-                        0.0, value, gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, h, 1.0 / T, decay
-                    )[1]
-                else:
-                    value = max(z[k + 1] - gap[i], 0.0)
-                mean += w[i] * value if turn == 1 else 0.0
-        s[i] = value
+        s[i] = max(z[0] - gap[i], 0.0)
+    for turn in range(2):
+        for k in range(n_z):
+            total = 0.0
+            for i in range(s.size):
+                _, value, _, _ = kelvin_spring(
+                    0.0, s[i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, h, rate, decay
+                )
+                s[i] = value if decay > 0.0 else max(z[k + 1] - gap[i], 0.0)
+                total += w[i] * s[i]
+            mean += total if turn == 1 else 0.0
     return mean / n_z
 
 
@@ -253,14 +254,21 @@ N_SUMS = 10
 def mode_and_forces(e, s, gap, z, z_dot, ux_dot, T):
     """Mode of a spring at an instant, with its tangential and normal force L[e], L[s] over its stiffness."""
     normal = s + T * z_dot
-    if s > z - gap or normal <= 0.0:
-        return FREE, 0.0, 0.0
+    normal = normal if s <= z - gap and normal > 0.0 else 0.0
     trial = e + T * ux_dot
-    if trial >= normal * (1.0 - 1e-12):
-        return SLIP, normal, normal
-    if trial <= -normal * (1.0 - 1e-12):
-        return SLIP_BACK, -normal, normal
-    return STICK, trial, normal
+    limit = normal * (1.0 - 1e-12)
+    tangential = min(max(trial, -normal), normal)
+    slips = SLIP if trial >= limit else (SLIP_BACK if trial <= -limit else STICK)
+    return (slips if normal > 0.0 else FREE), tangential, normal
+
+
+@_inline
+def contact_share(s_0, s_1, gap, z_0, z_1, zd_0, zd_1, rate, decay):
+    """Share of a step that a spring spends in contact, as the march has it: 1 in contact throughout, 0 in flight."""
+    relaxed = s_0 * decay
+    rise = max(s_1 - relaxed, 0.0)
+    way = rise / (rise + max(s_0 - (z_0 - gap), 0.0) + 1e-300)
+    return way * (1.0 - bend_of(zd_0 + s_0 * rate, zd_1 + relaxed * rate) * (1.0 - way))
 
 
 @_jit
@@ -273,48 +281,52 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
     and mode (m, n), or (0, n) for none.
     """
     rate = 1.0 / T if T > 0.0 else 0.0
+    lost = 1.0 - decay
+    slips = np.empty(e.shape[1])
     for k in range(e.shape[0] - 1):
         du = v * h + (y[k + 3] - y[k + 2])
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
         ux_dot_0 = v + (3.0 * y[k + 2] - 4.0 * y[k + 1] + y[k]) / (2.0 * h)
-        growth = ((ux_dot - z_dot[k + 1]) - (ux_dot_0 - z_dot[k])) / h  # of the common slip velocity
-        dz = z[k + 1] - z[k]
-        slip[k] = np.inf
-        F_x[k] = 0.0
-        F_z[k] = 0.0
+        z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
+        growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
+        f_x = f_z = sum_e = sum_s = stick = friction = shear_viscous = normal_viscous = shear = press = 0.0
         for i in range(e.shape[1]):
             e_0, e_1, s_0, s_1 = e[k, i], e[k + 1, i], s[k, i], s[k + 1, i]
-            now, tangential, normal = mode_and_forces(e_1, s_1, gap[i], z[k + 1], z_dot[k + 1], ux_dot, T)
-            F_x[k] += w[i] * tangential
-            F_z[k] += w[i] * normal
-            if mode.shape[0] > 0:
-                mode[k, i] = now
-            sums[STICK_TIME] += w[i] * normal * h if now == STICK else 0.0
-            sums[CONTACT_TIME] += w[i] * normal * h
-            sums[SUM_E] += 0.5 * w[i] * (e_0 + e_1)
-            sums[SUM_S] += 0.5 * w[i] * (s_0 + s_1)
+            now, tangential, normal = mode_and_forces(e_1, s_1, gap[i], z_1, zd_1, ux_dot, T)
+            f_x += w[i] * tangential
+            f_z += w[i] * normal
+            stick += w[i] * normal if now == STICK else 0.0
+            sum_e += w[i] * (e_0 + e_1)
+            sum_s += w[i] * (s_0 + s_1)
             # the step falls into a free part and a part in contact, as in the march
-            rise = max(s_1 - s_0 * decay, 0.0)
-            ahead = max(s_0 - (z[k] - gap[i]), 0.0)
-            touched = rise / (rise + ahead) if rise > 0.0 else 0.0
-            touched *= 1.0 - bend_of(z_dot[k] + s_0 * rate, z_dot[k + 1] + s_0 * decay * rate) * (1.0 - touched)
-            if touched == 0.0 and ahead == 0.0:
-                touched = 1.0 if s_1 > 0.0 else 0.0
-            relaxed = 1.0 - (1.0 - touched) * (1.0 - decay)
+            touched = contact_share(s_0, s_1, gap[i], z_0, z_1, zd_0, zd_1, rate, decay)
+            per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+            relaxed = 1.0 - (1.0 - touched) * lost
+            stretched, pressed = e_1 - e_0 * relaxed, s_1 - s_0 * relaxed
+            slip_rate = (touched * du - stretched) * per_time
             normal_impulse = 0.5 * h * (s_0 + s_1) + T * (s_1 - s_0)
-            shear_impulse = 0.5 * h * (e_0 + e_1) + T * (e_1 - e_0)
-            if touched > 0.0:
-                slipped = touched * du - (e_1 - e_0 * relaxed)
-                slip_rate = slipped / (touched * h)
-                sums[FRICTION_LOSS] += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
-                sums[SHEAR_VISCOUS] += w[i] * T * (e_1 - e_0 * relaxed) ** 2 / (touched * h)
-                sums[NORMAL_VISCOUS] += w[i] * T * (s_1 - s_0 * relaxed) ** 2 / (touched * h)
-                if touched > 1e-3 and s_1 == z[k + 1] - gap[i] and s_1 > 0.0:
-                    at_touch = slip_rate - 0.5 * touched * h * max(growth, 0.0) if touched < 0.999999 else slip_rate
-                    slip[k] = min(slip[k], at_touch)
-            if touched < 1.0:
-                sums[SHEAR_VISCOUS] += w[i] * T * (e_0 * (1.0 - relaxed)) ** 2 / ((1.0 - touched) * h)
-                sums[NORMAL_VISCOUS] += w[i] * T * (s_0 * (1.0 - relaxed)) ** 2 / ((1.0 - touched) * h)
-            sums[SHEAR_WORK] += w[i] * shear_impulse * du / h
-            sums[NORMAL_WORK] += w[i] * normal_impulse * dz / h
-        sums[LEAST_SLIP] = min(sums[LEAST_SLIP], slip[k])
+            friction += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
+            free = (1.0 - touched) * lost * lost / h
+            shear_viscous += w[i] * T * (stretched * stretched * per_time + e_0 * e_0 * free)
+            normal_viscous += w[i] * T * (pressed * pressed * per_time + s_0 * s_0 * free)
+            shear += w[i] * (0.5 * h * (e_0 + e_1) + T * (e_1 - e_0))
+            press += w[i] * normal_impulse
+            partial = 0.5 * touched * h * growth if touched < 0.999999 else 0.0
+            slips[i] = slip_rate - partial if touched > 1e-3 and s_1 > 0.0 and s_1 <= z_1 - gap[i] else np.inf
+        least = np.inf
+        for i in range(e.shape[1]):
+            least = min(least, slips[i])
+        if mode.shape[0] > 0:
+            for i in range(e.shape[1]):
+                mode[k, i] = mode_and_forces(e[k + 1, i], s[k + 1, i], gap[i], z_1, zd_1, ux_dot, T)[0]
+        F_x[k], F_z[k], slip[k] = f_x, f_z, least
+        sums[SUM_E] += 0.5 * sum_e
+        sums[SUM_S] += 0.5 * sum_s
+        sums[STICK_TIME] += stick * h
+        sums[CONTACT_TIME] += f_z * h
+        sums[SHEAR_WORK] += shear * du / h
+        sums[NORMAL_WORK] += press * (z_1 - z_0) / h
+        sums[FRICTION_LOSS] += friction
+        sums[SHEAR_VISCOUS] += shear_viscous
+        sums[NORMAL_VISCOUS] += normal_viscous
+        sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least)

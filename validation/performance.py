@@ -1,8 +1,8 @@
 """How fast the compiled march is against the same physics written as a plain vectorised NumPy loop.
 
-Both march the same springs through the same steps with the same rules (trial step, bounds, change of mode and first touch within
-the step), every spring computed, and end in the same state, which is checked before any time is taken. Quoted are ratios
-of times measured in turn, in one run; absolute times are the machine's.
+Both march the same springs through the same steps with the same rules (trial step, bounds, change of mode and first
+touch within the step), every spring computed, and end in the same state, which is checked before any time is taken.
+Quoted are ratios of times measured in turn, in one run; absolute times are the machine's.
 
     python -m validation.performance
 """
@@ -76,8 +76,25 @@ def compiled_march(scaled: ScaledContact, e: Any, s: Any, v: float, n_steps: int
     """The same through the kernel that slide() calls."""
     e, s, S = e.copy(), s.copy(), np.empty(n_steps)
     nothing = np.empty((0, e.size))
-    kernels.march(e, s, np.zeros(5), scaled.body, scaled.gap, scaled.w, scaled.z, scaled.z_dot, v, scaled.T,
-                  -np.inf, n_steps, 0, np.empty(n_steps), S, nothing, nothing)
+    kernels.march(
+        e,
+        s,
+        np.zeros(5),
+        scaled.body,
+        scaled.gap,
+        scaled.w,
+        scaled.z,
+        scaled.z_dot,
+        v,
+        scaled.T,
+        -np.inf,
+        n_steps,
+        0,
+        np.empty(n_steps),
+        S,
+        nothing,
+        nothing,
+    )
     return e, float(S.sum())
 
 
@@ -94,12 +111,19 @@ def ratio(case: SlidingContact, v_hat: float = 0.4, repeats: int = 7) -> dict[st
     timed: dict[str, list[float]] = {"numpy": [], "kernel": [], "slide": []}
     for _ in range(repeats):
         timed["numpy"].append(N_SPRINGS * short / _seconds(numpy_march, scaled, s, s, v_hat, short))
-        timed["kernel"].append(N_SPRINGS * short * n_periods / _seconds(compiled_march, scaled, s, s, v_hat, short * n_periods))
+        timed["kernel"].append(
+            N_SPRINGS * short * n_periods / _seconds(compiled_march, scaled, s, s, v_hat, short * n_periods)
+        )
         run = {"n_springs": N_SPRINGS, "steps_per_period": STEPS, "n_periods": n_periods, "lump": False}
         timed["slide"].append(N_SPRINGS * short * n_periods / _seconds(slide, case, v_0, **run))
     medians = {name: float(np.median(values)) for name, values in timed.items()}
     paired = np.array(timed["slide"]) / np.array(timed["numpy"])
-    return {**medians, "slide/numpy": float(np.median(paired)), "least": float(paired.min()), "most": float(paired.max())}
+    return {
+        **medians,
+        "slide/numpy": float(np.median(paired)),
+        "least": float(paired.min()),
+        "most": float(paired.max()),
+    }
 
 
 def _seconds(function: Any, *args: Any, **kwargs: Any) -> float:
@@ -112,11 +136,16 @@ def main() -> int:
     """Print the table."""
     print(f"{N_SPRINGS} springs, {STEPS} steps per period, rigid pull, every spring computed")
     print(f"{'case':28s} {'slide / NumPy loop':>20s} {'(least ... most)':>18s} {'kernel / NumPy loop':>20s}")
-    for label, case in (("paraboloid, elastic", contact("paraboloid", 0.5)), ("paraboloid, Kelvin T = 1", contact("paraboloid", 0.5, 1.0))):
+    for label, case in (
+        ("paraboloid, elastic", contact("paraboloid", 0.5)),
+        ("paraboloid, Kelvin T = 1", contact("paraboloid", 0.5, 1.0)),
+    ):
         slide(case, 1e-4, n_springs=N_SPRINGS, steps_per_period=STEPS, n_periods=1, lump=False)  # compile
         found = ratio(case)
-        print(f"{label:28s} {found['slide/numpy']:20.1f} {found['least']:9.1f} ... {found['most']:.1f} "
-              f"{found['kernel'] / found['numpy']:17.1f}")
+        print(
+            f"{label:28s} {found['slide/numpy']:20.1f} {found['least']:9.1f} ... {found['most']:.1f} "
+            f"{found['kernel'] / found['numpy']:17.1f}"
+        )
     return 0
 
 

@@ -1,4 +1,4 @@
-"""The catalogue of indenters; every shape answers the same questions, see base.py."""
+"""Shapes of indenters: f(r), g(x), a(d), F_N(d), k_zc(d) and p(r); `Indenter` says what one must answer."""
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.cone import Cone

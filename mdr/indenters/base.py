@@ -1,207 +1,218 @@
-"""What every indenter must answer: f(r), g(x), a(d), F_N(d), dF_N/dd, p(r).
+"""What every shape of indenter must answer, and how a shape answers that knows f(r) or g(x) alone.
 
-The three-dimensional shape f(r) is mapped to the one-dimensional profile g(x), and everything else follows from g
-(Popov and Heß 2015, Method of Dimensionality Reduction, ch. 3):
+f(r) is the shape of the rigid indenter, r from its axis, f(0) = 0; g(x) is its image in one
+dimension (Popov & Heß 2015). Pressed to the depth d it touches a full disc of radius a, and
 
-    g(x) = |x| int_0^|x| f'(r)/sqrt(x² - r²) dr,      d = g(a),      F_N = 2 E* int_0^a (d - g) dx,
-    dF_N/dd = 2 E* a,      p(r) = -(1/pi) int_r^a q'(x)/sqrt(x² - r²) dx + q(a)/(pi sqrt(a² - r²)),  q = E* (d - g).
+    d = g(a),   F_N = 2E* (d a − ∫₀^a g dx),   k_zc = dF_N/dd = 2E* a,
+    p(r) = (E*/π) ∫_r^a g'(x) / √(x² − r²) dx,
 
-A shape of your own gives `profile_3d` and `profile_1d`; contact radius, force and pressure then come from g by root
-finding and quadrature, and each may be overridden by a closed form. Valid for a half-space and small slopes, and
-while the contact is a full disc: g must not decrease.
+where a rim that reaches d before the profile does adds E*(d − g(a)) / (π √(a² − r²)) to p.
+Lengths r, x, d, a in m, E* and p in Pa, F_N in N; any other consistent units do as well.
 
-Symbols: r, x radius and position [m], d indentation depth [m], a contact radius [m], E_star contact modulus [Pa].
-Arrays go in and come out in their common shape; a scalar gives a float.
+A shape of one's own is a frozen dataclass with ``profile_3d`` or ``profile_1d``; the rest follows by
+quadrature (`mdr.indenters.transform`), to 1e-9 or better, and every closed form it adds makes it faster.
 """
 
-from __future__ import annotations
-
-from abc import ABC, abstractmethod
+import warnings
+from abc import ABC
 from collections.abc import Callable
-from itertools import pairwise
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from mdr.checks import positive
+from mdr.checks import FloatArray, finite_array, plain, positive_array
+from mdr.indenters import roots, transform
+from mdr.indenters.quadrature import double_exponential
 
-Array = NDArray[np.float64]
-
-N_NODES = 48  #: of a Gauss-Legendre panel
-
-
-def unit_nodes(n: int) -> tuple[Array, Array]:
-    """Nodes and weights (n,) of Gauss-Legendre quadrature on [0, 1]."""
-    x, w = leggauss(n)
-    return 0.5 * (x + 1), 0.5 * w
+EPS = float(np.finfo(float).eps)
+MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
+CHUNK = 256  #: points mapped at once: keeps the work in cache
 
 
-class Indenter(ABC):
-    """A rigid axisymmetric indenter with its apex at the origin."""
+class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_subclass__)
+    """A rigid axisymmetric shape; give it ``profile_3d`` or ``profile_1d``."""
 
-    @abstractmethod
-    def profile_3d(self, r: ArrayLike) -> Any:
-        """Shape f(r) [m]: height of the surface over the apex at radius r [m]; infinite beyond a rim."""
+    _gives_g: ClassVar[bool] = False
 
-    @abstractmethod
-    def profile_1d(self, x: ArrayLike) -> Any:
-        """MDR profile g(x) [m] at position x [m], even in x; infinite beyond a rim."""
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls._gives_g = cls.profile_1d is not Indenter.profile_1d
+        if not cls._gives_g and cls.profile_3d is Indenter.profile_3d:
+            raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Positions x > 0 [m] at which g is not smooth."""
+        """Radii > 0 where f, and with it g, is not smooth [m]: springs, quadrature and plots heed them."""
         return ()
 
     @property
     def max_radius(self) -> float:
-        """Largest contact radius [m] that the shape can take."""
+        """Largest contact radius the shape can have [m]; inf for a shape without end."""
         return np.inf
 
-    def contact_radius(self, d: ArrayLike) -> Any:
-        """Contact radius a [m] at depth d [m], d = g(a); zero for d <= 0.
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """Height f(r) of the shape above its tip [m], at the distance r from the axis."""
+        r = self._within(finite_array("r", r, "m"))
+        return _each(lambda r: transform.profile_3d(self.profile_1d, self._edges, r), r)
 
-        Raises ValueError for a depth that the shape does not reach.
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """Height g(x) of the one-dimensional image [m], even in x."""
+        x = self._within(finite_array("x", x, "m"))
+        g = _each(self._g, x)
+        self._check_map(np.ravel(x))
+        return g
+
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a [m] of the contact at the depth d: g(a) = d, and 0 where d <= 0."""
+        d = finite_array("d", d, "m")
+        self._refuse_beyond(d)
+        a = np.zeros(d.shape)
+        pressed = d > 0
+        if pressed.any():
+            a[pressed] = self._search(d[pressed])
+            self._refuse_annular(a.max())
+        return plain(a)
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx [m²], the area between the one-dimensional image and its tangent at the tip."""
+        a = self._within(finite_array("a", a, "m"))
+        if self._gives_g:
+            return _each(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
+        return _each(lambda a: transform.area_from_f(self._f, self._edges, a), a)
+
+    def force(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+        """Normal force F_N [N] at the depth d, 0 where d <= 0.
+
+        Written as 2E*(d a − ∫g dx) it is stationary in a, so that a's rounding does not show in it.
         """
-        return each(self._contact_radius, depth(d))
+        d, E_star = finite_array("d", d, "m"), positive_array("E_star", E_star, "Pa")
+        a = self.contact_radius(d)
+        return plain(2 * E_star * np.maximum(np.maximum(d, 0) * a - self.profile_area(a), 0))
 
-    def force(self, d: ArrayLike, E_star: float) -> Any:
-        """Normal force F_N [N] at depth d [m] for the contact modulus E_star [Pa]; zero for d <= 0."""
-        E_star = positive("E_star", E_star, "contact modulus in Pa")
-        return each(lambda d: 2 * E_star * self._area(d, np.asarray(self.contact_radius(d))), depth(d))
+    def stiffness(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+        """Contact stiffness k_zc = dF_N/dd = 2E*a [N/m], 0 where d <= 0."""
+        return plain(2 * positive_array("E_star", E_star, "Pa") * self.contact_radius(d))
 
-    def stiffness(self, d: ArrayLike, E_star: float) -> Any:
-        """Contact stiffness dF_N/dd = 2 E* a(d) [N/m]."""
-        return 2 * positive("E_star", E_star, "contact modulus in Pa") * self.contact_radius(d)
+    def pressure(self, r: ArrayLike, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+        """Pressure p [Pa] at the distance r from the axis and the depth d, 0 for r >= a.
 
-    def pressure(self, r: ArrayLike, d: float, E_star: float) -> Any:
-        """Pressure p [Pa] at radii r [m] of the elastic contact at depth d [m]; zero outside, and at the rim of a
-        punch itself.
+        It is infinite at a sharp tip, at a kink that points down, and at the rim of a punch. Tip and kink
+        answer with the value one rounding away (the infinity is logarithmic), the rim itself, r = a, with 0.
         """
-        E_star = positive("E_star", E_star, "contact modulus in Pa")
-        a = float(self.contact_radius(d))
-        return each(lambda r: E_star * self._pressure(r, float(depth(d)), a), np.abs(radius(r)))
+        r, d = np.abs(finite_array("r", r, "m")), finite_array("d", d, "m")
+        a = self.contact_radius(d)
+        r, d, a, E_star = np.broadcast_arrays(r, d, a, positive_array("E_star", E_star, "Pa"))
+        p, inside = np.zeros(r.shape), r < a
+        p[inside] = E_star[inside] * self.pressure_inside(r[inside], a[inside], d[inside])
+        return plain(p)
 
-    # --- from g alone ---
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* where the shape touches, 0 <= r < a = a(d), for a closed form to override. Arrays (n,)."""
+        if self._gives_g:
+            p = _each(lambda r, a: transform.pressure_from_g(self.profile_1d, self._edges, r, a), r, a)
+        else:
+            p = _each(lambda r, a: transform.pressure_from_f(self._f, self._edges, r, a), r, a)
+        rim = a >= self.max_radius
+        p[rim] += rim_pressure(r[rim], a[rim], d[rim] - self.profile_1d(a[rim]))
+        return p
 
-    def _contact_radius(self, d: Array) -> Array:
-        """Bracket the root of g(a) = d by doubling, then halve it down to rounding."""
-        high = np.full(d.shape, min(1.0, self.max_radius))
-        for grow in (2.0, 0.5):
-            for _ in range(2000):
-                g = np.asarray(self.profile_1d(high))
-                off = (d > 0) & ((g < d) & (high < self.max_radius) if grow > 1 else g >= d)
-                if not off.any():
-                    break
-                high = np.where(off, np.minimum(high * grow, self.max_radius), high)
-        low, high = (high, np.minimum(2 * high, self.max_radius))
-        if np.any((d > 0) & (np.asarray(self.profile_1d(high)) < d)):
+    @property
+    def _edges(self) -> tuple[float, ...]:
+        return (0.0, *self.kinks, self.max_radius)
+
+    def _f(self, r: FloatArray) -> FloatArray:
+        """f(r) for r >= 0 as it comes out, unchecked."""
+        return self.profile_3d(r)
+
+    def _g(self, x: FloatArray) -> FloatArray:
+        """g(x) for x >= 0 as it comes out, unchecked. Arrays (n,)."""
+        if self._gives_g:
+            return self.profile_1d(x)
+        return transform.profile_1d(self._f, self._edges, x)
+
+    def _within(self, r: FloatArray) -> FloatArray:
+        """Distance from the axis, refused where the shape has ended."""
+        r = np.abs(r)
+        if np.any(r > self.max_radius):
             raise ValueError(
-                f"{self!r} ends at radius {self.max_radius:.6g} m: "
-                f"a depth of {d.max():.6g} m is beyond it; press less deep"
+                f"{type(self).__name__} ends at r = {self.max_radius:.6g} m, got {np.max(r):.6g} m: "
+                "stay within it or describe the shape further out"
             )
-        low = np.where(np.asarray(self.profile_1d(low)) < d, low, 0.0)
-        for _ in range(90):
-            middle = 0.5 * (low + high)
-            below = np.asarray(self.profile_1d(middle)) < d
-            low, high = np.where(below, middle, low), np.where(below, high, middle)
-        return np.where(d > 0, 0.5 * (low + high), 0.0)
+        return r
 
-    def _area(self, d: Array, a: Array) -> Array:
-        """int_0^a (d - g) dx, panel by panel between the kinks."""
-        t, weight = unit_nodes(N_NODES)
-        total = np.zeros(d.shape)
-        ends = [0.0, *self.kinks, np.inf]
-        for start, end in pairwise(ends):
-            low, high = np.minimum(start, a), np.minimum(end, a)
-            # x = low + span t²(3 - 2t) softens root-like ends on both sides
-            x = low[..., None] + (high - low)[..., None] * t**2 * (3 - 2 * t)
-            below = np.where(x < a[..., None], d[..., None] - np.asarray(self.profile_1d(x)), 0)
-            total += (high - low) * (below @ (weight * 6 * t * (1 - t)))
-        return np.where(d > 0, total, 0.0)
+    def _search(self, d: FloatArray) -> FloatArray:
+        start = np.array(self.kinks[0] if self.kinks else min(self.max_radius / 2, 1e300))
+        start = np.broadcast_to(start if self.kinks or self.max_radius < np.inf else d, d.shape)
+        a, ended = roots.invert(lambda x: _each(self._g, x), d, start, self.max_radius)
+        if ended.any():
+            raise ValueError(
+                f"{type(self).__name__} has no finite height beyond r = {a[ended].min():.6g} m, but at "
+                f"the depth d = {d[ended].min():.6g} m more of it touches: press less, or give r_max"
+            )
+        return a
 
-    def _pressure(self, r: Array, d: float, a: float) -> Array:
-        """p/E* = (1/pi) int_r^a g'(x)/sqrt(x² - r²) dx + (d - g(a))/(pi sqrt(a² - r²)); x = r cosh s."""
-        inside = r < a
-        safe = np.where(inside, r, 0.5 * a) if a > 0 else np.ones_like(r)
-        if a <= 0:
-            return np.zeros_like(r)
-        t, weight = unit_nodes(N_NODES)
-        total = np.zeros(r.shape)
-        ends = [0.0, *[x for x in self.kinks if x < a], a]
-        for start, end in pairwise(ends):
-            low, high = np.maximum(start, safe), np.maximum(end, safe)
-            low = np.maximum(low, 1e-12 * a)
-            high = np.maximum(high, low)
-            # through u with x = sqrt(r² + u²): dx/sqrt(x² - r²) = du/x, smooth for r > 0; graded towards small u
-            u_lo, u_hi = np.sqrt(low**2 - np.minimum(safe, low) ** 2), np.sqrt(high**2 - np.minimum(safe, high) ** 2)
-            scale = np.maximum(safe, 1e-9 * a)
-            s_lo, s_hi = np.arcsinh(u_lo / scale), np.arcsinh(u_hi / scale)
-            s = s_lo[..., None] + (s_hi - s_lo)[..., None] * (t**2 * (3 - 2 * t))  # soft at a kink
-            x = np.hypot(safe[..., None], scale[..., None] * np.sinh(s))
-            rate = scale[..., None] * np.cosh(s) / x
-            total += (s_hi - s_lo) * ((np.asarray(self._slope_1d(x, start, end)) * rate) @ (weight * 6 * t * (1 - t)))
-        jump = d - float(self.profile_1d(np.nextafter(a, 0)))
-        edge = jump / np.sqrt(np.maximum(a**2 - safe**2, np.finfo(float).tiny)) if jump > 1e-9 * d else 0.0
-        result: Array = np.where(inside, (total + edge) / np.pi, 0.0)
-        return result
+    def _refuse_beyond(self, d: FloatArray) -> None:
+        if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:
+            return
+        with np.errstate(all="ignore"):
+            reach = self._g(np.array([self.max_radius]))[0]
+        if d.max() > reach * (1 + 64 * EPS):
+            raise ValueError(
+                f"d = {d.max():.6g} m is deeper than {type(self).__name__} reaches: its whole face, r <= "
+                f"{self.max_radius:.6g} m, touches at {reach:.6g} m; press less or describe more of it"
+            )
 
-    def _slope_1d(self, x: Array, low: float = 0.0, high: float = np.inf) -> Array:
-        """g'(x) for x > 0 between two kinks, by a polynomial in sqrt(x - low) through nearby values of g."""
-        if low == 0:
-            return slope(lambda x: np.asarray(self.profile_1d(x)), x, low, high)
-        root = np.sqrt(np.maximum(x - low, 1e-24 * low))  # behind a kink of f, g is smooth in this root
-        by_root = slope(lambda u: np.asarray(self.profile_1d(low + u**2)), root, 0.0, float(np.sqrt(high - low)))
-        return np.asarray(by_root / (2 * root))
+    def _refuse_annular(self, a: float) -> None:
+        """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
+        x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
+        self._check_map(x[::10])
+        refuse_falling(self, x, _each(self._g, x))
+
+    def _check_map(self, x: FloatArray) -> None:
+        """Refuse a mapping that is not finite, warn of one that another rule does not confirm."""
+        if self._gives_g or x.size == 0:
+            return
+        some = np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest"))
+        g = self._g(some)
+        if not np.all(np.isfinite(g)):
+            raise ValueError(
+                f"{type(self).__name__} has no finite slope within r = {some[-1]:.6g} m: name its end (r_max)"
+            )
+        other = transform.profile_1d(self._f, self._edges, some, double_exponential(0.077))
+        error, height = np.max(np.abs(g - other)), np.max(np.abs(g))
+        if error > MAPPING_ERROR * height:
+            warnings.warn(
+                f"{type(self).__name__} is mapped to g(x) with an error of about "
+                f"{error / height:.1e} of its height: "
+                "name every radius where f or its slope is not smooth in kinks=",
+                stacklevel=3,
+            )
 
 
-# --- shared by the shapes ---
+def rim_pressure(r: FloatArray, a: FloatArray, step: FloatArray) -> FloatArray:
+    """p/E* of a rim that stands ``step`` = d − g(a) below the profile: step / (π √(a² − r²))."""
+    share = r / a
+    answer: FloatArray = step / (np.pi * a * np.sqrt((1 - share) * (1 + share)))
+    return answer
 
 
-def depth(d: ArrayLike) -> Array:
-    """Depths as a float array; ValueError for NaN and infinity."""
-    return _finite(d, "d", "depths in m")
+def refuse_falling(shape: Indenter, x: FloatArray, g: FloatArray) -> None:
+    """ValueError if g falls anywhere along ascending x."""
+    highest = np.maximum.accumulate(np.maximum(g, 0))
+    fall = highest - g > 1e-9 * np.max(np.abs(g), initial=0.0)
+    if np.any(fall):
+        raise ValueError(
+            f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "
+            f"{x[fall][0]:.6g} m, so that a ring touches before the disc inside it; the method needs a full "
+            "disc: choose a shape whose g(x) rises"
+        )
 
 
-def radius(r: ArrayLike, name: str = "r") -> Array:
-    """Radii or positions as a float array; ValueError for NaN and infinity."""
-    return _finite(r, name, "radii in m")
-
-
-def _finite(values: ArrayLike, name: str, meaning: str) -> Array:
-    try:
-        array = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be a number or an array of {meaning}, got {values!r}") from None
-    if not np.all(np.isfinite(array)):
-        raise ValueError(f"{name} must be finite ({meaning}), got {values!r}")
-    return array
-
-
-def each(function: Callable[[Array], Array], values: Array) -> Any:
-    """Apply an array function; a scalar in gives a float out."""
-    result = np.asarray(function(np.atleast_1d(values)))
-    return float(result.reshape(-1)[0]) if values.ndim == 0 else result
-
-
-_CHEB = np.cos(np.pi * (np.arange(17) + 0.5) / 17)  # Chebyshev points on (-1, 1)
-_TO_COEFFICIENTS = np.linalg.inv(np.polynomial.chebyshev.chebvander(_CHEB, 16))
-_DERIVATIVE = np.polynomial.chebyshev.chebder(np.eye(17))  # coefficients of the derivative, column by column
-
-
-def slope(function: Callable[[Array], Array], x: Array, low: float = 0.0, high: float = np.inf) -> Array:
-    """Derivative of a function that is smooth between low and high, from 17 values around each x > 0.
-
-    The values lie on [3x/4, 5x/4], cut at low and high: no length scale enters, and a power law is met to about 1e-13.
-    """
-    start = np.maximum(0.75 * x, low)
-    end = np.minimum(1.25 * x, high)
-    half = 0.5 * (end - start)
-    half = np.where(half > 0, half, 0.25 * x)
-    centre = start + half
-    values = function(centre[..., None] + half[..., None] * _CHEB)
-    coefficients = (values @ _TO_COEFFICIENTS.T) @ _DERIVATIVE.T
-    basis = np.polynomial.chebyshev.chebvander((x - centre) / half, 15)
-    result: Array = (coefficients * basis).sum(axis=-1) / half
-    return result
+def _each(function: Callable[..., FloatArray], *arrays: FloatArray) -> FloatArray:
+    """``function`` of arrays (n,), applied to arrays of any shape in chunks."""
+    flat = [np.ravel(array) for array in arrays]
+    answer = np.empty(flat[0].size)
+    for i in range(0, answer.size, CHUNK):
+        answer[i : i + CHUNK] = function(*(array[i : i + CHUNK] for array in flat))
+    return plain(answer.reshape(np.shape(arrays[0])))

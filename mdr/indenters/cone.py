@@ -1,44 +1,41 @@
-"""Cone: f(r) = r tan(theta), mapped to g(x) = (pi/2) |x| tan(theta)."""
-
-from __future__ import annotations
+"""Cone: f(r) = r tan θ, mapped to g(x) = (π/2) |x| tan θ (Sneddon 1965)."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import between
-from mdr.indenters.base import Array, Indenter, depth, each, radius
+from mdr.checks import FloatArray, between, finite_array, plain
+from mdr.indenters.base import EPS, Indenter
 
 
 @dataclass(frozen=True)
 class Cone(Indenter):
-    """A cone; F_N = 2 E* d²/(pi tan(theta)) (Sneddon 1965)."""
+    """Cone; F_N = (2/π) E* d² / tan θ. The pressure at its tip is infinite and answered as at r = 2e-16 a."""
 
-    theta: float  #: angle between flank and plane [rad]; the theory is one of small slopes
+    theta: float  #: angle between flank and plane [rad]
 
     def __post_init__(self) -> None:
-        angle = between("theta", self.theta, 0, np.pi / 2, "angle between flank and plane in rad")
-        object.__setattr__(self, "theta", angle)
+        theta = between("theta", self.theta, 0, np.pi / 2, "angle between flank and plane in rad")
+        object.__setattr__(self, "theta", theta)
 
-    def profile_3d(self, r: ArrayLike) -> Any:
-        """r tan(theta) [m]."""
-        return each(lambda r: np.abs(r) * np.tan(self.theta), radius(r))
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = r tan θ."""
+        return plain(np.abs(finite_array("r", r, "m")) * np.tan(self.theta))
 
-    def profile_1d(self, x: ArrayLike) -> Any:
-        """(pi/2) |x| tan(theta) [m]."""
-        return each(lambda x: np.pi / 2 * np.abs(x) * np.tan(self.theta), radius(x, "x"))
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = (π/2) |x| tan θ."""
+        return plain(np.pi / 2 * np.abs(finite_array("x", x, "m")) * np.tan(self.theta))
 
-    def contact_radius(self, d: ArrayLike) -> Any:
-        """2 d/(pi tan(theta)) [m]."""
-        return each(lambda d: 2 * np.maximum(d, 0) / (np.pi * np.tan(self.theta)), depth(d))
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a = 2d / (π tan θ)."""
+        return plain(np.maximum(finite_array("d", d, "m"), 0) / (np.pi / 2 * np.tan(self.theta)))
 
-    def _area(self, d: Array, a: Array) -> Array:
-        return 0.5 * np.maximum(d, 0) * a
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = (π/4) a² tan θ."""
+        return plain(np.pi / 4 * finite_array("a", a, "m") ** 2 * np.tan(self.theta))
 
-    def _pressure(self, r: Array, d: float, a: float) -> Array:
-        """(tan(theta)/2) arcosh(a/r) (Sneddon 1965); unbounded at the apex, where it is given at 1e-300 m."""
-        inside = r < a
-        ratio = np.where(inside, a / np.maximum(r, 1e-300), 1.0)
-        return np.where(inside, 0.5 * np.tan(self.theta) * np.arccosh(np.maximum(ratio, 1.0)), 0.0)
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = (tan θ / 2) arcosh(a/r)."""
+        over = a / np.maximum(r, EPS * a) - 1  # arcosh(1 + over), exact also at the edge
+        return plain(np.tan(self.theta) / 2 * np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)))

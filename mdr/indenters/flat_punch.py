@@ -1,20 +1,17 @@
-"""Flat punch: a cylinder of radius a, whose contact does not grow with depth."""
-
-from __future__ import annotations
+"""Flat punch of radius a: f = g = 0 inside the rim, F_N = 2E*ad (Boussinesq 1885)."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import positive
-from mdr.indenters.base import Array, Indenter, depth, each, radius
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter, rim_pressure
 
 
 @dataclass(frozen=True)
 class FlatPunch(Indenter):
-    """A rigid cylinder; f = g = 0 within its radius, d is free, F_N = 2 E* a d."""
+    """Flat-ended cylinder, touching with its whole face; both profiles are inf beyond the rim."""
 
     a: float  #: radius [m]
 
@@ -23,25 +20,25 @@ class FlatPunch(Indenter):
 
     @property
     def max_radius(self) -> float:
-        """The radius a [m]."""
+        """The radius of the punch [m]."""
         return self.a
 
-    def profile_3d(self, r: ArrayLike) -> Any:
-        """Zero up to the rim, infinite beyond [m]."""
-        return each(lambda r: np.where(np.abs(r) <= self.a, 0.0, np.inf), radius(r))
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """Height f = 0 for r <= a, inf beyond."""
+        return plain(np.where(np.abs(finite_array("r", r, "m")) <= self.a, 0.0, np.inf))
 
-    def profile_1d(self, x: ArrayLike) -> Any:
-        """Zero up to the rim, infinite beyond [m]."""
-        return each(lambda x: np.where(np.abs(x) <= self.a, 0.0, np.inf), radius(x, "x"))
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """Height g = 0 for |x| <= a, inf beyond."""
+        return plain(np.where(np.abs(finite_array("x", x, "m")) <= self.a, 0.0, np.inf))
 
-    def contact_radius(self, d: ArrayLike) -> Any:
-        """The radius a [m] at any depth d > 0 [m]."""
-        return each(lambda d: np.where(d > 0, self.a, 0.0), depth(d))
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """The radius of the punch for d > 0, else 0."""
+        return plain(np.where(finite_array("d", d, "m") > 0, self.a, 0.0))
 
-    def _area(self, d: Array, a: Array) -> Array:
-        return np.maximum(d, 0) * a
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = 0."""
+        return plain(0 * self._within(finite_array("a", a, "m")))
 
-    def _pressure(self, r: Array, d: float, a: float) -> Array:
-        """d/(pi sqrt(a² - r²)) (Boussinesq)."""
-        inside = r < a
-        return np.where(inside, d / (np.pi * np.sqrt(np.where(inside, (a - r) * (a + r), 1.0))), 0.0)
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = d / (π √(a² − r²))."""
+        return rim_pressure(r, a, d)

@@ -1,41 +1,43 @@
-"""Paraboloid: f(r) = r²/(2R), mapped to g(x) = x²/R; the Hertzian contact."""
-
-from __future__ import annotations
+"""Paraboloid: f(r) = r²/(2R), mapped to g(x) = x²/R (Hertz 1882)."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import positive
-from mdr.indenters.base import Array, Indenter, depth, each, radius
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter
 
 
 @dataclass(frozen=True)
 class Paraboloid(Indenter):
-    """A paraboloid of radius of curvature R; F_N = (4/3) E* sqrt(R) d^(3/2) (Hertz 1882)."""
+    """Paraboloid, the tip of any ball: a² = Rd, F_N = (4/3) E* √R d^{3/2}."""
 
-    R: float  #: radius of curvature at the apex [m]
+    R: float  #: radius of curvature at the tip [m]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "R", positive("R", self.R, "radius of curvature in m"))
 
-    def profile_3d(self, r: ArrayLike) -> Any:
-        """r²/(2R) [m]."""
-        return each(lambda r: r * (r / (2 * self.R)), radius(r))
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = r²/(2R)."""
+        r = finite_array("r", r, "m")
+        return plain(r / self.R * r / 2)
 
-    def profile_1d(self, x: ArrayLike) -> Any:
-        """x²/R [m]."""
-        return each(lambda x: x * (x / self.R), radius(x, "x"))
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = x²/R."""
+        x = finite_array("x", x, "m")
+        return plain(x / self.R * x)
 
-    def contact_radius(self, d: ArrayLike) -> Any:
-        """sqrt(R d) [m]."""
-        return each(lambda d: np.sqrt(self.R) * np.sqrt(np.maximum(d, 0)), depth(d))
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a = √(Rd)."""
+        return plain(np.sqrt(self.R) * np.sqrt(np.maximum(finite_array("d", d, "m"), 0)))
 
-    def _area(self, d: Array, a: Array) -> Array:
-        return 2 / 3 * np.maximum(d, 0) * a
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = a³/(3R)."""
+        a = finite_array("a", a, "m")
+        return plain(a / self.R * a * a / 3)
 
-    def _pressure(self, r: Array, d: float, a: float) -> Array:
-        """(2/pi) sqrt(a² - r²)/R (Hertz 1882)."""
-        return 2 / np.pi * np.sqrt(np.maximum((a - r) * (a + r), 0)) / self.R
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = (2/(πR)) √(a² − r²)."""
+        share = r / a
+        return plain(2 / np.pi * (a / self.R) * np.sqrt((1 - share) * (1 + share)))

@@ -1,21 +1,22 @@
-"""Power law: f(r) = c r^n, mapped to g(x) = kappa_n c |x|^n with kappa_n = sqrt(pi) Gamma(n/2 + 1)/Gamma((n + 1)/2)."""
+"""Power law: f(r) = c rⁿ, mapped to g(x) = κ_n c |x|ⁿ with κ_n = √π Γ(n/2 + 1) / Γ((n + 1)/2).
 
-from __future__ import annotations
+Popov & Heß (2015). n = 1 is the cone (c = tan θ), n = 2 the paraboloid (c = 1/(2R)), n → ∞ the flat punch.
+"""
 
+import math
 from dataclasses import dataclass
-from math import exp, lgamma, pi, sqrt
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import positive
-from mdr.indenters.base import Array, Indenter, depth, each, radius
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import EPS, Indenter
+from mdr.indenters.quadrature import double_exponential
 
 
 @dataclass(frozen=True)
 class PowerLaw(Indenter):
-    """f = c r^n with n > 0: n = 1 is the cone, n = 2 the paraboloid, large n tends to a punch (Popov and Heß 2015)."""
+    """f(r) = c rⁿ with any n > 0; for n <= 1 p is infinite at the tip and answered as at r = 2e-16 a."""
 
     n: float  #: exponent [-]
     c: float  #: coefficient [m^(1-n)]
@@ -25,24 +26,35 @@ class PowerLaw(Indenter):
         object.__setattr__(self, "c", positive("c", self.c, "coefficient in m^(1-n)"))
 
     @property
-    def stretch(self) -> float:
-        """kappa_n [-], the factor of g over f."""
-        return sqrt(pi) * exp(lgamma(self.n / 2 + 1) - lgamma((self.n + 1) / 2))
+    def kappa_n(self) -> float:
+        """κ_n = g/f: 1, π/2, 2, 3π/4, 8/3 … for n = 0, 1, 2, 3, 4."""
+        if self.n < 300:
+            return math.sqrt(math.pi) * math.gamma(self.n / 2 + 1) / math.gamma((self.n + 1) / 2)
+        return math.sqrt(math.pi) * math.exp(math.lgamma(self.n / 2 + 1) - math.lgamma((self.n + 1) / 2))
 
-    def profile_3d(self, r: ArrayLike) -> Any:
-        """c r^n [m]."""
-        return each(lambda r: self.c * np.abs(r) ** self.n, radius(r))
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = c rⁿ."""
+        return plain(self.c * np.abs(finite_array("r", r, "m")) ** self.n)
 
-    def profile_1d(self, x: ArrayLike) -> Any:
-        """kappa_n c |x|^n [m]."""
-        return each(lambda x: self.stretch * self.c * np.abs(x) ** self.n, radius(x, "x"))
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = κ_n c |x|ⁿ."""
+        return plain(self.kappa_n * self.c * np.abs(finite_array("x", x, "m")) ** self.n)
 
-    def contact_radius(self, d: ArrayLike) -> Any:
-        """(d/(kappa_n c))^(1/n) [m]."""
-        return each(lambda d: (np.maximum(d, 0) / (self.stretch * self.c)) ** (1 / self.n), depth(d))
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a = (d / (κ_n c))^{1/n}."""
+        d = np.maximum(finite_array("d", d, "m"), 0)
+        return plain((d / (self.kappa_n * self.c)) ** (1 / self.n))
 
-    def _area(self, d: Array, a: Array) -> Array:
-        return self.n / (self.n + 1) * np.maximum(d, 0) * a
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = a g(a) / (n + 1)."""
+        return plain(np.multiply(a, self.profile_1d(a)) / (self.n + 1))
 
-    def _slope_1d(self, x: Array, low: float = 0.0, high: float = np.inf) -> Array:
-        return self.n * self.stretch * self.c * x ** (self.n - 1)
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = (n d / (π a)) ∫₀^U (ϱ cosh u)^(n-1) du with ϱ = r/a and cosh U = 1/ϱ."""
+        share = np.maximum(r / a, EPS)[:, None]
+        over = 1 / share - 1
+        rule = double_exponential()
+        way = np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)) * rule.from_low
+        weight = way / rule.from_low * rule.weight
+        integral = np.sum(weight * (share * np.cosh(way)) ** (self.n - 1), axis=1)
+        return plain(self.n / np.pi * (d / a) * integral)

@@ -1,130 +1,101 @@
-"""Profile: any shape f(r) given as a function, mapped to g(x) by quadrature.
+"""Any profile f(r), mapped by quadrature: g, a, F_N and p follow to 1e-9 (`mdr.indenters.transform`)."""
 
-With r = x sin t the map g(x) = |x| int_0^(pi/2) f'(x sin t) dt has no singular end; f' comes from Chebyshev
-polynomials through values of f near each point (no length scale enters). Where f has kinks or flat parts the integral
-is cut at them, if they are named.
-"""
-
-from __future__ import annotations
-
-import warnings
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import positive
-from mdr.indenters.base import Array, Indenter, each, radius, slope, unit_nodes
-
-ACCURACY = 1e-9  #: of g, relative, for smooth f with its kinks named
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Profile(Indenter):
-    """The indenter of shape f(r).
+    """A shape given as a function f(r) with f(0) = 0, smooth but for the radii named in ``kinks``.
 
-    f takes and returns arrays in m (wrap a function of one number in numpy.vectorize), is smooth between its kinks,
-    and has f(0) = 0. The contact must remain a full disc: where g decreases the contact would be annular, and the
-    shape is refused. A warning tells the error of the mapping when it exceeds 1e-9, as with kinks that were not named.
+    ``f`` takes an array of radii and returns as many heights; one that takes only single numbers works too,
+    slowly. It is asked for radii within [0, r_max] alone, or a little beyond the edge if r_max is None.
+    ``kinks`` are the radii where the slope jumps or a flat part ends; one left out costs accuracy, and a
+    warning says how much. ``name`` tells the shape in print and in stored studies, as a function has none.
+    Two profiles are equal if they hold the same function object, kinks, r_max and name.
     """
 
-    f: Callable[[Array], Array]  #: shape [m] over radius [m]
-    kinks: tuple[float, ...] = ()  #: radii [m] where f or f' is not smooth
-    r_max: float | None = None  #: radius [m] up to which f is known; None for everywhere
-    name: str | None = None  #: what to call the shape; a stored study asks for it
+    f: Callable[..., Any]  #: height [m] over radius [m]
+    kinks: tuple[float, ...] = field(default=(), kw_only=True)  #: radii where f is not smooth [m]
+    r_max: float | None = field(default=None, kw_only=True)  #: where the shape ends [m]
+    name: str | None = field(default=None, kw_only=True)
 
-    def __init__(
-        self, f: Callable[[Array], Array], *, kinks: Any = (), r_max: float | None = None, name: str | None = None
-    ) -> None:
-        if not callable(f):
-            raise TypeError(f"f must be a function of the radius, got {f!r}")
-        if name is not None and not isinstance(name, str):
-            raise TypeError(f"name must be a string, got {name!r}")
-        object.__setattr__(self, "f", f)
-        object.__setattr__(
-            self, "kinks", tuple(sorted(positive("kinks", k, "radii in m") for k in np.atleast_1d(kinks)))
-        )
-        object.__setattr__(self, "r_max", None if r_max is None else positive("r_max", r_max, "radius in m"))
-        object.__setattr__(self, "name", name)
-        self._check_apex()
-
-    def _check_apex(self) -> None:
-        height = np.asarray(self.f(np.zeros(1)), dtype=float)
-        if height.shape != (1,):
-            raise TypeError(
-                "f must return an array of the shape it is given; wrap a function of one number in numpy.vectorize"
-            )
-        if height[0] != 0:
-            raise ValueError(f"f(0) must be 0, the apex of the indenter, got {height[0]!r}; subtract it")
+    def __post_init__(self) -> None:
+        if not callable(self.f):
+            raise TypeError(f"f must be a function of the radius, got {self.f!r}")
+        if self.name is not None and not isinstance(self.name, str):
+            raise TypeError(f"name must be a string, got {self.name!r}")
+        if self.r_max is not None:
+            object.__setattr__(self, "r_max", positive("r_max", self.r_max, "radius in m"))
+        object.__setattr__(self, "kinks", _ascending(self.kinks, self.max_radius))
+        self._refuse_offset()
+        self._refuse_steps()
+        if self.r_max is not None:
+            self._refuse_annular(self.r_max)
 
     @property
     def max_radius(self) -> float:
-        """r_max [m], or infinity."""
+        """r_max [m], or inf."""
         return np.inf if self.r_max is None else self.r_max
 
-    def profile_3d(self, r: ArrayLike) -> Any:
-        """f(r) [m]; infinite beyond r_max."""
-        return each(self._f, np.abs(radius(r)))
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r), even in r."""
+        r = self._within(finite_array("r", r, "m"))
+        heights = self._f(r)
+        if not np.all(np.isfinite(heights)):
+            bad = r[~np.isfinite(heights)].min()
+            raise ValueError(f"f(r) is not finite at r = {bad:.6g} m: name its end (r_max)")
+        return plain(heights)
 
-    def profile_1d(self, x: ArrayLike) -> Any:
-        """g(x) [m] by quadrature; infinite beyond r_max."""
-        return each(lambda x: self._g(x, 32), np.abs(radius(x, "x")))
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Profile) and self._identity() == other._identity()
 
-    def contact_radius(self, d: ArrayLike) -> Any:
-        """Contact radius a [m] at depth d [m], g(a) = d.
+    def __hash__(self) -> int:
+        return hash(self._identity())
 
-        Raises ValueError if the contact would be annular or beyond r_max; warns when the mapping is less accurate
-        than 1e-9.
-        """
-        a = super().contact_radius(d)
-        largest = float(np.max(a, initial=0.0))
-        if largest > 0:
-            self._check_map(largest)
-        return a
+    def _identity(self) -> tuple[object, ...]:
+        return (id(self.f), self.kinks, self.r_max, self.name)
 
-    def _check_map(self, a: float) -> None:
-        x = a * np.linspace(1 / 64, 1, 64)
-        g, rough = self._g(x, 32), self._g(x, 20)
-        if np.any(np.diff(g) < -1e-9 * g[-1]) or np.any(g < -1e-9 * abs(g[-1])):
+    def _f(self, r: FloatArray) -> FloatArray:
+        with np.errstate(all="ignore"):
+            try:
+                heights = self.f(r)
+            except (TypeError, ValueError):  # f knows single numbers only
+                heights = np.vectorize(self.f, otypes=[float])(r)
+        return np.broadcast_to(np.asarray(heights, dtype=np.float64), np.shape(r))
+
+    def _refuse_offset(self) -> None:
+        offset = float(self._f(np.zeros(1))[0])
+        if offset != 0:
             raise ValueError(
-                f"{self!r}: g(x) decreases within radius {a:.6g} m, so the contact is annular, not a full disc; "
-                "the springs represent full-disc contacts only"
-            )
-        error = float(np.max(np.abs(g - rough)) / g[-1])
-        if error > ACCURACY:
-            warnings.warn(
-                f"the mapping of {self!r} to g(x) is accurate to {error:.1g} only; name the kinks of f in kinks=(...)",
-                stacklevel=3,
+                f"f(0) must be 0, the tip that depth counts from, got {offset!r}: give f(r) - f(0) instead"
             )
 
-    def _f(self, r: Array) -> Array:
-        inside = r <= self.max_radius
-        heights = np.where(inside, np.asarray(self.f(np.where(inside, r, 0.0)), dtype=float), np.inf)
-        if np.any(~np.isfinite(heights[inside])):
-            raise ValueError(
-                f"{self!r}: f is not finite at r = {r[inside][~np.isfinite(heights[inside])][0]:.6g} m; give r_max="
-            )
-        return heights
+    def _refuse_steps(self) -> None:
+        """A step in f is a vertical wall: g is infinite above it."""
+        for b in self.kinks:
+            inside, outside = self._f(b * np.array([1 - 1e-9, 1 + 1e-9]))
+            step = abs(outside - inside)
+            if step > 1e-5 * max(abs(outside), abs(inside)) and step > 1e-5 * b:
+                raise ValueError(
+                    f"f steps by {outside - inside:.6g} m at r = {b:.6g} m: a vertical wall ends the contact "
+                    "like the rim of a punch; end the profile there (r_max)"
+                )
 
-    def _g(self, x: Array, n_nodes: int) -> Array:
-        """x int f'(x sin t) dt, cut at the kinks and graded towards the apex."""
-        inside = (x > 0) & (x <= self.max_radius)
-        x_in = np.where(inside, x, 1.0 if self.r_max is None else self.r_max)
-        u, weight = unit_nodes(n_nodes)
-        cuts = [*self.kinks, np.inf]
-        total = np.zeros(x.shape)
-        low = 0.0
-        for high in cuts:
-            t_lo, t_hi = (np.arcsin(np.minimum(end / x_in, 1.0)) for end in (low, high))
-            # t = t_lo + span u²(3 - 2u)/1: soft at the cut, where f' may jump or start like a root
-            span = t_hi - t_lo
-            t = t_lo[..., None] + span[..., None] * (u**2 * (3 - 2 * u))
-            r = np.maximum(x_in[..., None] * np.sin(t), np.finfo(float).tiny)
-            top = min(high, self.max_radius)
-            rate = slope(lambda r: np.asarray(self.f(r), dtype=float), np.clip(r, low, top), low, top)
-            total += np.where(span > 0, span * (rate @ (weight * 6 * u * (1 - u))), 0.0)
-            low = high
-        beyond = np.where(x > self.max_radius, np.inf, 0.0)
-        return np.where(inside, x * total, beyond)
+
+def _ascending(kinks: Iterable[float], end: float) -> tuple[float, ...]:
+    """Kinks as ascending floats within the profile."""
+    try:
+        radii = tuple(sorted({positive("kinks", b, "radius in m") for b in kinks}))
+    except TypeError as not_radii:
+        raise TypeError(f"kinks must be a sequence of radii in m, got {kinks!r}") from not_radii
+    if radii and radii[-1] >= end:
+        raise ValueError(f"kinks must lie within r_max = {end:.6g} m, got {radii[-1]!r}")
+    return radii

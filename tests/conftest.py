@@ -1,0 +1,45 @@
+"""What all tests share: the shapes, a contact by its dimensionless groups, and the profile of hypothesis."""
+
+import math
+
+import numpy as np
+from hypothesis import settings
+
+import mdr
+
+settings.register_profile("mdr", deadline=None, derandomize=True, database=None)
+settings.load_profile("mdr")
+
+#: indenter and the exponent n of its profile g ~ x**n, as the twin in reference.py counts shapes
+SHAPES = {
+    "flat": (mdr.FlatPunch(a=1e-3), math.inf),
+    "cone": (mdr.Cone(theta=0.02), 1),
+    "paraboloid": (mdr.Paraboloid(R=5e-3), 2),
+    "r4": (mdr.PowerLaw(n=4, c=2e3), 4),
+}
+
+
+def bowl(r):
+    """A hyperboloid, written without cancellation; its g is (h x/c) arctan(x/c) with h = c = 1 mm."""
+    return 1e-3 * (r / 1e-3) ** 2 / (np.sqrt(1 + (r / 1e-3) ** 2) + 1)
+
+
+def contact(
+    shape, depth_ratio=3.0, T=0.0, k_ratio=math.inf, omega_0_ratio=1.6, c_ratio=0.0, *, du_z=2e-6, omega=300.0, mu_0=0.4, nu=0.4, E=3e6
+):
+    """A contact in SI from the groups of the twin; shape is a name or an indenter, k_ratio = inf a rigid pull, omega_0_ratio = inf no mass."""
+    indenter = SHAPES[shape][0] if isinstance(shape, str) else shape
+    material = mdr.KelvinVoigt(E=E, nu=nu, tau=T / omega) if T else mdr.Elastic(E=E, nu=nu)
+    u_z0 = depth_ratio * du_z
+    pull = mdr.RigidPull()
+    if math.isfinite(k_ratio):
+        k_xc = float(indenter.stiffness(u_z0, material.G_star))
+        k_x = k_ratio * k_xc
+        pull = mdr.SpringPull(k_x=k_x, m=k_x / (omega_0_ratio * omega) ** 2, c_x=c_ratio * k_xc / omega)
+    return mdr.SlidingContact(indenter, material, mu_0, mdr.NormalOscillation(u_z0, du_z, omega), pull)
+
+
+def unit_of_velocity(case):
+    """Eq. (1) written out: what the twin measures velocities in."""
+    nu = case.material.nu
+    return case.mu_0 * (2 - nu) / (2 * (1 - nu)) * case.oscillation.omega * case.oscillation.du_z

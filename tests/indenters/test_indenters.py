@@ -1,0 +1,255 @@
+"""What every indenter must answer, asked once over the list of shapes."""
+
+import math
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import quad
+
+import mdr.indenters as shapes
+from mdr.indenters import Cone, FlatPunch, Paraboloid, PowerLaw, Profile
+from mdr.indenters.base import Indenter
+
+B, T = 1e-3, math.tan(0.05)
+CURVED = [Cone(0.05), Paraboloid(5e-3), PowerLaw(1.5, 2.0), PowerLaw(4, 1e6)]
+SHAPES = [FlatPunch(2e-3), *CURVED]
+MAPPED = [
+    (Profile(lambda r: r * T), Cone(0.05)),
+    (Profile(lambda r: r**2 / 1e-2), Paraboloid(5e-3)),
+    (Profile(lambda r: 2 * r**1.5), PowerLaw(1.5, 2.0)),
+    (Profile(lambda r: 1e6 * r**4), PowerLaw(4, 1e6)),
+]
+E_STAR = 2e6
+EXACT, MAP = 1e-12, 1e-9  # the accuracy promised for closed forms and for mapped profiles
+
+
+def parabola(r):
+    return r**2 / 1e-2
+
+
+def truncated(r):
+    return np.maximum(r - B, 0) * T
+
+
+def name(shape):
+    return repr(shape)[:30]
+
+
+def discs(a):
+    return np.array([0.05, 0.3, 0.7, 0.99]) * a
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=name)
+def test_g_is_the_quadrature_of_f(shape):
+    x = 1.3e-3
+
+    def slope(t):
+        r, h = x * math.sin(t), 1e-4 * x * math.sin(t)
+        return float(8 * (shape.profile_3d(r + h) - shape.profile_3d(r - h))
+                     - (shape.profile_3d(r + 2 * h) - shape.profile_3d(r - 2 * h))) / (12 * h)
+
+    g = x * quad(slope, 1e-9, math.pi / 2, epsabs=0, epsrel=1e-11)[0]
+    # fourth-order differences, h = 1e-4 r, leave 1e-12 of rounding; the start cut off at 1e-9 is the rest
+    assert_allclose(shape.profile_1d(x), g, rtol=2e-9)
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=name)
+def test_inverse_transform_gives_f_back(shape):
+    r = 1.1e-3
+    f = 2 / math.pi * quad(lambda t: float(shape.profile_1d(r * math.sin(t))), 0, math.pi / 2, epsabs=0)[0]
+    assert_allclose(shape.profile_3d(r), f, rtol=1e-9)  # quad's own default is 1.5e-8 but smooth g converges
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=name)
+def test_depth_is_g_of_the_radius(shape):
+    d = np.geomspace(1e-12, 1e3, 40)  # from atoms to mountains: no length is special
+    assert_allclose(shape.profile_1d(shape.contact_radius(d)), d, rtol=EXACT)
+    assert shape.contact_radius(-1.0) == shape.contact_radius(0) == 0
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=name)
+def test_force_is_the_work_of_the_springs(shape):
+    d = 2e-5
+    a = float(shape.contact_radius(d))
+    F = 2 * E_STAR * quad(lambda x: d - float(shape.profile_1d(x)), 0, a, epsabs=0, epsrel=1e-12)[0]
+    assert_allclose(shape.force(d, E_STAR), F, rtol=1e-11)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_stiffness_is_the_slope_of_the_force_and_the_force_convex(shape):
+    d, h = np.geomspace(1e-9, 1e-4, 9), 1e-4
+    slope = (shape.force(d * (1 + h), E_STAR) - shape.force(d * (1 - h), E_STAR)) / (2 * h * d)
+    assert_allclose(shape.stiffness(d, E_STAR), slope, rtol=1e-7)  # h**2 / 6 times a power below 3
+    F = shape.force(np.linspace(0, 1e-4, 50), E_STAR)
+    assert np.all(np.diff(F, 2) >= -1e-12 * F[-1])
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_pressure_carries_the_force(shape):
+    d = 2e-5
+    a = float(shape.contact_radius(d))
+
+    def ring(t):  # r = a sin t: a root at the edge is smooth in t
+        r = a * math.sin(t)
+        return 2 * math.pi * r * float(shape.pressure(r, d, E_STAR)) * a * math.cos(t)
+
+    F = quad(ring, 0, math.pi / 2, epsabs=0, epsrel=1e-10)[0]
+    assert_allclose(F, shape.force(d, E_STAR), rtol=1e-9)
+    assert np.all(shape.pressure(a * np.array([1, 1.1, 50]), d, E_STAR) == 0)
+    assert np.all(np.isfinite(shape.pressure(np.array([0, 1e-300]), d, E_STAR)))
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_generic_quadrature_agrees_with_closed_forms(shape):
+    d = 2e-5
+    a = float(shape.contact_radius(d))
+    r, n = discs(a), 4
+    p = Indenter.pressure_inside(shape, r, np.full(n, a), np.full(n, d))
+    assert_allclose(E_STAR * p, shape.pressure(r, d, E_STAR), rtol=MAP)
+    assert_allclose(Indenter.profile_area(shape, a), shape.profile_area(a), rtol=EXACT)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_arrays_floats_and_mirror_images(shape):
+    x, d = np.array([[1e-4], [5e-4]]), np.array([1e-5, 2e-5, 3e-5])
+    assert np.array_equal(shape.profile_1d(-x), shape.profile_1d(x))
+    assert shape.force(d, E_STAR).shape == (3,)
+    assert shape.pressure(x, d, E_STAR).shape == (2, 3)
+    for one in (shape.profile_3d(1e-4), shape.pressure(1e-4, 1e-5, 1), shape.force(1, 1)):
+        assert isinstance(one, float)
+    assert isinstance(shape.contact_radius(1e-5), float)
+    assert shape.force(1e-300, 1.0) >= 0
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_records_compare_hash_and_pickle(shape):
+    twin = pickle.loads(pickle.dumps(shape))
+    assert twin == shape
+    assert hash(twin) == hash(shape)
+    assert len({*SHAPES, *[pickle.loads(pickle.dumps(s)) for s in SHAPES]}) == len(SHAPES)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_nothing_that_is_not_finite_gets_in(shape, bad):
+    for ask in (shape.profile_3d, shape.profile_1d, shape.contact_radius, lambda d: shape.force(d, E_STAR)):
+        with pytest.raises(ValueError, match="finite"):
+            ask([1e-3, bad])
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e3])
+def test_no_length_is_special(scale):
+    small, large = Paraboloid(1.0), Paraboloid(scale)
+    d, r = 1e-2, np.array([0, 0.05])
+    assert_allclose(large.contact_radius(scale * d), scale * small.contact_radius(d), rtol=EXACT)
+    assert_allclose(large.force(scale * d, 1), scale**2 * small.force(d, 1), rtol=EXACT)
+    assert_allclose(large.pressure(scale * r, scale * d, 1), small.pressure(r, d, 1), rtol=EXACT)
+
+
+def test_textbook_forces_and_pressures():
+    R, d, a = 5e-3, 2e-5, 2e-3
+    r = discs(math.sqrt(R * d))
+    assert_allclose(Paraboloid(R).force(d, E_STAR), 4 / 3 * E_STAR * math.sqrt(R) * d**1.5, rtol=EXACT)
+    hertz = 2 * E_STAR / (math.pi * R) * np.sqrt(R * d - r**2)
+    assert_allclose(Paraboloid(R).pressure(r, d, E_STAR), hertz, rtol=EXACT)
+    a_cone = 2 * d / (math.pi * T)
+    assert_allclose(Cone(0.05).force(d, E_STAR), 2 / math.pi * E_STAR * d**2 / T, rtol=EXACT)
+    assert_allclose(Cone(0.05).pressure(discs(a_cone), d, E_STAR),
+                    E_STAR * T / 2 * np.arccosh(a_cone / discs(a_cone)), rtol=EXACT)
+    assert_allclose(FlatPunch(a).force(d, E_STAR), 2 * E_STAR * a * d, rtol=EXACT)
+    assert_allclose(FlatPunch(a).pressure(discs(a), d, E_STAR),
+                    E_STAR * d / math.pi / np.sqrt(a**2 - discs(a) ** 2), rtol=EXACT)
+
+
+@pytest.mark.parametrize(("mapped", "closed"), MAPPED, ids=lambda s: name(s))
+def test_a_mapped_profile_is_its_closed_form(mapped, closed):
+    x, d = np.geomspace(1e-12, 1e3, 40), np.geomspace(1e-9, 1e-1, 12)
+    assert_allclose(mapped.profile_1d(x), closed.profile_1d(x), rtol=MAP)
+    assert_allclose(mapped.contact_radius(d), closed.contact_radius(d), rtol=MAP)
+    assert_allclose(mapped.force(d, E_STAR), closed.force(d, E_STAR), rtol=MAP)
+    r = discs(float(closed.contact_radius(1e-5)))
+    assert_allclose(mapped.pressure(r, 1e-5, E_STAR), closed.pressure(r, 1e-5, E_STAR), rtol=MAP)
+
+
+def test_truncated_cone_with_its_kink_named():
+    x = B * np.array([1.0001, 1.01, 1.5, 3, 100])
+    phi, shape = np.arccos(B / x), Profile(truncated, kinks=[B])
+    d = x * T * phi
+    assert_allclose(shape.profile_1d(x), d, rtol=MAP)
+    assert shape.profile_1d(0.5 * B) == 0
+    assert_allclose(shape.contact_radius(d), x, rtol=MAP)
+    assert_allclose(shape.force(d, 1), x**2 * T * (phi + np.cos(phi) * np.sin(phi)), rtol=MAP)
+    assert_allclose(shape.force(1e-300, 1), 2 * B * 1e-300, rtol=MAP)  # hardly pressed: a punch of radius b
+
+
+def test_an_unnamed_kink_is_warned_of():
+    with pytest.warns(UserWarning, match="kinks"):
+        Profile(truncated).contact_radius(1e-4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Profile(truncated, kinks=(B,)).contact_radius(1e-4)
+
+
+def test_a_profile_knows_its_end():
+    sphere = Profile(lambda r: 1 - np.sqrt(1 - r**2), r_max=1.0)
+    a = 0.9
+    assert_allclose(sphere.profile_1d(a), a / 2 * math.log((1 + a) / (1 - a)), rtol=MAP)
+    short = Profile(parabola, r_max=1e-3)
+    with pytest.raises(ValueError, match="press less"):
+        short.contact_radius(1.0)
+    with pytest.raises(ValueError, match="name its end"):
+        Profile(lambda r: 1 - np.sqrt(1 - r**2)).profile_1d(2.0)
+
+
+def test_annular_contact_is_refused_by_name():
+    with pytest.raises(ValueError, match="annular contact"):
+        Profile(lambda r: r**2 * (1e-4 - r**2), r_max=0.02)
+    with pytest.raises(ValueError, match="annular contact"):
+        Profile(lambda r: -(r**2), r_max=1e-3)
+
+
+def test_profiles_compare_by_their_function():
+    one, other = Profile(parabola, name="p"), Profile(lambda r: r**2 / 1e-2, name="p")
+    assert one == Profile(parabola, name="p") == pickle.loads(pickle.dumps(one))
+    assert one != other
+    assert hash(one) == hash(Profile(parabola, name="p"))
+    scalars_only = Profile(lambda r: math.pow(r, 2) / 1e-2)
+    assert_allclose(scalars_only.force(1e-5, 1), Paraboloid(5e-3).force(1e-5, 1), rtol=MAP)
+
+
+@pytest.mark.parametrize(("make", "error", "words"), [
+    (lambda: Paraboloid(-0.005), ValueError, "R must be positive, got -0.005"),
+    (lambda: Paraboloid(np.nan), ValueError, "finite"),
+    (lambda: Paraboloid("1"), TypeError, "real number"),
+    (lambda: Paraboloid(True), TypeError, "real number"),
+    (lambda: Cone(2), ValueError, "theta must lie between"),
+    (lambda: PowerLaw(0, 1), ValueError, "n must be positive"),
+    (lambda: FlatPunch(0), ValueError, "a must be positive"),
+    (lambda: Profile(3), TypeError, "function"),
+    (lambda: Profile(lambda r: r + 1), ValueError, "must be 0"),
+    (lambda: Profile(parabola, kinks=(2.0,), r_max=1.0), ValueError, "within r_max"),
+    (lambda: Paraboloid(1).force(1, -1), ValueError, "E_star must be positive"),
+    (lambda: Paraboloid(1).force("1", 1), TypeError, "d must be"),
+])  # fmt: skip
+def test_errors_name_quantity_and_rule(make, error, words):
+    with pytest.raises(error, match=words):
+        make()
+
+
+def test_a_shape_of_ones_own_needs_one_profile():
+    class Bump(Indenter):
+        def profile_1d(self, x):
+            return np.asarray(x) ** 2 / 5e-3
+
+    d, r = np.array([1e-6, 1e-5]), np.array([0, 1e-4])
+    assert_allclose(Bump().force(d, 1), Paraboloid(5e-3).force(d, 1), rtol=MAP)
+    assert_allclose(Bump().profile_3d(r), Paraboloid(5e-3).profile_3d(r), rtol=MAP)
+    with pytest.raises(TypeError, match="no shape yet"):
+        type("Nothing", (Indenter,), {})
+
+
+def test_names_are_listed():
+    assert all(hasattr(shapes, one) for one in shapes.__all__)

@@ -1,0 +1,121 @@
+"""Moduli, their ratio, the response to a frequency, and what a material refuses."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+
+RATIOS = [-0.9, -0.3, 0.0, 0.3, 0.45, 0.5]
+EXACT = 1e-14  # a handful of roundings
+
+
+def one_body(kind, E, nu):
+    return mdr.Elastic(E=E, nu=nu) if kind == "Elastic" else mdr.KelvinVoigt(E=E, nu=nu, tau=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["Elastic", "KelvinVoigt"])
+@pytest.mark.parametrize("nu", RATIOS)
+def test_contact_moduli_of_one_body(kind, nu):
+    E = 3e6
+    G = E / (2 * (1 + nu))
+    material = one_body(kind, E, nu)
+    assert_allclose(1 / material.E_star, (1 - nu**2) / E, rtol=EXACT)
+    assert_allclose(1 / material.G_star, (2 - nu) / (4 * G), rtol=EXACT)
+    assert_allclose(material.mindlin_ratio, material.E_star / material.G_star, rtol=EXACT)
+    assert_allclose(material.mindlin_ratio, (2 - nu) / (2 * (1 - nu)), rtol=EXACT)
+    assert_allclose(material.dundurs_beta, (1 - 2 * nu) / (2 * (1 - nu)), rtol=EXACT)
+
+
+def test_rubber():
+    rubber = mdr.Elastic(E=3e6, nu=0.5)
+    assert rubber.mindlin_ratio == 1.5
+    assert rubber.dundurs_beta == 0
+    assert_allclose(rubber.E_star, 4e6, rtol=EXACT)
+
+
+@pytest.mark.parametrize("nu", RATIOS)
+def test_from_shear(nu):
+    G, eta = 1e6, 500.0
+    elastic, kelvin = mdr.Elastic.from_shear(G=G, nu=nu), mdr.KelvinVoigt.from_shear(G=G, eta=eta, nu=nu)
+    for material in (elastic, kelvin):
+        assert_allclose(material.E, 2 * G * (1 + nu), rtol=EXACT)
+        assert_allclose(material.G_star, 4 * G / (2 - nu), rtol=EXACT)
+    assert_allclose(kelvin.tau, eta / G, rtol=EXACT)
+
+
+def test_from_loss_tangent():
+    omega = 2 * np.pi * 50
+    material = mdr.KelvinVoigt.from_loss_tangent(E=3e6, nu=0.5, tan_delta=0.2, omega=omega)
+    assert_allclose(material.tau, 0.2 / omega, rtol=EXACT)
+    assert_allclose(material.loss_tangent(omega), 0.2, rtol=EXACT)
+    assert_allclose(np.tan(np.angle(material.dynamic_modulus(omega))), 0.2, rtol=EXACT)
+
+
+@pytest.mark.parametrize("nu", RATIOS)
+def test_a_second_rigid_body_leaves_the_first(nu):
+    one, pair = mdr.Elastic(E=3e6, nu=nu), mdr.ElasticPair(E_1=3e6, nu_1=nu, E_2=3e26, nu_2=0.3)
+    for name in ("E_star", "G_star", "mindlin_ratio"):
+        assert_allclose(getattr(pair, name), getattr(one, name), rtol=EXACT)  # what is left of the second is 1e-20
+    # at nu = 1/2 nothing is left but the second body's own mismatch, 1e-20 of it
+    assert_allclose(pair.dundurs_beta, one.dundurs_beta, rtol=EXACT, atol=1e-19)
+
+
+@pytest.mark.parametrize("nu", RATIOS)
+def test_like_bodies_halve_the_modulus_and_do_not_couple(nu):
+    one, pair = mdr.Elastic(E=3e6, nu=nu), mdr.ElasticPair(3e6, nu, 3e6, nu)
+    assert pair.dundurs_beta == 0
+    assert_allclose(pair.E_star, one.E_star / 2, rtol=EXACT)
+    assert_allclose(pair.mindlin_ratio, one.mindlin_ratio, rtol=EXACT)
+
+
+def test_a_pair_may_be_named_in_either_order():
+    one, other = mdr.ElasticPair(3e6, 0.45, 70e9, 0.3), mdr.ElasticPair(70e9, 0.3, 3e6, 0.45)
+    assert one.E_star == other.E_star
+    assert one.G_star == other.G_star
+    assert_allclose(one.dundurs_beta, -other.dundurs_beta, rtol=EXACT)
+
+
+@pytest.mark.parametrize("material", [mdr.Elastic(3e6, 0.3), mdr.KelvinVoigt(3e6, 0.3, 1e-3), mdr.ElasticPair(3e6, 0.3, 5e6, 0.4)], ids=repr)
+def test_dynamic_modulus(material):
+    omega = np.array([[0.0, 1.0], [50.0, 2e4]])
+    assert_allclose(material.dynamic_modulus(omega), material.E_star * (1 + 1j * omega * material.tau), rtol=EXACT)
+    assert_allclose(material.loss_tangent(omega), omega * material.tau, rtol=EXACT)
+    assert type(material.dynamic_modulus(50.0)) is complex
+    assert type(material.loss_tangent(50.0)) is float
+    assert material.dynamic_modulus(0.0) == material.E_star
+    for bad in (math.nan, [1.0, math.inf]):
+        with pytest.raises(ValueError, match="omega must be finite"):
+            material.dynamic_modulus(bad)
+
+
+def test_zero_tau_is_elastic():
+    elastic, kelvin = mdr.Elastic(3e6, 0.3), mdr.KelvinVoigt(3e6, 0.3, 0)
+    assert elastic.tau == kelvin.tau == 0
+    assert elastic.E_star == kelvin.E_star
+
+
+BAD = [
+    (lambda: mdr.Elastic(E=0, nu=0.3), ValueError, "E must be positive, got 0.0 (Young's modulus in Pa)"),
+    (lambda: mdr.Elastic(E=1e6, nu=0.51), ValueError, "nu must lie in -1 < nu <= 0.5"),
+    (lambda: mdr.Elastic(E=1e6, nu=-1), ValueError, "nu must lie in -1 < nu <= 0.5"),
+    (lambda: mdr.Elastic(E=1e6, nu=math.nan), ValueError, "nu must be a finite number"),
+    (lambda: mdr.Elastic(E="soft", nu=0.3), TypeError, "E must be a real number, got 'soft' (str)"),
+    (lambda: mdr.KelvinVoigt(E=1e6, nu=0.3, tau=-1e-3), ValueError, "tau must not be negative"),
+    (lambda: mdr.KelvinVoigt(E=1e6, nu=0.3, tau=math.inf), ValueError, "tau must be a finite number"),
+    (lambda: mdr.KelvinVoigt.from_shear(G=-1, eta=1, nu=0.3), ValueError, "G must be positive"),
+    (lambda: mdr.KelvinVoigt.from_shear(G=1, eta=-1, nu=0.3), ValueError, "eta must not be negative"),
+    (lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=-1, omega=1), ValueError, "tan_delta must not be negative"),
+    (lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=1, omega=0), ValueError, "omega must be positive"),
+    (lambda: mdr.ElasticPair(1e6, 0.3, -1, 0.3), ValueError, "E_2 must be positive"),
+    (lambda: mdr.ElasticPair(1e6, 0.3, 1e6, 0.6), ValueError, "nu_2 must lie in"),
+]
+
+
+@pytest.mark.parametrize(("make", "kind", "message"), BAD, ids=[message for *_, message in BAD])
+def test_bad_input_stops_at_construction(make, kind, message):
+    with pytest.raises(kind, match=re.escape(message)):
+        make()

@@ -1,0 +1,133 @@
+"""The springs stand where sums over them are exact, however thin the edge band is."""
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, bowl, contact
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.springs import MIN_SPRINGS, SpringArray
+
+U_Z0 = 20e-6
+AMPLITUDES = [1e-9, 1e-6, 1e-3, 0.1, 0.9, 1.7]  # du_z/u_z0
+TAPPING = [0.0, -0.3, -0.9]  # u_z0/du_z
+RELAXATION = [0.0, 1.0, 10.0]
+KNOTTED = mdr.Profile(lambda r: np.maximum(r - 1e-4, 0) ** 2 / 1e-2, kinks=(1e-4,), name="rounded punch")
+
+
+def case_of(shape, alpha, T):
+    return contact(shape, 1 / alpha, T, du_z=alpha * U_Z0)
+
+
+def assert_sums_are_exact(case, springs, depths):
+    """At each depth [m]; a sum of 128 terms is good to 128 roundings at most, and the tolerance is what was asked."""
+    indenter, E_star, u_z0 = case.indenter, case.material.E_star, case.oscillation.u_z0
+    for u_z in depths:
+        assert_allclose(springs.normal_stiffness(u_z, u_z0), indenter.stiffness(u_z, E_star), rtol=1e-12)
+        assert_allclose(springs.normal_force(u_z, u_z0), indenter.force(u_z, E_star), rtol=1e-12)
+
+
+@pytest.mark.parametrize("T", RELAXATION)
+@pytest.mark.parametrize("alpha", AMPLITUDES)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_sums_are_exact_at_the_mean_and_the_extreme_depths(shape, alpha, T):
+    case = case_of(shape, alpha, T)
+    u_z0, du_z = case.oscillation.u_z0, case.oscillation.du_z
+    depths = [u_z for u_z in (u_z0, u_z0 - du_z, u_z0 + du_z) if u_z > 0]
+    for n in (MIN_SPRINGS, 128):
+        assert_sums_are_exact(case, SpringArray.of(case, n), depths)
+
+
+@pytest.mark.parametrize("T", RELAXATION)
+@pytest.mark.parametrize("depth_ratio", TAPPING)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_sums_are_exact_when_tapping(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    springs = SpringArray.of(case, 64)
+    assert_sums_are_exact(case, springs, [case.u_z_max])
+    assert springs.normal_force(0.0, case.oscillation.u_z0) == 0
+    assert springs.n_core == 0
+
+
+@pytest.mark.parametrize(("alpha", "T"), [(1e-6, 1.0), (0.1, 0.0), (1.7, 0.0)])
+@pytest.mark.parametrize("profile", [mdr.Profile(bowl, name="bowl"), KNOTTED], ids=lambda shape: shape.name)
+def test_sums_are_exact_for_a_profile(profile, alpha, T):
+    case = case_of(profile, alpha, T)
+    u_z0, du_z = case.oscillation.u_z0, case.oscillation.du_z
+    # a panel of a profile is as good as its quadrature, whose documented error is 1e-9
+    for u_z in (u_z0, u_z0 + du_z):
+        springs = SpringArray.of(case, 64)
+        assert_allclose(springs.normal_stiffness(u_z, u_z0), profile.stiffness(u_z, case.material.E_star), rtol=1e-9)
+        assert_allclose(springs.normal_force(u_z, u_z0), profile.force(u_z, case.material.E_star), rtol=1e-9)
+
+
+@pytest.mark.parametrize("T", [0.0, 1.0])
+@pytest.mark.parametrize("alpha", [1e-6, 0.1, 0.9, 1.7])
+@pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
+def test_force_between_the_extremes_is_of_second_order(shape, alpha, T):
+    case = case_of(shape, alpha, T)
+    u_z0, du_z = case.oscillation.u_z0, case.oscillation.du_z
+    phases = np.random.default_rng(1).uniform(0, np.pi, 100)
+    depths = [u_z for u_z in u_z0 + du_z * np.cos(phases) if u_z > 1e-3 * u_z0]
+    exact = np.array([case.indenter.force(u_z, case.material.E_star) for u_z in depths])
+    counts, errors = np.array([32, 64, 128, 256, 512]), []
+    for n in counts:
+        springs = SpringArray.of(case, int(n))
+        got = np.array([springs.normal_force(u_z, u_z0) for u_z in depths])
+        errors.append(np.sqrt(np.mean((got - exact) ** 2)) / (case.k_zc * du_z))
+    # the depths meet the cells at random places, which scatters the slope by some 0.1
+    assert np.polyfit(np.log(counts), np.log(errors), 1)[0] < -1.75
+    # the one cell at the edge, of width 2 a/n at most, is pressed or not by half its depth: 1/n**2, times a few for the r4 edge
+    assert errors[-1] < 8 / counts[-1] ** 2
+
+
+@pytest.mark.parametrize("T", RELAXATION)
+@pytest.mark.parametrize("depth_ratio", [1e6, 10.0, 0.6, -0.3])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_cells_tile_the_largest_contact(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    springs = SpringArray.of(case, 100)
+    assert springs.x.shape == springs.gap.shape == springs.width.shape == (100,)
+    a = float(case.indenter.contact_radius(case.u_z_max))
+    left, right = springs.x - springs.width / 4, springs.x + springs.width / 4  # width counts both sides
+    assert_allclose(left[1:], right[:-1], rtol=0, atol=1e-14 * a)
+    assert_allclose([left[0], right[-1]], [0, a], rtol=0, atol=1e-14 * a)
+    assert_allclose(springs.width.sum() / 2, a, rtol=1e-13)
+    # as far as rounding of a gap allows, which is that of the depth u_z0
+    assert np.all(np.diff(springs.gap) >= -4e-16 * abs(case.oscillation.u_z0))
+
+
+@pytest.mark.parametrize("T", RELAXATION)
+@pytest.mark.parametrize("depth_ratio", [1e6, 30.0, 10.0, 3.0, 0.6])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_core_never_leaves_and_the_next_spring_does(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    springs = SpringArray.of(case, 100)
+    h = -springs.gap / case.oscillation.du_z
+    stays = reference.always_touches(h, T)
+    assert np.all(stays[: springs.n_core])
+    assert not np.any(stays[springs.n_core :])
+    if depth_ratio < np.hypot(1, T):
+        assert springs.n_core == 0
+
+
+def test_stiffness_of_one_spring():
+    case = contact("paraboloid", T=1.0)
+    springs = SpringArray.of(case)
+    assert springs.x.size == 512
+    assert_allclose(springs.dk_z, case.material.E_star * springs.width, rtol=1e-15)
+    assert_allclose(springs.dk_z / springs.dk_x, case.material.mindlin_ratio, rtol=1e-14)
+
+
+@pytest.mark.parametrize("n", [0, 1, MIN_SPRINGS - 1])
+def test_too_few_springs_are_refused(n):
+    with pytest.raises(ValueError, match=f"n_springs must be at least {MIN_SPRINGS} .*, got {n}"):
+        SpringArray.of(contact("cone"), n)
+
+
+def test_a_shape_of_many_kinks_needs_more_springs():
+    kinks = tuple(np.linspace(1e-5, 2e-4, 12))
+    case = contact(mdr.Profile(bowl, kinks=kinks), 10.0)
+    with pytest.raises(ValueError, match="n_springs must be at least .* for this shape with its kinks, got 16"):
+        SpringArray.of(case, 16)

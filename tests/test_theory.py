@@ -1,0 +1,295 @@
+"""Every closed form against its neighbours: limits, derivatives, the equation of motion, the printed page."""
+
+import math
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, contact
+from numpy.testing import assert_allclose
+from scipy.integrate import quad
+
+import mdr
+from mdr import theory
+
+MU_0, U_Z0, DU_Z, OMEGA, KAPPA = 0.4, 20e-6, 2e-6, 300.0, 1.25
+K_ZC, V_0 = 4e4, 1e-3
+K_XC = K_ZC / KAPPA
+GAMMA = [0.0, 40.0, 400.0]  # T = 0, 0.3, 3
+BODIES = {"heavy": (2e4, 1.0), "light": (2e4, 0.01), "no mass": (2e4, 0.0), "soft": (50.0, 0.3)}
+TIMES = np.linspace(0, 2 * np.pi / OMEGA, 97)
+
+
+def random_cases(n=1000):
+    """Positive quantities over decades, bodies heavy and light; the same every time."""
+    rng = np.random.default_rng(15)
+
+    def spread(low, high):
+        return np.exp(rng.uniform(np.log(low), np.log(high), n))
+
+    mu_0, du_z, omega = spread(0.01, 2), spread(1e-9, 1e-3), spread(1e-2, 1e6)
+    k_zc, kappa, k_x = spread(1e-3, 1e9), rng.uniform(1, 1.5, n), spread(1e-3, 1e9)
+    gamma_zc = k_zc / omega * spread(1e-3, 1e3)
+    m = k_x / omega**2 * spread(1e-4, 1e4)
+    return zip(*(column.tolist() for column in (mu_0, du_z, omega, k_zc, k_zc / kappa, gamma_zc, k_x, m)), strict=True)
+
+
+# --- normal force ---
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+def test_eq_4_is_spring_and_dashpot_on_eq_3(gamma):
+    motion = mdr.NormalOscillation(U_Z0, DU_Z, OMEGA)
+    expected = K_ZC * motion.u_z(TIMES) + gamma * motion.u_z_dot(TIMES)
+    assert_allclose(theory.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma), expected, rtol=1e-14, atol=1e-14 * K_ZC * U_Z0)
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+def test_eq_6_is_the_amplitude_and_eq_7_the_least_of_eq_4(gamma):
+    # the extremes of a harmonic lie where its phase says
+    delta = math.atan(gamma * OMEGA / K_ZC)
+    extremes = theory.eq_4(np.array([-delta, np.pi - delta]) / OMEGA, U_Z0, DU_Z, OMEGA, K_ZC, gamma)
+    assert_allclose((extremes[0] - extremes[1]) / 2, theory.eq_6(DU_Z, OMEGA, K_ZC, gamma), rtol=1e-13)
+    assert_allclose(MU_0 * extremes[1], theory.eq_7(MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma), rtol=1e-13)
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+def test_eq_5_is_a_positive_least_force(gamma):
+    limit = theory.eq_6(DU_Z, OMEGA, K_ZC, gamma) / K_ZC
+    for u_z0 in (limit * (1 + 1e-12), limit * (1 - 1e-12)):
+        assert theory.eq_5(u_z0, DU_Z, OMEGA, K_ZC, gamma) == (theory.eq_7(MU_0, u_z0, DU_Z, OMEGA, K_ZC, gamma) > 0)
+    assert theory.eq_5(limit * 1.01, DU_Z, OMEGA, K_ZC, gamma)
+    assert not theory.eq_5(limit * 0.99, DU_Z, OMEGA, K_ZC, gamma)
+
+
+@pytest.mark.parametrize(("depth_ratio", "T"), [(3.0, 0.0), (3.0, 2.0), (3.0, 2.9), (0.9, 0.0)])
+def test_eq_5_says_what_the_case_says(depth_ratio, T):
+    case = contact("flat", depth_ratio, T)
+    motion = case.oscillation
+    assert theory.eq_5(motion.u_z0, motion.du_z, motion.omega, case.k_zc, case.gamma_zc) == case.keeps_contact
+
+
+# --- motion in full slip ---
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_eq_10_solves_eq_8(body, gamma):
+    k_x, m = body
+
+    def u_x(t):
+        return theory.eq_10(t, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
+
+    # u_x is a constant, a slope and one harmonic; three samples a third of a period apart hold nothing else, and the second
+    # derivative of the harmonic is -omega**2 times it
+    third = 2 * np.pi / OMEGA / 3
+    mean = (u_x(TIMES) + u_x(TIMES + third) + u_x(TIMES - third)) / 3
+    acceleration = -(OMEGA**2) * (u_x(TIMES) - mean)
+    force = MU_0 * theory.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma)
+    right = k_x * (V_0 * TIMES - u_x(TIMES)) - force  # Eq. (8)
+    # terms of the size of the force and of the inertia cancel
+    assert_allclose(m * acceleration, right, rtol=0, atol=1e-12 * (force.max() + np.abs(m * acceleration).max()))
+
+
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_eq_10_accelerates_as_finite_differences_say(body):
+    k_x, m = body
+    dt = 1e-3 / OMEGA
+    u_x = [theory.eq_10(TIMES + i * dt, 0.0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, 40.0, k_x, m) for i in (-1, 0, 1)]
+    mean = -MU_0 * K_ZC / k_x * U_Z0
+    swing = u_x[1] - mean
+    # central difference: (omega dt)**2/12 = 1e-7 of the swing, and rounding 1e-16/1e-6 of the mean
+    tolerance = 1e-7 * np.abs(swing).max() + 1e-9 * abs(mean)
+    assert_allclose((u_x[0] - 2 * u_x[1] + u_x[2]) / 1e-3**2, -swing, rtol=0, atol=tolerance)
+
+
+def test_eq_11_is_the_ratio_of_the_stiffnesses():
+    case = contact("paraboloid", T=0.7)
+    gamma_xc = theory.eq_11(case.gamma_zc, case.material.mindlin_ratio)
+    assert_allclose(gamma_xc / case.gamma_zc, case.k_xc / case.k_zc, rtol=1e-14)
+    assert_allclose(gamma_xc, case.gamma_xc, rtol=1e-14)
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+def test_eq_12_balances_the_foot_eq_9(gamma):
+    # the same first-order operator on both sides: k_xc e + gamma_xc e' = mu_0 F_N
+    e = theory.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
+    e_dot = theory.eq_12(TIMES + np.pi / 2 / OMEGA, MU_0, 0.0, DU_Z, OMEGA, KAPPA) * OMEGA  # a quarter turn on
+    left = K_XC * e + theory.eq_11(gamma, KAPPA) * e_dot
+    assert_allclose(left, MU_0 * theory.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma), rtol=1e-12, atol=1e-14 * K_ZC * U_Z0)
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_eq_13_is_eq_10_less_eq_12(body, gamma):
+    k_x, m = body
+    # written out as printed
+    inertia = m * OMEGA**2 - k_x
+    phase = OMEGA * TIMES
+    printed = (
+        V_0 * TIMES
+        - MU_0 * K_ZC * U_Z0 * (1 / k_x + 1 / K_XC)
+        + MU_0 * DU_Z / inertia * (K_ZC * np.cos(phase) - gamma * OMEGA * np.sin(phase))
+        - MU_0 * K_ZC / K_XC * DU_Z * np.cos(phase)
+    )
+    foot = theory.eq_13(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+    scale = np.abs(printed).max()
+    assert_allclose(foot, printed, rtol=0, atol=1e-13 * scale)
+    body_motion = theory.eq_10(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
+    extension = theory.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
+    assert_allclose(foot, body_motion - extension, rtol=0, atol=1e-15 * scale)
+
+
+@pytest.mark.parametrize("gamma", GAMMA)
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_eq_14_is_the_rate_of_eq_13(body, gamma):
+    k_x, m = body
+    dt = 1e-4 / OMEGA
+    groups = MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m
+    ahead, behind = (theory.eq_13(t, 0.0, *groups) for t in (TIMES + dt, TIMES - dt))
+    rate = theory.eq_14(TIMES, 0.0, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+    # central difference: (omega dt)**2/6 = 2e-9 of the amplitude; rounding of the position over dt
+    atol = 4e-9 * np.abs(rate).max() + 4e-16 * np.abs(ahead).max() / dt
+    assert_allclose(rate, (ahead - behind) / (2 * dt), rtol=0, atol=atol)
+    with_pull = theory.eq_14(TIMES, V_0, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+    assert_allclose(with_pull - V_0, rate, rtol=0, atol=4e-16 * (V_0 + np.abs(rate).max()))
+
+
+# --- critical velocity ---
+
+
+def test_eq_15_is_the_printed_one():
+    for mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, m in random_cases():
+        inertia = m * omega**2 - k_x
+        root = math.sqrt((gamma_zc * omega) ** 2 + (k_zc / k_xc * (m * omega**2 - k_xc - k_x)) ** 2)
+        printed = mu_0 * du_z * omega / abs(inertia) * root
+        # the printed order of subtraction loses more where k_xc or k_x is small beside the other
+        assert_allclose(theory.eq_15(mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, m), printed, rtol=1e-12)
+
+
+def test_eq_2_is_the_printed_one_and_the_elastic_limit_of_eq_15():
+    for mu_0, du_z, omega, k_zc, k_xc, _, k_x, m in random_cases():
+        printed = mu_0 * omega * du_z * k_zc / k_xc * abs(k_xc + k_x - m * omega**2) / abs(k_x - m * omega**2)
+        got = theory.eq_2(mu_0, du_z, omega, k_zc, k_xc, k_x, m)
+        assert_allclose(got, printed, rtol=1e-12)
+        # a damping of 1e-9 adds its square where nothing cancels, and at most 1e-9 of Eq. (1)'s share otherwise
+        damped = theory.eq_15(mu_0, du_z, omega, k_zc, k_xc, 1e-9 * k_zc / omega, k_x, m)
+        viscous = mu_0 * du_z * omega * 1e-9 * k_zc / abs(m * omega**2 - k_x)
+        assert_allclose(damped, got, rtol=1e-12, atol=viscous)
+
+
+def test_eq_1_is_the_stiff_limit_of_eq_15():
+    for mu_0, du_z, omega, k_zc, k_xc, gamma_zc, *_ in random_cases(200):
+        expected = mu_0 * omega * du_z * k_zc / k_xc
+        assert_allclose(theory.eq_1(mu_0, du_z, omega, k_zc / k_xc), expected, rtol=1e-15)
+        k_x = 1e14 * (k_zc + gamma_zc * omega)
+        # what is left of the body is (k_xc + i omega gamma_xc)/k_x < 1e-14
+        assert_allclose(theory.eq_15(mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, 0.0), expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("c_x", [0.0, 1.0, 300.0])
+def test_eq_15_is_the_least_velocity_that_keeps_eq_14_positive(c_x):
+    k_x, m, gamma = 2e4, 0.01, 40.0
+    K_z, H = K_ZC + 1j * OMEGA * gamma, mdr.SpringPull(k_x, m, c_x).receptance(OMEGA)
+    v_c = theory.eq_15(MU_0, DU_Z, OMEGA, K_ZC, K_XC, gamma, k_x, m, c_x)
+    assert_allclose(v_c, MU_0 * OMEGA * DU_Z * abs(K_ZC / K_XC + K_z * H), rtol=1e-13)
+    if c_x == 0:
+        t = np.linspace(0, 2 * np.pi / OMEGA, 20_001)
+        foot = theory.eq_14(t, v_c, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+        # the least of 20000 samples lies within (pi/20000)**2/2 of the minimum
+        assert_allclose(foot.min() / v_c, 0, atol=(np.pi / 20_000) ** 2)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5, 3.0])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_critical_velocity_reads_the_case(shape, T):
+    case = contact(shape, 5.0, T, 0.7, 1.6, 0.2)
+    unit = theory.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
+    assert_allclose(mdr.critical_velocity(case) / unit, reference.eq_15(T, 0.7, 1.6, 0.2), rtol=1e-12)
+    no_mass = contact(shape, 5.0, T, 0.7, math.inf, 0.2)
+    assert_allclose(mdr.critical_velocity(no_mass) / unit, abs(1 + (1 + 1j * T) / (0.7 + 0.2j)), rtol=1e-12)
+
+
+@pytest.mark.parametrize("T", [0.0, 3.0])
+@pytest.mark.parametrize("depth_ratio", [-0.5, 0.0, 0.6, 3.0, 300.0])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_rigid_pull_has_eq_1_whatever_shape_depth_and_material(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    nu = case.material.nu
+    expected = case.mu_0 * case.oscillation.omega * case.oscillation.du_z * (2 - nu) / (2 * (1 - nu))
+    assert_allclose(mdr.critical_velocity(case), expected, rtol=1e-14)
+
+
+def test_it_is_infinite_on_the_undamped_resonance_alone():
+    indenter, material = SHAPES["flat"][0], mdr.KelvinVoigt(3e6, 0.4, 1e-3)
+    motion = mdr.NormalOscillation(U_Z0, DU_Z, 256.0)  # 256**2 * 0.25 is exact in binary
+
+    def v_c(k_x, c_x=0.0):
+        return mdr.critical_velocity(mdr.SlidingContact(indenter, material, 0.4, motion, mdr.SpringPull(k_x, 0.25, c_x)))
+
+    assert math.isinf(v_c(16384.0))
+    assert math.isfinite(v_c(16384.0, 1e-6))
+    # next to it the pole: k_zc/(k_x eps) with a relative eps of 1e-9
+    assert_allclose(v_c(16384.0 * (1 + 1e-9)) / v_c(16384.0 * (1 + 2e-9)), 2, rtol=1e-6)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_depth_drops_out_for_the_flat_punch_alone(T):
+    pull = mdr.SpringPull(k_x=5e3, m=0.02)
+
+    def v_c(shape, depth_ratio):
+        case = contact(shape, depth_ratio, T)
+        return mdr.critical_velocity(mdr.SlidingContact(case.indenter, case.material, 0.4, case.oscillation, pull))
+
+    assert v_c("flat", 3.0) == v_c("flat", 300.0)
+    assert abs(v_c("paraboloid", 3.0) / v_c("paraboloid", 300.0) - 1) > 0.1
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_it_scales_as_it_should(T):
+    # at fixed groups mu_0, the amplitude, the frequency and the modulus enter through the unit of velocity alone
+    groups = "paraboloid", 5.0, T, 0.7, 1.6, 0.2
+    one = mdr.critical_velocity(contact(*groups))
+    assert_allclose(mdr.critical_velocity(contact(*groups, E=3e9)), one, rtol=1e-13)
+    assert_allclose(mdr.critical_velocity(contact(*groups, mu_0=0.8)), 2 * one, rtol=1e-13)
+    assert_allclose(mdr.critical_velocity(contact(*groups, omega=3000.0)), 10 * one, rtol=1e-13)
+    assert_allclose(mdr.critical_velocity(contact(*groups, du_z=2e-9)), 1e-3 * one, rtol=1e-13)
+
+
+# --- the deficit ---
+
+
+@pytest.mark.parametrize("v_hat", [1e-12, 1e-6, 0.01, 0.3, 0.5, 0.9, 0.999, 1 - 1e-9])
+def test_deficit_against_the_twin(v_hat):
+    # terms of order 1 cancel
+    assert_allclose(theory.deficit(v_hat), reference.flat_punch_deficit(v_hat), rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("v_hat", [0.05, 0.4, 0.8])
+def test_deficit_is_the_mean_lag_of_a_spring(v_hat):
+    # e = least of s(t - theta) + v_hat theta with s = cos t (+ a depth): after phi_1 it grows at v_hat until it meets s again
+    phi_1 = np.pi + np.arcsin(v_hat)
+
+    def lag(t):
+        return max(math.cos(t) - math.cos(phi_1) - v_hat * (t - phi_1), 0.0)
+
+    area, _ = quad(lag, phi_1, phi_1 + 2 * np.pi, limit=200, epsabs=1e-11)
+    # quad says 1e-11; the kink where the lag ends costs it a few more
+    assert_allclose(theory.deficit(v_hat), area / (2 * np.pi), rtol=0, atol=1e-9)
+
+
+def test_deficit_ends_at_one_and_zero():
+    assert theory.deficit(0) == 1
+    assert theory.deficit(1) == 0
+    # psi falls with slope -pi from 1 and ends like (1 - v_hat)**2
+    assert_allclose((1 - theory.deficit(1e-7)) / 1e-7, np.pi, rtol=1e-2)
+    small = theory.deficit(1 - 1e-3)
+    assert 0.5e-6 < small < 1e-6
+    values = [theory.deficit(v) for v in np.linspace(0, 1, 101)]
+    assert np.all(np.diff(values) < 0)
+
+
+@pytest.mark.parametrize("v_hat", [-1e-9, 1 + 1e-9, math.nan, math.inf])
+def test_deficit_outside_its_range_is_refused(v_hat):
+    with pytest.raises(ValueError, match=r"v_hat must lie in \[0, 1\]"):
+        theory.deficit(v_hat)
