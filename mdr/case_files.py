@@ -364,6 +364,8 @@ def _syntax_fault(text: str, message: str) -> str:
         what = "more than one value; write one number in SI, without unit or arithmetic"
     elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
         what += "; is it given twice?"
+    elif what.startswith("Exceeds the limit"):
+        what = "a number has thousands of digits"
     return f"line {number}: {_short(line)}: {what}" if where else what
 
 

@@ -30,7 +30,7 @@ from mdr.full_slip import full_slip_critical_velocity, static_cof
 from mdr.progress import progress
 from mdr.pull import RigidPull, SpringPull
 from mdr.sliding import SlidingRun, slide
-from mdr.theory import critical_velocity
+from mdr.theory import critical_velocity, eq_1
 
 Array = NDArray[np.float64]
 
@@ -98,7 +98,8 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
 MARGIN = 2e-5  #: half width of the bracket, of v_c
 APART = 0.01  #: step between velocities at which the deficit of the COF is read
 ABOVE = (1.02, 1.1, 1.3, 2.0, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
-HIGHEST = 1e6  #: times Eq. (1): no stick-free run below this means there is no v_c
+LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
+HIGHEST = 1e3  #: times Eq. (1): no stick-free run below this means there is no v_c
 
 
 @dataclass(frozen=True)
@@ -162,6 +163,8 @@ class _Search:
         """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
         low, high = 0.0, free.v_0
         guess = free.v_0 - free.least_slip
+        if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
+            return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         for width in (MARGIN, 4 * MARGIN, 16 * MARGIN, 64 * MARGIN):
             above, below = self.run(guess * (1 + width)), self.run(guess * (1 - width))
             if _is_free(above) and not _is_free(below):
@@ -275,7 +278,7 @@ class Verdict:
     eq_15: float  #: Eq. (15) at the mean depth; Eq. (1) for a rigid pull
     full_slip: float  #: the same condition with all harmonics of the normal force
     measured: float | None  #: from runs alone
-    deviation: float | None  #: measured/eq_15 - 1
+    deviation: float | None  #: measured/eq_15 - 1; beside a vanishing Eq. (15), over 1e-4 of Eq. (1)
     holds: bool  #: whether the deviation is within the bracket of the measurement
     why: str  #: in the words of the physics
     measurement: MeasuredVelocity  #: bracket and kind
@@ -296,8 +299,11 @@ def verdict(case: SlidingContact) -> Verdict:
         return Verdict(
             eq_15, full, found.v_c, None, holds, "; ".join([*_reasons(case, eq_15, full, found), found.why]), found
         )
-    deviation = found.v_c / eq_15 - 1
-    holds = abs(deviation) <= CLOSE
+    scale = max(
+        eq_15, LEAST * eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
+    )
+    deviation = (found.v_c - eq_15) / scale
+    holds = abs(deviation) <= CLOSE or max(eq_15, found.v_c) < scale
     reasons = (
         list(_reasons(case, eq_15, full, found))
         if not holds

@@ -89,7 +89,8 @@ def static_cof(case: SlidingContact) -> float:
     contact.
     """
     F_N = full_slip(case).F_N
-    return case.mu_0 * float(F_N.min() / F_N.mean())
+    least = max(-_peak(-F_N), 0.0)
+    return case.mu_0 * least / float(F_N.mean())
 
 
 def normal_force_harmonics(case: SlidingContact, n_t: int = N_INSTANTS) -> NDArray[np.complex128]:

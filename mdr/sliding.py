@@ -29,6 +29,7 @@ from mdr.springs import SpringArray
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
+SWING_TOLERANCE = 1e-3  #: of the swing of the body between windows, over v_0/omega
 BUDGET = 1e-5  #: of cof/mu_0, what the default knobs are to meet
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 _N_SPRINGS, _STEPS = 384, 1024  # first choice; doubled while cof_error exceeds the budget
@@ -174,6 +175,7 @@ class _March:
     springs: SpringArray
     settling: Settling
     n_periods: int
+    mean_F_z: float
     seen: _Seen
 
     @property
@@ -206,6 +208,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: _Knobs, free: tuple[
     """Run with its companions; refine what was left free while the error exceeds the budget."""
     while True:
         main = _march(case, v_0, knobs)
+        if not main.settling.settled:
+            return _finish(main)
         error_springs = _difference(main, _march(case, v_0, knobs.coarser(n_springs=2), main.n_periods))
         error_steps = _difference(main, _march(case, v_0, knobs.coarser(steps=2), main.n_periods))
         run = _finish(main, error_springs + error_steps)
@@ -214,17 +218,23 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: _Knobs, free: tuple[
             n_springs=knobs.n_springs * (2 if free[0] and error_springs > BUDGET / 2 and knobs.n_springs < 4096 else 1),
             steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < 16384 else 1),
         )
-        if not main.settling.settled or run.cof_error <= BUDGET * case.mu_0 or finer == knobs:
+        if run.cof_error <= BUDGET * case.mu_0 or finer == knobs:
             return run
         knobs = finer
 
 
 def _difference(main: _March, companion: _March) -> float:
-    """Difference of the COFs, over mu_0, with the change that a kink between two nodes can hide."""
-    halves = (main.knobs.steps // companion.knobs.steps, main.knobs.n_springs // companion.knobs.n_springs)
-    coarseness = (2 * np.pi / main.knobs.steps) ** 2 if halves[0] > 1 else 4.0 / main.knobs.n_springs**2
-    hidden = 0.02 * coarseness * (1 - main.cof) if halves != (1, 1) else 0.0
-    return abs(main.cof - companion.cof) + hidden
+    """Difference of the COFs, over mu_0, with what a kink between two nodes can hide.
+
+    A kink of size [e'] at the end of stick costs a mean up to [e'] h²/8 of one step. Near v_c, with psi ~ (1 - v)² the
+    deficit of one spring, [e'] falls only like psi^(1/4); so the allowance follows this, not the deficit.
+    """
+    if main.cof == companion.cof:
+        return 0.0
+    finer_steps = main.knobs.steps > companion.knobs.steps
+    coarseness = (2 * np.pi / main.knobs.steps) ** 2 if finer_steps else 4.0 / main.knobs.n_springs**2
+    psi = min(max(1 - main.cof, 0.0) * main.mean_F_z, 1.0)
+    return abs(main.cof - companion.cof) + 0.015 * coarseness / main.mean_F_z * psi**0.25
 
 
 def _march(case: SlidingContact, v_0: float, knobs: _Knobs, n_periods: int | None = None) -> _March:
@@ -242,8 +252,8 @@ def _march(case: SlidingContact, v_0: float, knobs: _Knobs, n_periods: int | Non
     if not line.as_one:  # the core did not move as one after all: every spring for itself
         return _march(case, v_0, replace(knobs, lump=False), n_periods)
     if settling is None:
-        settling = judge(line.cofs, TOLERANCE)
-    return _March(case, v_0, knobs, scaled, springs, settling, line.n_periods, seen)
+        settling = line.judge()
+    return _March(case, v_0, knobs, scaled, springs, settling, line.n_periods, line.mean_F_z, seen)
 
 
 class _Line:
@@ -261,6 +271,7 @@ class _Line:
             self.history = scaled.rest_history(v)
         self.as_one = True
         self.cofs = np.empty(0)
+        self.swings = np.empty(0)  # of the body, greatest less least y of a period
 
     @property
     def n_periods(self) -> int:
@@ -325,11 +336,12 @@ class _Line:
         nothing = np.empty((0, self.e.size))
         for part in _parts(n_periods, max(1, 4_000_000 // self.scaled.steps)):
             S_start = self.history[3]
-            _, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
-            self._append(S_start, S)
+            y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
+            self._append(S_start, y, S)
 
-    def _append(self, S_start: float, S: Array) -> None:
-        """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends."""
+    def _append(self, S_start: float, y: Array, S: Array) -> None:
+        """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends; and swing of y."""
+        self.swings = np.concatenate([self.swings, np.ptp(y.reshape(-1, self.scaled.steps), axis=1)])
         ends = np.concatenate([[S_start], S[self.scaled.steps - 1 :: self.scaled.steps]])
         inner = S.reshape(-1, self.scaled.steps).mean(axis=1)
         mean = inner - 0.5 * np.diff(ends) / self.scaled.steps + self.scaled.T * np.diff(ends) / (2 * np.pi)
@@ -338,8 +350,15 @@ class _Line:
     def wait(self, most: int) -> Settling:
         """March until the windows agree."""
         self.advance(8)
-        while not (settling := judge(self.cofs, TOLERANCE)).settled and self.n_periods < most and self.as_one:
+        while not (settling := self.judge()).settled and self.n_periods < most and self.as_one:
             self.advance(max(4, self.n_periods // 2))
+        return settling
+
+    def judge(self) -> Settling:
+        """Whether the COF has settled, and the swing of the body with it: on a resonance it grows before stick begins."""
+        settling = judge(self.cofs, TOLERANCE)
+        if settling.settled and not judge(self.swings / self.v, SWING_TOLERANCE).settled:
+            return replace(settling, settled=False, kind="unsettled")
         return settling
 
     def observe(self, n_periods: int, keep: bool) -> _Seen:
@@ -383,7 +402,7 @@ class _Line:
             y_all.append(y)
             S_all.append(S)
             done += part
-        self._append(S_start, np.concatenate(S_all))
+        self._append(S_start, np.concatenate(y_all[1:]), np.concatenate(S_all))
         return _Seen(sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, mode, (stored, self._stored()))
 
     def _compression(self, step: int) -> Array:
@@ -442,6 +461,8 @@ def _why_not(march: _March) -> str:
     settling, n = march.settling, march.n_periods
     if not np.isfinite(settling.spread):
         return f"{n} periods are too few to compare windows: raise n_periods to 8 or more"
+    if settling.spread <= TOLERANCE:
+        return f"the swing of the body still changes after {n} periods, as on a resonance: raise n_periods or add c_x"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.K and march.scaled.C == 0:
         return f"{change}: the free oscillation of a body without damper does not die out; add c_x"

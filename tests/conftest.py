@@ -25,7 +25,18 @@ def bowl(r):
 
 
 def contact(
-    shape, depth_ratio=3.0, T=0.0, k_ratio=math.inf, omega_0_ratio=1.6, c_ratio=0.0, *, du_z=2e-6, omega=300.0, mu_0=0.4, nu=0.4, E=3e6
+    shape,
+    depth_ratio=3.0,
+    T=0.0,
+    k_ratio=math.inf,
+    omega_0_ratio=1.6,
+    c_ratio=0.0,
+    *,
+    du_z=2e-6,
+    omega=300.0,
+    mu_0=0.4,
+    nu=0.4,
+    E=3e6,
 ):
     """A contact in SI from the groups of the twin; shape is a name or an indenter, k_ratio = inf a rigid pull, omega_0_ratio = inf no mass."""
     indenter = SHAPES[shape][0] if isinstance(shape, str) else shape

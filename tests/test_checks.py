@@ -30,7 +30,9 @@ def test_nan_and_infinity_are_refused(check, value):
         check("R", value)
 
 
-@pytest.mark.parametrize("value", [True, False, np.True_, "3", None, 3j, [3], np.array(3.0), np.array([1.0, 2.0])], ids=repr)
+@pytest.mark.parametrize(
+    "value", [True, False, np.True_, "3", None, 3j, [3], np.array(3.0), np.array([1.0, 2.0])], ids=repr
+)
 def test_what_is_not_a_number_is_a_type_error(check, value):
     with pytest.raises(TypeError, match=r"^R must be"):
         check("R", value)

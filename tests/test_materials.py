@@ -79,7 +79,9 @@ def test_a_pair_may_be_named_in_either_order():
     assert_allclose(one.dundurs_beta, -other.dundurs_beta, rtol=EXACT)
 
 
-@pytest.mark.parametrize("material", [mdr.Elastic(3e6, 0.3), mdr.KelvinVoigt(3e6, 0.3, 1e-3), mdr.ElasticPair(3e6, 0.3, 5e6, 0.4)], ids=repr)
+@pytest.mark.parametrize(
+    "material", [mdr.Elastic(3e6, 0.3), mdr.KelvinVoigt(3e6, 0.3, 1e-3), mdr.ElasticPair(3e6, 0.3, 5e6, 0.4)], ids=repr
+)
 def test_dynamic_modulus(material):
     omega = np.array([[0.0, 1.0], [50.0, 2e4]])
     assert_allclose(material.dynamic_modulus(omega), material.E_star * (1 + 1j * omega * material.tau), rtol=EXACT)
@@ -108,8 +110,16 @@ BAD = [
     (lambda: mdr.KelvinVoigt(E=1e6, nu=0.3, tau=math.inf), ValueError, "tau must be a finite number"),
     (lambda: mdr.KelvinVoigt.from_shear(G=-1, eta=1, nu=0.3), ValueError, "G must be positive"),
     (lambda: mdr.KelvinVoigt.from_shear(G=1, eta=-1, nu=0.3), ValueError, "eta must not be negative"),
-    (lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=-1, omega=1), ValueError, "tan_delta must not be negative"),
-    (lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=1, omega=0), ValueError, "omega must be positive"),
+    (
+        lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=-1, omega=1),
+        ValueError,
+        "tan_delta must not be negative",
+    ),
+    (
+        lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=1, omega=0),
+        ValueError,
+        "omega must be positive",
+    ),
     (lambda: mdr.ElasticPair(1e6, 0.3, -1, 0.3), ValueError, "E_2 must be positive"),
     (lambda: mdr.ElasticPair(1e6, 0.3, 1e6, 0.6), ValueError, "nu_2 must lie in"),
 ]

@@ -34,7 +34,9 @@ def test_tapping_is_legal(u_z0):
 
 @pytest.mark.parametrize("u_z0", [-2e-6, -3e-6])
 def test_an_indenter_that_never_touches_is_refused(u_z0):
-    with pytest.raises(ValueError, match=r"u_z0 \+ du_z = .* m: the indenter never touches; raise u_z0 above -du_z = -2e-06 m"):
+    with pytest.raises(
+        ValueError, match=r"u_z0 \+ du_z = .* m: the indenter never touches; raise u_z0 above -du_z = -2e-06 m"
+    ):
         mdr.NormalOscillation(u_z0=u_z0, du_z=2e-6, omega=1.0)
 
 

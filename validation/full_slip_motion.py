@@ -1,10 +1,11 @@
 """Above v_c the simulated body and its foot move as Eqs. (10), (12), (13) say, and slip at the velocity of Eq. (14).
 
 The closed forms are one Kelvin element and no solver; the run is a time march of springs that would stick if
-they could. A flat punch that keeps contact is one element, so both must agree up to the time step h: the mean of a step's
-two forces errs by h²/8, its average over the step by h²/24, and a rate from three backward values by h²/3.
+they could. A flat punch that keeps contact is one element, so both must agree up to the time step h: the mean of a
+step's two forces errs by h²/8, its average over the step by h²/24, and a rate from three backward values by h²/3.
 
-Symbols: y = u_x - v_0 t, h = 2 pi/steps, T = omega tau, alpha = du_z/u_z0, k_xc contact and k_x system stiffness, m mass.
+Symbols: y = u_x - v_0 t, h = 2 pi/steps, T = omega tau, alpha = du_z/u_z0, k_xc contact and k_x system stiffness,
+m mass.
 """
 
 from dataclasses import dataclass
@@ -83,7 +84,7 @@ def claim(effort: str) -> Claim:
             "Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree"
             " with the closed forms; what differs falls with the square of the step. Slip never stops and its"
             " least velocity is v_0 − v_c. With a system damper a body that starts from rest ends in the same"
-            " motion, with k_x + iωc_x in the place of k_x. Under a paraboloid springs come and go, and the"
+            " motion, with k_x + iω c_x in the place of k_x. Under a paraboloid springs come and go, and the"
             " force of the array follows the full-slip solution: the elastic one with the square of the"
             " number of springs, the viscous one up to the dashpot of the single spring that touches."
         ),
@@ -271,8 +272,9 @@ def _motion_figure() -> Figure:
     return Figure(
         "motion",
         "Flat punch on a Kelvin rubber (ωτ = 0.5) at v_0 = 2 v_c, driven above its natural frequency. Lines:"
-        " Eqs. (10), (13), (14); circles: every eighth step of the run. The foot swings wider than the body,"
-        " and slip is slowest at v_0 − v_c: it would stop at v_0 = v_c.",
+        " Eqs. (10), (13), (14); circles: every eighth step of the run. Body and extension swing nearly"
+        " together, so the foot swings less than the body. Slip is slowest at v_0 − v_c: it would stop at v_0"
+        " = v_c.",
         fig,
         "Body and foot positions and slip velocity over one period, circles of the run on the lines of the"
         " closed forms.",
@@ -289,7 +291,7 @@ def _order_figure(motions: dict[Any, list[Motion]], steps: tuple[int, ...]) -> F
         for (punch, refined), colour in zip(motions.items(), COLOURS, strict=False):
             for k, marker in enumerate("os^"):
                 ax.loglog(steps, [m.errors[k] for m in refined], marker, mfc="white", color=colour, ms=5.5)
-            alpha, T, k_ratio, omega_0_ratio = punch
+            _, T, _, omega_0_ratio = punch
             body = rf"$\omega_0/\omega={omega_0_ratio:g}$" if omega_0_ratio else "no mass"
             ax.plot([], [], color=colour, lw=4, label=rf"$\omega\tau={T:g}$, {body}")
         for marker, label in zip("os^", ("body", "foot", "slip velocity"), strict=True):

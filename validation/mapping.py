@@ -7,7 +7,8 @@ law (1965), and the half-space itself, which a pressure p(r) sinks by
 
 K the complete elliptic integral. Inside the contact this must be d - f(r).
 
-Symbols (SI): d depth, a contact radius, F_N force, k_zc = dF_N/dd stiffness, p pressure, E_star contact modulus, alpha = du_z/u_z0.
+Symbols (SI): d depth, a contact radius, F_N force, k_zc = dF_N/dd stiffness, p pressure, E_star contact modulus,
+alpha = du_z/u_z0.
 """
 
 import math
@@ -214,7 +215,7 @@ def _sum_checks(amplitudes: tuple[float, ...]) -> list[Check]:
 
 
 def _errors(shape: str, alpha: float, counts: tuple[int, ...]) -> tuple[Array, Array]:
-    """Greatest error of the array's force over the oscillation, and E* dx times a cell's own depth over 4, (n_counts,)."""
+    """Greatest error of the array's force over the oscillation, and what its widest cell allows, (n_counts,)."""
     case = contact(shape, alpha)
     u_z = DEPTH * (1 + alpha * np.linspace(-1, 1, 8001))
     F_N = textbook(shape, u_z)[1]
@@ -279,7 +280,12 @@ def _pressure_figure() -> Figure:
         some = DEPTH * np.geomspace(0.06, 1.9, 9)
         for (shape, indenter), colour in zip(SHAPES.items(), COLOURS, strict=False):
             mean = float(indenter.force(DEPTH, E_STAR)) / (np.pi * RADIUS**2)
-            left.plot(r, np.asarray(indenter.pressure(r * RADIUS, DEPTH, E_STAR)) / mean, color=colour, label=shape)
+            left.plot(
+                r,
+                np.asarray(indenter.pressure(r * RADIUS, DEPTH, E_STAR)) / mean,
+                color=colour,
+                label=shape.replace("r^4", "$r^4$"),
+            )
             left.plot(
                 few,
                 textbook_pressure(shape, few * RADIUS, DEPTH) / mean,
@@ -302,10 +308,9 @@ def _pressure_figure() -> Figure:
         fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
     return Figure(
         "shapes",
-        "The four test shapes on rubber of E = 3 MPa. Lines: from the springs; circles: Boussinesq, Sneddon,"
-        " Hertz, Sneddon. They differ as widely as shapes can, with infinite pressure at the rim or at the"
-        " tip, yet touch over the same disc at 20 µm and have there the same stiffness: the slopes of F_N"
-        " differ on logarithmic scales only because the forces do.",
+        "The four test shapes on rubber of E = 3 MPa. Lines: the library; circles: Boussinesq, Sneddon,"
+        " Hertz, Sneddon. Their pressures differ as widely as pressures can, infinite at the rim of the punch"
+        " and at the tip of the cone, yet all touch over the same disc at 20 µm and are equally stiff there.",
         fig,
         "Pressure over radius and normal force over depth for flat punch, cone, paraboloid and r^4, lines on"
         " textbook circles.",
@@ -327,7 +332,7 @@ def _error_figure(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...
                 color=colour,
                 ms=6,
                 mfc="white",
-                label=f"{shape}, between the extremes",
+                label=f"{shape.replace('r^4', '$r^4$')}, between the extremes",
             )
             at_ends = [_at_ends(shape, n) for n in counts]
             ax.loglog(counts, np.maximum(at_ends, 1e-17), marker, color=colour, ms=4)

@@ -1,16 +1,18 @@
-"""Rigid pull: v_c is Eq. (1) whatever the shape, amplitude and relaxation time, as long as the contact is there in time.
+"""Rigid pull: v_c is Eq. (1) for any shape, amplitude and relaxation time, as long as the contact is there in time.
 
-In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 = mu_0 kappa omega du_z of Eq. (1), so v_c = v_1 if
-any spring touches at phi = -pi/2, where the depth grows fastest. The centre touches longest. A Kelvin spring leaves at
-phi_r, u_z + tau u_z' = 0, still compressed; it relaxes like exp(-(phi - phi_r)/T) and touches again at phi_c, where the indenter meets
-the relaxed surface. So v_c/v_1 = 1 if phi_c comes before -pi/2, and sin|phi_c| after. With u_z0 > 0 the limit phi_c = -pi/2 is
+In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 = mu_0 kappa omega du_z of Eq. (1), so v_c = v_1
+if any spring touches at phi = -pi/2, where the depth grows fastest. The centre touches longest. A Kelvin spring leaves
+at phi_r, u_z + tau u_z' = 0, still compressed; it relaxes like exp(-(phi - phi_r)/T) and touches again at phi_c, where
+the indenter meets the relaxed surface. So v_c/v_1 = 1 if phi_c comes before -pi/2, and sin|phi_c| after. With
+u_z0 > 0 the limit phi_c = -pi/2 is
 
     alpha_1(T) = min over pi < theta < 2 pi of [exp(theta/T) - 1]/(-sin theta),   4.6/T for large T,
 
 (theta: how long ago), far above the limit 1/sqrt(1 + T²) of Eq. (5).
 
-Below v_c an elastic punch that keeps contact follows cof/mu_0 = 1 - alpha psi(v_0/v_c), theory.deficit; for small amplitude all shapes do,
-with k_zc du_z/F_N for alpha.
+Below v_c an elastic punch that keeps contact follows cof/mu_0 = 1 - alpha psi(v), theory.deficit, v = v_0/v_c. Other
+shapes follow 1 - (k_zc du_z/F_N) psi(v) [1 + C(v) alpha/n] to first order, n = d ln u_z/d ln a of the shape: the edge
+band between a(u_z0 - du_z) and a(u_z0 + du_z) has a lag of its own, and C = (its sum over gaps -1 to 1)/psi - 1.
 
 Symbols: alpha = du_z/u_z0, T = omega tau, phi phase, kappa = E*/G*, psi deficit of the punch.
 """
@@ -93,17 +95,18 @@ def claim(effort: str) -> Claim:
             " instant when the depth grows fastest, a quarter of a period before the deepest point. Loss of"
             " contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a surface that comes back late:"
             " a slow rubber does so for Δu_z/u_z0 above α_1 = min (e^{θ/ωτ} − 1)/|sin θ| over π < θ < 2π,"
-            " that is 70 at ωτ = 1 (never, in practice), 0.58 at ωτ = 10 and 0.166 at ωτ = 30, about 4.6/ωτ."
-            " Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with φ_c the phase"
-            " at which the centre touches again: 0.74 at ωτ = 30 and Δu_z = u_z0. It is still the same for"
-            " all shapes, since the centre decides. Below v_c the COF of the elastic punch follows the closed"
-            " form, and that of the other shapes does so the better the smaller the amplitude."
+            " that is 70 at ωτ = 1 (never, in practice), 0.58 at ωτ = 10 and 0.166 at ωτ = 30, tending to"
+            " 4.6/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with φ_c the"
+            " phase at which the centre touches again: 0.74 at ωτ = 30 and Δu_z = u_z0. It is still the same"
+            " for all shapes, since the centre decides. Below v_c the COF of the elastic punch follows the"
+            " closed form, and that of the other shapes follows it for small amplitudes, with a correction of"
+            " first order, C(v_0/v_c) Δu_z/(n u_z0) for f = r^n, that the edge band alone explains."
         ),
         verdict="holds if the contact exists when the depth grows fastest",
         sentence=(
             "One v_c for every shape and relaxation time, that of Eq. (1), unless a slow surface comes back"
-            " after the quarter period before the deepest point: Δu_z/u_z0 > 4.6/ωτ, or tapping; then v_c is"
-            " lower, and again the same for all."
+            " later than a quarter period before the deepest point: Δu_z/u_z0 above about 4.6/ωτ for ωτ ≫ 1,"
+            " or tapping; then v_c is lower, and again the same for all shapes."
         ),
         checks=tuple(checks),
         figures=(_curve_figure(effort), _late_figure(found)),
@@ -113,21 +116,20 @@ def claim(effort: str) -> Claim:
 # --- when the centre touches again ---
 
 
+def clearance(phi: float, depth: float, T: float) -> float:
+    """Indenter over the relaxed surface, in du_z, at phase phi after the centre was left; depth is u_z0/du_z."""
+    release = np.arccos(-depth / np.hypot(1, T)) - np.arctan(T)
+    relaxed = (depth + np.cos(release)) * np.exp(-(phi - release) / T) if T else 0.0
+    return float(depth + np.cos(phi) - relaxed)
+
+
 def late(depth: float, T: float) -> float:
     """v_c over Eq. (1) of a rigid pull, 1 or sin|phi_c|, for the depth ratio u_z0/du_z > -1 and T = omega tau."""
     from scipy.optimize import brentq
 
-    if depth >= np.hypot(1, T):
+    if depth >= np.hypot(1, T) or clearance(1.5 * np.pi, depth, T) >= 0:
         return 1.0
-    release = np.arccos(-depth / np.hypot(1, T)) - np.arctan(T)
-    left = depth + np.cos(release)
-
-    def above(phi: float) -> float:
-        """Indenter over the relaxed surface."""
-        relaxed = left * np.exp(-(phi - release) / T) if T else 0.0
-        return float(depth + np.cos(phi) - relaxed)
-
-    return 1.0 if above(1.5 * np.pi) >= 0 else float(-np.sin(brentq(above, 1.5 * np.pi, 2 * np.pi, xtol=1e-14)))
+    return float(-np.sin(brentq(clearance, 1.5 * np.pi, 2 * np.pi, args=(depth, T), xtol=1e-14)))
 
 
 def amplitude_limit(T: float) -> float:
@@ -201,22 +203,14 @@ def _contact(alpha: float, T: float) -> str:
 
 def _limit_checks() -> list[Check]:
     """alpha_1(T) from its formula against the phase of contact itself, and for a very slow material."""
+    from scipy.optimize import brentq
+
     checks = []
     for T in (1.0, 10.0, 30.0):
-        low, high = 1e-3, 1e3
-        for _ in range(60):
-            middle = np.sqrt(low * high)
-            low, high = (middle, high) if late(1 / middle, T) == 1.0 else (low, middle)
-        why = "bisection to rounding; a minimum found to 1e-12 in its place"
-        checks.append(
-            Check(
-                f"α_1, where Eq. (1) ends, by its formula over the phase of contact: ωτ = {T:g}",
-                amplitude_limit(T) / low,
-                1.0,
-                1e-9,
-                why,
-            )
-        )
+        touched = brentq(lambda depth, T=T: clearance(1.5 * np.pi, depth, T), 1e-3, np.hypot(1, T) - 1e-9, xtol=1e-15)
+        name = f"α_1, where Eq. (1) ends, by its formula over the phase of contact: ωτ = {T:g}"
+        why = "a minimum against a root, both found to 1e-12"
+        checks.append(Check(name, amplitude_limit(T) * touched, 1.0, 1e-9, why))
     why = "θ/|sin θ| is least at tan θ = θ, 4.6033; the next term of the exponential is θ/(2ωτ) = 2.3e-4 of it"
     checks.append(
         Check(
@@ -240,24 +234,9 @@ def _punch_checks(effort: str) -> list[Check]:
         off = np.array(
             [run.cof / case.mu_0 - 1 + alpha * theory.deficit(v) for run, v in zip(runs, v_hat, strict=True)]
         )
-        error = np.array([run.cof_error / case.mu_0 for run in runs])
-        name = f"elastic punch, Δu_z/u_z0 = {alpha:g}"
-        checks.append(
-            Check.at_most(
-                f"COF/μ_0 of slide() against 1 − (Δu_z/u_z0) ψ, worst: {name}",
-                np.max(np.abs(off)),
-                1e-5,
-                "what the run promises when it chooses step and springs itself",
-            )
-        )
-        checks.append(
-            Check.at_most(
-                f"that difference over the run's own cof_error, worst: {name}",
-                np.max(np.abs(off) / error),
-                1.0,
-                "a bound that is exceeded bounds nothing",
-            )
-        )
+        name = f"COF/μ_0 of slide() against 1 − (Δu_z/u_z0) ψ, worst: elastic punch, Δu_z/u_z0 = {alpha:g}"
+        why = "what the run promises when it chooses step and springs itself"
+        checks.append(Check.at_most(name, np.max(np.abs(off)), 1e-5, why))
     return checks
 
 
@@ -270,14 +249,32 @@ def small_amplitude(shape: str, alpha: float, v_hat: float) -> tuple[float, floa
     return (1 - run.cof / run.mu_0) / law - 1, run.cof_error / run.mu_0 / law
 
 
+def edge_band(v_hat: float) -> float:
+    """C(v_hat): sum of the lag s - e of elastic springs of gaps -1 to 1 over that of the core, less 1.
+
+    e is the least of sigma(t - theta) + v theta over the past, sigma = max(cos - gap, 0): two passes over a period.
+    """
+    n = 4096
+    phase = 2 * np.pi * np.arange(2 * n) / n
+    node, weight = np.polynomial.legendre.leggauss(60)
+    pressed = np.maximum(np.cos(phase) - node[:, None], 0)
+    e = np.minimum.accumulate(pressed - v_hat * phase, axis=1) + v_hat * phase
+    lag = np.mean((pressed - e)[:, n:], axis=1)
+    return float(weight @ lag) / theory.deficit(v_hat) - 1
+
+
 def _small_checks(effort: str) -> list[Check]:
-    amplitudes = (0.2, 0.1, 0.05) if effort == "quick" else (0.2, 0.1, 0.05, 0.025)
+    amplitudes = (0.1, 0.05) if effort == "quick" else (0.05, 0.025)
     checks = []
-    for shape in ("cone", "paraboloid", "r^4"):
-        off, error = np.array([small_amplitude(shape, alpha, 0.3) for alpha in amplitudes]).T
-        print(shape, off, error)
-        slope = float(np.polyfit(np.log(amplitudes), np.log(np.abs(off)), 1)[0])
-        checks.append(Check(f"power", slope, 1, 1, ""))
+    for v_hat in (0.1, 0.3, 0.7):
+        C, first = edge_band(v_hat), []
+        for shape, n in (("cone", 1), ("paraboloid", 2), ("r^4", 4)):
+            far, near = (n * small_amplitude(shape, alpha, v_hat)[0] / alpha for alpha in amplitudes)
+            first.append(2 * near - far)
+        worst = max(first, key=lambda value: abs(value - C))
+        name = f"first-order term C of the deficit for cone, paraboloid and r^4, worst of them: v_0/v_c = {v_hat:g}"
+        why = "two amplitudes extrapolated leave their product, the next order, with a factor of order one"
+        checks.append(Check(name, worst, C, amplitudes[0] * amplitudes[1], why))
     return checks
 
 
@@ -289,13 +286,13 @@ def _curve_figure(effort: str) -> Figure:
 
     from mdr.plots import plot_curve, style
 
-    grid = np.linspace(0.02, 1.2, 11 if effort == "quick" else 30)
+    grid = np.linspace(0.03, 1.2, 9 if effort == "quick" else 30)
     with style():
         fig, axes = plt.subplots(1, 2, figsize=(9.4, 4.2), sharey=True)
         for ax, T in zip(axes, (0.0, 1.0), strict=True):
             cases = [contact(shape, 0.3, T) for shape in SHAPES]
             curves = [mdr.cof_curve(case, grid * mdr.critical_velocity(case)) for case in cases]
-            plot_curve(curves, ax, labels=list(SHAPES))
+            plot_curve(curves, ax, labels=[shape.replace("r^4", "$r^4$") for shape in SHAPES])
             ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau={T:g}$", y=1.05)
         axes[1].set_ylabel("")
     return Figure(
@@ -338,7 +335,7 @@ def _late_figure(found: dict[Any, Any]) -> Figure:
                             ms=5 + 1.6 * list(SHAPES).index(shape),
                         )
         for shape, mark in marks.items():
-            ax.plot([], [], mark, mfc="none", mec="0.3", label=shape)
+            ax.plot([], [], mark, mfc="none", mec="0.3", label=shape.replace("r^4", "$r^4$"))
         ax.set(
             xlabel=r"amplitude $\Delta u_z/u_{z0}$",
             ylabel="$v_c$ over Eq. (1)",

@@ -1,0 +1,450 @@
+"""One spring, one step, one run: against the law of friction integrated in tiny steps, and against closed forms."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, contact
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr import kernels
+from mdr.scaled import ScaledContact
+
+N = 200
+RELAXATION = [0.1, 1.0, 5.0]
+
+
+@dataclass
+class Step:
+    """A step of smooth motion, z = cos(t_0 + theta), u = u_dot theta + u_ddot theta**2/2, and springs in any state they can be in."""
+
+    t_0: float
+    u_dot: float
+    u_ddot: float
+    h: float
+    T: float
+    gap: np.ndarray
+    s: np.ndarray
+    e: np.ndarray
+
+    @classmethod
+    def draw(cls, rng, h, T, n=N):
+        t_0, u_dot, u_ddot = rng.uniform(0, 2 * np.pi), rng.uniform(-1.5, 1.5), rng.uniform(-1, 1)
+        step = cls(t_0, u_dot, u_ddot, h, T, *np.empty((3, n)))
+        near = step.z(0) + rng.uniform(-2, 2, n) * h  # about to touch or to leave
+        step.gap = np.where(rng.uniform(size=n) < 0.3, near, rng.uniform(-1.5, 1, n))
+        pressed = step.z(0) - step.gap
+        in_contact = (pressed > 0) & (pressed + T * step.z_dot(0) > 0)  # N = s + T s' > 0
+        if T:
+            in_contact &= rng.uniform(size=n) < 0.7
+            lifted = (
+                np.maximum(pressed, 0) + rng.uniform(0.001, 2, n) * h
+            )  # free: the surface stands above the indenter
+            step.s = np.where(in_contact, pressed, lifted)
+        else:
+            step.s = np.maximum(pressed, 0)
+        # |e| <= s as |L[e]| <= L[s]; in slip forward, backward, just behind slip, or anywhere between
+        share = rng.choice([1.0, -1.0, np.nan, 2.0], n)
+        share = np.where(np.isnan(share), 1 - rng.uniform(0, 2, n) * h**2, share)
+        step.e = step.s * np.where(share > 1, rng.uniform(-1, 1, n), share)
+        return step
+
+    def z(self, theta):
+        return np.cos(self.t_0 + theta)
+
+    def z_dot(self, theta):
+        return -np.sin(self.t_0 + theta)
+
+    def u(self, theta):
+        return self.u_dot * theta + self.u_ddot * theta**2 / 2
+
+    def rate(self, theta):
+        return self.u_dot + self.u_ddot * theta
+
+    def kernel(self, python=False):
+        """New e and s, sum and stiffness that stuck, as the kernel has them."""
+        e_1, s_1, w, h = np.empty_like(self.e), np.empty_like(self.e), np.full(self.e.size, 1 / self.e.size), self.h
+        z = self.z(0), self.z(h), self.z_dot(0), self.z_dot(h)
+        u = self.u(h), self.rate(0), self.rate(h)
+        if self.T:
+            step = kernels.kelvin_step.py_func if python else kernels.kelvin_step
+            sums = step(self.e, self.s, e_1, s_1, self.gap, w, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
+        else:
+            step = kernels.elastic_step.py_func if python else kernels.elastic_step
+            sums = step(self.e, e_1, self.gap, w, *z, *u, h)
+            s_1 = np.maximum(self.z(h) - self.gap, 0)
+        return e_1, s_1, *sums
+
+    def by_tiny_steps(self, n=2000):
+        """The law itself, n steps within this one: e' = (clip(e + T u', -N, N) - e)/T, and for T = 0 e = clip(e, -s, s).
+
+        Returns e, s and whether the mode (free, stick, slip, slip back) was the same all the way.
+        """
+        s, e, d, T = self.s.copy(), self.e.copy(), self.h / n, self.T
+        first, same = None, np.ones(s.size, dtype=bool)
+        for i in range(n):
+            a, b = i * d, (i + 1) * d
+            if T == 0:
+                s = np.maximum(self.z(b) - self.gap, 0)
+                trial = e + self.u(b) - self.u(a)
+                e = np.clip(trial, -s, s)
+                mode = np.where(s == 0, 0, np.where(trial > s, 2, np.where(trial < -s, 3, 1)))
+            else:
+                middle, decay = (a + b) / 2, math.exp(-d / T)
+                relaxed = s * math.exp(-d / 2 / T)
+                touches = self.z(middle) - self.gap >= relaxed
+                load = np.where(touches, np.maximum(self.z(middle) - self.gap + T * self.z_dot(middle), 0), 0)
+                trial = e + T * self.rate(middle)
+                f = np.clip(trial, -load, load)
+                e = f + (e - f) * decay  # exact for a constant force
+                s = np.maximum(self.z(b) - self.gap, s * decay)
+                e = np.clip(e, -s, s)
+                mode = np.where(load == 0, 0, np.where(trial > load, 2, np.where(trial < -load, 3, 1)))
+            first = mode if first is None else first
+            same &= mode == first
+        return e, s, same, first
+
+
+# --- one step ---
+
+
+@pytest.mark.parametrize("T", [0.0, *RELAXATION])
+def test_python_and_compiled_step_agree(T):
+    rng = np.random.default_rng(2)
+    for _ in range(5):
+        step = Step.draw(rng, 0.05, T)
+        compiled, plain = step.kernel(), step.kernel(python=True)
+        for got, expected in zip(compiled, plain, strict=True):
+            # the compiler may contract and reorder: a few roundings
+            assert_allclose(got, expected, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("h", [0.1, 0.025, 0.00625])
+@pytest.mark.parametrize("T", [0.0, *RELAXATION])
+def test_one_step_against_tiny_ones(T, h):
+    rng, worst = np.random.default_rng(1), 0.0
+    for _ in range(6):
+        step = Step.draw(rng, h, T)
+        e, s, *_ = step.kernel()
+        e_fine, s_fine, *_ = step.by_tiny_steps()
+        # an event within the step costs h**2 of the change of its rates, however many there are; a share of the step counted
+        # wrongly would cost h. The rates of a Kelvin spring are s/T and s/T**2 with s < 2.5, and tiny steps miss h/2000 * s/T.
+        bound = 0.25 * (1 + 2.5 / T + 2.5 / T**2) * h**2 if T else 0.25 * h**2
+        tiny = 3 * h / 2000 * (1 + 2.5 / T) if T else 3 * h / 2000
+        assert_allclose(e, e_fine, rtol=0, atol=bound + tiny)
+        assert_allclose(s, s_fine, rtol=0, atol=0.1 * bound + 1e-12)
+        worst = max(worst, np.abs(e - e_fine).max())
+    assert worst > 0  # the draw has events in it
+
+
+@pytest.mark.parametrize("T", [0.0, *RELAXATION])
+def test_a_step_without_an_event_is_exact(T):
+    rng, seen = np.random.default_rng(3), set()
+    for _ in range(10):
+        step = Step.draw(rng, 0.05, T)
+        e, s, *_ = step.kernel()
+        *_, same, mode = step.by_tiny_steps(400)
+        decay = math.exp(-step.h / T) if T else 0.0
+        pressed = step.z(step.h) - step.gap
+        exact_s = np.where(mode == 0, step.s * decay, np.maximum(pressed, 0))
+        exact_e = np.select(
+            [mode == 0, mode == 1, mode == 2],
+            [
+                step.e * decay,
+                step.e + step.u(step.h),
+                exact_s - (step.s - step.e) * decay,
+            ],  # L[e] = 0, e' = u', L[s - e] = 0
+            (step.s + step.e) * decay - exact_s,  # L[s + e] = 0
+        )
+        off = np.abs(e - exact_e)[same]
+        # tiny steps see the mode at their middle only: now and then a spring changes it unseen, next to an end
+        assert np.sum(off > 1e-13) <= 2
+        assert off.max() < 1e-3
+        seen |= set(mode[same].tolist())
+    assert seen == {0, 1, 2, 3}
+
+
+@pytest.mark.parametrize("h", [0.2, 0.02])
+def test_a_first_touch_within_a_step_is_exact_for_linear_motion(h):
+    # z rises from 0 to h, springs stand at gaps between; the body runs half as fast, or backward, so all of them stick
+    gap = np.linspace(0.01, 0.99, 23) * h
+    w, e_0 = np.full(23, 1 / 23), np.zeros(23)
+    for v in (0.5, -0.5):
+        e_1, s_1 = np.empty(23), np.empty(23)
+        total, stuck = kernels.elastic_step(e_0, e_1, gap, w, 0.0, h, 1.0, 1.0, v * h, v, v, h)
+        assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
+        assert_allclose(
+            [total, stuck], [w @ e_1, w @ (1 - gap / h)], rtol=1e-13
+        )  # the slope of the sum over the travel
+        kernels.kelvin_step(e_0, e_0, e_1, s_1, gap, w, 0.0, h, 1.0, 1.0, v * h, v, v, h, 1.0, math.exp(-h))
+        assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
+        assert_allclose(s_1, h - gap, rtol=0, atol=1e-15)
+    # twice as fast it slips from first touch, e = s
+    kernels.elastic_step(e_0, e_1, gap, w, 0.0, h, 1.0, 1.0, 2 * h, 2.0, 2.0, h)
+    assert_allclose(e_1, h - gap, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("share", [1e-2, 1e-3, 1e-4])
+def test_a_kelvin_step_tends_to_the_elastic_one(share):
+    rng, h = np.random.default_rng(4), 0.05
+    for _ in range(10):
+        elastic = Step.draw(rng, h, 0.0)
+        kelvin = Step(**{**vars(elastic), "T": share * h})
+        e, s, *_ = elastic.kernel()
+        e_kelvin, s_kelvin, *_ = kelvin.kernel()
+        # what the dashpot adds: T s' and T u', with rates below 3, and the event within the step
+        assert_allclose(s_kelvin, s, rtol=0, atol=3 * share * h)
+        assert_allclose(e_kelvin, e, rtol=0, atol=3 * share * h + h**2)
+
+
+# --- one run ---
+
+
+def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1):
+    """A march of the kernel from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
+    if s is None:
+        s = np.zeros(scaled.gap.size)
+        kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
+    e, s = (s if e is None else e).copy(), s.copy()
+    z, zd = (scaled.z, scaled.z_dot) if z is None else (z, zd)
+    history = np.zeros(5) if history is None else history.copy()
+    y, S, n = np.empty(n_steps), np.empty(n_steps), e.size
+    e_out, s_out = np.empty((n_steps if keep else 0, n)), np.empty((n_steps if keep else 0, n))
+    cuts = np.linspace(0, n_steps, parts + 1).astype(int)
+    for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+        kernels.march(
+            e,
+            s,
+            history,
+            scaled.body if body is None else body,
+            scaled.gap,
+            scaled.w,
+            z,
+            zd,
+            v,
+            scaled.T,
+            -np.inf,
+            high - low,
+            low % (z.size - 1),
+            y[low:high],
+            S[low:high],
+            e_out[low:high],
+            s_out[low:high],
+        )
+    return {"y": y, "S": S, "e_out": e_out, "s_out": s_out, "e": e, "history": history} | ({"s": s} if scaled.T else {})
+
+
+def scaled_of(*groups, steps=256, n_springs=32, lump=False, **knobs):
+    case = contact(*groups, **knobs)
+    return ScaledContact.of(case, mdr.SpringArray.of(case, n_springs), steps, lump)
+
+
+def elastic_shear(h, v, t):
+    """The infimum over theta of s(t - theta) + v theta, taken where it can lie: now, where s' = v, and at first touch."""
+    steep, touch = np.pi + math.asin(v), 2 * np.pi - math.acos(np.clip(-h, -1, 1))
+    e = np.maximum(h + np.cos(t), 0)
+    for at in (steep, touch):
+        back = (t - at) % (2 * np.pi)
+        e = np.minimum(e, max(h + math.cos(at), 0.0) + v * back)
+    return e
+
+
+def test_the_infimum_written_out_is_that_by_definition():
+    t = np.linspace(0, 2 * np.pi, 40)
+    for h in (-0.7, 0.2, 0.9, 3.0):
+        brute = reference.elastic_shear_by_definition(h, 0.4, t, 20_001)
+        # 20000 values of theta: v times their distance
+        assert_allclose(elastic_shear(h, 0.4, t), brute, rtol=0, atol=2 * np.pi / 20_000)
+
+
+@pytest.mark.parametrize("v", [0.05, 0.5, 0.95])
+@pytest.mark.parametrize(("shape", "depth_ratio"), [("paraboloid", 3.0), ("cone", 0.6), ("r4", -0.3), ("flat", 0.5)])
+def test_an_elastic_march_under_a_rigid_pull_is_the_infimum(shape, depth_ratio, v):
+    errors = []
+    for steps in (64, 256, 1024):
+        scaled = scaled_of(shape, depth_ratio, steps=steps)
+        e = march(scaled, v, 2 * steps)["e_out"][steps:]
+        t = scaled.h * np.arange(1, steps + 1)
+        exact = np.stack([elastic_shear(-gap, v, t) for gap in scaled.gap], axis=1)
+        errors.append(np.abs(e - exact).max() / scaled.h**2)
+    # s'' <= 1: an event that is known to h**2 of the way between two steps; the same multiple of h**2 at all steps
+    assert max(errors) < 0.3
+
+
+@pytest.mark.parametrize(
+    ("depth_ratio", "T", "v"), [(3.0, 0.3, 0.3), (3.0, 3.0, 0.6), (0.6, 0.5, 0.3), (-0.3, 1.0, 0.2)]
+)
+def test_a_kelvin_march_under_a_rigid_pull_has_the_lag_of_the_twin(depth_ratio, T, v):
+    steps = 1024
+    scaled = scaled_of("paraboloid", depth_ratio, T, steps=steps, n_springs=64)
+    out = march(scaled, v, 12 * steps)
+    lag = (out["s_out"] - out["e_out"])[-steps:].mean(axis=0)
+    exact, _ = reference.kelvin_lag(-scaled.gap, v, T)
+    # second order, with the rates 1/T and 1/T**2 of the events
+    assert_allclose(lag, exact, rtol=0, atol=(1 + 1 / T**2) * scaled.h**2)
+    assert exact.max() > 0.02
+
+
+@pytest.mark.parametrize("T", [0.0, 0.3, 3.0])
+@pytest.mark.parametrize("depth_ratio", [3.0, 0.6, -0.3])
+def test_settled_normal_motion_is_that_of_the_twin(depth_ratio, T):
+    scaled = scaled_of("paraboloid", depth_ratio, T, steps=512)
+    s = np.zeros(32)
+    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, T)
+    # kinks at touch and release between two steps
+    assert_allclose(mean, scaled.w @ reference.mean_compression(-scaled.gap, T), rtol=0, atol=0.25 * scaled.h**2)
+    on, off = reference.contact_times(-scaled.gap, T)
+    in_contact = reference.always_touches(-scaled.gap, T) | ((-on) % (2 * np.pi) <= off - on)
+    assert_allclose(s[in_contact], (1 - scaled.gap)[in_contact], rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_above_v_c_full_slip_stays_full_slip(shape):
+    for T in (0.0, 0.5):
+        out = march(scaled_of(shape, 0.6, T), 1.0 + 1e-9, 512)
+        assert_allclose(out["e_out"], out["s_out"], rtol=0, atol=1e-13)
+
+
+def test_a_march_of_no_relaxation_time_to_speak_of_is_elastic():
+    elastic = scaled_of("paraboloid", 0.6)
+    kelvin = ScaledContact(**{**vars(elastic), "T": 1e-8})
+    ours, theirs = march(elastic, 0.4, 512), march(kelvin, 0.4, 512)
+    # T s' = 1e-8, and the two loops treat an event within a step in their own ways
+    assert_allclose(ours["e_out"], theirs["e_out"], rtol=0, atol=elastic.h**2)
+    vanishing = ScaledContact(**{**vars(elastic), "T": 1e-5 * elastic.h})  # exp(-h/T) is 0
+    for name, value in march(vanishing, 0.4, 512).items():
+        assert name == "s" or np.array_equal(value, ours[name])
+
+
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    T=st.sampled_from([0.0, 0.03, 0.5, 4.0]),
+    body=st.sampled_from([None, (0.7, 1.6, 0.1), (0.05, 0.4, 0.0), (0.3, math.inf, 0.0)]),
+    v=st.floats(0.01, 3),
+)
+def test_coulombs_law_holds_whatever_the_motion(seed, T, body, v):
+    rng = np.random.default_rng(seed)
+    scaled = scaled_of("paraboloid", 0.6, T, *(body or ()), steps=64, n_springs=16)
+    t = scaled.h * np.arange(65)
+    n = np.arange(1, 5)[:, None]
+    a, b = rng.normal(size=(2, 4, 1)) / n**2
+    z, zd = (
+        (a * np.cos(n * t) + b * np.sin(n * t)).sum(axis=0),
+        (n * (b * np.cos(n * t) - a * np.sin(n * t))).sum(axis=0),
+    )
+    s = np.maximum(z[0] - scaled.gap, 0)
+    e = s * rng.uniform(-1, 1, s.size)
+    out = march(scaled, v, 128, s=s, e=e, z=z, zd=zd)
+    decay = math.exp(-scaled.h / T) if T else 0.0
+    e, s = np.vstack([e, out["e_out"]]), np.vstack([s, out["s_out"]])
+    # over a step L has the mean (x_1 - x_0 decay)/(1 - decay); dividing by T/h magnifies rounding
+    forces = [(x[1:] - x[:-1] * decay) / (1 - decay) for x in (e, s)]
+    rounding = 1e-15 * (1 + s.max()) / (1 - decay)
+    assert np.all(np.abs(forces[0]) <= forces[1] + 4 * rounding)
+    assert np.all(forces[1] >= -rounding)
+    assert np.all(np.abs(e) <= s + rounding)
+    assert np.all(s[1:] >= np.tile(z[1:], 2)[:, None] - scaled.gap - rounding)  # the indenter does not sink in
+    assert_allclose(out["S"], e[1:] @ scaled.w, rtol=0, atol=1e-14 * (1 + s.max()))
+
+
+@pytest.mark.parametrize(
+    ("T", "body"),
+    [(T, body) for T in (0.0, 0.5, 3.0) for body in ((0.7, 1.6, 0.1), (0.05, 0.4, 0.0))]
+    + [(0.0, (1e-4, 0.02, 0.0)), (0.0, (0.7, math.inf, 0.0)), (0.0, (0.7, 60.0, 0.0))],
+    ids=str,
+)
+def test_body_and_springs_are_solved_together(body, T):
+    assert_solved(scaled_of("paraboloid", 3.0, T, *body))
+
+
+@pytest.mark.parametrize(
+    ("T", "body"), [(0.5, (0.7, math.inf, 0.0)), (3.0, (0.05, math.inf, 0.0)), (3.0, (0.7, 60.0, 0.0))], ids=str
+)
+@pytest.mark.xfail(reason="kelvin_step counts springs that slip backward as stuck: Newton's method crawls", strict=True)
+def test_light_bodies_on_dashpots_are_solved_together_after_a_jolt(body, T):
+    assert_solved(scaled_of("paraboloid", 3.0, T, *body))
+
+
+def assert_solved(scaled, v=0.3):
+    """March from a body that stands where no force holds it, and put y and S of every step into the recursion."""
+    out = march(scaled, v, 512)
+    a_1, a_2, b_1, b_0, b_m = scaled.body
+    y, S = out["y"], out["S"]
+    residual = y[2:] - (a_1 * y[1:-1] + a_2 * y[:-2] - (b_1 * S[2:] + b_0 * S[1:-1] + b_m * S[:-2]))
+    scale = np.abs(y).max() + (abs(b_1) + abs(b_0) + abs(b_m)) * np.abs(S).max()
+    assert_allclose(residual, 0, atol=4e-15 * scale)  # rounding of five terms; not lagged by a step
+    assert np.ptp(y) > 1e-3
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+@pytest.mark.parametrize("body", [(), (0.7, 1.6, 0.1)], ids=["rigid", "spring"])
+def test_looking_does_not_disturb(body, T):
+    scaled = scaled_of("paraboloid", 0.6, T, *body)
+    seen, unseen, cut = (march(scaled, 0.4, 515, **knobs) for knobs in ({}, {"keep": False}, {"parts": 7}))
+    for name in seen.keys() - {"e_out", "s_out"}:
+        assert np.array_equal(seen[name], unseen[name]), name  # every bit
+        assert np.array_equal(seen[name], cut[name]), name
+    assert np.array_equal(seen["e_out"], cut["e_out"])
+    assert np.array_equal(seen["e_out"][-1], seen["e"])
+
+
+def test_a_stronger_law_would_be_noticed():
+    # half the friction: the same march with half the compression is not the same
+    scaled = scaled_of("paraboloid", 3.0)
+    t = scaled.h * np.arange(1, 257)
+    e = march(scaled, 0.5, 512)["e_out"][256:]
+    wrong = 0.99 * np.stack([elastic_shear(-gap, 0.5, t) for gap in scaled.gap], axis=1)
+    assert np.abs(e - wrong).max() > 10 * scaled.h**2
+
+
+# --- looking at a run ---
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_full_slip_as_it_is_observed(T):
+    scaled, v, steps = scaled_of("flat", 3.0, T, n_springs=16), 1.5, 256
+    out = march(scaled, v, steps)
+    s = np.zeros(16)
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, T)
+    e, s = np.vstack([s, out["e_out"]]), np.vstack([s, out["s_out"]])
+    sums, mode = np.zeros(kernels.N_SUMS), np.zeros((steps, 16), dtype=np.uint8)
+    sums[kernels.LEAST_SLIP] = np.inf
+    F_x, F_z, slip = np.empty((3, steps))
+    kernels.observe(
+        e,
+        s,
+        np.zeros(steps + 3),
+        scaled.z,
+        scaled.z_dot,
+        scaled.gap,
+        scaled.w,
+        T,
+        v,
+        math.exp(-scaled.h / T) if T else 0.0,
+        scaled.h,
+        sums,
+        F_x,
+        F_z,
+        slip,
+        mode,
+    )
+    assert np.all(mode == kernels.SLIP)
+    force = 3 + scaled.z[1:] + T * scaled.z_dot[1:]  # Eq. (4)
+    assert_allclose(F_z, force, rtol=1e-13)
+    assert_allclose(F_x, force, rtol=1e-13)
+    assert sums[kernels.STICK_TIME] == 0
+    assert_allclose(sums[kernels.CONTACT_TIME], 2 * np.pi * 3, rtol=1e-12)
+    assert_allclose([sums[kernels.SUM_E], sums[kernels.SUM_S]], 3 * steps, rtol=1e-12)
+    # the mean of s' over the steps beside the steepest instant misses it by h**2/6
+    assert_allclose(sums[kernels.LEAST_SLIP], v - 1, rtol=0, atol=1.01 * scaled.h**2 / 6)
+    # over a period the pull pays for friction and the tangential dashpots, int T e'**2 = T pi with e' = -sin t
+    assert_allclose(sums[kernels.SHEAR_WORK], 2 * np.pi * 3 * v, rtol=1e-12)
+    assert_allclose(sums[kernels.SHEAR_VISCOUS], T * np.pi, rtol=scaled.h**2)
+    assert_allclose(sums[kernels.NORMAL_VISCOUS], T * np.pi, rtol=scaled.h**2)
+    # friction: int N (v - s') dt = 6 pi v + pi T - 0, as <s s'> = 0 and <s'**2> = 1/2: minus T pi
+    assert_allclose(sums[kernels.FRICTION_LOSS], 6 * np.pi * v - T * np.pi, rtol=scaled.h**2)

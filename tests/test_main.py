@@ -1,0 +1,263 @@
+"""The command line: what it prints, writes and returns."""
+
+import json
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr import friction
+from mdr.__main__ import main, velocity_scale
+from mdr.case_files import parse_case, read_case, write_case
+
+EXAMPLE = str(Path(__file__).parents[1] / "docs" / "example.toml")
+
+
+@pytest.fixture
+def punch(tmp_path):
+    """A case file that is quick to march: flat punch, elastic, rigid pull."""
+    path = tmp_path / "punch.toml"
+    path.write_text(
+        'mu_0 = 0.4\n[indenter]\nshape = "FlatPunch"\na = 1e-3\n[material]\nmodel = "Elastic"\nE = 1e9\nnu = 0.3\n'
+        "[oscillation]\nu_z0 = 2e-6\ndu_z = 1e-6\nomega = 100.0\n"
+    )
+    return str(path)
+
+
+@pytest.fixture
+def resonant(tmp_path):
+    """The example on its resonance k_x = m omega²."""
+    path = tmp_path / "resonant.toml"
+    text = Path(EXAMPLE).read_text(encoding="utf-8")
+    path.write_text(text.replace("314.159265", "400.0").replace("k_x = 2e4", "k_x = 16000.0"), encoding="utf-8")
+    return str(path)
+
+
+def made_up_curve(case, v_0, settled=True):
+    n = np.asarray(v_0).size
+    states = np.ones(n, dtype=bool)
+    states[-1] = settled
+    return friction.CofCurve(
+        v_0=np.asarray(v_0), cof=np.full(n, 0.3), cof_error=np.where(states, 1e-6, np.nan), settled=states,
+        stick_share=np.zeros(n), v_c=mdr.critical_velocity(case), mu_0=case.mu_0, static_cof=0.2,
+        why=tuple("" if state else "F_x still drifts" for state in states),
+    )  # fmt: skip
+
+
+def strict_json(text):
+    def refuse(literal):
+        raise AssertionError(literal)
+
+    return json.loads(text, parse_constant=refuse)
+
+
+# --- velocity ---
+
+
+def test_velocity(capsys):
+    assert main(["velocity", EXAMPLE]) == 0
+    out = capsys.readouterr().out
+    assert f"Eq. (15)   {mdr.critical_velocity(read_case(EXAMPLE)):.6g} m/s" in out
+    assert "alpha      0.1 " in out
+    assert "T          0.314159 " in out
+
+
+def test_velocity_for_machines(capsys, punch):
+    assert main(["velocity", "--json", punch]) == 0
+    answer, case = strict_json(capsys.readouterr().out), read_case(punch)
+    assert answer["equation"] == "Eq. (1)"
+    assert answer["v_c"] == mdr.critical_velocity(case)
+    assert answer["full_slip"] == mdr.full_slip_critical_velocity(case)
+    assert_allclose(answer["static_cof"], 0.4 * (1 - 0.5), rtol=1e-5)  # Eq. (7) over the mean force; instants of the period
+    assert answer["version"] == mdr.__version__
+    assert parse_case(answer["case"]) == case
+
+
+def test_a_resonance_is_an_answer(capsys, resonant):
+    assert main(["velocity", resonant]) == 0
+    assert "infinite, an undamped resonance" in capsys.readouterr().out
+    assert main(["velocity", "--json", resonant]) == 0
+    assert strict_json(capsys.readouterr().out)["v_c"] == "inf"
+
+
+# --- curve ---
+
+
+def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
+    folder = tmp_path / "a" / "b"
+    command = ["curve", punch, "-o", str(folder), "--points", "3", "--up-to", "1.2"]
+    assert main(command) == 0
+    table = capsys.readouterr().out.splitlines()
+    assert sorted(path.name for path in folder.iterdir()) == ["curve.csv", "curve.png", "curve.svg"]
+    head = [line[2:] for line in (folder / "curve.csv").read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    assert head[0] == f"mdr {mdr.__version__}"
+    assert head[1] == " ".join(["mdr", *command])
+    assert parse_case("\n".join(head[2:])) == read_case(punch)
+    rows = np.loadtxt(folder / "curve.csv", delimiter=",", skiprows=len(head) + 1)
+    assert_allclose(rows[:, 0], mdr.critical_velocity(read_case(punch)) * np.array([0, 0.6, 1.2]))
+    assert_allclose(rows[-1, 1], 0.4, rtol=1e-9)  # above v_c
+    assert len(table) == 2 + 3
+    assert f"{rows[1, 1]:.6f}" in table[3]
+
+
+def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(friction, "cof_curve", made_up_curve)
+    before = set(tmp_path.iterdir())
+    assert main(["curve", punch, "--json"]) == 0
+    answer = strict_json(capsys.readouterr().out)
+    assert len(answer["v_0"]) == len(answer["cof"]) == len(answer["why"]) == 24
+    assert answer["settled"] == [True] * 24
+    assert set(tmp_path.iterdir()) == before
+
+
+def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypatch):
+    monkeypatch.setattr(friction, "cof_curve", lambda case, v_0: made_up_curve(case, v_0, settled=False))
+    assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
+    assert out.splitlines()[-1].endswith("no")
+    assert (tmp_path / "curve.csv").exists()
+    assert main(["curve", punch, "--points", "2", "--json"]) == 1
+    assert strict_json(capsys.readouterr().out)["cof_error"][1] is None
+
+
+def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, monkeypatch):
+    monkeypatch.setattr(friction, "cof_curve", made_up_curve)
+    case = read_case(resonant)
+    assert velocity_scale(case) == pytest.approx(0.5 * 400.0 * 2e-6 * 1.5, rel=1e-12)
+    assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2"]) == 0
+    assert "v_c = infinite" in capsys.readouterr().out
+    assert np.loadtxt(tmp_path / "curve.csv", delimiter=",", skiprows=26)[-1, 0] == pytest.approx(2 * velocity_scale(case))
+
+
+# --- measure and verdict ---
+
+FOUND = friction.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
+NOTHING = friction.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+
+
+class MadeUpVerdict:
+    eq_15, full_slip, measured, deviation, holds, why = 0.1, 0.1, 0.1, 0.0, True, "one element"
+
+    def __str__(self):
+        return "Eq. (15) holds: one element"
+
+
+def test_the_names_of_the_records():
+    assert {"v_c", "low", "high", "kind", "why"} <= {field.name for field in fields(friction.MeasuredVelocity)}
+    assert {"eq_15", "full_slip", "measured", "deviation", "holds", "why"} <= {field.name for field in fields(friction.Verdict)}
+
+
+@pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
+def test_measure(capsys, monkeypatch, found, status):
+    monkeypatch.setattr(friction, "measure_critical_velocity", lambda case: found)
+    assert main(["measure", EXAMPLE]) == status
+    assert found.why in capsys.readouterr().out
+    assert main(["measure", EXAMPLE, "--json"]) == status
+    assert strict_json(capsys.readouterr().out)["v_c"] == found.v_c
+
+
+def test_verdict(capsys, monkeypatch):
+    monkeypatch.setattr(friction, "verdict", lambda case: MadeUpVerdict())
+    assert main(["verdict", EXAMPLE]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "Eq. (15) holds: one element",
+        "Eq. (15)   0.1 m/s     contact stiffness at the mean depth",
+        "full slip  0.1 m/s     any amplitude, all harmonics of the force",
+        "measured   0.1 m/s     from simulation alone",
+        "deviation  +0.000e+00  measured over Eq. (15), less 1",
+        "holds      yes",
+    ]
+    assert main(["verdict", EXAMPLE, "--json"]) == 0
+    answer = strict_json(capsys.readouterr().out)
+    assert answer["holds"] is True
+    assert answer["sentence"] == "Eq. (15) holds: one element"
+
+
+@pytest.mark.parametrize(("measured", "holds", "status"), [(0.2, False, 0), (None, False, 1), (None, True, 0)])
+def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monkeypatch, measured, holds, status):
+    found = MadeUpVerdict()
+    found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
+    monkeypatch.setattr(friction, "verdict", lambda case: found)
+    assert main(["verdict", EXAMPLE]) == status
+    assert main(["verdict", EXAMPLE, "--json"]) == status
+    answer = strict_json(capsys.readouterr().out.split("{", 1)[1].join(["{", ""]))
+    assert (answer["eq_15"], answer["full_slip"], answer["measured"]) == ("inf", None, measured)
+
+
+# --- what goes wrong ---
+
+
+def test_a_wrong_file_is_status_2_with_every_fault(capsys, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("mu0 = 3")
+    assert main(["verdict", str(path), "--json"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert len(err.splitlines()) == 5
+    assert all(line.startswith(f"mdr: {path}: ") for line in err.splitlines())
+
+
+@pytest.mark.parametrize(
+    "options",
+    [[], ["no such"], ["curve"], ["curve", EXAMPLE, "--points", "1"], ["curve", EXAMPLE, "--points", "9" * 5000],
+     ["curve", EXAMPLE, "--up-to", "nan"], ["curve", EXAMPLE, "--up-to", "x"], ["curve", EXAMPLE, "--point", "3"]],
+)  # fmt: skip
+def test_a_wrong_command_is_status_2(capsys, options):
+    with pytest.raises(SystemExit) as end:
+        main(options)
+    assert end.value.code == 2
+    assert "mdr" in capsys.readouterr().err
+
+
+def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    assert main(["curve", EXAMPLE, "-o", str(blocked)]) == 2
+    assert f"mdr: {blocked}: no folder to write to: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("failure", "status", "message"),
+    [(ValueError("no such motion"), 1, f"mdr: {EXAMPLE}: no such motion\n"),
+     (MemoryError(), 1, f"mdr: {EXAMPLE}: MemoryError\n"),
+     (KeyboardInterrupt(), 130, "mdr: interrupted before it was done\n")],
+    ids=["refused", "memory", "interrupt"],
+)  # fmt: skip
+def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status, message):
+    def fail(case):
+        raise failure
+
+    monkeypatch.setattr(friction, "verdict", fail)
+    assert main(["verdict", EXAMPLE]) == status
+    assert capsys.readouterr().err == message
+
+
+# --- as a program ---
+
+
+def run(*command, **options):
+    return subprocess.run([sys.executable, "-m", "mdr", *command], capture_output=True, text=True, timeout=60, **options)
+
+
+def test_version():
+    done = run("--version")
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"mdr {mdr.__version__}\n", "")
+
+
+def test_closed_forms_import_no_matplotlib():
+    code = f"import sys; from mdr.__main__ import main; main(['velocity', {EXAMPLE!r}]); assert 'matplotlib' not in sys.modules"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60).returncode == 0
+
+
+def test_the_written_case_is_the_read_one(tmp_path):
+    path = tmp_path / "ä b.toml"
+    path.write_text(write_case(read_case(EXAMPLE)))
+    done = run("velocity", str(path), env={"PYTHONIOENCODING": "ascii", "PYTHONPATH": str(Path(mdr.__file__).parents[1])})
+    assert done.returncode == 0

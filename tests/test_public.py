@@ -1,0 +1,135 @@
+"""What users are promised: the names, how they are called, and that importing them is light."""
+
+import inspect
+import subprocess
+import sys
+from dataclasses import fields
+from importlib.metadata import version
+
+import numpy as np
+import pytest
+
+import mdr
+
+SIGNATURES = {
+    "FlatPunch": "a",
+    "Cone": "theta",
+    "Paraboloid": "R",
+    "PowerLaw": "n, c",
+    "Profile": "f, *, kinks=(), r_max=None, name=None",
+    "Elastic": "E, nu",
+    "KelvinVoigt": "E, nu, tau",
+    "ElasticPair": "E_1, nu_1, E_2, nu_2",
+    "NormalOscillation": "u_z0, du_z, omega",
+    "RigidPull": "",
+    "SpringPull": "k_x, m=0.0, c_x=0.0",
+    "SlidingContact": "indenter, material, mu_0, oscillation, pull=RigidPull()",
+    "critical_velocity": "case",
+    "static_cof": "case",
+    "slide": 'case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, start="full_slip", record=0, lump=True',
+    "cof_curve": "case, v_0, *, method=None",
+    "measure_critical_velocity": 'case, *, start="full_slip"',
+    "verdict": "case",
+}
+RECORDS = {
+    "SlidingRun": "cof cof_error settled kind why stick_share mean_F_x mean_F_z energy_balance t u_x F_x F_z x state",
+    "CofCurve": "v_0 cof cof_error settled stick_share v_c",
+    "MeasuredVelocity": "v_c low high kind why",
+    "Verdict": "eq_15 full_slip measured deviation holds why",
+}
+ANSWERS = {
+    "indenter": "profile_3d(r) profile_1d(x) contact_radius(d) force(d,E_star) stiffness(d,E_star) pressure(r,d,E_star)",
+    "material": "dynamic_modulus(omega)",
+}
+
+
+def bare(signature):
+    """A signature without its annotations, as it is called."""
+    parameters = [
+        p.replace(annotation=inspect.Parameter.empty) for p in signature.parameters.values() if p.name != "self"
+    ]
+    return str(inspect.Signature(parameters)).replace("'", '"').replace("<factory>", "RigidPull()")
+
+
+@pytest.mark.parametrize("name", SIGNATURES)
+def test_names_are_called_as_promised(name):
+    assert bare(inspect.signature(getattr(mdr, name))) == f"({SIGNATURES[name]})"
+
+
+def test_full_slip_critical_velocity_takes_a_case():
+    case, *knobs = inspect.signature(mdr.full_slip_critical_velocity).parameters.values()
+    assert case.name == "case"
+    assert all(knob.default is not inspect.Parameter.empty for knob in knobs)
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_results_carry_what_was_promised(name):
+    assert set(RECORDS[name].split()) <= {field.name for field in fields(getattr(mdr, name))}
+
+
+@pytest.mark.parametrize("kind", [mdr.FlatPunch, mdr.Cone, mdr.Paraboloid, mdr.PowerLaw, mdr.Profile])
+def test_every_indenter_answers(kind):
+    assert issubclass(kind, mdr.Indenter)
+    for promised in ANSWERS["indenter"].split():
+        name, arguments = promised.rstrip(")").split("(")
+        assert bare(inspect.signature(getattr(kind, name))).replace(" ", "") == f"({arguments})"
+
+
+@pytest.mark.parametrize("kind", [mdr.Elastic, mdr.KelvinVoigt, mdr.ElasticPair])
+def test_every_material_answers(kind):
+    assert issubclass(kind, mdr.Material)
+    assert bare(inspect.signature(kind.dynamic_modulus)) == "(omega)"
+    for name in ("E_star", "G_star", "mindlin_ratio", "dundurs_beta"):
+        assert isinstance(inspect.getattr_static(kind, name), property)
+
+
+def test_constructors_from_what_people_measure():
+    assert bare(inspect.signature(mdr.KelvinVoigt.from_shear)) == "(*, G, eta, nu)"
+    assert bare(inspect.signature(mdr.KelvinVoigt.from_loss_tangent)) == "(*, E, nu, tan_delta, omega)"
+
+
+def test_modes_have_their_names():
+    assert [mode.name for mode in mdr.State] == ["FREE", "STICK", "SLIP", "SLIP_BACK"]
+
+
+def test_the_list_of_names_is_whole():
+    assert len(set(mdr.__all__)) == len(mdr.__all__)
+    assert [name for name in mdr.__all__ if not hasattr(mdr, name)] == []
+    promised = {*SIGNATURES, *RECORDS, "State", "full_slip_critical_velocity", "Indenter", "Material"}
+    assert promised <= set(mdr.__all__)
+
+
+def test_every_public_name_says_what_it_is():
+    for name in mdr.__all__:
+        assert getattr(mdr, name).__doc__, name
+
+
+def test_version_is_that_of_the_distribution():
+    assert mdr.__version__ == version("mdr-friction")
+
+
+def test_import_is_light():
+    heavy = [
+        "matplotlib",
+        "tqdm",
+        "scipy.optimize",
+        "scipy.integrate",
+        "mdr.plots",
+        "mdr.__main__",
+    ]  # numba itself brings tomllib
+    code = f"import sys, mdr; print([name for name in {heavy!r} if name in sys.modules])"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "[]"
+
+
+def test_the_sentence_of_the_readme_runs():
+    case = mdr.SlidingContact(
+        indenter=mdr.Paraboloid(R=5e-3),
+        material=mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
+        mu_0=0.5,
+        oscillation=mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=2 * np.pi * 50),
+        pull=mdr.SpringPull(k_x=2e4, m=0.1, c_x=0.0),
+    )
+    v_c = mdr.critical_velocity(case)
+    assert 0 < mdr.static_cof(case) < case.mu_0
+    assert abs(mdr.full_slip_critical_velocity(case) / v_c - 1) < 0.05
