@@ -13,10 +13,11 @@ from mdr.pull import Pull, RigidPull, SpringPull
 from mdr.contact import SlidingContact
 from mdr.springs import SpringArray
 
-# from mdr.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.theory import critical_velocity
 from mdr.full_slip import full_slip, full_slip_critical_velocity, static_cof
-from mdr.sliding import EnergyBalance, SlidingRun, State, slide
+from mdr.runs import EnergyBalance, SlidingRun, State
+from mdr.sliding import slide
 from mdr.friction import CofCurve, MeasuredVelocity, Verdict, cof_curve, measure_critical_velocity, verdict
 
 try:

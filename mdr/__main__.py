@@ -68,7 +68,7 @@ def _run(args: argparse.Namespace) -> int:
     except BrokenPipeError:
         raise
     except _FAILURES as fault:
-        return _complain(f"{args.case}: {fault or type(fault).__name__}", FAILED)
+        return _complain(f"{args.case}: {str(fault) or type(fault).__name__}", FAILED)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -47,6 +47,7 @@ from mdr.pull import RigidPull, SpringPull
 MAX_BYTES = 2**24  #: of a case file
 _STAND_INS = (1.0, 0.2, 1e-3, 1e-9, 50.0)  # for a number that is missing or wrong
 _LONGEST = 400  # characters of a fault
+_DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
 
 
 class CaseFileError(ValueError):
@@ -71,7 +72,7 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     try:
         return case_of(parse_toml(text, source), source)
     except RecursionError:
-        raise _error(source, ["nested too deeply; a case has tables and keys, nothing deeper"]) from None
+        raise _error(source, [_NESTED]) from None
 
 
 def write_case(case: SlidingContact) -> str:
@@ -93,6 +94,8 @@ def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
     """The tables of a TOML text. Raises CaseFileError with the line that is no TOML."""
     import tomllib
 
+    if _DEEP.search(text):
+        raise _error(source, [_NESTED])
     try:
         return tomllib.loads(text)
     except ValueError as fault:
@@ -215,6 +218,7 @@ _HARMLESS = {
     "material": Elastic(E=1.0, nu=0.5),
     "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
 }
+_NESTED = "nested too deeply; a case has tables and keys, nothing deeper"
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
 

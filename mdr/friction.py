@@ -29,7 +29,8 @@ from mdr.contact import SlidingContact
 from mdr.full_slip import full_slip_critical_velocity, static_cof
 from mdr.progress import progress
 from mdr.pull import RigidPull, SpringPull
-from mdr.sliding import SlidingRun, slide
+from mdr.runs import SlidingRun
+from mdr.sliding import slide
 from mdr.theory import critical_velocity, eq_1
 
 Array = NDArray[np.float64]

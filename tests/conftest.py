@@ -38,7 +38,10 @@ def contact(
     nu=0.4,
     E=3e6,
 ):
-    """A contact in SI from the groups of the twin; shape is a name or an indenter, k_ratio = inf a rigid pull, omega_0_ratio = inf no mass."""
+    """A contact in SI from the groups of the twin; shape is a name or an indenter.
+
+    k_ratio = inf is a rigid pull, omega_0_ratio = inf a body without mass.
+    """
     indenter = SHAPES[shape][0] if isinstance(shape, str) else shape
     material = mdr.KelvinVoigt(E=E, nu=nu, tau=T / omega) if T else mdr.Elastic(E=E, nu=nu)
     u_z0 = depth_ratio * du_z

@@ -26,7 +26,7 @@ def check(rows):
 def test_rigid_pull_elastic():
     rows = list(rigid_elastic())
     assert len(rows) == 64
-    assert min(row.truth for row in rows) < 0.1  # the cases are far from full slip and close to it
+    assert min(row.truth for row in rows) < 0.15  # the cases are far from full slip and close to it
     assert max(row.truth for row in rows) > 0.9999
     check(rows)
 
@@ -43,12 +43,12 @@ def test_rigid_pull_kelvin(T):
 
 
 # a coarser twin than that of the table, as its doubt enters the comparison
-QUICK = {"flat": {"steps": (256, 1024)}, "paraboloid": {"n_nodes": 40, "steps": (256, 768)}, "cone": {"n_nodes": 40}}
+QUICK = {"flat": {"steps": (256, 1024)}, "paraboloid": {"n_nodes": 40, "steps": (256, 768)}, "cone": {"n_nodes": 56}}
 
 
 @pytest.mark.parametrize(
     ("shape", "alpha", "T", "body"),
-    [("flat", 1.2, 0.3, BODIES[0]), ("paraboloid", 0.3, 1.0, BODIES[0]), ("cone", 0.3, 0.0, BODIES[2])],
+    [("flat", 1.2, 0.3, BODIES[0]), ("paraboloid", 0.3, 1.0, BODIES[0]), ("cone", 0.3, 0.0, BODIES[1])],
 )
 def test_mass_and_spring(shape, alpha, T, body):
     rows = list(spring_pull((shape,), (alpha,), (T,), (body,), (0.3, 0.8), **QUICK[shape]))
@@ -83,7 +83,6 @@ def test_the_scheme_is_of_second_order_in_the_step(shape, T):
 @pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
 def test_springs_converge_with_their_square_at_least(shape, T):
     case = contact(shape, 1 / 0.9, T)
-    n = SHAPES[shape][1]
     springs, v_hats = 24 * 2 ** np.arange(5), (0.21, 0.37, 0.63)
     errors = np.zeros(springs.size)
     for v_hat in v_hats:
@@ -95,7 +94,6 @@ def test_springs_converge_with_their_square_at_least(shape, T):
         errors += [abs(run.cof - runs[-1].cof) / case.mu_0 for run in runs[:-1]]
     slope = np.polyfit(np.log(springs), np.log(errors), 1)[0]
     assert slope < -1.7, errors
-    assert n == SHAPES[shape][1]
     assert errors[-1] < 3 * BUDGET
 
 

@@ -60,7 +60,7 @@ def test_elastic_force_is_the_sum_over_the_springs(shape, depth_ratio):
     u_z = case.oscillation.u_z(motion.t)
     expected = [springs.normal_force(u, case.oscillation.u_z0) for u in u_z]
     k = float(case.indenter.stiffness(case.u_z_max, case.material.E_star))
-    # one cell of the edge, half pressed: 1/n**2 of the greatest stiffness and the amplitude, times a few where the edge is steep
+    # one cell of the edge, half pressed: 1/n**2 of stiffness times amplitude, a few times that where the edge is steep
     assert_allclose(motion.F_N, expected, rtol=0, atol=4 / n**2 * k * case.oscillation.du_z)
     assert_allclose(
         motion.F_N, case.indenter.force(u_z, case.material.E_star), rtol=1e-12, atol=1e-15 * k * case.u_z_max
@@ -101,7 +101,7 @@ def test_mean_force_is_that_of_the_mean_compression(shape, T):
     case = contact(shape, 5.0, T)
     F_N = mdr.full_slip(case).F_N
     twin = reference.mean_force(SHAPES[shape][1], 5.0, T)
-    # the force bends like a root where the edge comes back: the mean of 8192 instants is good to STEP**1.5 of a part of it
+    # the force bends like a root where the edge comes back: the mean of 8192 instants misses STEP**1.5 of a part of it
     assert_allclose(F_N.mean() / (case.k_zc * case.oscillation.du_z), twin, rtol=1e-7)
 
 
@@ -184,7 +184,7 @@ def test_elastic_body_against_the_twin(shape, depth_ratio, body):
 def test_kelvin_body_against_the_twin(shape, T, body):
     got = v_hat_c(contact(shape, 5.0, T, **body))
     twin = reference.full_slip_critical_velocity(SHAPES[shape][1], 5.0, T, **body)
-    # the returning edge makes the force bend like a root: its harmonics fall slowly, and 1e-8 is what 8192 of them leave
+    # the returning edge bends the force like a root: its harmonics fall slowly, and 8192 instants leave some 1e-8
     assert_allclose(got, twin, rtol=1e-7)
 
 
@@ -203,7 +203,7 @@ def test_kelvin_body_against_the_twin(shape, T, body):
 def test_body_on_a_contact_that_is_lost_against_the_twin(shape, depth_ratio, T, body):
     got = v_hat_c(contact(shape, depth_ratio, T, **body))
     twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
-    # the dashpots of a Kelvin contact touch with a jump of the force, that of the punch with all of it: an instant is known
+    # dashpots touch with a jump of the force, those of the punch all at once: an instant is known
     # to a share of STEP = 8e-4 and the rate of the body follows; 2.3e-5 seen. Elastic springs touch softly.
     assert_allclose(got, twin, rtol=1e-7 if T == 0 else 5e-5)
 

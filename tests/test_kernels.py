@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ RELAXATION = [0.1, 1.0, 5.0]
 
 @dataclass
 class Step:
-    """A step of smooth motion, z = cos(t_0 + theta), u = u_dot theta + u_ddot theta**2/2, and springs in any state they can be in."""
+    """A step of smooth motion, z = cos(t_0 + theta), u = u_dot theta + u_ddot theta**2/2, and springs in any state."""
 
     t_0: float
     u_dot: float
@@ -81,7 +82,7 @@ class Step:
         return e_1, s_1, *sums
 
     def by_tiny_steps(self, n=2000):
-        """The law itself, n steps within this one: e' = (clip(e + T u', -N, N) - e)/T, and for T = 0 e = clip(e, -s, s).
+        """The law itself in n steps within this one: e' = (clip(e + T u', -N, N) - e)/T; for T = 0 e = clip(e, -s, s).
 
         Returns e, s and whether the mode (free, stick, slip, slip back) was the same all the way.
         """
@@ -132,8 +133,8 @@ def test_one_step_against_tiny_ones(T, h):
         step = Step.draw(rng, h, T)
         e, s, *_ = step.kernel()
         e_fine, s_fine, *_ = step.by_tiny_steps()
-        # an event within the step costs h**2 of the change of its rates, however many there are; a share of the step counted
-        # wrongly would cost h. The rates of a Kelvin spring are s/T and s/T**2 with s < 2.5, and tiny steps miss h/2000 * s/T.
+        # an event within the step costs h**2 of the change of its rates; a share of the step counted wrongly would cost
+        # h. The rates of a Kelvin spring are s/T and s/T**2 with s < 2.5, and tiny steps miss h/2000 * s/T.
         bound = 0.25 * (1 + 2.5 / T + 2.5 / T**2) * h**2 if T else 0.25 * h**2
         tiny = 3 * h / 2000 * (1 + 2.5 / T) if T else 3 * h / 2000
         assert_allclose(e, e_fine, rtol=0, atol=bound + tiny)
@@ -147,7 +148,7 @@ def test_a_step_without_an_event_is_exact(T):
     rng, seen = np.random.default_rng(3), set()
     for _ in range(10):
         step = Step.draw(rng, 0.05, T)
-        e, s, *_ = step.kernel()
+        e, *_ = step.kernel()
         *_, same, mode = step.by_tiny_steps(400)
         decay = math.exp(-step.h / T) if T else 0.0
         pressed = step.z(step.h) - step.gap
@@ -206,7 +207,7 @@ def test_a_kelvin_step_tends_to_the_elastic_one(share):
 
 
 def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1):
-    """A march of the kernel from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
+    """March from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
     if s is None:
         s = np.zeros(scaled.gap.size)
         kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
@@ -216,7 +217,7 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, his
     y, S, n = np.empty(n_steps), np.empty(n_steps), e.size
     e_out, s_out = np.empty((n_steps if keep else 0, n)), np.empty((n_steps if keep else 0, n))
     cuts = np.linspace(0, n_steps, parts + 1).astype(int)
-    for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+    for low, high in pairwise(cuts):
         kernels.march(
             e,
             s,
@@ -245,7 +246,7 @@ def scaled_of(*groups, steps=256, n_springs=32, lump=False, **knobs):
 
 
 def elastic_shear(h, v, t):
-    """The infimum over theta of s(t - theta) + v theta, taken where it can lie: now, where s' = v, and at first touch."""
+    """The infimum over theta of s(t - theta) + v theta, where it can lie: now, where s' = v, and at first touch."""
     steep, touch = np.pi + math.asin(v), 2 * np.pi - math.acos(np.clip(-h, -1, 1))
     e = np.maximum(h + np.cos(t), 0)
     for at in (steep, touch):

@@ -1,6 +1,7 @@
 """The command line: what it prints, writes and returns."""
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import fields
@@ -73,7 +74,7 @@ def test_velocity_for_machines(capsys, punch):
     assert answer["equation"] == "Eq. (1)"
     assert answer["v_c"] == mdr.critical_velocity(case)
     assert answer["full_slip"] == mdr.full_slip_critical_velocity(case)
-    assert_allclose(answer["static_cof"], 0.4 * (1 - 0.5), rtol=1e-5)  # Eq. (7) over the mean force; instants of the period
+    assert_allclose(answer["static_cof"], 0.4 * (1 - 0.5), rtol=1e-5)  # Eq. (7) over k_zc u_z0
     assert answer["version"] == mdr.__version__
     assert parse_case(answer["case"]) == case
 
@@ -94,7 +95,8 @@ def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
     assert main(command) == 0
     table = capsys.readouterr().out.splitlines()
     assert sorted(path.name for path in folder.iterdir()) == ["curve.csv", "curve.png", "curve.svg"]
-    head = [line[2:] for line in (folder / "curve.csv").read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    lines = (folder / "curve.csv").read_text(encoding="utf-8").splitlines()
+    head = [line[2:] for line in lines if line.startswith("#")]
     assert head[0] == f"mdr {mdr.__version__}"
     assert head[1] == " ".join(["mdr", *command])
     assert parse_case("\n".join(head[2:])) == read_case(punch)
@@ -133,7 +135,8 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
     assert velocity_scale(case) == pytest.approx(0.5 * 400.0 * 2e-6 * 1.5, rel=1e-12)
     assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2"]) == 0
     assert "v_c = infinite" in capsys.readouterr().out
-    assert np.loadtxt(tmp_path / "curve.csv", delimiter=",", skiprows=26)[-1, 0] == pytest.approx(2 * velocity_scale(case))
+    rows = (tmp_path / "curve.csv").read_text(encoding="utf-8").splitlines()
+    assert float(rows[-1].split(",")[0]) == pytest.approx(2 * velocity_scale(case))
 
 
 # --- measure and verdict ---
@@ -150,8 +153,9 @@ class MadeUpVerdict:
 
 
 def test_the_names_of_the_records():
+    names = {field.name for field in fields(friction.Verdict)}
     assert {"v_c", "low", "high", "kind", "why"} <= {field.name for field in fields(friction.MeasuredVelocity)}
-    assert {"eq_15", "full_slip", "measured", "deviation", "holds", "why"} <= {field.name for field in fields(friction.Verdict)}
+    assert {"eq_15", "full_slip", "measured", "deviation", "holds", "why"} <= names
 
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
@@ -243,7 +247,8 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
 
 
 def run(*command, **options):
-    return subprocess.run([sys.executable, "-m", "mdr", *command], capture_output=True, text=True, timeout=60, **options)
+    command = [sys.executable, "-m", "mdr", *command]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
 
 
 def test_version():
@@ -252,12 +257,14 @@ def test_version():
 
 
 def test_closed_forms_import_no_matplotlib():
-    code = f"import sys; from mdr.__main__ import main; main(['velocity', {EXAMPLE!r}]); assert 'matplotlib' not in sys.modules"
+    code = f"import sys; from mdr.__main__ import main; main(['velocity', {EXAMPLE!r}])"
+    code += "; assert 'matplotlib' not in sys.modules"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60).returncode == 0
 
 
-def test_the_written_case_is_the_read_one(tmp_path):
-    path = tmp_path / "ä b.toml"
-    path.write_text(write_case(read_case(EXAMPLE)))
-    done = run("velocity", str(path), env={"PYTHONIOENCODING": "ascii", "PYTHONPATH": str(Path(mdr.__file__).parents[1])})
-    assert done.returncode == 0
+def test_a_terminal_that_lacks_a_letter_still_shows_the_rest(tmp_path):
+    path = tmp_path / "ä.toml"
+    path.write_text(write_case(read_case(EXAMPLE)).replace("R =", "r ="))
+    done = run("velocity", str(path), env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert done.returncode == 2
+    assert "\\xe4.toml: [indenter] r is no key of Paraboloid; did you mean R?" in done.stderr

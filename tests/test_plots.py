@@ -147,7 +147,7 @@ def test_spring_map_of_one_spring_out_of_order_and_of_a_long_record():
 
 
 def test_modes_follow_the_library():
-    State = pytest.importorskip("mdr.sliding").State
+    State = pytest.importorskip("mdr").State
     assert [name for name, _ in plots.MODES] == [State(i).name.lower().replace("_", " ") for i in range(4)]
 
 

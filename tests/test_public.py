@@ -26,7 +26,8 @@ SIGNATURES = {
     "SlidingContact": "indenter, material, mu_0, oscillation, pull=RigidPull()",
     "critical_velocity": "case",
     "static_cof": "case",
-    "slide": 'case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, start="full_slip", record=0, lump=True',
+    "slide": "case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, "
+    'start="full_slip", record=0, lump=True',
     "cof_curve": "case, v_0, *, method=None",
     "measure_critical_velocity": 'case, *, start="full_slip"',
     "verdict": "case",
@@ -38,7 +39,8 @@ RECORDS = {
     "Verdict": "eq_15 full_slip measured deviation holds why",
 }
 ANSWERS = {
-    "indenter": "profile_3d(r) profile_1d(x) contact_radius(d) force(d,E_star) stiffness(d,E_star) pressure(r,d,E_star)",
+    "indenter": "profile_3d(r) profile_1d(x) contact_radius(d) "
+    "force(d,E_star) stiffness(d,E_star) pressure(r,d,E_star)",
     "material": "dynamic_modulus(omega)",
 }
 

@@ -153,7 +153,7 @@ def test_a_beat_that_does_not_repeat_is_quasi_periodic():
 
 
 def slow_beats(n_beats=200):
-    """Beats over a hundred periods and more, as a lightly damped body has them; a run looks at itself again and again."""
+    """Beats over a hundred periods and more, as a lightly damped body has them."""
     rng = np.random.default_rng(7)
     for rate, phase in zip(rng.uniform(1e-3, 1e-2, n_beats), rng.uniform(0, 2 * np.pi, n_beats), strict=True):
         yield transient(lambda P, rate=rate, phase=phase: np.cos(2 * np.pi * rate * P + phase))(200)

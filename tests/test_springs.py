@@ -78,7 +78,7 @@ def test_force_between_the_extremes_is_of_second_order(shape, alpha, T):
         errors.append(np.sqrt(np.mean((got - exact) ** 2)) / (case.k_zc * du_z))
     # the depths meet the cells at random places, which scatters the slope by some 0.1
     assert np.polyfit(np.log(counts), np.log(errors), 1)[0] < -1.75
-    # the one cell at the edge, of width 2 a/n at most, is pressed or not by half its depth: 1/n**2, times a few for the r4 edge
+    # the one cell at the edge is pressed or not by half its depth: 1/n**2, a few times that for the edge of r4
     assert errors[-1] < 8 / counts[-1] ** 2
 
 
@@ -126,8 +126,22 @@ def test_too_few_springs_are_refused(n):
         SpringArray.of(contact("cone"), n)
 
 
+class Kinked(mdr.Paraboloid):
+    """A paraboloid that names radii as kinks: cutting the row there changes no sum."""
+
+    kinks = tuple(np.linspace(1e-5, 3e-4, 8))
+
+
+@pytest.mark.parametrize("alpha", [1e-6, 0.1, 1.7])
+def test_kinks_cut_the_row(alpha):
+    case = case_of(Kinked(R=5e-3), alpha, 1.0)
+    springs = SpringArray.of(case, 128)
+    assert_sums_are_exact(case, springs, [U_Z0, U_Z0 * (1 + alpha)])
+    edges = springs.x + springs.width / 4
+    for kink in Kinked.kinks:
+        assert np.abs(edges - kink).min() < 1e-13 * edges[-1]
+
+
 def test_a_shape_of_many_kinks_needs_more_springs():
-    kinks = tuple(np.linspace(1e-5, 2e-4, 6))
-    case = contact(mdr.Profile(bowl, kinks=kinks), 10.0)
-    with pytest.raises(ValueError, match="n_springs must be at least .* for this shape with its kinks, got 16"):
-        SpringArray.of(case, 16)
+    with pytest.raises(ValueError, match=r"n_springs must be at least .* for this shape with its kinks, got 16"):
+        SpringArray.of(case_of(Kinked(R=5e-3), 0.1, 0.0), 16)

@@ -79,8 +79,8 @@ def test_eq_10_solves_eq_8(body, gamma):
     def u_x(t):
         return theory.eq_10(t, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
 
-    # u_x is a constant, a slope and one harmonic; three samples a third of a period apart hold nothing else, and the second
-    # derivative of the harmonic is -omega**2 times it
+    # u_x is a constant, a slope and one harmonic: the mean of three samples a third of a period apart leaves out the
+    # harmonic, whose second derivative is -omega**2 times it
     third = 2 * np.pi / OMEGA / 3
     mean = (u_x(TIMES) + u_x(TIMES + third) + u_x(TIMES - third)) / 3
     acceleration = -(OMEGA**2) * (u_x(TIMES) - mean)
@@ -270,7 +270,7 @@ def test_deficit_against_the_twin(v_hat):
 
 @pytest.mark.parametrize("v_hat", [0.05, 0.4, 0.8])
 def test_deficit_is_the_mean_lag_of_a_spring(v_hat):
-    # e = least of s(t - theta) + v_hat theta with s = cos t (+ a depth): after phi_1 it grows at v_hat until it meets s again
+    # e = least of s(t - theta) + v_hat theta with s = cos t and a depth: after phi_1 it grows at v_hat until it meets s
     phi_1 = np.pi + np.arcsin(v_hat)
 
     t = phi_1 + np.linspace(0, 2 * np.pi, 20_001)

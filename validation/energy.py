@@ -25,7 +25,7 @@ from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
 
-LEVELS = (64, 96, 128, 192, 256, 384, 512, 768, 1024)  # a factor of 16
+LEVELS = tuple(round(64 * 16 ** (i / 10)) for i in range(11))  # a factor of 16, without common factors, so that kinks fall anywhere
 SHARES = {"quick": (0.25, 0.45, 0.65, 0.85), "full": tuple(np.linspace(0.2, 0.9, 10)), "long": tuple(np.linspace(0.2, 0.9, 24))}
 SPRING: dict[str, Any] = {"k_ratio": 1.5, "omega_0_ratio": 1.3, "damping_ratio": 0.05}  # omega_1 = 1.7 omega: 64 steps resolve it
 PULLS: dict[str, dict[str, Any]] = {"rigid pull": {}, "spring pull": SPRING}

@@ -1,0 +1,71 @@
+"""Cone: in which sense is the critical velocity "independent of the indentation depth"?
+
+A blunt cone slides on a soft gel at fixed amplitude, pressed ever deeper. Its stiffness k_xc = 2 G* a grows in
+proportion to the depth, and Eq. (15), here without loss in the gel but with a damper c_x at the body,
+
+    v_c = mu_0 kappa omega du_z |1 - k_xc/(m omega² - k_x - i omega c_x)|,
+
+knows the depth through k_xc only. Under a rigid pull it drops out altogether, Eq. (1), and for a flat punch k_xc does
+not change; a cone under mass and spring has a v_c that nearly vanishes at the depth where k_xc = m omega² - k_x. There
+Eq. (15) is also least accurate: with the first harmonic of the force balanced, the higher ones decide.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import mdr
+
+omega, gel, mu_0, du_z = 2 * np.pi * 60, mdr.Elastic(E=1e6, nu=0.5), 0.6, 4e-6
+cone = mdr.Cone(theta=0.05)
+body = mdr.SpringPull(k_x=300, m=0.01, c_x=0.5)
+
+
+def contact(u_z0, indenter=cone, pull=body):
+    """The indenter pressed to the depth u_z0."""
+    return mdr.SlidingContact(indenter, gel, mu_0, mdr.NormalOscillation(u_z0, du_z, omega), pull)
+
+
+punch = mdr.FlatPunch(a=float(cone.contact_radius(30e-6)))  # as stiff as the cone 30 µm deep
+depths = np.linspace(6e-6, 100e-6, 95)
+eq_1 = mdr.critical_velocity(contact(30e-6, pull=mdr.RigidPull()))
+eq_15 = np.array([mdr.critical_velocity(contact(d)) for d in depths])
+full = np.array([mdr.full_slip_critical_velocity(contact(d)) for d in depths])
+of_punch = np.array([mdr.critical_velocity(contact(d, punch)) for d in depths])
+balanced = (body.m * omega**2 - body.k_x) / contact(1e-6).k_xc * 1e-6  # depth at which k_xc = m omega² - k_x
+shallow, deep = 16e-6, 56e-6
+verdicts = {d: mdr.verdict(contact(d)) for d in (shallow, deep)}
+run = mdr.slide(contact(shallow), 0.4 * verdicts[shallow].eq_15, record=2)
+
+
+def figure():
+    """v_c over depth, and the springs of the shallow contact below v_c."""
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import plot_spring_map, style
+
+    with style():
+        fig, (left, right) = plt.subplots(1, 2, figsize=(10, 4.4))
+        left.axhline(1e3 * eq_1, color="0.4", ls="--", label="any shape, rigid pull: Eq. (1)")
+        left.plot(1e6 * depths, 1e3 * of_punch, color="0.6", label="flat punch on mass and spring: Eq. (15)")
+        left.plot(1e6 * depths, 1e3 * eq_15, label="cone on mass and spring: Eq. (15)")
+        left.plot(1e6 * depths, 1e3 * full, "--", label="cone, all harmonics of $F_N$")
+        measured = [1e3 * verdict.measured for verdict in verdicts.values()]
+        left.plot(np.multiply(list(verdicts), 1e6), measured, "ko", label="cone, measured in runs")
+        left.set(title="the depth matters to the cone, through $k_{xc}$", ylim=(0, None), xlim=(0, 100))
+        left.set(xlabel="depth $u_{z0}$ [µm]", ylabel="critical velocity [mm/s]")
+        left.legend()
+        plot_spring_map(run, right)
+        right.set_title(f"springs {1e6 * shallow:.0f} µm deep, at $0.4\\,v_c$", pad=26)
+    return fig
+
+
+if __name__ == "__main__":
+    print(f"Eq. (1): {1e3 * eq_1:.3f} mm/s at any depth; flat punch, Eq. (15): {1e3 * of_punch[0]:.3f} mm/s at any depth")
+    print(f"cone, Eq. (15): {1e3 * eq_15.min():.3f} to {1e3 * eq_15.max():.3f} mm/s, least near {1e6 * balanced:.1f} µm")
+    for depth, verdict in verdicts.items():
+        print(f"{1e6 * depth:.0f} µm deep: {verdict}")
+    path = Path(__file__).parent / "figures" / "cone.png"
+    path.parent.mkdir(exist_ok=True)
+    figure().savefig(path, dpi=200)
+    print("figure:", path)

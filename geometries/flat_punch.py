@@ -1,0 +1,67 @@
+"""Flat punch: does a rubber foot creep when the table under it vibrates, and how much does a lossy rubber help?
+
+A machine of 0.8 kg stands on four rubber feet of 5 mm radius and is pulled by a soft spring; the table shakes at 100 Hz
+and changes the depth of each foot by 15 µm of 50 µm. At rest the friction left is its least value in the period,
+
+    mu(0) = mu_0 [1 - (du_z/u_z0) sqrt(1 + T²)],   T = omega tau,   Eq. (7),
+
+so loss in the rubber lowers it, down to nothing where contact is lost, Eq. (5). Pulled faster than v_c, Eq. (15), the
+foot has all its friction back. A flat punch has constant stiffness: both formulas are exact for it.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import mdr
+
+tapping = mdr.NormalOscillation(u_z0=50e-6, du_z=15e-6, omega=2 * np.pi * 100)
+pull = mdr.SpringPull(k_x=2e3, m=0.2)  # a foot's share of the machine
+
+
+def foot(T, du_z=tapping.du_z):
+    """One foot of a rubber of 3 MPa whose loss tangent is T at the frequency of the table."""
+    rubber = mdr.KelvinVoigt.from_loss_tangent(E=3e6, nu=0.5, tan_delta=T, omega=tapping.omega)
+    return mdr.SlidingContact(mdr.FlatPunch(a=5e-3), rubber, 0.8, replace(tapping, du_z=du_z), pull)
+
+
+loss_tangents = (0.0, 0.3, 1.0, 3.0)
+v_c = [mdr.critical_velocity(foot(T)) for T in loss_tangents]  # Eq. (15)
+static = [mdr.static_cof(foot(T)) for T in loss_tangents]  # Eq. (7)
+lost_above = [tapping.u_z0 / np.hypot(1, T) for T in loss_tangents]  # amplitude at which Eq. (5) ends
+shares = np.array([0.0, 0.15, 0.3, 0.5, 0.75, 0.95, 1.2])  # of v_c
+curves = [mdr.cof_curve(foot(T), v * shares) for T, v in zip(loss_tangents, v_c, strict=True)]
+amplitudes = np.linspace(0.5e-6, 60e-6, 120)
+at_rest = [[mdr.static_cof(foot(T, du_z)) for du_z in amplitudes] for T in loss_tangents]
+
+
+def figure():
+    """COF over pulling velocity, and the COF at rest over amplitude, for each loss tangent."""
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import style
+
+    with style():
+        fig, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(9, 4))
+        for i, T in enumerate(loss_tangents):
+            left.plot(1e3 * curves[i].v_0, curves[i].cof, "o-", ms=4, label=rf"$T = {T:g}$")
+            left.plot(1e3 * v_c[i], 0.83, "v", color=f"C{i}", clip_on=False)
+            right.plot(1e6 * amplitudes, at_rest[i], label=rf"$T = {T:g}$")
+            right.plot(1e6 * lost_above[i], 0, "o", color=f"C{i}", clip_on=False, zorder=3)
+        left.set(title="pulled: full friction from Eq. (15) (triangles) on", xlabel="pulling velocity $v_0$ [mm/s]")
+        left.set(ylabel=r"coefficient of friction $\mu$", ylim=(0, 0.86), xlim=(0, None))
+        right.axvline(1e6 * tapping.du_z, color="0.4", ls=":")
+        right.set(title="at rest: gone where contact is lost (dots)", xlabel="amplitude of the depth [µm]")
+        left.legend()
+    return fig
+
+
+if __name__ == "__main__":
+    print("loss tangent   v_c [mm/s]   COF at rest   contact lost above [µm]")
+    for row in zip(loss_tangents, np.multiply(v_c, 1e3), static, np.multiply(lost_above, 1e6), strict=True):
+        print("{:12.1f} {:12.3f} {:13.3f} {:25.1f}".format(*row))
+    path = Path(__file__).parent / "figures" / "flat_punch.png"
+    path.parent.mkdir(exist_ok=True)
+    figure().savefig(path, dpi=200)
+    print("figure:", path)

@@ -1,0 +1,269 @@
+"""The march of one contact through its periods, in scaled form: the one bridge to the compiled kernels.
+
+A march starts on the full-slip solution, or from rest, goes on until windows of periods agree (settling.py), and
+looks closely at its last periods: modes, forces and energies. If its core was lumped and turns out not to move as
+one, the march is done again with every spring for itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr import kernels
+from mdr.contact import SlidingContact
+from mdr.scaled import ScaledContact
+from mdr.settling import Settling, judge
+from mdr.springs import SpringArray
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
+SWING_TOLERANCE = 1e-3  #: of the swing of the body between windows, over v_0/omega
+MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
+
+
+@dataclass(frozen=True)
+class Knobs:
+    """What a march may choose: resolution, start, and what to keep."""
+
+    n_springs: int
+    steps: int
+    start: str
+    lump: bool
+    record: int = 0
+
+    def coarser(self, n_springs: int = 1, steps: int = 1) -> Knobs:
+        """The knobs of a companion with fewer springs or steps."""
+        return replace(
+            self, n_springs=max(self.n_springs // n_springs, 16), steps=max(self.steps // steps, 16), record=0
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class March:
+    """A finished march: what it said of itself, still in scaled form."""
+
+    case: SlidingContact
+    v_0: float
+    knobs: Knobs
+    scaled: ScaledContact
+    springs: SpringArray
+    settling: Settling
+    n_periods: int
+    mean_F_z: float
+    seen: Seen
+
+    @property
+    def cof(self) -> float:
+        """COF over mu_0."""
+        return self.settling.mean
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """The observed periods in scaled form; F_x, F_z, slip, y per step, e and mode per step and spring (or empty)."""
+
+    sums: Array
+    F_x: Array
+    F_z: Array
+    slip: Array
+    y: Array
+    e: Array
+    mode: NDArray[np.uint8]
+    stored: tuple[float, float]
+
+
+def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
+    """March until settled, or exactly n_periods; the last ones observed."""
+    springs = SpringArray.of(case, knobs.n_springs)
+    lump = knobs.lump and knobs.start == "full_slip"
+    scaled = ScaledContact.of(case, springs, knobs.steps, lump)
+    v = v_0 / scaled.speed
+    line = Line(scaled, v, knobs.start)
+    n_seen = max(1, knobs.record)
+    settling = line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"]) if n_periods is None else None
+    if n_periods is not None:
+        line.advance(n_periods - n_seen)
+    seen = line.observe(n_seen, keep=knobs.record > 0)
+    if not line.as_one:  # the core did not move as one after all: every spring for itself
+        return march(case, v_0, replace(knobs, lump=False), n_periods)
+    if settling is None:
+        settling = line.judge()
+    return March(case, v_0, knobs, scaled, springs, settling, line.n_periods, line.mean_F_z, seen)
+
+
+class Line:
+    """The state of a march between calls of the kernel."""
+
+    def __init__(self, scaled: ScaledContact, v: float, start: str) -> None:
+        self.scaled, self.v = scaled, v
+        n = scaled.gap.size
+        self.s, self.e = np.zeros(n), np.zeros(n)
+        self.mean_F_z = kernels.settle_normal(self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
+        if start == "full_slip":
+            self.e[:] = self.s
+            self.history = scaled.full_slip_history(self._full_slip_force())
+        else:
+            self.history = scaled.rest_history(v)
+        self.as_one = True
+        self.cofs = np.empty(0)
+        self.swings = np.empty(0)  # of the body, greatest less least y of a period
+
+    @property
+    def n_periods(self) -> int:
+        """Periods marched so far."""
+        return self.cofs.size
+
+    def _full_slip_force(self) -> Array:
+        """S at the nodes of one period in full slip, shape (n_steps,), from the normal motion of the springs."""
+        scaled, s = self.scaled, self.s.copy()
+        S = np.empty(scaled.steps)
+        fast = 1e9  # sliding at any high velocity is full slip
+        nothing = np.empty((0, s.size))
+        kernels.march(
+            s.copy(),
+            s,
+            np.zeros(5),
+            np.zeros(5),
+            scaled.gap,
+            scaled.w,
+            scaled.z,
+            scaled.z_dot,
+            fast,
+            scaled.T,
+            -np.inf,
+            scaled.steps,
+            0,
+            np.empty(scaled.steps),
+            S,
+            nothing,
+            nothing,
+        )
+        return np.roll(S, 1)
+
+    def _call(self, n_steps: int, k_0: int, e_out: Array, s_out: Array) -> tuple[Array, Array]:
+        scaled = self.scaled
+        y, S = np.empty(n_steps), np.empty(n_steps)
+        as_one = kernels.march(
+            self.e,
+            self.s,
+            self.history,
+            scaled.body,
+            scaled.gap,
+            scaled.w,
+            scaled.z,
+            scaled.z_dot,
+            self.v,
+            scaled.T,
+            scaled.lump_margin,
+            n_steps,
+            k_0,
+            y,
+            S,
+            e_out,
+            s_out,
+        )
+        self.as_one = self.as_one and bool(as_one)
+        return y, S
+
+    def advance(self, n_periods: int) -> None:
+        """March whole periods and append their COFs (over mu_0)."""
+        if n_periods <= 0:
+            return
+        nothing = np.empty((0, self.e.size))
+        for part in _parts(n_periods, max(1, 4_000_000 // self.scaled.steps)):
+            S_start = self.history[3]
+            y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
+            self._append(S_start, y, S)
+
+    def _append(self, S_start: float, y: Array, S: Array) -> None:
+        """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends; and swing of y."""
+        self.swings = np.concatenate([self.swings, np.ptp(y.reshape(-1, self.scaled.steps), axis=1)])
+        ends = np.concatenate([[S_start], S[self.scaled.steps - 1 :: self.scaled.steps]])
+        inner = S.reshape(-1, self.scaled.steps).mean(axis=1)
+        mean = inner - 0.5 * np.diff(ends) / self.scaled.steps + self.scaled.T * np.diff(ends) / (2 * np.pi)
+        self.cofs = np.concatenate([self.cofs, mean / self.mean_F_z])
+
+    def wait(self, most: int) -> Settling:
+        """March until the windows agree."""
+        self.advance(8)
+        while not (settling := self.judge()).settled and self.n_periods < most and self.as_one:
+            self.advance(max(4, self.n_periods // 2))
+        return settling
+
+    def judge(self) -> Settling:
+        """Whether the COF has settled, and the swing of the body with it: on a resonance it grows before stick
+        begins.
+        """
+        settling = judge(self.cofs, TOLERANCE)
+        if settling.settled and not judge(self.swings / self.v, SWING_TOLERANCE).settled:
+            return replace(settling, settled=False, kind="unsettled")
+        return settling
+
+    def observe(self, n_periods: int, keep: bool) -> Seen:
+        """March the last periods with a close look; the march is the same with and without `keep`."""
+        scaled, n = self.scaled, self.e.size
+        n_steps = n_periods * scaled.steps
+        sums, F_x, F_z, slip = np.zeros(kernels.N_SUMS), np.empty(n_steps), np.empty(n_steps), np.empty(n_steps)
+        sums[kernels.LEAST_SLIP] = np.inf
+        e_kept, mode = np.empty((n_steps if keep else 0, n)), np.zeros((n_steps if keep else 0, n), dtype=np.uint8)
+        y_all, S_all, S_start = [self.history[2::-1].copy()], [], self.history[3]
+        stored = self._stored()
+        done = 0
+        for part in _parts(n_steps, max(1, 1_000_000 // n)):
+            e, s = np.empty((part + 1, n)), np.empty((part + 1, n))
+            e[0], s[0] = self.e, self._compression(done)
+            history = self.history[2::-1].copy()
+            y, S = self._call(part, done, e[1:], s[1:])
+            k = (done + np.arange(part + 1)) % scaled.steps
+            k[-1] = k[-2] + 1
+            now = slice(done, done + part)
+            kernels.observe(
+                e,
+                s,
+                np.concatenate([history, y]),
+                scaled.z[k],
+                scaled.z_dot[k],
+                scaled.gap,
+                scaled.w,
+                scaled.T,
+                self.v,
+                np.exp(-scaled.h / scaled.T) if scaled.T else 0.0,
+                scaled.h,
+                sums,
+                F_x[now],
+                F_z[now],
+                slip[now],
+                mode[now] if keep else mode,
+            )
+            if keep:
+                e_kept[now] = e[1:]
+            y_all.append(y)
+            S_all.append(S)
+            done += part
+        self._append(S_start, np.concatenate(y_all[1:]), np.concatenate(S_all))
+        return Seen(sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, mode, (stored, self._stored()))
+
+    def _compression(self, step: int) -> Array:
+        """Compressions now; the elastic march does not keep them."""
+        scaled = self.scaled
+        return self.s if scaled.T else np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0)
+
+    def _stored(self) -> float:
+        """Elastic and kinetic energy of springs, body and system spring, tangential unit of energy; u_z part
+        included.
+        """
+        scaled, (y, y_old, y_older) = self.scaled, self.history[:3]
+        u_dot = self.v + (1.5 * y - 2 * y_old + 0.5 * y_older) / scaled.h
+        springs = 0.5 * float(scaled.w @ self.e**2)
+        normal = 0.5 * float(scaled.w @ self._compression(0) ** 2)
+        ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)
+        return float(springs + normal * ratio + 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2)
+
+
+def _parts(total: int, most: int) -> list[int]:
+    """Cut a number of steps into parts of at most `most`."""
+    return [min(most, total - start) for start in range(0, total, most)]

@@ -1,0 +1,175 @@
+"""What comes out of a march, in SI: SlidingRun, its modes, its energies and its recorded periods.
+
+Sign and symbols: F_x > 0 holds the indenter back [N], F_z > 0 presses [N], v_0 pulling velocity [m/s], u_x position
+of the body [m].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr import kernels
+from mdr.marching import TOLERANCE, March
+
+Array = NDArray[np.float64]
+
+
+class State(IntEnum):
+    """Mode of a spring."""
+
+    FREE = kernels.FREE  #: out of contact
+    STICK = kernels.STICK  #: its foot rests on the indenter
+    SLIP = kernels.SLIP  #: slides forward, friction holds the indenter back
+    SLIP_BACK = kernels.SLIP_BACK  #: slides backward, friction drives the indenter on
+
+
+@dataclass(frozen=True)
+class EnergyBalance:
+    """Energies [J] of the observed periods, each from its own definition.
+
+    pull_work + normal_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the residual of the
+    scheme.
+    """
+
+    pull_work: float  #: of the far end of the pull, v_0 times the pulling force
+    normal_work: float  #: of the normal drive, F_z u_z'
+    friction_loss: float  #: mu_0 F_z times the slip velocity
+    viscous_loss: float  #: gamma s'² and gamma e'² of the springs
+    damper_loss: float  #: of the system damper c_x
+    stored_change: float  #: elastic energy of springs and system, kinetic energy of the body
+
+    @property
+    def residual(self) -> float:
+        """Supply less use [J]."""
+        used = self.friction_loss + self.viscous_loss + self.damper_loss + self.stored_change
+        return self.pull_work + self.normal_work - used
+
+    @property
+    def relative(self) -> float:
+        """Residual over the energy that was lost [-]."""
+        return self.residual / (self.friction_loss + self.viscous_loss + self.damper_loss)
+
+
+@dataclass(frozen=True, eq=False)
+class SlidingRun:
+    """Outcome of slide(). The arrays of the last periods are None unless `record` asked for them."""
+
+    cof: float  #: mean F_x over mean F_z in whole periods [-]
+    cof_error: float  #: bound on its numerical error: step, springs and settling [-]
+    settled: bool  #: whether windows of periods agree
+    kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"
+    why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
+    stick_share: float  #: force-weighted share of contact time spent sticking [-]
+    least_slip: float  #: smallest slip velocity of a spring in contact in the observed periods [m/s]
+    mean_F_x: float  #: [N]
+    mean_F_z: float  #: [N]
+    energy_balance: EnergyBalance  #: of the observed periods
+    v_0: float  #: pulling velocity [m/s]
+    mu_0: float  #: local coefficient of friction [-]
+    omega: float  #: of the oscillation [rad/s]
+    n_springs: int  #: springs at x >= 0, each for the pair +x, -x
+    steps_per_period: int  #: time steps of one period
+    n_periods: int  #: periods marched
+    t: Array | None = None  #: (n_t,) instants [s]
+    u_x: Array | None = None  #: (n_t,) position of the body [m]
+    u_z: Array | None = None  #: (n_t,) depth [m]
+    F_x: Array | None = None  #: (n_t,) tangential force [N]
+    F_z: Array | None = None  #: (n_t,) normal force [N]
+    x: Array | None = None  #: (n_springs,) positions [m]
+    e: Array | None = None  #: (n_t, n_springs) tangential extensions [m]
+    state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
+
+
+def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
+    """From scaled form to SI."""
+    case, scaled, seen, settling = march.case, march.scaled, march.seen, march.settling
+    mu_0, sums = case.mu_0, seen.sums
+    n_steps = seen.F_x.size
+    force_z = scaled.stiffness_z * scaled.length_z
+    mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
+    sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
+    kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
+    return SlidingRun(
+        cof=mu_0 * settling.mean,
+        cof_error=mu_0 * (error + settling.spread + 1e-12),
+        settled=settling.settled,
+        kind=kind,
+        why=why if settling.settled else _why_not(march),
+        stick_share=sticks,
+        least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
+        mean_F_x=mu_0 * settling.mean * mean_F_z,
+        mean_F_z=mean_F_z,
+        energy_balance=_energy_balance(march),
+        v_0=march.v_0,
+        mu_0=mu_0,
+        omega=scaled.omega,
+        n_springs=march.knobs.n_springs,
+        steps_per_period=scaled.steps,
+        n_periods=march.n_periods,
+        **(_recorded(march) if march.knobs.record else {}),
+    )
+
+
+def _why_not(march: March) -> str:
+    settling, n = march.settling, march.n_periods
+    if not np.isfinite(settling.spread):
+        return f"{n} periods are too few to compare windows: raise n_periods to 8 or more"
+    if settling.spread <= TOLERANCE:
+        return f"the swing of the body still changes after {n} periods, as on a resonance: raise n_periods or add c_x"
+    change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
+    if march.scaled.K and march.scaled.C == 0:
+        return f"{change}: the free oscillation of a body without damper does not die out; add c_x"
+    return f"{change}: raise n_periods" + ("" if march.knobs.start == "full_slip" else " or start from full slip")
+
+
+def _energy_balance(march: March) -> EnergyBalance:
+    scaled, seen = march.scaled, march.seen
+    sums, v, h = seen.sums, march.v_0 / scaled.speed, scaled.h
+    unit_x = scaled.stiffness_x * scaled.length_x**2
+    unit_z = scaled.stiffness_z * scaled.length_z**2
+    pull, damper = float(sums[kernels.SHEAR_WORK]), 0.0
+    if scaled.K:
+        y = seen.y[2:]
+        y_dot = np.diff(y) / h
+        pull = -v * (scaled.K * h * float(np.sum(0.5 * (y[1:] + y[:-1]))) + scaled.C * float(y[-1] - y[0]))
+        damper = scaled.C * h * float(np.sum(y_dot**2))
+    viscous = unit_x * sums[kernels.SHEAR_VISCOUS] + unit_z * sums[kernels.NORMAL_VISCOUS]
+    return EnergyBalance(
+        pull_work=unit_x * pull,
+        normal_work=unit_z * float(sums[kernels.NORMAL_WORK]),
+        friction_loss=unit_x * float(sums[kernels.FRICTION_LOSS]),
+        viscous_loss=float(viscous),
+        damper_loss=unit_x * damper,
+        stored_change=unit_x * (seen.stored[1] - seen.stored[0]),
+    )
+
+
+def _recorded(march: March) -> dict[str, Any]:
+    """The last periods in SI, the lumped core spread over the springs it stands for."""
+    scaled, seen, springs = march.scaled, march.seen, march.springs
+    n_steps = seen.F_x.size
+    t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
+        1, n_steps + 1
+    ) * scaled.h / scaled.omega
+    e, mode, n = seen.e, seen.mode, scaled.n_lumped
+    if n > 1:
+        core = springs.gap[:n] / scaled.length_z - scaled.gap[0]
+        e = np.concatenate([e[:, :1] - core, e[:, 1:]], axis=1)
+        mode = np.concatenate([np.repeat(mode[:, :1], n, axis=1), mode[:, 1:]], axis=1)
+    phase = np.arange(1, n_steps + 1) % scaled.steps
+    oscillation = march.case.oscillation
+    return {
+        "t": t,
+        "u_x": march.v_0 * t + seen.y[3:] * scaled.length_x,
+        "u_z": oscillation.u_z0 + oscillation.du_z * scaled.z[phase],
+        "F_x": seen.F_x * scaled.stiffness_x * scaled.length_x,
+        "F_z": seen.F_z * scaled.stiffness_z * scaled.length_z,
+        "x": springs.x,
+        "e": e * scaled.length_x,
+        "state": mode,
+    }
