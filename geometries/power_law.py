@@ -36,7 +36,7 @@ def scaled(curve, case):
 
 
 exponents = (1, 2, 4, 8, np.inf)
-v_hat = np.array([0.0, 0.1, 0.25, 0.4, 0.6, 0.8])
+v_hat = np.array([0.0, 0.1, 0.25, 0.4, 0.6, 0.8, 1.0])
 psi = np.array([deficit(v) for v in v_hat])
 amplitudes = (0.3, 0.03)
 curves, collapsed = {}, {}
@@ -52,24 +52,24 @@ def figure():
     """COF curves of all tips, and what the scaling makes of them at a large and a small amplitude."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import style
+    from mdr.plots import COLOURS, style
 
     fine = np.linspace(0, 1, 60)
     names = {n: "flat punch" if np.isinf(n) else f"$n = {n}$" for n in exponents}
     large, small = amplitudes
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
-        for i, n in enumerate(exponents):
-            left.plot(v_hat, curves[n, large].cof / 0.5, "o-", ms=4, color=f"C{i}", label=names[n])
-            right.plot(v_hat, collapsed[n, large], "o", ms=4, color=f"C{i}")
-            right.plot(v_hat, collapsed[n, small], "s", ms=9, mfc="none", color=f"C{i}")
+        for i, (n, colour) in enumerate(zip(exponents, COLOURS, strict=False)):
+            left.plot(v_hat, curves[n, large].cof / 0.5, "o-", ms=4, color=colour, label=names[n])
+            right.plot(v_hat, collapsed[n, large], "x", ms=8, mew=2, color=colour)
+            right.plot(v_hat, collapsed[n, small], "o", ms=10 - 2 * i, color=colour)
         left.set(title=f"blunt tips keep more friction ($\\Delta u_z/u_{{z0}} = {large}$)")
         left.set(xlabel=r"$v_0/v_c$", ylabel=r"$\mu/\mu_0$")
         left.legend()
         right.plot(fine, [deficit(v) for v in fine], "k", zorder=0, label=r"$\psi$")
-        right.plot([], [], "o", ms=4, color="0.4", label=f"$\\Delta u_z/u_{{z0}} = {large}$")
-        right.plot([], [], "s", ms=9, mfc="none", color="0.4", label=f"$\\Delta u_z/u_{{z0}} = {small}$")
-        right.set(title="scaled by the stiffness, one curve for all", xlabel=r"$v_0/v_c$")
+        right.plot([], [], "x", ms=8, mew=2, color="0.4", label=f"$\\Delta u_z/u_{{z0}} = {large}$")
+        right.plot([], [], "o", ms=7, color="0.4", label=f"$\\Delta u_z/u_{{z0}} = {small}$")
+        right.set(title="scaled: one curve for a small amplitude (dots)", xlabel=r"$v_0/v_c$")
         right.set(ylabel=r"$(1 - \mu/\mu_0)\,F_N/(k_{zc}\Delta u_z)$")
         right.legend()
     return fig

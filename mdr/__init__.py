@@ -15,7 +15,7 @@ from mdr.springs import SpringArray
 
 from mdr.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.theory import critical_velocity
-from mdr.full_slip import full_slip, full_slip_critical_velocity, static_cof
+from mdr.full_slip import full_slip_critical_velocity, static_cof
 from mdr.runs import EnergyBalance, SlidingRun, State
 from mdr.sliding import slide
 from mdr.friction import CofCurve, MeasuredVelocity, Verdict, cof_curve, measure_critical_velocity, verdict
@@ -51,7 +51,6 @@ __all__ = [
     "Verdict",
     "cof_curve",
     "critical_velocity",
-    "full_slip",
     "full_slip_critical_velocity",
     "measure_critical_velocity",
     "parse_case",

@@ -44,9 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):  # a letter the terminal lacks must not cost the result
             stream.reconfigure(errors="backslashreplace")
     try:
-        status = _run(args)
-        sys.stdout.flush()
-        return status
+        return _run(args)
     except KeyboardInterrupt:
         return _complain("interrupted before it was done", INTERRUPTED)
     except BrokenPipeError:  # the reader, such as head, has seen enough
@@ -62,7 +60,9 @@ def _run(args: argparse.Namespace) -> int:
     except CaseFileError as fault:
         return _complain(str(fault), WRONG_INPUT)
     try:
-        return work(args, case)
+        status = work(args, case)
+        sys.stdout.flush()  # a full disk shows here
+        return status
     except WrongInput as fault:
         return _complain(str(fault), WRONG_INPUT)
     except BrokenPipeError:

@@ -34,7 +34,7 @@ class SlidingContact:
             value = getattr(self, name)
             if not isinstance(value, kind):
                 hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
-                raise TypeError(f"{name} must be a {kind.__name__}, got {value!r}{hint}")
+                raise TypeError(f"{name} must be of kind {kind.__name__}, got {value!r}{hint}")
         object.__setattr__(self, "mu_0", positive("mu_0", self.mu_0, "coefficient of friction"))
         self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
 

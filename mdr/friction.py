@@ -30,7 +30,7 @@ from mdr.full_slip import full_slip_critical_velocity, static_cof
 from mdr.progress import progress
 from mdr.pull import RigidPull, SpringPull
 from mdr.runs import SlidingRun
-from mdr.sliding import slide
+from mdr.sliding import default_steps, slide
 from mdr.theory import critical_velocity, eq_1
 
 Array = NDArray[np.float64]
@@ -98,7 +98,7 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
 
 MARGIN = 2e-5  #: half width of the bracket, of v_c
 APART = 0.01  #: step between velocities at which the deficit of the COF is read
-ABOVE = (1.02, 1.1, 1.3, 2.0, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
+ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 HIGHEST = 1e3  #: times Eq. (1): no stick-free run below this means there is no v_c
 
@@ -134,9 +134,14 @@ class _Search:
         # only a scale of velocity; the tangential travel per unit of normal travel is mu_0 kappa
         self.scale = oscillation.omega * oscillation.du_z * case.mu_0 * case.material.mindlin_ratio
 
-    def run(self, v_0: float, start: str | None = None) -> SlidingRun:
+    def run(self, v_0: float) -> SlidingRun:
         self.n_runs += 1
-        return slide(self.case, v_0, start=start or self.start)
+        return slide(self.case, v_0, start=self.start)
+
+    def look(self, v_0: float, start: str) -> SlidingRun:
+        """A run of half the usual resolution, enough to tell reduced friction from full."""
+        self.n_runs += 1
+        return slide(self.case, v_0, start=start, n_springs=192, steps_per_period=default_steps(self.case) // 2)
 
     def measure(self) -> MeasuredVelocity:
         first = self._first_free_run()
@@ -214,7 +219,7 @@ class _Search:
         grazing, unsettled = False, []
         for factor in ABOVE:
             for start in ("full_slip", "rest"):
-                run = self.run(factor * v_c, start)
+                run = self.look(factor * v_c, start)
                 if not run.settled:
                     unsettled.append(f"{factor:g} v_c from {start}")
                 elif _is_reduced(run) and self._lasts(run, start):
@@ -244,13 +249,13 @@ class _Search:
         """Friction is reduced above the end of stick of the other start: narrow down where that ends."""
         start = "rest"
         low, high = reduced.v_0, reduced.v_0
-        while _is_reduced(self.run(high := high * 1.5, start)):
+        while _is_reduced(self.look(high := high * 1.5, start)):
             low = high
             if high > HIGHEST * self.scale:
                 return self._none("from rest, friction stays reduced up to the highest velocity tried")
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
-            low, high = (middle, high) if _is_reduced(self.run(middle, start)) else (low, middle)
+            low, high = (middle, high) if _is_reduced(self.look(middle, start)) else (low, middle)
         why = (
             f"between {v_c:.6g} m/s, where stick ends from full slip, and this velocity, "
             "a run from rest keeps friction reduced"

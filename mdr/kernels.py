@@ -23,7 +23,7 @@ T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e|
 The body is a linear oscillator under the force of the springs, with its motion relative to the pull
 y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old), S = sum of w e; sliding.py derives the five
 numbers. S_new depends on y_new, monotonically and piecewise linearly, and is solved for together with it by
-Newton's method inside a bracket, to rounding.
+Newton's method inside a bracket, halved when that does not get on, to rounding.
 """
 
 from __future__ import annotations
@@ -123,7 +123,7 @@ def kelvin_step(e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1
         e_1[i] = e
         s_1[i] = s
         total += w[i] * e
-        stuck += w[i] * travelled if e >= trial - 1e-9 * abs(du) else 0.0
+        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     return total, stuck
 
 
@@ -184,9 +184,10 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
         pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
-        for _ in range(60):
+        ud_0 = v + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
+        for turn in range(80):
             du = v * h + (y_1 - y_0)
-            ud_0, ud_1 = v + 0.5 * (y_1 - y_m) / h, v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
+            ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
                 S_1, stuck = elastic_step(e_0, e_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h)
             else:
@@ -194,16 +195,17 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
                     e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay
                 )
             excess = y_1 - pull + b_1 * S_1
-            if abs(excess) <= 4e-16 * (abs(y_1) + abs(pull) + abs(b_1 * S_1)):
+            rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
+            if abs(excess) <= rounding:
                 break
-            if excess > 0.0:
-                high = y_1
+            if excess > 0.0:  # the slope is at least 1, so the root is no further than the excess
+                low, high = max(low, y_1 - excess), y_1
             else:
-                low = y_1
+                low, high = y_1, min(high, y_1 - excess)
             y_new = y_1 - excess / (1.0 + b_1 * stuck)
-            if not low < y_new < high:
+            if turn > 7 or not low <= y_new <= high:
                 y_new = 0.5 * (low + high)
-            if y_new == y_1 or not low < y_new < high:
+            if abs(y_new - y_1) <= 0.1 * rounding:
                 break
             y_1 = y_new
         if elastic:

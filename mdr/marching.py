@@ -21,7 +21,7 @@ from mdr.springs import SpringArray
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
-SWING_TOLERANCE = 1e-3  #: of the swing of the body between windows, over v_0/omega
+SWING_TOLERANCE = 1e-3  #: growth of the swing of the body between windows, over v_0/omega
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
 
@@ -195,11 +195,11 @@ class Line:
         return settling
 
     def judge(self) -> Settling:
-        """Whether the COF has settled, and the swing of the body with it: on a resonance it grows before stick
-        begins.
-        """
+        """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""
         settling = judge(self.cofs, TOLERANCE)
-        if settling.settled and not judge(self.swings / self.v, SWING_TOLERANCE).settled:
+        n = self.n_periods
+        grown = float(self.swings[n // 2 :].mean() - self.swings[n // 4 : n // 2].mean()) / self.v if n > 3 else 0.0
+        if settling.settled and grown > SWING_TOLERANCE:
             return replace(settling, settled=False, kind="unsettled")
         return settling
 

@@ -120,7 +120,7 @@ def _why_not(march: March) -> str:
     if not np.isfinite(settling.spread):
         return f"{n} periods are too few to compare windows: raise n_periods to 8 or more"
     if settling.spread <= TOLERANCE:
-        return f"the swing of the body still changes after {n} periods, as on a resonance: raise n_periods or add c_x"
+        return f"the swing of the body still grows after {n} periods, as on a resonance: raise n_periods or add c_x"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.K and march.scaled.C == 0:
         return f"{change}: the free oscillation of a body without damper does not die out; add c_x"

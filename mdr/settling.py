@@ -4,8 +4,8 @@ A run gives one value a period, the mean of F_x. Compared are three windows of d
 second half of the run. What is missing to the limit then shrinks by a constant ratio from window to window not only
 for a transient that dies out exponentially (ratio near zero) but also for one that dies like a power of time (ratio
 2^-p), as an undamped body does whose free oscillation is trimmed by instants of stick. Where the means scatter
-instead (the beat of a lightly damped body), the scatter itself is the spread. The run has settled when the spread is
-below the tolerance.
+instead (the beat of a lightly damped body), the scatter over the number of periods is the spread. The run has settled
+when the spread is below the tolerance.
 """
 
 from __future__ import annotations
@@ -41,11 +41,13 @@ def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
     if 0 <= ratio < 0.9:
         spread = abs(last) * max(0.5, ratio / (1 - ratio))
     else:  # scatter, or a creep too slow to extrapolate
-        spread = max(abs(before), abs(last)) * (1 if ratio < 0 else 10)
-    if last == 0:
-        spread = 0.0
+        spread = max(abs(before), abs(last)) * (1 if ratio < 0 else 100)
+    spread = max(spread, 0.05 * abs(before))  # windows may agree by chance once
+    kind = _kind(values, tolerance)
+    if kind == "quasi-periodic":  # a mean over n periods cuts the beat to its n-th part
+        spread = max(spread, 4 * float(np.ptp(values[n // 2 :])) / n)
     settled = bool(spread <= tolerance)
-    return Settling(third, float(spread), settled, _kind(values, tolerance) if settled else "unsettled")
+    return Settling(third, float(spread), settled, kind if settled else "unsettled")
 
 
 def _kind(values: NDArray[np.float64], tolerance: float) -> str:

@@ -71,12 +71,12 @@ def test_the_pull_is_rigid_unless_said_otherwise():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"indenter": mdr.Elastic(1e6, 0.3)}, "indenter must be an? Indenter"),
+        ({"indenter": mdr.Elastic(1e6, 0.3)}, "indenter must be of kind Indenter"),
         ({"indenter": 5e-3}, "indenter must be .* got 0.005"),
-        ({"material": 3e6}, "material must be a Material, got 3000000.0"),
-        ({"oscillation": mdr.RigidPull()}, r"oscillation must be a NormalOscillation, got RigidPull\(\)"),
-        ({"pull": None}, "pull must be a Pull, got None"),
-        ({"pull": mdr.RigidPull}, r"pull must be a Pull, .*; write RigidPull\(...\)"),
+        ({"material": 3e6}, "material must be of kind Material, got 3000000.0"),
+        ({"oscillation": mdr.RigidPull()}, r"oscillation must be of kind NormalOscillation, got RigidPull\(\)"),
+        ({"pull": None}, "pull must be of kind Pull, got None"),
+        ({"pull": mdr.RigidPull}, r"pull must be of kind Pull, .*; write RigidPull\(...\)"),
         ({"indenter": mdr.Paraboloid}, r"; write Paraboloid\(...\)"),
         ({"mu_0": "rough"}, "mu_0 must be a real number"),
     ],

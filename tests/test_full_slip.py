@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr import theory
-from mdr.full_slip import N_INSTANTS, contact_edge, normal_force_harmonics
+from mdr.full_slip import N_INSTANTS, contact_edge, full_slip, normal_force_harmonics
 
 CURVED = ["cone", "paraboloid", "r4"]
 DAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15}
@@ -55,7 +55,7 @@ def test_elastic_contact_edge_is_the_depth():
 @pytest.mark.parametrize("shape", SHAPES)
 def test_elastic_force_is_the_sum_over_the_springs(shape, depth_ratio):
     case = contact(shape, depth_ratio)
-    motion, n = mdr.full_slip(case, 64), 1024
+    motion, n = full_slip(case, 64), 1024
     springs = mdr.SpringArray.of(case, n)
     u_z = case.oscillation.u_z(motion.t)
     expected = [springs.normal_force(u, case.oscillation.u_z0) for u in u_z]
@@ -71,7 +71,7 @@ def test_elastic_force_is_the_sum_over_the_springs(shape, depth_ratio):
 @pytest.mark.parametrize("T", [0.3, 1.0, 2.5])
 def test_force_of_a_kelvin_punch_that_keeps_contact_is_eq_4(T):
     case = contact("flat", 3.0, T)
-    motion, osc = mdr.full_slip(case, 256), case.oscillation
+    motion, osc = full_slip(case, 256), case.oscillation
     expected = theory.eq_4(motion.t, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc)
     assert case.keeps_contact
     assert_allclose(motion.F_N, expected, rtol=1e-12, atol=1e-12 * expected.max())
@@ -87,7 +87,7 @@ def test_force_of_a_kelvin_punch_that_keeps_contact_is_eq_4(T):
 @pytest.mark.parametrize("shape", SHAPES)
 def test_force_against_the_twin(shape, depth_ratio, T):
     case = contact(shape, depth_ratio, T)
-    motion = mdr.full_slip(case, 200)
+    motion = full_slip(case, 200)
     phase = case.oscillation.omega * motion.t
     twin = reference.full_slip_force(phase, SHAPES[shape][1], depth_ratio, T)
     unit = case.k_zc * case.oscillation.du_z
@@ -99,7 +99,7 @@ def test_force_against_the_twin(shape, depth_ratio, T):
 @pytest.mark.parametrize("shape", CURVED)
 def test_mean_force_is_that_of_the_mean_compression(shape, T):
     case = contact(shape, 5.0, T)
-    F_N = mdr.full_slip(case).F_N
+    F_N = full_slip(case).F_N
     twin = reference.mean_force(SHAPES[shape][1], 5.0, T)
     # the force bends like a root where the edge comes back: the mean of 8192 instants misses STEP**1.5 of a part of it
     assert_allclose(F_N.mean() / (case.k_zc * case.oscillation.du_z), twin, rtol=1e-7)

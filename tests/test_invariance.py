@@ -18,7 +18,7 @@ KNOBS = {"n_springs": 96, "steps_per_period": 256, "n_periods": 24}  # any knobs
 #: at the edge, whose place a - g(a) loses up to u_z0/du_z digits' worth, stay far below
 TOLERANCE = 1e-9
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
-#: omega, du_z, E, and the radius of contact at the mean depth: from an AFM tip of 2 nm to a railway wheel, and the unit contact
+#: omega, du_z, E and the radius of contact at the mean depth
 SIZES = {
     "AFM tip": (2 * math.pi * 3e5, 4e-11, 7e10, 2e-9),
     "rubber ball": (300.0, 2e-6, 3e6, 1e-3),
@@ -116,14 +116,13 @@ def test_every_group_counts(group):
     assert abs(cof(contact(**changed), v_hat) - cof(contact(**groups), 0.5)) > 1e-5
 
 
-@pytest.mark.parametrize("size", ["AFM tip", "railway wheel"])
-def test_measured_velocity_scales(size):
+def test_measured_velocity_scales():
     """The whole chain of runs, not one of them: v_c over Eq. (1) is that of the rubber ball."""
     measured = []
-    for omega, du_z, E, a_0 in (SIZES["rubber ball"], SIZES[size]):
-        case = contact(shape_of("cone", a_0, 3 * du_z), 3.0, 0.3, **BODY, omega=omega, du_z=du_z, E=E)
+    for omega, du_z, E, a_0 in (SIZES["rubber ball"], SIZES["AFM tip"], SIZES["railway wheel"]):
+        case = contact(shape_of("cone", a_0, 3 * du_z), 3.0, 0.0, **BODY, omega=omega, du_z=du_z, E=E)
         measured.append(mdr.measure_critical_velocity(case).v_c / unit_of_velocity(case))
-    assert_allclose(measured[1], measured[0], rtol=TOLERANCE)
+    assert_allclose(measured, measured[0], rtol=TOLERANCE)
 
 
 @pytest.mark.parametrize("size", SIZES)

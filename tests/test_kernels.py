@@ -144,6 +144,25 @@ def test_one_step_against_tiny_ones(T, h):
 
 
 @pytest.mark.parametrize("T", [0.0, *RELAXATION])
+def test_slip_and_stick_may_change_within_a_step(T):
+    # springs that stay in contact, in forward slip or a little behind it: the instant of the change is known
+    rng, h, worst, changes = np.random.default_rng(5), 0.05, 0.0, 0
+    for _ in range(40):
+        step = Step.draw(rng, h, T, 20)
+        step.u_dot = (
+            step.z_dot(0) + rng.uniform(-1, 1) * h
+        )  # near enough to the closing of the gap to change within the step
+        step.gap = -math.hypot(1, T) - rng.uniform(0.5, 3, 20)
+        step.s = step.z(0) - step.gap
+        step.e = step.s - rng.uniform(0, 1, 20) * rng.integers(0, 2, 20) * min(T, 1) * h
+        e_fine, _, same, _ = step.by_tiny_steps()
+        worst, changes = max(worst, np.abs(step.kernel()[0] - e_fine).max()), changes + np.sum(~same)
+    assert changes > 50
+    # the rates are known to h**2, and so is the instant; half a step of stick too much would cost 2 to 4 h**3
+    assert worst < 0.15 * (1 + 3 / T if T else 1) * h**3
+
+
+@pytest.mark.parametrize("T", [0.0, *RELAXATION])
 def test_a_step_without_an_event_is_exact(T):
     rng, seen = np.random.default_rng(3), set()
     for _ in range(10):

@@ -1,4 +1,5 @@
-"""The claims of the report whose numbers come from long chains, in their quick form: every check holds, every figure is drawn."""
+"""The claims of the report whose numbers come from long chains, in their quick form: every check holds, every figure
+is drawn."""
 
 import importlib
 

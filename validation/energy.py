@@ -1,12 +1,13 @@
 """What the pull and the normal drive supply is lost in friction, in the material and in the damper, or stored.
 
-Every term comes from its own definition, none as the difference of others: friction mu_0 F_N times slip velocity, spring by spring; viscous
-gamma s_dot² and gamma e_dot²; damper c_x y_dot²; pull v_0 times its force; normal drive F_N u_z_dot. A wrong law of friction, of
-detachment or of the body would leave a residual that refinement does not remove.
+Every term comes from its own definition, none as the difference of others: friction mu_0 F_N times slip velocity,
+spring by spring; viscous gamma s_dot² and gamma e_dot²; damper c_x y_dot²; pull v_0 times its force; normal drive F_N
+u_z_dot. A wrong law of friction, of detachment or of the body would leave a residual that refinement does not remove.
 
-In full slip, above v_c, the terms are known without any march, from the normal force over the period (P = 2 pi/omega):
-pull mu_0 <F_N> v_0 P; friction the integral of mu_0 F_N (v_0 + y_dot - mu_0 kappa u_z_dot), y_dot by the receptance H of the pull;
-for the flat punch viscous pi gamma_zc omega du_z² (1 + mu_0² kappa), damper pi c_x omega (mu_0 |K_z| du_z |H|)², K_z = k_zc (1 + i T).
+In full slip, above v_c, the terms are known without any march, from the normal force over the period (P = 2
+pi/omega): pull mu_0 <F_N> v_0 P; friction the integral of mu_0 F_N (v_0 + y_dot - mu_0 kappa u_z_dot), y_dot by the
+receptance H of the pull; for the flat punch viscous pi gamma_zc omega du_z² (1 + mu_0² kappa), damper pi c_x omega
+(mu_0 |K_z| du_z |H|)², K_z = k_zc (1 + i T).
 
 Symbols: n steps per period, h = 2 pi/n, T = omega tau, alpha = du_z/u_z0, relative residual: (supply - use)/losses.
 """
@@ -25,9 +26,19 @@ from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
 
-LEVELS = tuple(round(64 * 16 ** (i / 10)) for i in range(11))  # a factor of 16, without common factors, so that kinks fall anywhere
-SHARES = {"quick": (0.25, 0.45, 0.65, 0.85), "full": tuple(np.linspace(0.2, 0.9, 10)), "long": tuple(np.linspace(0.2, 0.9, 24))}
-SPRING: dict[str, Any] = {"k_ratio": 1.5, "omega_0_ratio": 1.3, "damping_ratio": 0.05}  # omega_1 = 1.7 omega: 64 steps resolve it
+LEVELS = tuple(
+    round(64 * 16 ** (i / 10)) for i in range(11)
+)  # a factor of 16, without common factors, so that kinks fall anywhere
+SHARES = {
+    "quick": (0.25, 0.45, 0.65, 0.85),
+    "full": tuple(np.linspace(0.2, 0.9, 10)),
+    "long": tuple(np.linspace(0.2, 0.9, 24)),
+}
+SPRING: dict[str, Any] = {
+    "k_ratio": 1.5,
+    "omega_0_ratio": 1.3,
+    "damping_ratio": 0.05,
+}  # omega_1 = 1.7 omega: 64 steps resolve it
 PULLS: dict[str, dict[str, Any]] = {"rigid pull": {}, "spring pull": SPRING}
 PERIODS = 24
 TERMS = ("friction_loss", "viscous_loss", "damper_loss")
@@ -86,13 +97,21 @@ def claim(effort: str) -> Claim:
     grid = [("flat punch", 0.3), ("paraboloid", 0.3), ("paraboloid", 1.5)]
     if effort == "quick":
         grid = grid[1:]
-    balances = [balance(shape, alpha, T, pull, SHARES[effort]) for shape, alpha in grid for pull in PULLS for T in (0.0, 1.0)]
+    balances = [
+        balance(shape, alpha, T, pull, SHARES[effort]) for shape, alpha in grid for pull in PULLS for T in (0.0, 1.0)
+    ]
     checks = []
     for b in balances:
         checks += [
-            Check.at_least(f"{b.name}: order of the residual in the step", b.order, 1.9,
-                           "slope of the least-squares line over a factor of 16; the scheme is of second order"),
-            Check.at_most(f"{b.name}: relative residual at {LEVELS[-1]} steps", float(b.residual[-1]), STEP, "h², h = 2π/1024"),
+            Check.at_least(
+                f"{b.name}: order of the residual in the step",
+                b.order,
+                1.9,
+                "slope of the least-squares line over a factor of 16; the scheme is of second order",
+            ),
+            Check.at_most(
+                f"{b.name}: relative residual at {LEVELS[-1]} steps", float(b.residual[-1]), STEP, "h², h = 2π/1024"
+            ),
         ]
     checks += _full_slip_checks(effort)
     orders = [b.order for b in balances]
@@ -101,12 +120,18 @@ def claim(effort: str) -> Claim:
         name="energy",
         title="Energy is conserved",
         quote="",
-        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept and lost, elastic and ωτ = 1, rigid pull and spring "
-        f"pull with a damper, {len(SHARES[effort])} velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full slip at 1.5 v_c",
-        measured=f"The residual of the balance falls with the power {min(orders):.2f} to {max(orders):.2f} of the step and is at most {finest:.1e} of "
+        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept (but for the edge of a "
+        f"curved shape) "
+        f"and lost, elastic and ωτ = "
+        f"1, rigid pull and spring "
+        f"pull with a damper, {len(SHARES[effort])} velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full "
+        f"slip at 1.5 v_c",
+        measured=f"The residual of the balance falls with the power {min(orders):.2f} to {max(orders):.2f} of the "
+        f"step and is at most {finest:.1e} of "
         f"the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
         verdict="holds",
-        sentence="What the pull and the normal drive supply is found again as friction, viscous and damper loss, each from its own definition.",
+        sentence="What the pull and the normal drive supply is found again as friction, viscous and damper loss, "
+        "each from its own definition.",
         checks=tuple(checks),
         figures=(_figure(balances),),
     )
@@ -119,18 +144,37 @@ def _full_slip_checks(effort: str) -> list[Check]:
     for shape in shapes:
         for T in (0.0, 1.0):
             case = contact(shape, 0.3, T, **SPRING)
-            run = mdr.slide(case, 1.5 * mdr.full_slip_critical_velocity(case), n_springs=256, steps_per_period=1024, n_periods=8)
+            run = mdr.slide(
+                case, 1.5 * mdr.full_slip_critical_velocity(case), n_springs=256, steps_per_period=1024, n_periods=8
+            )
             for term, expected in in_full_slip(case, run.v_0).items():
                 if expected > 1e-9 * run.energy_balance.pull_work:
                     got = getattr(run.energy_balance, term) / expected
                     # the damper belongs to the body, whose response to the force is resolved with its own oscillation
-                    checks.append(Check(f"full slip, {shape}, ωτ = {T:g}: {term.replace('_', ' ')} over its integral", got, 1.0,
-                                        (4 if term == "damper_loss" else 1) * STEP, why + ("; twice for a square, twice for the body" if term == "damper_loss" else "")))
+                    checks.append(
+                        Check(
+                            f"full slip, {shape}, ωτ = {T:g}: {term.replace('_', ' ')} over its integral",
+                            got,
+                            1.0,
+                            (4 if term == "damper_loss" else 1) * STEP,
+                            why + ("; twice for a square, twice for the body" if term == "damper_loss" else ""),
+                        )
+                    )
     case = contact("flat punch", 0.3, 1.0, **SPRING)
-    run = mdr.slide(case, 1.5 * mdr.full_slip_critical_velocity(case), n_springs=256, steps_per_period=1024, n_periods=8)
+    run = mdr.slide(
+        case, 1.5 * mdr.full_slip_critical_velocity(case), n_springs=256, steps_per_period=1024, n_periods=8
+    )
     omega, du_z, kappa = case.oscillation.omega, case.oscillation.du_z, case.material.mindlin_ratio
     viscous = np.pi * case.gamma_zc * omega * du_z**2 * (1 + case.mu_0**2 * kappa)
-    checks.append(Check("full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)", run.energy_balance.viscous_loss / viscous, 1.0, STEP, why))
+    checks.append(
+        Check(
+            "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)",
+            run.energy_balance.viscous_loss / viscous,
+            1.0,
+            STEP,
+            why,
+        )
+    )
     return checks
 
 
@@ -143,29 +187,55 @@ def _figure(balances: list[Balance]) -> Figure:
         runs = [b.example.energy_balance for b in balances]
         total = np.array([run.pull_work + run.normal_work for run in runs])
         supplies = (("pull work", "pull_work", COLOURS[0]), ("normal drive", "normal_work", COLOURS[4]))
-        losses = (("friction", "friction_loss", COLOURS[1]), ("viscous", "viscous_loss", COLOURS[3]), ("damper", "damper_loss", COLOURS[6]))
+        losses = (
+            ("friction", "friction_loss", COLOURS[1]),
+            ("viscous", "viscous_loss", COLOURS[3]),
+            ("damper", "damper_loss", COLOURS[6]),
+        )
         for offset, terms in ((0.2, supplies), (-0.2, losses)):
             left = np.zeros(len(runs))
             for name, term, colour in terms:
                 share = np.array([getattr(run, term) for run in runs]) / total
                 bars.barh(place + offset, share, 0.36, left=left, color=colour, label=name)
                 left += share
-        bars.set_yticks(place, [b.name.replace("ωτ", r"$\omega\tau$").replace(", contact", ",\ncontact") for b in balances], fontsize=8.5)
+        bars.set_yticks(
+            place,
+            [b.name.replace("ωτ", r"$\omega\tau$").replace(", contact", ",\ncontact") for b in balances],
+            fontsize=8.5,
+        )
         bars.set(xlabel="share of the supply", xlim=(0, 1.02))
         bars.legend(loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=5, handlelength=1, columnspacing=1)
         n = np.array(LEVELS, dtype=float)
-        colours = [COLOURS[i % len(COLOURS)] for i in range(len(balances))]
-        for b, colour in zip(balances, colours, strict=True):
-            lines.plot(n, b.residual, "o-", ms=3.5, lw=1.0, color=colour)
-        lines.plot(n, 3 * max(float(b.residual[0]) for b in balances) * (n[0] / n) ** 2, color="0.4", ls="--", lw=1.0, label="second order")
+        for b in balances:
+            colour = COLOURS[0] if "rigid" in b.name else COLOURS[1]
+            marker = {"marker": "o", "mfc": colour if "elastic" in b.name else "white"}
+            lines.plot(n, b.residual, ms=4, lw=1.0, color=colour, **marker)
+        for name, look in (
+            ("rigid pull", {"color": COLOURS[0]}),
+            ("spring pull", {"color": COLOURS[1]}),
+            ("elastic", {"color": "0.3", "ls": "", "marker": "o"}),
+            (r"$\omega\tau$ = 1", {"color": "0.3", "ls": "", "marker": "o", "mfc": "white"}),
+        ):
+            lines.plot([], [], label=name, **look)
+        lines.plot(
+            n,
+            3 * max(float(b.residual[0]) for b in balances) * (n[0] / n) ** 2,
+            color="0.4",
+            ls="--",
+            lw=1.0,
+            label="second order",
+        )
         lines.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="relative residual")
         lines.set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
         lines.minorticks_off()
-        lines.legend(loc="upper right")
+        lines.legend(loc="lower left")
     return Figure(
         "balance",
-        "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at half of v_c; the bars end "
-        "together. Right: what is missing, over the losses, falls with the second power of the step for each of these cases.",
+        "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at "
+        "half of v_c; the bars end "
+        "together. Right: what is missing, over the losses, falls with the second power of the step for each of "
+        "these cases.",
         fig,
-        "Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of the steps.",
+        "Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of "
+        "the steps.",
     )

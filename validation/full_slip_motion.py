@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 import mdr
 from mdr import theory
+from mdr.full_slip import full_slip
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
 
@@ -195,7 +196,7 @@ def _force_checks(effort: str) -> list[Check]:
     checks = []
     for T in (0.0, 1.0):
         case = contact("paraboloid", 0.2, T)
-        exact = np.roll(mdr.full_slip(case, 512).F_N, -1)
+        exact = np.roll(full_slip(case, 512).F_N, -1)
         offs, means = [], []
         for n_springs in counts:
             run: Any = mdr.slide(

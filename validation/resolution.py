@@ -1,10 +1,10 @@
 """The numbers stand on resolved runs: second order in the time step and in the springs, and an error bound that bounds.
 
-Kinks of the motion (first touch, stick, slip) fall anywhere between two nodes, so the error of a single run may change its sign
-from one step to the next. The root mean square over pulling velocities, whose kinks lie elsewhere, falls cleanly, as long as the
-levels are no family: steps without common factors (nodes that always hit the turning points are luckier than others), springs that
-divide evenly among the panels of the array. Runs have a fixed number of periods, so that all resolutions see the same motion,
-transient included.
+Kinks of the motion (first touch, stick, slip) fall anywhere between two nodes, so the error of a single run may
+change its sign from one step to the next. The root mean square over pulling velocities, whose kinks lie elsewhere,
+falls cleanly, as long as the levels are no family: steps without common factors (nodes that always hit the turning
+points are luckier than others), springs that divide evenly among the panels of the array. Runs have a fixed number of
+periods, so that all resolutions see the same motion, transient included.
 
 Symbols: n steps per period or springs at x >= 0, error of cof/mu_0 against a run 16 times finer than the last.
 """
@@ -22,10 +22,17 @@ from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
 
-LEVELS = {"steps": tuple(round(64 * 16 ** (i / 16)) for i in range(17)), "springs": (48, 96, 144, 192, 288, 384, 576, 768)}  # a factor of 16
+LEVELS = {
+    "steps": tuple(round(64 * 16 ** (i / 16)) for i in range(17)),
+    "springs": (48, 96, 144, 192, 288, 384, 576, 768),
+}  # a factor of 16
 FINEST = {knob: 16 * levels[-1] for knob, levels in LEVELS.items()}
-VELOCITIES = {"quick": 6, "full": 10, "long": 24}
-SPRING: dict[str, Any] = {"k_ratio": 1.5, "omega_0_ratio": 1.3, "damping_ratio": 0.05}  # omega_1 = 1.7 omega: 64 steps resolve it
+VELOCITIES = {"quick": 5, "full": 8, "long": 24}
+SPRING: dict[str, Any] = {
+    "k_ratio": 1.5,
+    "omega_0_ratio": 1.3,
+    "damping_ratio": 0.05,
+}  # omega_1 = 1.7 omega: 64 steps resolve it
 SYSTEMS: dict[str, tuple[dict[str, Any], int]] = {"rigid pull": ({}, 8), "spring pull": (SPRING, 12)}  # pull, periods
 ALPHA = 0.3
 ORDER = 1.9  # second order; kinks scatter each level by some 25 %, and so the slope of the line by 0.05 to 0.1
@@ -86,38 +93,67 @@ def bounds(effort: str) -> list[Bound]:
                 for share in (0.5,) if effort == "quick" else (0.5, 0.9):
                     run = mdr.slide(case, share * mdr.full_slip_critical_velocity(case))
                     fine = mdr.slide(
-                        case, run.v_0, n_springs=2 * run.n_springs, steps_per_period=4 * run.steps_per_period, n_periods=2 * run.n_periods
+                        case,
+                        run.v_0,
+                        n_springs=2 * run.n_springs,
+                        steps_per_period=4 * run.steps_per_period,
+                        n_periods=2 * run.n_periods,
                     )
-                    found.append(Bound(f"{shape}, {system}, T = {T:g}, {share:g} v_c", run.cof_error / run.mu_0, abs(run.cof - fine.cof) / run.mu_0))
+                    found.append(
+                        Bound(
+                            f"{shape}, {system}, T = {T:g}, {share:g} v_c",
+                            run.cof_error / run.mu_0,
+                            abs(run.cof - fine.cof) / run.mu_0,
+                        )
+                    )
     return found
 
 
 def claim(effort: str) -> Claim:
     """Fit the orders and test the error bound."""
-    studies = [study(knob, system, T, VELOCITIES[effort]) for knob in ("steps", "springs") for system in SYSTEMS for T in (0.0, 1.0)]
+    studies = [
+        study(knob, system, T, VELOCITIES[effort])
+        for knob in ("steps", "springs")
+        for system in SYSTEMS
+        for T in (0.0, 1.0)
+    ]
     found = bounds(effort)
     checks = [
-        Check.at_least(f"order in {s.knob}: {s.name}", s.order, ORDER, "slope of the least-squares line over a factor of 16; second order, less the scatter of the kinks")
+        Check.at_least(
+            f"order in {s.knob}: {s.name}",
+            s.order,
+            ORDER,
+            "slope of the least-squares line over a factor of 16; second order, less the scatter of the kinks",
+        )
         for s in studies
     ]
     worst = max(found, key=lambda bound: bound.true / bound.stated)
     largest = max(bound.stated for bound in found)
     checks += [
-        Check.at_most(f"true error over cof_error, worst of {len(found)} runs", worst.true / worst.stated, 1.0,
-                      f"cof_error is to bound step, springs and settling; worst case: {worst.name}"),
-        Check.at_most(f"cof_error/mu_0, largest of {len(found)} runs", largest, 1e-5, "the accuracy that default knobs promise"),
+        Check.at_most(
+            f"true error over cof_error, worst of {len(found)} runs",
+            worst.true / worst.stated,
+            1.0,
+            f"cof_error is to bound step, springs and settling; worst case: {worst.name}",
+        ),
+        Check.at_most(
+            f"cof_error/mu_0, largest of {len(found)} runs", largest, 1e-5, "the accuracy that default knobs promise"
+        ),
     ]
     orders = [s.order for s in studies]
     return Claim(
         name="resolution",
         title="The runs are resolved",
         quote="",
-        range=f"paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light damper, elastic and ωτ = 1, "
+        range=f"paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light "
+        f"damper, elastic and ωτ = 1, "
         f"{VELOCITIES[effort]} velocities from 0.2 to 0.9 v_c; {_span('steps')}, {_span('springs')}",
-        measured=f"Observed orders {min(orders):.2f} to {max(orders):.2f}. With default knobs the true error is at most "
+        measured=f"Observed orders {min(orders):.2f} to {max(orders):.2f}. With default knobs the true error is at "
+        f"most "
         f"{100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
         verdict="holds",
-        sentence="The COF converges with the second power of step and spring spacing, and every run states an error that bounds the true one.",
+        sentence="The COF converges with the second power of step and spring spacing, and every run states an error "
+        "that bounds the true one.",
         checks=tuple(checks),
         figures=(_figure(studies),),
     )
@@ -149,7 +185,8 @@ def _figure(studies: list[Study]) -> Figure:
         fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return Figure(
         "orders",
-        "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and against the springs, right. "
+        "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and "
+        "against the springs, right. "
         "All fall in parallel to the dashed line of second order.",
         fig,
         "Two log-log plots of errors that fall with the second power of the resolution.",

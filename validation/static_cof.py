@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 import mdr
 from mdr import theory
+from mdr.full_slip import full_slip
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
 
@@ -109,7 +110,7 @@ def approach(shape: str, alpha: float, T: float, v: Array) -> Approach:
     v_c, static = mdr.critical_velocity(case), mdr.static_cof(case)
     runs = [mdr.slide(case, x * v_c) for x in v]
     rise = np.array([run.cof - static for run in runs]) / case.mu_0
-    mean = float(np.mean(mdr.full_slip(case).F_N))
+    mean = float(np.mean(full_slip(case).F_N))
     miss = alpha * np.hypot(1, T) * SAMPLED * case.k_zc * case.oscillation.u_z0 / mean
     error = np.array([run.cof_error / case.mu_0 if run.settled else np.inf for run in runs]) + miss
     power = 2 / 3 if T and alpha * np.hypot(1, T) < 1 else 1.0

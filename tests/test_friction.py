@@ -1,0 +1,287 @@
+"""Curves, the measured critical velocity, and the verdict; the value to meet is the twin's full-slip velocity."""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, contact, unit_of_velocity
+from numpy.testing import assert_allclose, assert_array_equal
+
+import mdr
+from mdr import friction
+
+# design.md: v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way; the rest is the scheme,
+# which locates a stick between two steps of 2 pi/1024, to second order.
+BUDGET = 1e-4
+
+#: shape, u_z0/du_z, omega tau, and the body as k_x/k_xc, omega_0/omega, damping ratio, or None for a rigid pull
+MEASURED = {
+    "flat, rigid": ("flat", 3.0, 0.0, None),
+    "cone, rigid, Kelvin": ("cone", 3.0, 1.0, None),
+    "paraboloid, rigid, loses contact": ("paraboloid", 0.8, 0.0, None),
+    "r4, rigid, very slow material": ("r4", 1.6, 3.0, None),
+    "paraboloid, rigid, touches late": ("paraboloid", 0.5, 3.0, None),
+    "flat, body, Kelvin": ("flat", 3.0, 0.5, (0.7, 1.6, 0.07)),
+    "flat, body, loses contact": ("flat", 1.0, 0.5, (1.5, 0.5, 0.2)),
+    "cone, body, elastic": ("cone", 3.0, 0.0, (0.7, 1.6, 0.07)),
+    "paraboloid, body, Kelvin": ("paraboloid", 3.0, 1.0, (3.0, 1.2, 0.1)),
+    "paraboloid, body, elastic": ("paraboloid", 1.25, 0.0, (0.5, 2.5, 0.2)),
+    "r4, body, elastic": ("r4", 3.0, 0.0, (0.5, 2.5, 0.2)),
+}
+
+
+def make(shape, depth_ratio, T, body=None, **changes):
+    if body is None:
+        return contact(shape, depth_ratio, T, **changes)
+    k, omega_0, zeta = body
+    return contact(shape, depth_ratio, T, k, omega_0, reference.damping_for(zeta, k, omega_0), **changes)
+
+
+def truth(shape, depth_ratio, T, body=None):
+    n = SHAPES[shape][1]
+    if body is None:
+        return reference.full_slip_critical_velocity(n, depth_ratio, T)
+    k, omega_0, zeta = body
+    return reference.full_slip_critical_velocity(
+        n, depth_ratio, T, k, omega_0, reference.damping_for(zeta, k, omega_0)
+    )
+
+
+def check_found(found, case, expected):
+    assert found.kind == "end of stick", found.why
+    assert_allclose(found.v_c / unit_of_velocity(case), expected, rtol=BUDGET)
+    assert found.low < found.v_c < found.high
+    assert found.high - found.low < 2 * BUDGET * found.v_c
+    # the bracket is that of the scheme: it holds the value, or misses it by less than the budget
+    slack = BUDGET * found.v_c
+    assert found.low - slack < expected * unit_of_velocity(case) < found.high + slack
+
+
+# --- the measured velocity --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_measured_velocity_is_that_of_full_slip(name):
+    case = make(*MEASURED[name])
+    check_found(mdr.measure_critical_velocity(case), case, truth(*MEASURED[name]))
+
+
+@pytest.mark.parametrize("name", ["flat, body, Kelvin", "cone, body, elastic", "r4, body, elastic"])
+def test_from_rest_the_same_velocity_is_found(name):
+    case = make(*MEASURED[name])
+    check_found(mdr.measure_critical_velocity(case, start="rest"), case, truth(*MEASURED[name]))
+
+
+def test_measured_values_are_not_all_the_closed_form():
+    """Cases in which Eq. (15), the full-slip value and Eq. (1) differ: agreement above is no triviality."""
+    case = make(*MEASURED["paraboloid, body, elastic"])
+    eq_15, full = mdr.critical_velocity(case), truth(*MEASURED["paraboloid, body, elastic"]) * unit_of_velocity(case)
+    assert abs(full / eq_15 - 1) > 100 * BUDGET
+    late = make(*MEASURED["paraboloid, rigid, touches late"])
+    assert mdr.critical_velocity(late) / unit_of_velocity(late) > 1.01 * truth(
+        *MEASURED["paraboloid, rigid, touches late"]
+    )
+
+
+@pytest.mark.parametrize("factor", [0.031, 0.51, 1 / 1.37, 7.3])
+@pytest.mark.parametrize("name", ["flat, rigid", "cone, body, elastic"])
+def test_the_answer_does_not_depend_on_where_the_search_begins(monkeypatch, name, factor):
+    """1/1.37 makes the first run land on Eq. (1) itself."""
+    case = make(*MEASURED[name])
+    begin = friction._Search.__init__
+
+    def elsewhere(self, *args):
+        begin(self, *args)
+        self.scale *= factor
+
+    usual = mdr.measure_critical_velocity(case)
+    monkeypatch.setattr(friction._Search, "__init__", elsewhere)
+    found = mdr.measure_critical_velocity(case)
+    check_found(found, case, truth(*MEASURED[name]))
+    assert_allclose(found.v_c, usual.v_c, rtol=BUDGET)
+
+
+def test_measuring_sees_runs_only(monkeypatch):
+    """No closed form and no full-slip velocity may enter: they are taken away."""
+
+    def refuse(*args, **kwargs):
+        raise AssertionError("a closed form was asked")
+
+    for name in ("critical_velocity", "full_slip_critical_velocity", "static_cof", "eq_1"):
+        monkeypatch.setattr(friction, name, refuse)
+    assert mdr.measure_critical_velocity(make(*MEASURED["cone, body, elastic"])).v_c > 0
+
+
+def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
+    """The measurement follows its runs: if they stick up to 1.07 v_c, so it says."""
+    case = make(*MEASURED["flat, rigid"])
+    slide = friction.slide
+    monkeypatch.setattr(friction, "slide", lambda case, v_0, **knobs: slide(case, v_0 / 1.07, **knobs))
+    found = mdr.measure_critical_velocity(case)
+    assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=2e-3)
+
+
+def test_on_resonance_there_is_no_critical_velocity():
+    found = mdr.measure_critical_velocity(contact("flat", 10.0, 0.0, 0.7, 1.0))
+    assert (found.v_c, found.low, found.high, found.kind) == (None, None, None, "none")
+    assert "friction stays reduced" in found.why
+    assert found.n_runs > 1
+
+
+def test_grazing_stick_of_an_undamped_body_is_named_and_is_no_hysteresis():
+    """Its free oscillation, from rest, is trimmed until slip just grazes zero, while friction is full."""
+    case = contact("flat", 10.0, 0.0, 0.3, 0.6)
+    found = mdr.measure_critical_velocity(case)
+    assert found.kind == "grazing stick"
+    assert "grazing stick, at full COF" in found.why
+    assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
+    above = mdr.slide(case, 1.3 * found.v_c, start="rest")
+    assert above.stick_share > 0
+    assert abs(above.mu_0 - above.cof) <= above.cof_error
+
+
+def test_a_light_body_on_a_slow_curved_contact_is_judged_by_friction():
+    """Without mass or damper the body jumps as single springs touch; the COF has to speak."""
+    case = contact("paraboloid", 10 / 3, 0.3, 0.7, math.inf)
+    found = mdr.measure_critical_velocity(case)
+    assert found.kind == "end of friction reduction"
+    assert "without inertia" in found.why
+    # extrapolated over three points a per cent apart: the twin has no massless body, so the library's own value
+    assert_allclose(found.v_c, mdr.full_slip_critical_velocity(case), rtol=1e-2)
+    assert found.low < found.v_c < found.high
+
+
+# --- the curve --------------------------------------------------------------------------------------------------
+
+
+CURVE = contact("paraboloid", 3.0, 0.3, 0.7, 1.6, 0.06)
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return mdr.cof_curve(CURVE, mdr.critical_velocity(CURVE) * np.array([0.0, 0.2, 0.6, 0.9, 1.2]))
+
+
+def test_a_curve_is_its_runs(curve):
+    for i, v_0 in enumerate(curve.v_0[1:], 1):
+        run = mdr.slide(CURVE, v_0)
+        for name in ("cof", "cof_error", "settled", "stick_share"):
+            assert getattr(curve, name)[i] == getattr(run, name), name
+        assert curve.why[i] == run.why
+
+
+def test_a_curve_starts_at_the_static_limit_and_ends_at_mu_0(curve):
+    assert curve.cof[0] == curve.static_cof == mdr.static_cof(CURVE)
+    n = SHAPES["paraboloid"][1]
+    assert_allclose(curve.cof[0] / CURVE.mu_0, reference.static_cof(n, 3.0, 0.3), rtol=1e-6)  # 8192 instants, parabola
+    assert (curve.cof_error[0], curve.stick_share[0], curve.settled[0]) == (0, 1, True)
+    assert_allclose(curve.cof[-1], CURVE.mu_0, rtol=1e-9)
+    assert curve.stick_share[-1] == 0
+    assert np.all(np.diff(curve.cof) > 0)
+    assert np.all(curve.settled)
+    assert np.all(curve.cof_error <= 1.0001e-5 * CURVE.mu_0)
+    assert curve.v_c == mdr.critical_velocity(CURVE)
+    assert curve.mu_0 == CURVE.mu_0
+    for name in ("v_0", "cof", "cof_error", "settled", "stick_share"):
+        assert getattr(curve, name).shape == (5,), name
+    assert curve.settled.dtype == bool
+
+
+def test_the_march_can_be_forced_and_a_number_is_a_list_of_one():
+    case = contact("flat", 3.0)
+    v_0 = 0.4 * mdr.critical_velocity(case)
+    one, forced = mdr.cof_curve(case, v_0), mdr.cof_curve(case, [v_0], method="march")
+    assert one.v_0.shape == (1,)
+    # a closed form may serve the first; the march meets its own bound
+    assert abs(one.cof[0] - forced.cof[0]) <= forced.cof_error[0] + one.cof_error[0]
+    assert forced.cof[0] == mdr.slide(case, v_0).cof
+    expected = 1 - reference.flat_punch_deficit(0.4) / 3
+    assert_allclose(forced.cof[0] / case.mu_0, expected, rtol=0, atol=1e-5)
+
+
+def test_any_order_and_repeats_are_kept():
+    case = contact("cone", 3.0)
+    v_0 = mdr.critical_velocity(case) * np.array([0.7, 0.0, 0.3, 0.7])
+    curve = mdr.cof_curve(case, v_0.tolist())
+    assert_array_equal(curve.v_0, v_0)
+    assert curve.cof[0] == curve.cof[3] > curve.cof[2] > curve.cof[1]
+
+
+def test_csv_carries_every_bit(curve, tmp_path):
+    path = tmp_path / "curve.csv"
+    curve.to_csv(path)
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header == ["v_0 [m/s]", "cof [-]", "cof_error [-]", "settled", "stick_share [-]"]
+    for i, name in enumerate(("v_0", "cof", "cof_error", "settled", "stick_share")):
+        assert_array_equal([float(row[i]) for row in rows], getattr(curve, name), err_msg=name)
+
+
+# --- the verdict ------------------------------------------------------------------------------------------------
+
+
+def test_eq_15_holds_for_a_flat_punch_and_a_body():
+    case = make("flat", 3.0, 0.5, (0.7, 1.6, 0.07), nu=0.5)
+    verdict = mdr.verdict(case)
+    assert verdict.holds
+    assert verdict.eq_15 == mdr.critical_velocity(case)
+    assert_allclose(verdict.measured, verdict.eq_15, rtol=BUDGET)
+    assert_allclose(verdict.full_slip, verdict.eq_15, rtol=1e-8)
+    assert_allclose(verdict.deviation, verdict.measured / verdict.eq_15 - 1, rtol=1e-9)
+    assert verdict.measured == verdict.measurement.v_c
+    text = str(verdict)
+    assert text.startswith("Eq. (15) holds: measured v_c = ")
+    assert f"{verdict.eq_15:.6g} m/s" in text
+    assert "all springs leave stick together" in text
+
+
+@pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
+def test_eq_1_holds_for_every_shape_under_a_rigid_pull(shape):
+    verdict = mdr.verdict(contact(shape, 2.0, 0.5))
+    assert verdict.holds
+    assert_allclose(verdict.measured / verdict.eq_15, 1, rtol=BUDGET)
+
+
+def test_eq_15_fails_for_a_curved_contact_of_finite_amplitude():
+    case = make("paraboloid", 1 / 0.3, 0.0, (0.5, 1.6, 0.1), nu=0.5)
+    verdict = mdr.verdict(case)
+    assert not verdict.holds
+    expected = truth("paraboloid", 1 / 0.3, 0.0, (0.5, 1.6, 0.1)) * unit_of_velocity(case)
+    assert abs(expected / verdict.eq_15 - 1) > 10 * BUDGET, "the case is to be one in which Eq. (15) is off"
+    assert_allclose(verdict.measured, expected, rtol=BUDGET)
+    assert_allclose(verdict.full_slip, expected, rtol=1e-7)
+    assert "contact stiffness changes within the period" in verdict.why
+    assert str(verdict).startswith("Eq. (15) fails: measured v_c = ")
+    assert f"({100 * verdict.deviation:+.3g} %)" in str(verdict)
+
+
+@pytest.mark.parametrize(("nu", "said"), [(0.3, True), (0.5, False)])
+@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
+def test_the_coupling_that_springs_leave_out_is_said_where_it_matters(shape, nu, said):
+    verdict = mdr.verdict(contact(shape, 3.0, nu=nu))
+    assert ("normal-tangential coupling" in verdict.why) == said
+    assert ("0.29" in verdict.why) == said  # Dundurs' beta of nu = 0.3 is 2/7
+
+
+def test_on_resonance_the_verdict_names_the_pole():
+    case = contact("flat", 10.0, 0.0, 0.7, 1.0)
+    verdict = mdr.verdict(case)
+    assert verdict.eq_15 == verdict.full_slip == math.inf
+    assert verdict.measured is None
+    assert verdict.deviation is None
+    assert verdict.holds, "no critical velocity, and the formula says so"
+    assert "undamped natural frequency" in verdict.why
+    assert "no critical velocity against inf m/s" in str(verdict)
+
+
+@pytest.mark.xfail(strict=True, reason="without a measured velocity the verdict forgets what the springs leave out")
+def test_on_resonance_the_coupling_is_said_as_well():
+    assert "normal-tangential coupling" in mdr.verdict(contact("flat", 10.0, 0.0, 0.7, 1.0, nu=0.3)).why
+
+
+def test_loss_of_contact_is_said():
+    verdict = mdr.verdict(make(*MEASURED["flat, body, loses contact"]))
+    assert not verdict.holds
+    assert "contact is lost in part of the period, Eq. (5)" in verdict.why

@@ -1,0 +1,424 @@
+"""slide(): what a run says of itself agrees with its own records, with its limits, and with what it says otherwise."""
+
+import math
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from conftest import SHAPES, contact, unit_of_velocity
+from numpy.testing import assert_allclose, assert_array_equal
+
+import mdr
+from mdr import State, marching, sliding, theory
+
+BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
+UNDAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6}
+MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
+#: light body on a soft damped spring: it swings so widely that it comes back over the surface
+BACKWARD = {"shape": "paraboloid", "depth_ratio": 10 / 3, "k_ratio": 0.02, "omega_0_ratio": 2.0, "c_ratio": 0.001}
+COARSE = {"n_springs": 96, "steps_per_period": 256}
+RECORDS = ("t", "u_x", "u_z", "F_x", "F_z", "x", "e", "state")
+SCALARS = [field.name for field in fields(mdr.SlidingRun) if field.name not in RECORDS]
+
+
+def run_at(case, v_hat, **knobs):
+    return mdr.slide(case, v_hat * unit_of_velocity(case), **knobs)
+
+
+def coarse(case, v_hat, n_periods=12, **knobs):
+    return run_at(case, v_hat, n_periods=n_periods, **(COARSE | knobs))
+
+
+CONTACTS = {
+    "rigid elastic": contact("paraboloid", 2.5),
+    "rigid Kelvin": contact("cone", 2.5, 0.6),
+    "flat, contact lost": contact("flat", 0.7, 0.6),
+    "tapping": contact("paraboloid", -0.3, 0.6),
+    "body elastic": contact("cone", 2.5, **BODY),
+    "body Kelvin": contact("paraboloid", 2.5, 0.6, **BODY),
+    "massless Kelvin": contact("r4", 2.5, 0.6, **MASSLESS),
+}
+on_all = pytest.mark.parametrize("case", CONTACTS.values(), ids=CONTACTS.keys())
+v_hat_of = {"tapping": 0.3}
+
+
+# --- looking does not disturb -------------------------------------------------------------------------------
+
+
+@on_all
+@pytest.mark.parametrize("lump", [True, False])
+def test_recording_changes_no_bit(case, lump):
+    blind, seeing = (coarse(case, 0.43, record=record, lump=lump) for record in (0, 1))
+    for name in SCALARS:
+        assert getattr(blind, name) == getattr(seeing, name), name
+    longer = coarse(case, 0.43, record=3, lump=lump)
+    assert (longer.cof, longer.settled, longer.kind, longer.n_periods) == (
+        blind.cof,
+        blind.settled,
+        blind.kind,
+        blind.n_periods,
+    )
+    for name in ("F_x", "F_z", "u_z", "e", "state"):
+        assert_array_equal(getattr(longer, name)[-256:], getattr(seeing, name), err_msg=name)
+    assert_allclose(longer.t[-256:], seeing.t, rtol=4e-16)  # worked out from the first instant kept, afresh
+
+
+@pytest.mark.parametrize("name", ["rigid Kelvin", "body elastic"])
+@pytest.mark.parametrize("lump", [True, False])
+def test_recording_changes_no_bit_of_a_run_that_waits_and_refines(name, lump):
+    blind, seeing = (run_at(CONTACTS[name], 0.43, record=record, lump=lump) for record in (0, 2))
+    for quantity in ("cof", "settled", "kind", "n_springs", "steps_per_period"):
+        assert getattr(blind, quantity) == getattr(seeing, quantity), quantity
+
+
+@pytest.mark.xfail(strict=True, reason="the companions march as long as the record makes the run, not as it needed")
+@pytest.mark.parametrize("name", ["rigid Kelvin", "body elastic"])
+def test_recording_changes_no_bit_of_the_error(name):
+    blind, seeing = (run_at(CONTACTS[name], 0.43, record=record) for record in (0, 2))
+    assert blind.cof_error == seeing.cof_error
+
+
+def test_runs_repeat_to_the_bit():
+    one, other = (coarse(CONTACTS["body Kelvin"], 0.43, record=2) for _ in range(2))
+    assert_array_equal(one.e, other.e)
+    assert one.cof == other.cof
+
+
+@on_all
+def test_records_have_their_shapes(case):
+    run = coarse(case, 0.43, record=2)
+    n_t, n_x = 2 * 256, 96
+    for name in ("t", "u_x", "u_z", "F_x", "F_z"):
+        assert getattr(run, name).shape == (n_t,), name
+    assert run.x.shape == (n_x,)
+    assert run.e.shape == run.state.shape == (n_t, n_x)
+    assert run.state.dtype == np.uint8
+    assert set(np.unique(run.state)) <= set(State)
+    assert_allclose(run.t[-1], 12 * case.oscillation.period, rtol=1e-14)
+    assert_allclose(np.diff(run.t), case.oscillation.period / 256, rtol=1e-9)  # a difference of t, so rtol 1e-16 n_t
+    assert_allclose(run.u_z, case.oscillation.u_z(run.t), rtol=0, atol=1e-12 * abs(case.u_z_max))
+    assert np.all(np.diff(run.x) > 0)
+    nothing = coarse(case, 0.43)
+    assert all(getattr(nothing, name) is None for name in RECORDS)
+
+
+# --- the lumped core ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "body elastic", "body Kelvin", "massless Kelvin"])
+def test_the_lumped_core_equals_the_full_array(name):
+    lumped, full = (coarse(CONTACTS[name], 0.43, 40, record=1, lump=lump) for lump in (True, False))
+    assert mdr.SpringArray.of(CONTACTS[name], 96).n_core > 1
+    # sums in another order: 1e-16 a step, which the march of a body neither damps nor blows up within 40 periods
+    assert_allclose(lumped.cof, full.cof, rtol=1e-11)
+    assert_allclose(lumped.e, full.e, rtol=0, atol=1e-9 * np.max(np.abs(full.e)))
+    same = lumped.state == full.state
+    assert np.mean(same) > 0.999  # where a force meets its bound to rounding, the mode is a toss-up
+    assert_allclose(lumped.stick_share, full.stick_share, atol=1e-3)
+
+
+def test_a_core_that_slips_back_is_computed_spring_by_spring(monkeypatch):
+    """Slipping backward is not slipping as one: the outer springs of the core turn first."""
+    case = contact(**BACKWARD)
+    lumps = []
+    march = marching.march
+    for module in (marching, sliding):
+        monkeypatch.setattr(module, "march", lambda *args: lumps.append(args[2].lump) or march(*args))
+    run = coarse(case, 21.6, 40, record=1)
+    assert lumps == [True, False], "the lumped march was taken back"
+    full = coarse(case, 21.6, 40, record=1, lump=False)
+    n_core = mdr.SpringArray.of(case, 96).n_core
+    back = np.any(full.state[:, :n_core] == State.SLIP_BACK, axis=0)
+    assert back.any(), "the case is to show backward slip of the core"
+    for name in SCALARS:
+        assert getattr(run, name) == getattr(full, name), name
+    assert_array_equal(run.e, full.e)
+
+    monkeypatch.setattr(marching.Line, "as_one", property(lambda self: True, lambda self, value: None), raising=False)
+    trusting = coarse(case, 21.6, 40, record=1)
+    assert np.max(np.abs(trusting.e - full.e)) > 1e-6 * np.max(np.abs(full.e)), "without the watch it would be wrong"
+
+
+def test_from_rest_no_core_is_lumped():
+    one, other = (coarse(CONTACTS["rigid elastic"], 0.43, start="rest", lump=lump, record=1) for lump in (True, False))
+    assert_array_equal(one.e, other.e)
+
+
+# --- start --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "flat, contact lost", "body elastic", "body Kelvin"])
+@pytest.mark.parametrize("v_hat", [0.3, 0.8])
+def test_the_start_is_forgotten(name, v_hat):
+    knobs = {"n_springs": 96, "steps_per_period": 256}
+    full_slip, rest = (run_at(CONTACTS[name], v_hat, start=start, **knobs) for start in ("full_slip", "rest"))
+    assert full_slip.settled
+    assert rest.settled
+    # a settled run is settled to 1e-6 of mu_0, either of them
+    assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=2e-6 * rest.mu_0)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.8])
+def test_a_slow_build_up_from_rest_is_waited_for(share):
+    """Near resonance a body swings up over 1/(2 pi zeta) periods, and full slip until then is no end state."""
+    zeta = 0.01
+    case = contact("flat", 10.0, 0.0, 0.7, 1.0, 2 * zeta * 0.7)
+    v_0 = share * mdr.critical_velocity(case)
+    full_slip, rest = mdr.slide(case, v_0), mdr.slide(case, v_0, start="rest")
+    assert full_slip.cof < 0.995 * case.mu_0
+    assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=rest.cof_error + full_slip.cof_error)
+
+
+def test_from_rest_nothing_is_stretched():
+    case = CONTACTS["rigid elastic"]
+    run = coarse(case, 0.1, 1, start="rest", record=1)
+    # until the first springs slip, every one has gone with the indenter: e = v_0 t where it sticks from the start
+    sticking = np.all(run.state[:40, :8] == State.STICK, axis=1)
+    assert sticking.sum() > 10
+    assert_allclose(run.e[:40][sticking][:, 0], run.v_0 * run.t[:40][sticking], rtol=1e-12)
+
+
+# --- the COF ------------------------------------------------------------------------------------------------
+
+
+@on_all
+def test_cof_is_the_mean_force_over_the_mean_load(case):
+    run = coarse(case, 0.43, 16, record=8, steps_per_period=1024)
+    assert_allclose(run.cof, run.mean_F_x / run.mean_F_z, rtol=1e-14)
+    # F_x = L[e] at the nodes; its jumps at touch and release are seen to a step, (2 pi / 1024) times half a jump of the
+    # few springs that touch there at once, and of a whole flat punch
+    tolerance = 1e-2 if SHAPES["flat"][0] == case.indenter else 1e-3
+    assert_allclose(np.mean(run.F_x) / np.mean(run.F_z), run.cof, rtol=tolerance)
+    assert_allclose(np.mean(run.F_z), run.mean_F_z, rtol=tolerance)
+
+
+@on_all
+@pytest.mark.parametrize("v_hat", [0.05, 0.43, 0.9])
+def test_cof_lies_between_static_and_mu_0(case, v_hat):
+    run = run_at(case, v_hat)
+    assert run.settled, run.why
+    assert mdr.static_cof(case) < run.cof <= case.mu_0 * (1 + 1e-12) or isinstance(case.pull, mdr.SpringPull)
+    assert 0 < run.cof <= case.mu_0 * (1 + 1e-12)
+    assert 0 < run.stick_share < 1
+    assert run.least_slip < 1e-9 * run.v_0
+
+
+@pytest.mark.parametrize("name", CONTACTS)
+def test_above_v_c_nothing_sticks_and_friction_is_full(name):
+    case = CONTACTS[name]
+    v_c = mdr.full_slip_critical_velocity(case)
+    run = mdr.slide(case, 1.02 * v_c)
+    assert run.kind == "full slip"
+    assert run.settled
+    assert run.stick_share == 0
+    # in full slip e = s spring by spring, to rounding
+    assert_allclose(run.cof, case.mu_0, rtol=1e-9)
+    # the slip velocity exceeds v_0 - v_c; a chord over a step misses its minimum by slip'' h²/24 and, with a
+    # dashpot, a share of the step in which the springs touch
+    assert_allclose(run.least_slip, 0.02 * v_c, rtol=0, atol=2e-3 * v_c)
+    below = mdr.slide(case, 0.97 * v_c)
+    assert below.stick_share > 0
+    assert case.mu_0 - below.cof > 10 * below.cof_error
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_slow_sliding_tends_to_the_static_limit(shape):
+    case = contact(shape, 2.5)
+    static = mdr.static_cof(case)
+    rise = [run_at(case, v_hat, steps_per_period=4096).cof - static for v_hat in (0.02, 0.01)]
+    assert 0 < rise[1] < 0.05 * case.mu_0
+    # elastic: linear in v_0, with corrections of relative order v_hat**(1/2) or so
+    assert_allclose(rise[0] / rise[1], 2, rtol=0.1)
+
+
+# --- forces and modes ---------------------------------------------------------------------------------------
+
+
+@on_all
+def test_friction_never_exceeds_mu_0_times_the_load(case):
+    run = coarse(case, 0.43, record=1)
+    assert np.all(np.abs(run.F_x) <= case.mu_0 * run.F_z * (1 + 1e-12) + 1e-12 * np.max(run.F_x))
+    assert np.all(run.F_z >= 0)
+
+
+@pytest.mark.parametrize(
+    ("case", "v_hat"),
+    [(CONTACTS["rigid elastic"], 0.43), (CONTACTS["body elastic"], 0.43), (contact(**BACKWARD), 21.6)],
+    ids=["rigid", "body", "backward slip"],
+)
+def test_modes_and_forces_of_elastic_springs(case, v_hat):
+    """Force by force from the records and the positions alone: nothing here knows the march."""
+    run, springs = coarse(case, v_hat, 40, record=2), mdr.SpringArray.of(case, 96)
+    assert (run.state == State.SLIP_BACK).any() == (v_hat > 20)
+    assert_array_equal(run.x, springs.x)
+    s = np.maximum(run.u_z[:, None] - case.oscillation.u_z0 - springs.gap, 0)
+    normal, shear = springs.dk_z * s, springs.dk_x * run.e
+    check_forces(case, run, normal, shear)
+
+
+@pytest.mark.parametrize("name", ["rigid Kelvin", "flat, contact lost", "tapping", "body Kelvin", "massless Kelvin"])
+def test_modes_and_forces_of_kelvin_springs(name):
+    """With dashpots: rates by the motion where a spring sticks, by the law where it slips."""
+    case = CONTACTS[name]
+    run, springs = coarse(case, 0.43, 24, record=2), mdr.SpringArray.of(case, 96)
+    tau, omega = case.material.tau, case.oscillation.omega
+    s = run.u_z[:, None] - case.oscillation.u_z0 - springs.gap
+    rate = case.oscillation.u_z_dot(run.t)[:, None]
+    normal = springs.dk_z * (s + tau * rate)
+    free = run.state == State.FREE
+    touching = ~free
+    assert np.all(normal[touching] > 0)
+    assert np.all(s[touching] > -1e-12 * case.oscillation.du_z)
+    # free springs relax: over a step from free to free e decays by exp(-dt/tau)
+    decay = math.exp(-2 * math.pi / 256 / (omega * tau))
+    both = free[1:] & free[:-1]
+    if both.any():
+        # a spring that was touched for a part of the step between has more; none has less
+        relaxed = np.isclose(run.e[1:], decay * run.e[:-1], rtol=1e-9, atol=1e-13 * case.oscillation.du_z)
+        assert np.mean(relaxed[both]) > 0.95
+    sticks = run.state == State.STICK
+    both = sticks[1:] & sticks[:-1]
+    assert both.any()
+    du = np.diff(run.u_x)[:, None]
+    moved = np.isclose(np.diff(run.e, axis=0), du, rtol=0, atol=1e-6 * case.mu_0 * case.oscillation.du_z)
+    assert np.mean(moved[both]) > 0.98  # but for a short slip within a step
+    total = np.where(sticks, 0, np.where(run.state == State.SLIP_BACK, -1, 1)) * np.where(free, 0, normal)
+    slipping = np.sum(total, axis=1) * case.mu_0
+    n_stick = np.sum(sticks, axis=1)
+    all_slip = n_stick == 0
+    if all_slip.any():
+        assert_allclose(run.F_x[all_slip], slipping[all_slip], rtol=1e-9, atol=1e-12 * np.max(run.F_z))
+    assert_allclose(run.F_z, np.sum(np.where(free, 0, normal), axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
+
+
+def check_forces(case, run, normal, shear):
+    stick, slip, back, free = (run.state == mode for mode in (State.STICK, State.SLIP, State.SLIP_BACK, State.FREE))
+    bound = case.mu_0 * normal
+    assert stick.any()
+    assert slip.any()
+    assert np.all(np.abs(shear[stick]) < bound[stick])
+    assert_allclose(shear[slip], bound[slip], rtol=1e-9)
+    assert_allclose(shear[back], -bound[back], rtol=1e-9)
+    assert_array_equal(normal[free], 0)
+    assert_array_equal(shear[free], 0)
+    assert_allclose(run.F_x, shear.sum(axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
+    assert_allclose(run.F_z, normal.sum(axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
+    # stick goes with the body: from node to node the foot rests
+    both = stick[1:] & stick[:-1]
+    moved = np.diff(run.e, axis=0) - np.diff(run.u_x)[:, None]
+    assert np.mean(np.abs(moved[both]) < 1e-9 * case.mu_0 * case.oscillation.du_z) > 0.98
+
+
+def test_stick_share_is_the_force_weighted_share_of_time():
+    case = CONTACTS["rigid elastic"]
+    run, springs = coarse(case, 0.43, 24, record=1), mdr.SpringArray.of(case, 96)
+    normal = springs.dk_z * np.maximum(run.u_z[:, None] - case.oscillation.u_z0 - springs.gap, 0)
+    assert_allclose(run.stick_share, np.sum(normal[run.state == State.STICK]) / np.sum(normal), rtol=1e-9)
+
+
+# --- energy -------------------------------------------------------------------------------------------------
+
+
+@on_all
+def test_energy_is_conserved(case):
+    balance = run_at(case, 0.43).energy_balance
+    # each term has its own quadrature of second order: (2 pi/1024)² times a few tens, erratic where contact is lost
+    assert abs(balance.relative) < 1e-3
+    for name in ("pull_work", "friction_loss"):
+        assert getattr(balance, name) > 0
+    assert (balance.viscous_loss > 0) == (case.T > 0)
+    damped = isinstance(case.pull, mdr.SpringPull) and case.pull.c_x > 0
+    assert (balance.damper_loss > 0) == damped
+
+
+@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "body elastic", "body Kelvin"])
+def test_the_energy_residual_falls_with_the_square_of_the_step(name):
+    case, steps = CONTACTS[name], 64 * 2 ** np.arange(6)
+    residual = [
+        np.mean([
+            abs(coarse(case, v_hat, 24, steps_per_period=int(n)).energy_balance.relative) for v_hat in (0.3, 0.43, 0.7)
+        ])
+        for n in steps
+    ]
+    slope = np.polyfit(np.log(steps), np.log(residual), 1)[0]
+    assert slope < -1.7, residual  # single ratios are erratic, as kinks cross the nodes
+
+
+@pytest.mark.parametrize("name", ["rigid elastic", "body Kelvin"])
+def test_friction_takes_what_the_pull_gives_in_full_slip(name):
+    """Above v_c every foot slips at the pace of the pull on average: friction loss = mu_0 F_z v_0 less what z takes."""
+    case = CONTACTS[name]
+    run = mdr.slide(case, 1.5 * mdr.full_slip_critical_velocity(case))
+    expected = run.mean_F_x * run.v_0 * case.oscillation.period
+    assert_allclose(run.energy_balance.pull_work, expected, rtol=1e-5)
+
+
+# --- settling -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n_periods", [1, 2, 7, 8, 13])
+@pytest.mark.parametrize("start", ["full_slip", "rest"])
+def test_n_periods_is_exact(n_periods, start):
+    case = CONTACTS["rigid Kelvin"]
+    run = coarse(case, 0.43, n_periods, start=start, record=1)
+    assert run.n_periods == n_periods
+    assert_allclose(run.t[-1], n_periods * case.oscillation.period, rtol=1e-14)
+    assert run.settled == (run.cof_error <= 1.00001e-6 * case.mu_0)  # the tolerance of settling, and 1e-12
+    assert ("n_periods" in run.why) == (not run.settled)
+
+
+def test_an_unsettled_run_says_why():
+    run = coarse(contact("cone", 20.0), 0.05, 9, start="rest")
+    assert not run.settled
+    assert run.kind == "unsettled"
+    assert "still changes by" in run.why
+    assert "after 9 periods" in run.why
+    assert "raise n_periods or start from full slip" in run.why
+    assert run.cof_error > 1e-6 * run.mu_0
+    undamped = coarse(contact("paraboloid", 3.0, **UNDAMPED), 0.3, 9, start="rest")
+    assert "without damper" in undamped.why
+
+
+def test_a_run_of_given_length_says_what_its_error_leaves_out():
+    assert "no companion run" in coarse(CONTACTS["rigid elastic"], 0.43, 12).why
+
+
+@pytest.mark.parametrize("v_hat", [0.05, 0.5])
+def test_what_settled_claims_is_true(v_hat):
+    """A settled run, marched four times as long, stays within its own bound."""
+    case = contact("paraboloid", 3.0, 0.3, **BODY)
+    run = run_at(case, v_hat)
+    assert run.settled
+    longer = run_at(
+        case, v_hat, n_springs=run.n_springs, steps_per_period=run.steps_per_period, n_periods=4 * run.n_periods
+    )
+    assert_allclose(longer.cof, run.cof, rtol=0, atol=run.cof_error)
+
+
+def test_default_knobs_refine_until_the_budget_is_met():
+    run = run_at(contact("cone", 0.7), 0.05)
+    assert run.cof_error <= 1e-5 * run.mu_0
+    given = run_at(contact("cone", 0.7), 0.05, n_springs=32, steps_per_period=64)
+    assert (given.n_springs, given.steps_per_period) == (32, 64)
+    assert given.cof_error > 1e-5 * given.mu_0
+    assert abs(given.cof - run.cof) <= given.cof_error + run.cof_error
+
+
+# --- Eq. (10) -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+@pytest.mark.parametrize("v", [1.1, 3.0])
+def test_the_body_moves_as_eq_10_above_v_c(T, v):
+    case = contact("flat", 3.0, T, **UNDAMPED)
+    run = mdr.slide(case, v * mdr.critical_velocity(case), record=2)
+    oscillation, pull = case.oscillation, case.pull
+    groups = (oscillation.du_z, oscillation.omega, case.k_zc, case.gamma_zc)
+    expected = theory.eq_10(run.t, run.v_0, case.mu_0, oscillation.u_z0, *groups, pull.k_x, pull.m)
+    swing = np.ptp(expected - run.v_0 * run.t)
+    # the force is linear within a step of 2 pi/1024: h²/12 = 3e-6 of the swing, times the gain of the body
+    assert_allclose(run.u_x, expected, rtol=0, atol=2e-5 * swing)
+    assert_allclose(run.F_x, case.mu_0 * run.F_z, rtol=1e-9)
+    assert_allclose(
+        run.F_z, theory.eq_4(run.t, oscillation.u_z0, *groups), rtol=1e-9, err_msg="Eq. (4) is the load of a flat punch"
+    )
