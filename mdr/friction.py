@@ -97,6 +97,7 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
 # --- the measured critical velocity ---
 
 MARGIN = 2e-5  #: half width of the bracket, of v_c
+GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; at MARGIN below v_c it is above 1e-3
 APART = 0.01  #: step between velocities at which the deficit of the COF is read
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
@@ -130,13 +131,14 @@ class _Search:
 
     def __init__(self, case: SlidingContact, start: str) -> None:
         self.case, self.start, self.n_runs = case, start, 0
+        self.steps, self.n_springs = default_steps(case), 384
         oscillation = case.oscillation
         # only a scale of velocity; the tangential travel per unit of normal travel is mu_0 kappa
         self.scale = oscillation.omega * oscillation.du_z * case.mu_0 * case.material.mindlin_ratio
 
     def run(self, v_0: float) -> SlidingRun:
         self.n_runs += 1
-        return slide(self.case, v_0, start=self.start)
+        return slide(self.case, v_0, start=self.start, n_springs=self.n_springs, steps_per_period=self.steps)
 
     def look(self, v_0: float, start: str) -> SlidingRun:
         """A run of half the usual resolution, enough to tell reduced friction from full."""
@@ -147,9 +149,9 @@ class _Search:
         first = self._first_free_run()
         if first is None:
             return self._none("friction stays reduced, or stick goes on, up to the highest velocity tried")
-        v_c, low, high = self._locate(first)
         if self._jumps():
-            return self._by_friction(high)
+            return self._by_friction(self._locate(first)[2])
+        v_c, low, high = self._locate(self._resolve(first))
         return self._look_above(v_c, low, high)
 
     def _none(self, why: str) -> MeasuredVelocity:
@@ -164,6 +166,20 @@ class _Search:
                 return run
             v_0 *= 2.618
         return None
+
+    def _resolve(self, free: SlidingRun) -> SlidingRun:
+        """Double steps and springs until neither moves the end of stick by more than the margin; the finer run."""
+        for knob, most in (("steps", 16384), ("n_springs", 3072)):
+            while (known := getattr(self, knob)) < most:
+                setattr(self, knob, 2 * known)
+                finer = self.run(free.v_0)
+                if not _is_free(finer):
+                    return free
+                moved = abs(finer.least_slip - free.least_slip)
+                free = finer
+                if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale):
+                    break
+        return free
 
     def _locate(self, free: SlidingRun) -> tuple[float, float, float]:
         """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
@@ -224,7 +240,7 @@ class _Search:
                     unsettled.append(f"{factor:g} v_c from {start}")
                 elif _is_reduced(run) and self._lasts(run, start):
                     return self._hysteresis(run, v_c)
-                grazing = grazing or (run.settled and run.stick_share > 0)
+                grazing = grazing or (run.settled and run.stick_share > GRAZE)
         why = "stick ends and the COF reaches mu_0 at the same velocity"
         if grazing:
             why += "; above it a free oscillation of the undamped body is trimmed by grazing stick, at full COF"
@@ -265,7 +281,7 @@ class _Search:
 
 def _is_free(run: SlidingRun) -> bool:
     """No spring sticks: a positive slip velocity throughout, in a settled run of full COF."""
-    return run.settled and run.stick_share == 0 and run.least_slip > 0 and not _is_reduced(run)
+    return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
 
 
 def _is_reduced(run: SlidingRun) -> bool:

@@ -279,12 +279,12 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
 
     e, s: (m + 1, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot: (m + 1,).
     Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the least slip
-    velocity of a spring in contact, at its touch where it touched within the step (infinite when none is in contact),
-    and mode (m, n), or (0, n) for none.
+    velocity of a spring in contact through the step, or else at the touch of those that touched in it (infinite without
+    contact), and mode (m, n), or (0, n) for none.
     """
     rate = 1.0 / T if T > 0.0 else 0.0
     lost = 1.0 - decay
-    slips = np.empty(e.shape[1])
+    slips, first_slips = np.empty(e.shape[1]), np.empty(e.shape[1])
     for k in range(e.shape[0] - 1):
         du = v * h + (y[k + 3] - y[k + 2])
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
@@ -313,11 +313,14 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
             normal_viscous += w[i] * T * (pressed * pressed * per_time + s_0 * s_0 * free)
             shear += w[i] * (0.5 * h * (e_0 + e_1) + T * (e_1 - e_0))
             press += w[i] * normal_impulse
-            partial = 0.5 * touched * h * growth if touched < 0.999999 else 0.0
-            slips[i] = slip_rate - partial if touched > 1e-3 and s_1 > 0.0 and s_1 <= z_1 - gap[i] else np.inf
-        least = np.inf
+            presses = s_1 > 0.0 and s_1 <= z_1 - gap[i]
+            slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
+            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-3 else np.inf
+        least, first = np.inf, np.inf
         for i in range(e.shape[1]):
             least = min(least, slips[i])
+            first = min(first, first_slips[i])
+        least = least if least < np.inf else first  # all that press slip alike, so only the first touch of all adds
         if mode.shape[0] > 0:
             for i in range(e.shape[1]):
                 mode[k, i] = mode_and_forces(e[k + 1, i], s[k + 1, i], gap[i], z_1, zd_1, ux_dot, T)[0]

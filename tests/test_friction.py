@@ -2,6 +2,7 @@
 
 import csv
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ MEASURED = {
     "cone, rigid, Kelvin": ("cone", 3.0, 1.0, None),
     "paraboloid, rigid, loses contact": ("paraboloid", 0.8, 0.0, None),
     "r4, rigid, very slow material": ("r4", 1.6, 3.0, None),
-    "paraboloid, rigid, touches late": ("paraboloid", 0.5, 3.0, None),
+    "paraboloid, rigid, touches late": ("paraboloid", 0.0, 3.0, None),
     "flat, body, Kelvin": ("flat", 3.0, 0.5, (0.7, 1.6, 0.07)),
     "flat, body, loses contact": ("flat", 1.0, 0.5, (1.5, 0.5, 0.2)),
     "cone, body, elastic": ("cone", 3.0, 0.0, (0.7, 1.6, 0.07)),
@@ -118,9 +119,14 @@ def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
     """The measurement follows its runs: if they stick up to 1.07 v_c, so it says."""
     case = make(*MEASURED["flat, rigid"])
     slide = friction.slide
-    monkeypatch.setattr(friction, "slide", lambda case, v_0, **knobs: slide(case, v_0 / 1.07, **knobs))
+
+    def slow(case, v_0, **knobs):
+        run = slide(case, v_0 / 1.07, **knobs)
+        return replace(run, v_0=v_0, least_slip=1.07 * run.least_slip)
+
+    monkeypatch.setattr(friction, "slide", slow)
     found = mdr.measure_critical_velocity(case)
-    assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=2e-3)
+    assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=BUDGET)
 
 
 def test_on_resonance_there_is_no_critical_velocity():
@@ -137,7 +143,7 @@ def test_grazing_stick_of_an_undamped_body_is_named_and_is_no_hysteresis():
     assert found.kind == "grazing stick"
     assert "grazing stick, at full COF" in found.why
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
-    above = mdr.slide(case, 1.3 * found.v_c, start="rest")
+    above = mdr.slide(case, 1.02 * found.v_c, start="rest")
     assert above.stick_share > 0
     assert abs(above.mu_0 - above.cof) <= above.cof_error
 

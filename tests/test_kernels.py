@@ -385,7 +385,6 @@ def test_body_and_springs_are_solved_together(body, T):
 @pytest.mark.parametrize(
     ("T", "body"), [(0.5, (0.7, math.inf, 0.0)), (3.0, (0.05, math.inf, 0.0)), (3.0, (0.7, 60.0, 0.0))], ids=str
 )
-@pytest.mark.xfail(reason="kelvin_step counts springs that slip backward as stuck: Newton's method crawls", strict=True)
 def test_light_bodies_on_dashpots_are_solved_together_after_a_jolt(body, T):
     assert_solved(scaled_of("paraboloid", 3.0, T, *body))
 
@@ -397,7 +396,7 @@ def assert_solved(scaled, v=0.3):
     y, S = out["y"], out["S"]
     residual = y[2:] - (a_1 * y[1:-1] + a_2 * y[:-2] - (b_1 * S[2:] + b_0 * S[1:-1] + b_m * S[:-2]))
     scale = np.abs(y).max() + (abs(b_1) + abs(b_0) + abs(b_m)) * np.abs(S).max()
-    assert_allclose(residual, 0, atol=4e-15 * scale)  # rounding of five terms; not lagged by a step
+    assert_allclose(residual, 0, atol=1e-13 * scale)  # rounding of sums over some hundred springs; not lagged by a step
     assert np.ptp(y) > 1e-3
 
 

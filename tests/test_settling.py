@@ -159,7 +159,7 @@ def slow_beats(n_beats=200):
         yield transient(lambda P, rate=rate, phase=phase: np.cos(2 * np.pi * rate * P + phase))(200)
 
 
-@pytest.mark.xfail(reason="windows whose means agree by chance look like a limit", strict=True)
+@pytest.mark.xfail(reason="a beat much slower than the run looks like a limit at its turning points", strict=True)
 def test_a_beat_is_not_called_settled_because_windows_agree_by_chance():
     for values in slow_beats():
         for n in (n for n in LENGTHS if n <= values.size):

@@ -351,7 +351,7 @@ def _glance(points: list[Point]) -> Figure:
         ("spring pull, elastic", 0.0, "stiff spring"),
         (r"spring pull, $\omega\tau$ = 1", 1.0, "stiff spring"),
     )
-    alphas = np.geomspace(0.01, 0.7, 25)
+    alphas = np.geomspace(0.01, 0.7, 19)
     with style():
         fig, axes = plt.subplots(1, 3, sharey=True, figsize=(10.6, 4.3))
         for ax, (title, T, pull) in zip(axes, panels, strict=True):
@@ -400,7 +400,7 @@ def _powers() -> Figure:
     import matplotlib.pyplot as plt
     from matplotlib.lines import Line2D
 
-    alphas = np.geomspace(1e-3, 0.5, 22)
+    alphas = np.geomspace(1e-3, 0.5, 14)
     kinds = (
         ("elastic, undamped", 0.0, False, ":"),
         ("elastic, damper", 0.0, True, "--"),

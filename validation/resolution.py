@@ -35,7 +35,7 @@ SPRING: dict[str, Any] = {
 }  # omega_1 = 1.7 omega: 64 steps resolve it
 SYSTEMS: dict[str, tuple[dict[str, Any], int]] = {"rigid pull": ({}, 8), "spring pull": (SPRING, 12)}  # pull, periods
 ALPHA = 0.3
-ORDER = 1.9  # second order; kinks scatter each level by some 25 %, and so the slope of the line by 0.05 to 0.1
+ORDER = 1.9  # second order, less the scatter of the slope
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,12 @@ def study(knob: str, system: str, T: float, n_velocities: int) -> Study:
     """Error of cof/mu_0 over the levels, root mean square over velocities from 0.2 to 0.9 v_c."""
     pull, periods = SYSTEMS[system]
     case = contact("paraboloid", ALPHA, T, **pull)
+    # under a rigid pull the error is that of kinks alone, random from run to run: 32 of them scatter by 12 %, the order by 0.04
+    n_velocities *= 4 if knob == "steps" and system == "rigid pull" else 1
     velocities = mdr.full_slip_critical_velocity(case) * np.linspace(0.2, 0.9, n_velocities)
 
     def cof(n: int) -> Array:
-        steps, springs = (n, 64) if knob == "steps" else (256, n)
+        steps, springs = (n, 48) if knob == "steps" else (128, n)
         runs = [mdr.slide(case, v, n_springs=springs, steps_per_period=steps, n_periods=periods) for v in velocities]
         return np.array([run.cof / run.mu_0 for run in runs])
 
@@ -147,7 +149,7 @@ def claim(effort: str) -> Claim:
         quote="",
         range=f"paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light "
         f"damper, elastic and ωτ = 1, "
-        f"{VELOCITIES[effort]} velocities from 0.2 to 0.9 v_c; {_span('steps')}, {_span('springs')}",
+        f"{VELOCITIES[effort]} or more velocities from 0.2 to 0.9 v_c; {_span('steps')}, {_span('springs')}",
         measured=f"Observed orders {min(orders):.2f} to {max(orders):.2f}. With default knobs the true error is at "
         f"most "
         f"{100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",

@@ -251,7 +251,7 @@ def _sweep_figure(points: list[Point], materials: tuple[float, ...]) -> Figure:
 
     with style():
         fig, ax = plt.subplots(figsize=(7.2, 4.6))
-        s = np.unique(np.r_[np.linspace(0.005, 6.5, 700), np.linspace(0.9, 1.1, 201), np.linspace(1.8, 2.2, 201)])
+        s = np.unique(np.r_[np.linspace(0.005, 6.5, 300), np.linspace(0.9, 1.1, 101), np.linspace(1.8, 2.2, 101)])
         for T, colour in zip(materials, COLOURS, strict=False):
             for damping, look in ((DAMPING, {"lw": 1.6}), (0.0, {"lw": 0.8, "ls": "--"})):
                 cases = [punch(float(value), T, damping) for value in s]

@@ -11,23 +11,22 @@ Lengths r, x, d, a in m, E* and p in Pa, F_N in N; any other consistent units do
 
 A shape of one's own is a frozen dataclass with ``profile_3d`` or ``profile_1d``; the rest follows by
 quadrature (`mdr.indenters.transform`), to 1e-9 or better, and every closed form it adds makes it faster.
+What g it has been asked for from f is kept (`mdr.indenters.panels`), so that a shape must not change.
 """
 
 import warnings
 from abc import ABC
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, finite_array, plain, positive_array
-from mdr.indenters import roots, transform
-from mdr.indenters.quadrature import double_exponential
+from mdr.indenters import panels, roots, transform
+from mdr.indenters.quadrature import double_exponential, in_chunks
 
 EPS = float(np.finfo(float).eps)
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
-CHUNK = 256  #: points mapped at once: keeps the work in cache
 
 
 class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_subclass__)
@@ -54,14 +53,14 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
     def profile_3d(self, r: ArrayLike) -> FloatArray:
         """Height f(r) of the shape above its tip [m], at the distance r from the axis."""
         r = self._within(finite_array("r", r, "m"))
-        return _each(lambda r: transform.profile_3d(self.profile_1d, self._edges, r), r)
+        return in_chunks(lambda r: transform.profile_3d(self.profile_1d, self._edges, r), r)
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
         """Height g(x) of the one-dimensional image [m], even in x."""
         x = self._within(finite_array("x", x, "m"))
-        g = _each(self._g, x)
+        g = panels.image(self._f, self._edges, np.ravel(x))
         self._check_map(np.ravel(x))
-        return g
+        return plain(g.reshape(x.shape))
 
     def contact_radius(self, d: ArrayLike) -> FloatArray:
         """Radius a [m] of the contact at the depth d: g(a) = d, and 0 where d <= 0."""
@@ -78,8 +77,8 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         """∫₀^a g dx [m²], the area between the one-dimensional image and its tangent at the tip."""
         a = self._within(finite_array("a", a, "m"))
         if self._gives_g:
-            return _each(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
-        return _each(lambda a: transform.area_from_f(self._f, self._edges, a), a)
+            return in_chunks(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
+        return in_chunks(lambda a: transform.area_from_f(self._f, self._edges, a), a)
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
         """Normal force F_N [N] at the depth d, 0 where d <= 0.
@@ -110,9 +109,9 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
     def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
         """p/E* where the shape touches, 0 <= r < a = a(d), for a closed form to override. Arrays (n,)."""
         if self._gives_g:
-            p = _each(lambda r, a: transform.pressure_from_g(self.profile_1d, self._edges, r, a), r, a)
+            p = in_chunks(lambda r, a: transform.pressure_from_g(self.profile_1d, self._edges, r, a), r, a)
         else:
-            p = _each(lambda r, a: transform.pressure_from_f(self._f, self._edges, r, a), r, a)
+            p = in_chunks(lambda r, a: transform.pressure_from_f(self._f, self._edges, r, a), r, a)
         rim = a >= self.max_radius
         p[rim] += rim_pressure(r[rim], a[rim], d[rim] - self.profile_1d(a[rim]))
         return p
@@ -144,7 +143,10 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
     def _search(self, d: FloatArray) -> FloatArray:
         start = np.array(self.kinks[0] if self.kinks else min(self.max_radius / 2, 1e300))
         start = np.broadcast_to(start if self.kinks or self.max_radius < np.inf else d, d.shape)
-        a, ended = roots.invert(lambda x: _each(self._g, x), d, start, self.max_radius)
+        if self._gives_g:
+            a, ended = roots.invert(lambda x: in_chunks(self._g, x), d, start, self.max_radius)
+        else:
+            a, ended = panels.invert(self._f, self._edges, d, start)
         if ended.any():
             raise ValueError(
                 f"{type(self).__name__} has no finite height beyond r = {a[ended].min():.6g} m, but at "
@@ -167,7 +169,7 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
         x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
         self._check_map(x[::10])
-        refuse_falling(self, x, _each(self._g, x))
+        refuse_falling(self, x, in_chunks(self._g, x))
 
     def _check_map(self, x: FloatArray) -> None:
         """Refuse a mapping that is not finite, warn of one that another rule does not confirm."""
@@ -207,12 +209,3 @@ def refuse_falling(shape: Indenter, x: FloatArray, g: FloatArray) -> None:
             f"{x[fall][0]:.6g} m, so that a ring touches before the disc inside it; the method needs a full "
             "disc: choose a shape whose g(x) rises"
         )
-
-
-def _each(function: Callable[..., FloatArray], *arrays: FloatArray) -> FloatArray:
-    """``function`` of arrays (n,), applied to arrays of any shape in chunks."""
-    flat = [np.ravel(array) for array in arrays]
-    answer = np.empty(flat[0].size)
-    for i in range(0, answer.size, CHUNK):
-        answer[i : i + CHUNK] = function(*(array[i : i + CHUNK] for array in flat))
-    return plain(answer.reshape(np.shape(arrays[0])))

@@ -1,4 +1,4 @@
-"""Any profile f(r), mapped by quadrature: g, a, F_N and p follow to 1e-9 (`mdr.indenters.transform`)."""
+"""Any profile f(r), mapped by quadrature: g, a, F_N and p follow to 1e-9 (`mdr.indenters.panels`, `.transform`)."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -16,7 +16,8 @@ class Profile(Indenter):
     """A shape given as a function f(r) with f(0) = 0, smooth but for the radii named in ``kinks``.
 
     ``f`` takes an array of radii and returns as many heights; one that takes only single numbers works too,
-    slowly. It is asked for radii within [0, r_max] alone, or a little beyond the edge if r_max is None.
+    slowly. It is asked for radii within [0, r_max] alone, or to beyond the edge of contact if r_max is None, and
+    must answer alike each time: g is kept once mapped. To change a parameter of f make a new Profile.
     ``kinks`` are the radii where the slope jumps or a flat part ends; one left out costs accuracy, and a
     warning says how much. ``name`` tells the shape in print and in stored studies, as a function has none.
     Two profiles are equal if they hold the same function object, kinks, r_max and name.

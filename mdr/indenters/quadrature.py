@@ -13,13 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from mdr.checks import FloatArray
+from mdr.checks import FloatArray, plain
 
 Function = Callable[[FloatArray], FloatArray]
 
 N_FIT = 16  #: Chebyshev points a window: a singularity four half-widths away leaves 7.9**-16 = 4e-15
 WINDOW = 0.25  #: half-width of a window over the radius; the apex, where f ~ r**n, is then four away
 N_HALVINGS = 12
+CHUNK = 256  #: points mapped at once: keeps the work in cache
 
 
 class Rule(NamedTuple):
@@ -39,18 +40,34 @@ def double_exponential(step: float = 0.11) -> Rule:
     return Rule(from_low, to_high, step * np.pi * np.cosh(t) * from_low * to_high)
 
 
+def in_chunks(function: Callable[..., FloatArray], *arrays: FloatArray) -> FloatArray:
+    """``function`` of arrays (n,), applied to arrays of any shape in chunks."""
+    flat = [np.ravel(array) for array in arrays]
+    answer = np.empty(flat[0].size)
+    for i in range(0, answer.size, CHUNK):
+        answer[i : i + CHUNK] = function(*(array[i : i + CHUNK] for array in flat))
+    return plain(answer.reshape(np.shape(arrays[0])))
+
+
+@lru_cache
+def chebyshev_fit(n: int) -> tuple[FloatArray, FloatArray]:
+    """The n Chebyshev points of [-1, 1] and the matrix from values there to coefficients."""
+    k = np.arange(n)
+    angle = np.pi * (k + 0.5) / n
+    to_coefficients = 2 / n * np.cos(np.outer(k, angle))
+    to_coefficients[0] /= 2
+    return np.cos(angle), to_coefficients
+
+
 @lru_cache
 def _fit_matrices() -> tuple[FloatArray, ...]:
     """Chebyshev points; matrices from values there to coefficients of the function and of two derivatives."""
-    k = np.arange(N_FIT)
-    angle = np.pi * (k + 0.5) / N_FIT
-    to_coefficients = 2 / N_FIT * np.cos(np.outer(k, angle))
-    to_coefficients[0] /= 2
+    nodes, to_coefficients = chebyshev_fit(N_FIT)
     first = np.zeros((N_FIT, N_FIT))
     second = np.zeros((N_FIT, N_FIT))
     first[:-1] = chebyshev.chebder(to_coefficients)
     second[:-2] = chebyshev.chebder(to_coefficients, 2)
-    return np.cos(angle), to_coefficients, first, second
+    return nodes, to_coefficients, first, second
 
 
 def derivatives(

@@ -16,7 +16,7 @@ def invert(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[F
     Where g is not finite it counts as higher than d; an ``a`` found at such a place is no contact radius.
     """
     with np.errstate(all="ignore"):
-        return _refine(g, d, *_octave(g, d, start, end))
+        return refine(g, d, *bracket(g, d, start, end))
 
 
 def _above(g: Function, a: FloatArray, d: FloatArray) -> FloatArray:
@@ -24,7 +24,7 @@ def _above(g: Function, a: FloatArray, d: FloatArray) -> FloatArray:
     return np.where(np.isnan(y), np.inf, y)
 
 
-def _octave(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, ...]:
+def bracket(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, ...]:
     """Bracket of at most a factor of two and g - d at its ends.
 
     Strides of 1, 2, 4 … octaves lead across the root; a power law through the two ends, followed to half an
@@ -44,7 +44,7 @@ def _octave(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[
         a[todo] = _next(low[todo], high[todo], y_low[todo], y_high[todo], d[todo], a[todo], stride[todo], end)
         stride[todo] = np.minimum(2 * stride[todo], 512)
     unknown = np.isinf(y_high)
-    y_high[unknown] = _above(g, high[unknown], d[unknown])
+    y_high[unknown] = np.maximum(_above(g, high[unknown], d[unknown]), 0)  # d is g(end) but for rounding
     return low, high, y_low, y_high
 
 
@@ -60,14 +60,14 @@ def _next(
     root = low * (d / (y_low + d)) ** (1 / n)
     near_low = root * root < low * high
     power = np.where(near_low, np.maximum(root, low) * 2**0.5, np.minimum(root, high) / 2**0.5)
-    good = np.isfinite(power) & (power > low) & (power < high)
+    good = np.isfinite(power) & (power > low) & (power < high) & (y_low > -d)  # g = 0 at low is no power law
     return np.where(closed, np.where(good, power, halfway), out)
 
 
-def _refine(
+def refine(
     g: Function, d: FloatArray, low: FloatArray, high: FloatArray, y_low: FloatArray, y_high: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
-    """Root by Chandrupatla's method (1997), and whether g is infinite there."""
+    """Root between brackets by Chandrupatla's method (1997), and whether g is infinite there."""
     a, b, fa, fb = high, low, y_high, y_low
     c, fc, t = a, fa, np.full_like(a, 0.5)
     done = np.zeros(a.shape, dtype=bool)

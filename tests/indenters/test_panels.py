@@ -1,0 +1,160 @@
+"""g(x) and a(d) of a profile from its panels: as good as the quadrature they are made of, and as good everywhere."""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.special import struve
+
+from mdr.indenters import Paraboloid, Profile, panels
+from mdr.indenters.base import Indenter
+
+B, R, T = 1e-3, 5e-3, math.tan(0.05)
+MAP = 1e-9  # the accuracy promised for mapped profiles
+
+
+def cap(r):
+    return r * r / (R + np.sqrt((R - r) * (R + r)))
+
+
+def steps(r):
+    return sum(np.maximum(r - b, 0) * T for b in KINKS)
+
+
+def pointed(r):
+    return r * T + r**2 / 1e-2
+
+
+KINKS = (1e-6, B, 1.0001 * B, 5 * B)
+PROFILES = {
+    "power": (Profile(lambda r: (r / B) ** 40), 0.1 * B, 20 * B),
+    "pointed": (Profile(pointed), 1e-12, 1e3),
+    "kinks": (Profile(steps, kinks=KINKS), 1e-6 + 1e-12, 0.1),
+    "rounded": (Profile(lambda r: np.maximum(r - B, 0) ** 2, kinks=(B,)), 1.01 * B, 0.1),
+    "sphere": (Profile(cap, r_max=R), 1e-12, 0.98 * R),
+}
+
+
+@pytest.fixture(params=PROFILES)
+def profile(request):
+    shape, low, high = PROFILES[request.param]
+    return shape, np.geomspace(low, high, 301)
+
+
+def test_panels_say_what_quadrature_says(profile):
+    shape, x = profile
+    assert_allclose(shape.profile_1d(x), panels.direct(shape._f, shape._edges, x), rtol=0.1 * MAP)
+
+
+def test_the_radius_leads_back_to_the_depth(profile):
+    shape, x = profile
+    d = shape.profile_1d(x)
+    a = shape.contact_radius(d)
+    assert_allclose(a, x, rtol=MAP)
+    assert np.all(np.diff(a) > 0)
+
+
+def test_no_answer_depends_on_what_else_was_asked(profile):
+    shape, x = profile
+    d = shape.profile_1d(x)
+    some = slice(None, None, 100)
+    panels._panel.cache_clear()
+    assert_allclose([shape.contact_radius(one) for one in d[some]], shape.contact_radius(d)[some], rtol=4e-16)
+    assert np.array_equal(shape.profile_1d(x[::-1])[::-1], shape.profile_1d(x))
+
+
+def test_kinks_against_the_closed_form():
+    x = np.concatenate([b * (1 + np.geomspace(1e-9, 0.5, 40)) for b in KINKS])
+    g = sum(x * T * np.arctan2(np.sqrt(np.maximum(x - b, 0) * (x + b)), b) * (x > b) for b in KINKS)
+    # one rounding of x is 2e-7 of x - b at 1e-9, half of that in the root
+    assert_allclose(PROFILES["kinks"][0].profile_1d(x), g, rtol=1e-7)
+    far = np.min(np.abs(x[:, None] / np.array(KINKS) - 1), axis=1) > 1e-5
+    assert_allclose(PROFILES["kinks"][0].profile_1d(x[far]), g[far], rtol=MAP)
+
+
+def test_a_sphere_against_the_closed_form():
+    x = R * np.array([1e-6, 0.1, 0.5, 0.9, 0.98, 0.99])  # nearer to the end the quadrature itself has less
+    sphere, g = PROFILES["sphere"][0], x * np.arctanh(x / R)
+    assert_allclose(sphere.profile_1d(x), g, rtol=MAP)
+    F = (R * R + x * x) * np.arctanh(x / R) - R * x  # Segedin 1957, over E*
+    assert_allclose(sphere.force(g[1:], 1), F[1:], rtol=MAP)
+
+
+def test_a_ripple_shorter_than_its_panel():
+    k, h = 4e3, 1e-7  # three waves to 5 mm; ∫₀^{π/2} sin(k x sin t) dt = π/2 H₀(kx), a Struve function
+    ripple = Profile(lambda r: r**2 / 1e-2 + h * (1 - np.cos(k * r)))
+    x = np.linspace(1e-4, 5e-3, 50)
+    assert_allclose(ripple.profile_1d(x), x**2 / R + x * h * k * np.pi / 2 * struve(0, k * x), rtol=MAP)
+
+
+def test_a_function_of_few_digits_is_mapped_as_far_as_it_goes():
+    grainy = Profile(lambda r: (r.astype(np.float32) ** 2).astype(float) / 1e-2, name="grainy")
+    with pytest.warns(UserWarning, match="mapped"):
+        a = grainy.contact_radius(np.linspace(1e-5, 2e-5, 1000))
+    assert_allclose(a, Paraboloid(R).contact_radius(np.linspace(1e-5, 2e-5, 1000)), rtol=1e-4)
+
+
+@pytest.mark.parametrize("digits", [np.float64, np.float32])
+def test_many_depths_cost_no_more_than_a_few(digits):
+    asked = []
+
+    def counted(r):
+        asked.append(r.size)
+        return (r.astype(digits) ** 2).astype(float) / 1e-2
+
+    def cost(shape, n):
+        asked.clear()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # single precision is warned of
+            shape.contact_radius(np.linspace(1e-5, 1e-4, n))
+        return sum(asked)
+
+    shape = Profile(counted)
+    assert cost(Profile(counted), 5000) <= (first := cost(shape, 50))
+    assert cost(shape, 5000) < first / 1.2  # asked again: what is left are the checks
+
+
+def test_a_new_profile_asks_its_function_anew():
+    width = [1e-2]
+
+    def f(r):
+        return r**2 / width[0]
+
+    before = Profile(f).contact_radius(1e-5)
+    width[0] *= 4
+    assert_allclose(Profile(f).contact_radius(1e-5), 2 * before, rtol=MAP)
+
+
+@pytest.mark.parametrize("g", [lambda x: 200 * x**2, lambda x: 1e6 * x**4])
+def test_depths_whose_square_is_no_number(g):
+    class Bowl(Indenter):
+        def profile_1d(self, x):
+            return g(np.abs(x))
+
+    d = np.array([1e-300, 1e-200, 1e-100, 1.0])
+    assert_allclose(g(Bowl().contact_radius(d)), d, rtol=MAP)
+
+
+def test_the_deepest_contact_is_the_whole_face():
+    shape = Profile(lambda r: r**2 / 1e-2, r_max=B)
+    assert_allclose(shape.contact_radius(shape.profile_1d(B) * np.array([1 - 1e-15, 1, 1 + 1e-15])), B, rtol=MAP)
+
+
+def test_a_shape_of_ones_own_has_panels_too():
+    class Bowl(Indenter):
+        __hash__ = None
+
+        def profile_3d(self, r):
+            return np.asarray(r) ** 2 / (2 * R)
+
+    d = np.geomspace(1e-9, 1e-2, 20)
+    assert_allclose(Bowl().force(d, 1), Paraboloid(R).force(d, 1), rtol=MAP)
+
+
+def test_panels_end_where_they_should():
+    ends = panels.cuts((0.0, 3.0, 4.0, 9.0))
+    assert np.array_equal(ends[ends > 0.9], [1, 2, 3, 4, 5, 6, 8, 9])
+    assert ends[0] == 5e-324
+    assert panels.cuts((0.0, np.inf))[-1] == np.finfo(float).max
