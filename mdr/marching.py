@@ -54,7 +54,8 @@ class March:
     settling: Settling
     n_periods: int
     mean_F_z: float
-    seen: Seen
+    seen: Seen  # the period that modes and energies are taken from
+    record: tuple[Seen, ...]  # all observed periods
 
     @property
     def cof(self) -> float:
@@ -64,7 +65,7 @@ class March:
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """The observed periods in scaled form; F_x, F_z, slip, y per step, e and mode per step and spring (or empty)."""
+    """An observed period in scaled form; F_x, F_z, slip, y per step, e and mode per step and spring (or empty)."""
 
     sums: Array
     F_x: Array
@@ -87,12 +88,13 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     settling = line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"]) if n_periods is None else None
     if n_periods is not None:
         line.advance(n_periods - n_seen)
-    seen = line.observe(n_seen, keep=knobs.record > 0)
+    seen = [line.observe(keep=knobs.record > 0) for _ in range(n_seen)]
     if not line.as_one:  # the core did not move as one after all: every spring for itself
         return march(case, v_0, replace(knobs, lump=False), n_periods)
     if settling is None:
         settling = line.judge()
-    return March(case, v_0, knobs, scaled, springs, settling, line.n_periods, line.mean_F_z, seen)
+    account = seen[0] if n_periods is None else seen[-1]  # the same period however many are kept
+    return March(case, v_0, knobs, scaled, springs, settling, line.n_periods, line.mean_F_z, account, tuple(seen))
 
 
 class Line:
@@ -203,10 +205,10 @@ class Line:
             return replace(settling, settled=False, kind="unsettled")
         return settling
 
-    def observe(self, n_periods: int, keep: bool) -> Seen:
-        """March the last periods with a close look; the march is the same with and without `keep`."""
+    def observe(self, keep: bool) -> Seen:
+        """March one more period with a close look; the march is the same with and without `keep`."""
         scaled, n = self.scaled, self.e.size
-        n_steps = n_periods * scaled.steps
+        n_steps = scaled.steps
         sums, F_x, F_z, slip = np.zeros(kernels.N_SUMS), np.empty(n_steps), np.empty(n_steps), np.empty(n_steps)
         sums[kernels.LEAST_SLIP] = np.inf
         e_kept, mode = np.empty((n_steps if keep else 0, n)), np.zeros((n_steps if keep else 0, n), dtype=np.uint8)

@@ -30,7 +30,7 @@ class State(IntEnum):
 
 @dataclass(frozen=True)
 class EnergyBalance:
-    """Energies [J] of the observed periods, each from its own definition.
+    """Energies [J] of one period, each from its own definition.
 
     pull_work + normal_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the residual of the
     scheme.
@@ -65,10 +65,10 @@ class SlidingRun:
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
-    least_slip: float  #: smallest slip velocity of a spring in contact in the observed periods [m/s]
+    least_slip: float  #: smallest slip velocity of a spring in contact in that period [m/s]
     mean_F_x: float  #: [N]
     mean_F_z: float  #: [N]
-    energy_balance: EnergyBalance  #: of the observed periods
+    energy_balance: EnergyBalance  #: of one of the last periods
     v_0: float  #: pulling velocity [m/s]
     mu_0: float  #: local coefficient of friction [-]
     omega: float  #: of the oscillation [rad/s]
@@ -151,12 +151,16 @@ def _energy_balance(march: March) -> EnergyBalance:
 
 def _recorded(march: March) -> dict[str, Any]:
     """The last periods in SI, the lumped core spread over the springs it stands for."""
-    scaled, seen, springs = march.scaled, march.seen, march.springs
-    n_steps = seen.F_x.size
+    scaled, springs = march.scaled, march.springs
+    F_x, F_z, y, e, mode = (
+        np.concatenate([getattr(seen, name)[3 if name == "y" else 0 :] for seen in march.record])
+        for name in ("F_x", "F_z", "y", "e", "mode")
+    )
+    n_steps = F_x.size
     t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
         1, n_steps + 1
     ) * scaled.h / scaled.omega
-    e, mode, n = seen.e, seen.mode, scaled.n_lumped
+    n = scaled.n_lumped
     if n > 1:
         core = springs.gap[:n] / scaled.length_z - scaled.gap[0]
         e = np.concatenate([e[:, :1] - core, e[:, 1:]], axis=1)
@@ -165,10 +169,10 @@ def _recorded(march: March) -> dict[str, Any]:
     oscillation = march.case.oscillation
     return {
         "t": t,
-        "u_x": march.v_0 * t + seen.y[3:] * scaled.length_x,
+        "u_x": march.v_0 * t + y * scaled.length_x,
         "u_z": oscillation.u_z0 + oscillation.du_z * scaled.z[phase],
-        "F_x": seen.F_x * scaled.stiffness_x * scaled.length_x,
-        "F_z": seen.F_z * scaled.stiffness_z * scaled.length_z,
+        "F_x": F_x * scaled.stiffness_x * scaled.length_x,
+        "F_z": F_z * scaled.stiffness_z * scaled.length_z,
         "x": springs.x,
         "e": e * scaled.length_x,
         "state": mode,

@@ -84,8 +84,9 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         main = march(case, v_0, knobs)
         if not main.settling.settled:
             return finish(main)
-        error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=2), main.n_periods))
-        error_steps = _difference(main, march(case, v_0, knobs.coarser(steps=2), main.n_periods))
+        as_long = main.n_periods - len(main.record) + 1  # whatever is kept
+        error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=2), as_long))
+        error_steps = _difference(main, march(case, v_0, knobs.coarser(steps=2), as_long))
         run = finish(main, error_springs + error_steps)
         finer = replace(
             knobs,

@@ -62,7 +62,7 @@ def study(knob: str, system: str, T: float, n_velocities: int) -> Study:
     """Error of cof/mu_0 over the levels, root mean square over velocities from 0.2 to 0.9 v_c."""
     pull, periods = SYSTEMS[system]
     case = contact("paraboloid", ALPHA, T, **pull)
-    # under a rigid pull the error is that of kinks alone, random from run to run: 32 of them scatter by 12 %, the order by 0.04
+    # under a rigid pull the error is that of kinks alone, random from run to run: 32 scatter by 12 %, the order by 0.04
     n_velocities *= 4 if knob == "steps" and system == "rigid pull" else 1
     velocities = mdr.full_slip_critical_velocity(case) * np.linspace(0.2, 0.9, n_velocities)
 
