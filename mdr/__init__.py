@@ -18,7 +18,9 @@ from mdr.theory import critical_velocity
 from mdr.full_slip import full_slip_critical_velocity, static_cof
 from mdr.runs import EnergyBalance, SlidingRun, State
 from mdr.sliding import slide
-from mdr.friction import CofCurve, MeasuredVelocity, Verdict, cof_curve, measure_critical_velocity, verdict
+from mdr.friction import CofCurve, cof_curve
+from mdr.measurement import MeasuredVelocity, measure_critical_velocity
+from mdr.judgement import Verdict, verdict
 
 try:
     __version__ = version("mdr-friction")

@@ -242,7 +242,7 @@ def _write_figures(folder: Path, curve: CofCurve) -> None:
 
 
 def _measure(args: argparse.Namespace, case: SlidingContact) -> int:
-    from mdr.friction import measure_critical_velocity
+    from mdr.measurement import measure_critical_velocity
 
     found = measure_critical_velocity(case)
     values = {name: getattr(found, name) for name in ("v_c", "low", "high", "kind", "why")}
@@ -260,7 +260,7 @@ def _bracket(found: Any) -> list[tuple[str, str, str]]:
 
 
 def _verdict(args: argparse.Namespace, case: SlidingContact) -> int:
-    from mdr.friction import verdict
+    from mdr.judgement import verdict
 
     found = verdict(case)
     names = ("eq_15", "full_slip", "measured", "deviation", "holds", "why")

@@ -38,7 +38,7 @@ from types import ModuleType
 from typing import Any
 
 from mdr import indenters, materials
-from mdr.contact import SlidingContact
+from mdr.contact import SlidingContact, require_case
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.motion import NormalOscillation
@@ -69,6 +69,8 @@ def read_case(path: str | PathLike[str]) -> SlidingContact:
 
 def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     """The case in a TOML text; messages call it `source`. Raises CaseFileError with every fault."""
+    if not isinstance(text, str):
+        raise TypeError(f"text must be a string of TOML, got {text!r}")
     try:
         return case_of(parse_toml(text, source), source)
     except RecursionError:
@@ -81,6 +83,7 @@ def write_case(case: SlidingContact) -> str:
     Raises CaseFileError for what a file cannot carry: a Profile, which is a Python function, or a class of your own.
     """
     top, tables = [], []
+    require_case(case)
     for field in _inputs(SlidingContact):
         value = getattr(case, field.name)
         if field.name not in _TABLES:

@@ -7,7 +7,7 @@ int or a numpy scalar went in.
 from __future__ import annotations
 
 import math
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,10 @@ def finite(name: str, value: Any, meaning: str = "a finite number") -> float:
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})")
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:
+        raise ValueError(f"{name} must be {meaning}, got a whole number beyond the range of floats") from None
     if not math.isfinite(number):
         raise ValueError(f"{name} must be {meaning}, got {number!r}")
     return number
@@ -54,6 +57,15 @@ def between(name: str, value: Any, low: float, high: float, meaning: str = "") -
         note = f" ({meaning})" if meaning else ""
         raise ValueError(f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}{note}")
     return number
+
+
+def count(name: str, value: Any, least: int) -> int:
+    """A whole number of at least `least`."""
+    if isinstance(value, bool) or not isinstance(value, Integral):
+        raise TypeError(f"{name} must be a whole number, got {value!r}")
+    if value < least:
+        raise ValueError(f"{name} must be at least {least}, got {value}")
+    return int(value)
 
 
 def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:

@@ -78,3 +78,10 @@ class SlidingContact:
     def keeps_contact(self) -> bool:
         """Whether the centre of the contact is never lost, Eq. (5): u_z0 > du_z sqrt(1 + T²)."""
         return self.oscillation.u_z0 > self.oscillation.du_z * float(np.hypot(1, self.T))
+
+
+def require_case(case: object) -> SlidingContact:
+    """The case itself; TypeError for anything that is not a SlidingContact."""
+    if not isinstance(case, SlidingContact):
+        raise TypeError(f"case must be a SlidingContact, got {case!r}")
+    return case

@@ -28,7 +28,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.contact import SlidingContact
+from mdr.checks import count
+from mdr.contact import SlidingContact, require_case
 from mdr.pull import SpringPull
 
 Array = NDArray[np.float64]
@@ -73,7 +74,8 @@ def _edge_at(phase: Array, theta: Array, T: float) -> Array:
 
 def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     """The normal force and the contact of a case over one period, at n_t instants."""
-    oscillation, E_star = case.oscillation, case.material.E_star
+    oscillation, E_star = require_case(case).oscillation, case.material.E_star
+    n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
     u_z_dot = -oscillation.omega * oscillation.du_z * np.sin(phase)
     edge = contact_edge(phase, case.T)

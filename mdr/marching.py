@@ -35,10 +35,10 @@ class Knobs:
     lump: bool
     record: int = 0
 
-    def coarser(self, n_springs: int = 1, steps: int = 1) -> Knobs:
-        """The knobs of a companion with fewer springs or steps."""
+    def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Knobs:
+        """The knobs of a companion with other steps or springs, that keeps nothing."""
         return replace(
-            self, n_springs=max(self.n_springs // n_springs, 16), steps=max(self.steps // steps, 16), record=0
+            self, n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
         )
 
 

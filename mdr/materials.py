@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import finite, not_negative, positive
+from mdr.checks import finite, finite_array, not_negative, positive
 
 
 def poisson_ratio(name: str, value: float) -> float:
@@ -64,11 +64,9 @@ class Material(ABC):
 
     def dynamic_modulus(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """Complex contact modulus E*(omega) = E* (1 + i omega tau) [Pa], in the shape of omega [rad/s]."""
-        omega = np.asarray(omega, dtype=float)
-        if not np.all(np.isfinite(omega)):
-            raise ValueError("omega must be finite, in rad/s")
+        omega = finite_array("omega", omega, "rad/s")
         modulus = self.E_star * (1 + 1j * omega * self.tau)
-        return complex(modulus) if modulus.ndim == 0 else modulus
+        return complex(modulus) if modulus.ndim == 0 else np.asarray(modulus)
 
     def loss_tangent(self, omega: ArrayLike) -> NDArray[np.float64] | float:
         """Loss over storage modulus at omega [rad/s]; omega tau for a Kelvin body."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import finite, positive
+from mdr.checks import finite, finite_array, positive
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class NormalOscillation:
 
     def u_z(self, t: ArrayLike) -> NDArray[np.float64]:
         """Depth [m] at times t [s], Eq. (3)."""
-        return self.u_z0 + self.du_z * np.cos(self.omega * np.asarray(t, dtype=float))
+        return self.u_z0 + self.du_z * np.cos(self.omega * finite_array("t", t, "s"))
 
     def u_z_dot(self, t: ArrayLike) -> NDArray[np.float64]:
         """Its rate [m/s]."""
-        return -self.du_z * self.omega * np.sin(self.omega * np.asarray(t, dtype=float))
+        return -self.du_z * self.omega * np.sin(self.omega * finite_array("t", t, "s"))

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import not_negative, positive
+from mdr.checks import finite_array, not_negative, positive
 
 
 class Pull(ABC):
@@ -36,7 +36,7 @@ class RigidPull(Pull):
 
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """Zero: nothing yields."""
-        omega = np.asarray(omega, dtype=float)
+        omega = finite_array("omega", omega, "rad/s")
         return 0j if omega.ndim == 0 else np.zeros(omega.shape, dtype=complex)
 
 
@@ -56,7 +56,7 @@ class SpringPull(Pull):
 
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """1/(k_x - m omega² + i omega c_x) [m/N]."""
-        omega = np.asarray(omega, dtype=float)
+        omega = finite_array("omega", omega, "rad/s")
         dynamic_stiffness = self.k_x - self.m * omega**2 + 1j * omega * self.c_x
         with np.errstate(divide="ignore", invalid="ignore"):
             H = np.where(dynamic_stiffness == 0, complex(np.inf), 1 / dynamic_stiffness)

@@ -1,19 +1,19 @@
 """slide(): march a sliding contact, every spring with its own stick/slip state, and bound the error of what comes out.
 
-Beside a run go two companions, one with half the steps and one with half the springs. The scheme is of second order in
-both, so the difference to a companion is three times the error, and their sum with the spread of the windows bounds the
+Beside a run go companions, with half the springs, with half the steps and with three quarters of the steps (for two of
+them may agree by chance). The scheme is of second order, so the difference to one of half the resolution is three times
+the error, and to one of three quarters 7/9 of it; the greater of the two, springs and spread of the windows bound the
 error of the COF.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
-from mdr.checks import positive
-from mdr.contact import SlidingContact
+from mdr.checks import count, positive
+from mdr.contact import SlidingContact, require_case
 from mdr.marching import Knobs, March, march
 from mdr.runs import SlidingRun, finish
 from mdr.scaled import RESOLVED, fast_ratio
@@ -42,6 +42,7 @@ def slide(
 
     Raises TypeError and ValueError for arguments out of range; v_0 = 0 is `static_cof`.
     """
+    case = require_case(case)
     v_0 = positive("v_0", v_0, "pulling velocity in m/s; the limit of zero velocity is static_cof(case)")
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
@@ -51,8 +52,8 @@ def slide(
         ("n_periods", n_periods, 1),
     ):
         if value is not None:
-            _count(name, value, least)
-    _count("record", record, 0)
+            count(name, value, least)
+    count("record", record, 0)
     if n_periods is not None and record > n_periods:
         raise ValueError(f"record = {record} periods cannot be kept of n_periods = {n_periods}")
     knobs = Knobs(n_springs or _N_SPRINGS, steps_per_period or default_steps(case), start, bool(lump), record)
@@ -71,13 +72,6 @@ def default_steps(case: SlidingContact) -> int:
     )
 
 
-def _count(name: str, value: Any, least: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer):
-        raise TypeError(f"{name} must be a whole number, got {value!r}")
-    if value < least:
-        raise ValueError(f"{name} must be at least {least}, got {value}")
-
-
 def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[bool, bool]) -> SlidingRun:
     """Run with its companions; refine what was left free while the error exceeds the budget."""
     while True:
@@ -85,8 +79,11 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         if not main.settling.settled:
             return finish(main)
         as_long = main.n_periods - len(main.record) + 1  # whatever is kept
-        error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=2), as_long))
-        error_steps = _difference(main, march(case, v_0, knobs.coarser(steps=2), as_long))
+        error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long))
+        half, most = (
+            march(case, v_0, knobs.coarser(steps), as_long) for steps in (knobs.steps // 2, 3 * knobs.steps // 4)
+        )
+        error_steps = max(_difference(main, half), 2 * _difference(main, most))
         run = finish(main, error_springs + error_steps)
         finer = replace(
             knobs,

@@ -22,7 +22,8 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
-from mdr.contact import SlidingContact
+from mdr.checks import count
+from mdr.contact import SlidingContact, require_case
 from mdr.indenters.base import Indenter
 
 Array = NDArray[np.float64]
@@ -48,8 +49,7 @@ class SpringArray:
 
         Raises ValueError for n_springs below 16.
         """
-        if n_springs < MIN_SPRINGS:
-            raise ValueError(f"n_springs must be at least {MIN_SPRINGS} to resolve the edge band, got {n_springs}")
+        case, n_springs = require_case(case), count("n_springs", n_springs, MIN_SPRINGS)
         panels = _panels(case)
         counts = _share_out(panels, n_springs)
         cells = [_cells(case, panel, n) for panel, n in zip(panels, counts, strict=True)]

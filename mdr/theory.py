@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.contact import SlidingContact
+from mdr.contact import SlidingContact, require_case
 from mdr.pull import SpringPull
 
 # --- the normal force ---
@@ -166,7 +166,7 @@ def critical_velocity(case: SlidingContact) -> float:
     Infinite on the undamped resonance k_x = m omega². With u_z0 <= 0 (tapping) the contact has no stiffness at the
     mean depth, and Eq. (1) is left.
     """
-    oscillation, kappa = case.oscillation, case.material.mindlin_ratio
+    oscillation, kappa = require_case(case).oscillation, case.material.mindlin_ratio
     if not isinstance(case.pull, SpringPull) or case.k_zc == 0:
         return eq_1(case.mu_0, oscillation.du_z, oscillation.omega, kappa)
     return eq_15(

@@ -57,6 +57,12 @@ def test_mass_and_spring(shape, alpha, T, body):
     check(rows)
 
 
+def test_the_bound_holds_where_two_runs_agree_by_chance():
+    rows = list(spring_pull(("flat",), (1.2,), (3.0,), (BODIES[0],), (0.8,), steps=(256, 2048)))
+    assert rows[0].doubt < 5e-7
+    check(rows)
+
+
 @pytest.mark.parametrize("T", [0.0, 1.0])
 @pytest.mark.parametrize("shape", ["flat", "paraboloid"])
 def test_the_scheme_is_of_second_order_in_the_step(shape, T):

@@ -12,7 +12,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr import friction
 from mdr.__main__ import main, velocity_scale
 from mdr.case_files import parse_case, read_case, write_case
 
@@ -43,7 +42,7 @@ def made_up_curve(case, v_0, settled=True):
     n = np.asarray(v_0).size
     states = np.ones(n, dtype=bool)
     states[-1] = settled
-    return friction.CofCurve(
+    return mdr.CofCurve(
         v_0=np.asarray(v_0), cof=np.full(n, 0.3), cof_error=np.where(states, 1e-6, np.nan), settled=states,
         stick_share=np.zeros(n), v_c=mdr.critical_velocity(case), mu_0=case.mu_0, static_cof=0.2,
         why=tuple("" if state else "F_x still drifts" for state in states),
@@ -109,7 +108,7 @@ def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
 
 def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(friction, "cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.friction.cof_curve", made_up_curve)
     before = set(tmp_path.iterdir())
     assert main(["curve", punch, "--json"]) == 0
     answer = strict_json(capsys.readouterr().out)
@@ -119,7 +118,7 @@ def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypa
 
 
 def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr(friction, "cof_curve", lambda case, v_0: made_up_curve(case, v_0, settled=False))
+    monkeypatch.setattr("mdr.friction.cof_curve", lambda case, v_0: made_up_curve(case, v_0, settled=False))
     assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
@@ -130,7 +129,7 @@ def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypa
 
 
 def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, monkeypatch):
-    monkeypatch.setattr(friction, "cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.friction.cof_curve", made_up_curve)
     case = read_case(resonant)
     assert velocity_scale(case) == pytest.approx(0.5 * 400.0 * 2e-6 * 1.5, rel=1e-12)
     assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2"]) == 0
@@ -141,8 +140,8 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
 
 # --- measure and verdict ---
 
-FOUND = friction.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
-NOTHING = friction.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+FOUND = mdr.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
+NOTHING = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
 
 
 class MadeUpVerdict:
@@ -153,14 +152,14 @@ class MadeUpVerdict:
 
 
 def test_the_names_of_the_records():
-    names = {field.name for field in fields(friction.Verdict)}
-    assert {"v_c", "low", "high", "kind", "why"} <= {field.name for field in fields(friction.MeasuredVelocity)}
+    names = {field.name for field in fields(mdr.Verdict)}
+    assert {"v_c", "low", "high", "kind", "why"} <= {field.name for field in fields(mdr.MeasuredVelocity)}
     assert {"eq_15", "full_slip", "measured", "deviation", "holds", "why"} <= names
 
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
-    monkeypatch.setattr(friction, "measure_critical_velocity", lambda case: found)
+    monkeypatch.setattr("mdr.measurement.measure_critical_velocity", lambda case: found)
     assert main(["measure", EXAMPLE]) == status
     assert found.why in capsys.readouterr().out
     assert main(["measure", EXAMPLE, "--json"]) == status
@@ -168,7 +167,7 @@ def test_measure(capsys, monkeypatch, found, status):
 
 
 def test_verdict(capsys, monkeypatch):
-    monkeypatch.setattr(friction, "verdict", lambda case: MadeUpVerdict())
+    monkeypatch.setattr("mdr.judgement.verdict", lambda case: MadeUpVerdict())
     assert main(["verdict", EXAMPLE]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Eq. (15) holds: one element",
@@ -188,7 +187,7 @@ def test_verdict(capsys, monkeypatch):
 def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monkeypatch, measured, holds, status):
     found = MadeUpVerdict()
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
-    monkeypatch.setattr(friction, "verdict", lambda case: found)
+    monkeypatch.setattr("mdr.judgement.verdict", lambda case: found)
     assert main(["verdict", EXAMPLE]) == status
     assert main(["verdict", EXAMPLE, "--json"]) == status
     answer = strict_json(capsys.readouterr().out.split("{", 1)[1].join(["{", ""]))
@@ -238,7 +237,7 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
     def fail(case):
         raise failure
 
-    monkeypatch.setattr(friction, "verdict", fail)
+    monkeypatch.setattr("mdr.judgement.verdict", fail)
     assert main(["verdict", EXAMPLE]) == status
     assert capsys.readouterr().err == message
 

@@ -122,7 +122,7 @@ def test_stiffness_of_one_spring():
 
 @pytest.mark.parametrize("n", [0, 1, MIN_SPRINGS - 1])
 def test_too_few_springs_are_refused(n):
-    with pytest.raises(ValueError, match=f"n_springs must be at least {MIN_SPRINGS} .*, got {n}"):
+    with pytest.raises(ValueError, match=f"n_springs must be at least {MIN_SPRINGS}, got {n}"):
         SpringArray.of(contact("cone"), n)
 
 

@@ -89,9 +89,7 @@ def refine(
     return best, np.isinf(np.maximum(fa, fb)) & (np.minimum(np.abs(fa), np.abs(fb)) > EPS * d)
 
 
-def _step(
-    a: FloatArray, b: FloatArray, c: FloatArray, fa: FloatArray, fb: FloatArray, fc: FloatArray
-) -> FloatArray:
+def _step(a: FloatArray, b: FloatArray, c: FloatArray, fa: FloatArray, fb: FloatArray, fc: FloatArray) -> FloatArray:
     """Share of the bracket to go: inverse quadratic interpolation where it is safe, else one half."""
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     safe = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)

@@ -1,0 +1,88 @@
+"""The verdict: Eq. (15), the full-slip value and the measured one side by side, and why they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mdr.contact import SlidingContact, require_case
+from mdr.full_slip import full_slip_critical_velocity
+from mdr.measurement import LEAST, MeasuredVelocity, measure_critical_velocity
+from mdr.pull import RigidPull
+from mdr.theory import critical_velocity, eq_1
+
+CLOSE = 2e-4  #: of v_c: what a measurement can resolve, bracket and scheme together
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Does Eq. (15) hold for this contact? Velocities in m/s; print it for the sentence."""
+
+    eq_15: float  #: Eq. (15) at the mean depth; Eq. (1) for a rigid pull
+    full_slip: float  #: the same condition with all harmonics of the normal force
+    measured: float | None  #: from runs alone
+    deviation: float | None  #: measured/eq_15 - 1; beside a vanishing Eq. (15), over 1e-4 of Eq. (1)
+    holds: bool  #: whether the deviation is within the bracket of the measurement
+    why: str  #: in the words of the physics
+    measurement: MeasuredVelocity  #: bracket and kind
+    formula: str = "Eq. (15)"  #: the closed form judged
+
+    def __str__(self) -> str:
+        head = f"{self.formula} {'holds' if self.holds else 'fails'}"
+        measured = "no critical velocity" if self.measured is None else f"measured v_c = {self.measured:.6g} m/s"
+        off = "" if self.deviation is None else f" ({100 * self.deviation:+.3g} %)"
+        return f"{head}: {measured} against {self.eq_15:.6g} m/s{off}. {self.why}"
+
+
+def verdict(case: SlidingContact) -> Verdict:
+    """Measure v_c of a case and set it beside Eq. (15) and the full-slip value."""
+    eq_15, full = critical_velocity(require_case(case)), full_slip_critical_velocity(case)
+    found = measure_critical_velocity(case)
+    rigid = eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
+    deviation = None
+    if found.v_c is None or not np.isfinite(eq_15):
+        holds = found.v_c is None and not np.isfinite(eq_15)
+    else:
+        scale = max(eq_15, LEAST * rigid)
+        deviation = (found.v_c - eq_15) / scale
+        holds = abs(deviation) <= CLOSE or max(eq_15, found.v_c) < scale
+    reasons = list(_reasons(case, eq_15, full, found))
+    if holds and deviation is not None:
+        reasons = ["all springs leave stick together, at the velocity of one element"]
+    if found.v_c is None:
+        reasons.append(found.why)
+    formula = "Eq. (1)" if isinstance(case.pull, RigidPull) else "Eq. (15)"
+    why = "; ".join([*reasons, *_left_out(case)])
+    return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula)
+
+
+def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVelocity) -> Iterator[str]:
+    if not np.isfinite(eq_15):
+        yield "the body is driven at its undamped natural frequency, where the formula has its pole"
+    if not np.isfinite(full) and np.isfinite(eq_15):
+        yield "a harmonic of the normal force drives the body at its undamped natural frequency"
+    if not case.keeps_contact:
+        yield "contact is lost in part of the period, Eq. (5)"
+    confirmed = found.v_c is not None and abs(full / found.v_c - 1) < 10 * CLOSE
+    if isinstance(case.pull, RigidPull):
+        if full < eq_15 * (1 - CLOSE):
+            yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
+    elif np.isfinite(eq_15) and confirmed:
+        yield (
+            "at this amplitude the contact stiffness changes within the period and the normal force has harmonics; "
+            "with them the full-slip condition gives the measured value"
+        )
+    if found.kind == "hysteresis":
+        yield found.why
+
+
+def _left_out(case: SlidingContact) -> Iterator[str]:
+    """What the springs leave out where it matters."""
+    beta = case.material.dundurs_beta
+    if abs(beta) > 0.02:
+        yield (
+            f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions "
+            "friction is lower than here, and part of the contact may still stick above this velocity"
+        )

@@ -1,0 +1,218 @@
+"""The critical velocity measured from simulated runs alone.
+
+The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own
+error. Near v_c that deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a
+Kelvin one, whose lag behind full slip lasts for the relaxation time instead of the stick phase; so the COF alone
+reads v_c low. Two sharper signs give the digits:
+
+* a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull
+  does not depend on v_0. One such run therefore locates v_c by v_0 less its smallest slip velocity;
+* stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket.
+
+Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
+has no other way to lose a free oscillation than to trim it by instants of stick (theory of that: the oscillation is
+cut back until slip just grazes zero), so grazing stick with a full COF is no friction reduction and is named, not
+counted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mdr.contact import SlidingContact, require_case
+from mdr.pull import SpringPull
+from mdr.runs import SlidingRun
+from mdr.sliding import default_steps, slide
+
+MARGIN = 2e-5  #: half width of the bracket, of v_c
+GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; at MARGIN below v_c it is above 1e-3
+APART = 0.01  #: step between velocities at which the deficit of the COF is read
+ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
+LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
+HIGHEST = 1e3  #: times Eq. (1): no stick-free run below this means there is no v_c
+
+
+@dataclass(frozen=True)
+class MeasuredVelocity:
+    """A critical velocity found from runs alone."""
+
+    v_c: float | None  #: [m/s]; None where there is none
+    low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, next to v_c
+    high: float | None  #: lowest velocity [m/s] seen without
+    kind: str  #: "end of stick" (all signs agree), "grazing stick", "end of friction reduction", "hysteresis" or "none"
+    why: str  #: in words
+    n_runs: int = field(default=0, compare=False)  #: how many runs it took
+
+
+def measure_critical_velocity(case: SlidingContact, *, start: str = "full_slip") -> MeasuredVelocity:
+    """Measure v_c of a case from simulated runs alone; `start` is that of the runs that locate it.
+
+    The answer does not depend on where the search begins. Raises ValueError for an unknown start.
+    """
+    if start not in ("full_slip", "rest"):
+        raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
+    return _Search(require_case(case), start).measure()
+
+
+class _Search:
+    """The runs of one measurement."""
+
+    def __init__(self, case: SlidingContact, start: str) -> None:
+        self.case, self.start, self.n_runs = case, start, 0
+        self.steps, self.n_springs = default_steps(case), 384
+        oscillation = case.oscillation
+        # only a scale of velocity; the tangential travel per unit of normal travel is mu_0 kappa
+        self.scale = oscillation.omega * oscillation.du_z * case.mu_0 * case.material.mindlin_ratio
+
+    def run(self, v_0: float) -> SlidingRun:
+        self.n_runs += 1
+        return slide(self.case, v_0, start=self.start, n_springs=self.n_springs, steps_per_period=self.steps)
+
+    def look(self, v_0: float, start: str) -> SlidingRun:
+        """A run of half the usual resolution, enough to tell reduced friction from full."""
+        self.n_runs += 1
+        return slide(self.case, v_0, start=start, n_springs=192, steps_per_period=default_steps(self.case) // 2)
+
+    def measure(self) -> MeasuredVelocity:
+        first = self._first_free_run()
+        if first is None:
+            return self._none("friction stays reduced, or stick goes on, up to the highest velocity tried")
+        if self._jumps():
+            return self._by_friction(self._locate(first)[2])
+        v_c, low, high = self._locate(self._resolve(first))
+        return self._look_above(v_c, low, high)
+
+    def _none(self, why: str) -> MeasuredVelocity:
+        return MeasuredVelocity(None, None, None, "none", why, self.n_runs)
+
+    def _first_free_run(self) -> SlidingRun | None:
+        """Go up until a settled run has no stick; a golden factor avoids landing on v_c by construction."""
+        v_0 = 1.37 * self.scale
+        while v_0 < HIGHEST * self.scale:
+            run = self.run(v_0)
+            if _is_free(run):
+                return run
+            v_0 *= 2.618
+        return None
+
+    def _resolve(self, free: SlidingRun) -> SlidingRun:
+        """Double steps and springs until neither moves the end of stick by more than the margin; the finer run."""
+        for knob, most in (("steps", 16384), ("n_springs", 3072)):
+            while (known := getattr(self, knob)) < most:
+                setattr(self, knob, 2 * known)
+                finer = self.run(free.v_0)
+                if not _is_free(finer):
+                    return free
+                moved = abs(finer.least_slip - free.least_slip)
+                free = finer
+                if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale):
+                    break
+        return free
+
+    def _locate(self, free: SlidingRun) -> tuple[float, float, float]:
+        """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
+        low, high = 0.0, free.v_0
+        guess = free.v_0 - free.least_slip
+        if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
+            return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
+        for width in (MARGIN, 4 * MARGIN, 16 * MARGIN, 64 * MARGIN):
+            above, below = self.run(guess * (1 + width)), self.run(guess * (1 - width))
+            if _is_free(above) and not _is_free(below):
+                return guess, below.v_0, above.v_0
+            low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
+            high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
+            guess = high * (1 - 1e-12) if not low < guess < high else guess
+        while high - low > 2 * MARGIN * high:
+            run = self.run(0.5 * (low + high))
+            low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
+        return 0.5 * (low + high), low, high
+
+    def _jumps(self) -> bool:
+        """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid
+        first touch of a dashpot.
+        """
+        pull = self.case.pull
+        moving_edge = self.case.indenter.contact_radius(self.case.u_z_max) > self.case.indenter.contact_radius(
+            self.case.oscillation.u_z0
+        )
+        light = isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0
+        return bool(light and self.case.T > 0 and moving_edge)
+
+    def _by_friction(self, high: float) -> MeasuredVelocity:
+        """Let the COF speak, whose root of the deficit falls linearly to zero at v_c."""
+        v_0 = high * (1 - APART)
+        roots: list[tuple[float, float]] = []
+        while v_0 > 1e-6 * self.scale and len(roots) < 3:
+            run = self.run(v_0)
+            if _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
+                roots.append((v_0, (run.mu_0 - run.cof) ** (2 / 3)))
+            v_0 *= 1 - APART
+        if len(roots) < 3:
+            return self._none("stick never reduces friction by more than its numerical error")
+        velocities, deficits = np.array(roots).T
+        v_c = float(np.polyfit(deficits, velocities, 2)[-1])
+        why = (
+            f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body "
+            "without inertia jumps when single springs touch; "
+            "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero"
+        )
+        return MeasuredVelocity(v_c, roots[0][0], high, "end of friction reduction", why, self.n_runs)
+
+    def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
+        """Runs beyond v_c from both starts: does friction stay full?"""
+        grazing, unsettled = False, []
+        for factor in ABOVE:
+            for start in ("full_slip", "rest"):
+                run = self.look(factor * v_c, start)
+                if not run.settled:
+                    unsettled.append(f"{factor:g} v_c from {start}")
+                elif _is_reduced(run) and self._lasts(run, start):
+                    return self._hysteresis(run, v_c)
+                grazing = grazing or (run.settled and run.stick_share > GRAZE)
+        why = "stick ends and the COF reaches mu_0 at the same velocity"
+        if grazing:
+            why += "; above it a free oscillation of the undamped body is trimmed by grazing stick, at full COF"
+        if unsettled:
+            why += f"; not settled: {', '.join(unsettled)}"
+        return MeasuredVelocity(v_c, low, high, "grazing stick" if grazing else "end of stick", why, self.n_runs)
+
+    def _lasts(self, run: SlidingRun, start: str) -> bool:
+        """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""
+        self.n_runs += 1
+        longer = slide(
+            self.case,
+            run.v_0,
+            start=start,
+            n_springs=run.n_springs,
+            steps_per_period=run.steps_per_period,
+            n_periods=4 * run.n_periods,
+        )
+        return longer.mu_0 - longer.cof > 0.7 * (run.mu_0 - run.cof)
+
+    def _hysteresis(self, reduced: SlidingRun, v_c: float) -> MeasuredVelocity:
+        """Friction is reduced above the end of stick of the other start: narrow down where that ends."""
+        start = "rest"
+        low, high = reduced.v_0, reduced.v_0
+        while _is_reduced(self.look(high := high * 1.5, start)):
+            low = high
+            if high > HIGHEST * self.scale:
+                return self._none("from rest, friction stays reduced up to the highest velocity tried")
+        while high - low > 1e-3 * high:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if _is_reduced(self.look(middle, start)) else (low, middle)
+        why = (
+            f"between {v_c:.6g} m/s, where stick ends from full slip, and this velocity, "
+            "a run from rest keeps friction reduced"
+        )
+        return MeasuredVelocity(0.5 * (low + high), low, high, "hysteresis", why, self.n_runs)
+
+
+def _is_free(run: SlidingRun) -> bool:
+    """No spring sticks: a positive slip velocity throughout, in a settled run of full COF."""
+    return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
+
+
+def _is_reduced(run: SlidingRun) -> bool:
+    return run.settled and run.mu_0 - run.cof > run.cof_error
