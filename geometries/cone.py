@@ -11,8 +11,6 @@ again. Around that depth Eq. (15) is also least accurate: where the first harmon
 just as the springs need, the others weigh most.
 """
 
-from pathlib import Path
-
 import numpy as np
 
 import mdr
@@ -72,7 +70,6 @@ if __name__ == "__main__":
     print(f"cone, Eq. (15): {1e3 * eq_15.min():.3f} to {1e3 * eq_15.max():.3f} mm/s, least {1e6 * balanced:.1f} µm in")
     for depth, verdict in verdicts.items():
         print(f"{1e6 * depth:.0f} µm deep: {verdict}")
-    path = Path(__file__).parent / "figures" / "cone.png"
-    path.parent.mkdir(exist_ok=True)
-    figure().savefig(path, dpi=200)
-    print("figure:", path)
+    from mdr.plots import save
+
+    print("figure:", save(figure(), __file__))

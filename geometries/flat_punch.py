@@ -10,7 +10,6 @@ foot has all its friction back. A flat punch has constant stiffness: both formul
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -67,7 +66,6 @@ if __name__ == "__main__":
     print("loss tangent   v_c [mm/s]   COF at rest   contact lost above [µm]")
     for row in zip(loss_tangents, np.multiply(v_c, 1e3), static, np.multiply(lost_above, 1e6), strict=True):
         print("{:12.1f} {:12.3f} {:13.3f} {:25.1f}".format(*row))
-    path = Path(__file__).parent / "figures" / "flat_punch.png"
-    path.parent.mkdir(exist_ok=True)
-    figure().savefig(path, dpi=200)
-    print("figure:", path)
+    from mdr.plots import save
+
+    print("figure:", save(figure(), __file__))

@@ -9,8 +9,6 @@ comes down to the limit of slow sliding, which the loss in the rubber lowers fur
 Limit: the half-space is quasi-static while the tip is small against the shear wave, `wave_over_radius`.
 """
 
-from pathlib import Path
-
 import numpy as np
 
 import mdr
@@ -72,10 +70,7 @@ if __name__ == "__main__":
     for f, run in zip(shaken, runs, strict=True):
         print(f"{f:8.0f} Hz: {run.cof:.4f} (error {run.cof_error:.0e})")
     print(f"at 20 kHz the shear wave is {wave_over_radius:.0f} contact radii long")
-    from mdr.plots import plot_traces
+    from mdr.plots import plot_traces, save
 
-    folder = Path(__file__).parent / "figures"
-    folder.mkdir(exist_ok=True)
-    for name, fig in {"paraboloid": figure(), "paraboloid_traces": plot_traces(shown)}.items():
-        fig.savefig(folder / f"{name}.png", dpi=200)
-        print("figure:", folder / f"{name}.png")
+    print("figure:", save(figure(), __file__))
+    print("figure:", save(plot_traces(shown), __file__, "_traces"))

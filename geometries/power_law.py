@@ -9,8 +9,6 @@ away and the higher the COF. For a small amplitude that is all the shape does: u
 is one curve for every shape, exact for the flat punch that keeps contact. How small is small?
 """
 
-from pathlib import Path
-
 import numpy as np
 
 import mdr
@@ -81,7 +79,6 @@ if __name__ == "__main__":
         lowered = 1 - curves[n, amplitudes[0]].cof[0] / 0.5
         far = ", ".join(f"{departure[n, alpha]:.1e}" for alpha in amplitudes)
         print(f"n = {n:3g}: {far}; friction at rest lowered by {100 * lowered:.1f} %")
-    path = Path(__file__).parent / "figures" / "power_law.png"
-    path.parent.mkdir(exist_ok=True)
-    figure().savefig(path, dpi=200)
-    print("figure:", path)
+    from mdr.plots import save
+
+    print("figure:", save(figure(), __file__))

@@ -24,6 +24,7 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +66,14 @@ def contact_edge(phase: Array, T: float) -> Array:
     return edges
 
 
+@lru_cache(maxsize=64)
+def _edge_of_period(n_t: int, T: float) -> Array:
+    """The contact edge at n_t instants of a period, which depends on nothing but T; read-only."""
+    edge = contact_edge(2 * np.pi * np.arange(n_t) / n_t, T)
+    edge.setflags(write=False)
+    return edge
+
+
 def _edge_at(phase: Array, theta: Array, T: float) -> Array:
     lost = -np.expm1(-theta / T)
     # cos(phase) - cos(phase - theta), written without cancellation
@@ -78,7 +87,7 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
     u_z_dot = -oscillation.omega * oscillation.du_z * np.sin(phase)
-    edge = contact_edge(phase, case.T)
+    edge = _edge_of_period(n_t, case.T)
     g_c = np.maximum(oscillation.u_z0 + oscillation.du_z * edge, 0)
     a = np.asarray(case.indenter.contact_radius(g_c))
     above = oscillation.du_z * (np.cos(phase) - edge) + case.material.tau * u_z_dot  # u_z - g_c + tau u_z'

@@ -6,6 +6,7 @@ by attribute only. Times are in periods of the oscillation, lengths and forces i
 
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -83,7 +84,7 @@ def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
         ax = _axes(ax)
         ax.pcolormesh(
             _edges(_periods(run)[::every]),
-            np.maximum(_edges(np.asarray(run.x)[order]), 0.0) * factor,
+            _cells(np.asarray(run.x)[order]) * factor,
             state[::every, order].T,
             cmap=ListedColormap([colour for _, colour in MODES]),
             norm=BoundaryNorm(np.arange(5) - 0.5, 4),
@@ -145,6 +146,14 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLi
         left.set_xlim(-reach, reach)
         fig.legend(loc="outside lower center", ncols=2)
     return fig
+
+
+def save(figure: "Figure", script: str, suffix: str = "") -> Path:
+    """Save a figure as figures/<name of the script><suffix>.png beside the script; returns the path."""
+    path = Path(script).resolve().parent / "figures" / f"{Path(script).stem}{suffix}.png"
+    path.parent.mkdir(exist_ok=True)
+    figure.savefig(path, dpi=200)
+    return path
 
 
 def _draw_curve(ax: "Axes", curve: Any, scale: float, colour: Any, label: str | None) -> None:
@@ -293,6 +302,14 @@ def _edges(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
         return np.array([centres[0] - half, centres[0] + half])
     middle = (centres[1:] + centres[:-1]) / 2
     return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])
+
+
+def _cells(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
+    """Boundaries (n + 1,) of adjoining cells from 0 on with these centres (n,); half-way between if none fit."""
+    edges = np.zeros(len(centres) + 1)
+    for i, centre in enumerate(centres):
+        edges[i + 1] = 2 * centre - edges[i]
+    return edges if np.all(np.diff(edges) > 0) else np.maximum(_edges(centres), 0.0)
 
 
 def _prefix(values: Any, unit: str) -> tuple[float, str]:

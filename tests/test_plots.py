@@ -127,7 +127,7 @@ def test_spring_map_shows_every_spring_at_its_place():
     assert mesh.get_rasterized()
     assert_allclose(np.asarray(mesh.get_array()).reshape(3, -1), run.state.T)
     corners = np.asarray(mesh.get_coordinates())
-    assert_allclose(corners[:, 0, 1], [0, 55, 250, 550])  # half-way between neighbours, never below 0 [µm]
+    assert_allclose(corners[:, 0, 1], [0, 20, 180, 620])  # cells from 0 on whose centres the springs are [µm]
     assert_allclose(
         corners[0, [0, -1], 0], [0.25 - 1 / 64, 2.25 - 1 / 64]
     )  # the record begins at 7.25 periods
