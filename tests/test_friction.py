@@ -69,6 +69,15 @@ def test_measured_velocity_is_that_of_full_slip(name):
     check_found(mdr.measure_critical_velocity(case), case, truth(*MEASURED[name]))
 
 
+@pytest.mark.xfail(strict=True, reason="the end of stick of few springs that touch late is seen to 5e-4 only")
+@pytest.mark.parametrize(
+    "groups", [("cone", 0.876, 2.0, (0.524, 1.25, 0.0694)), ("paraboloid", 0.963, 2.0, (0.528, 1.5, 0.0919))]
+)
+def test_measured_velocity_where_a_slow_contact_is_lost(groups):
+    case = make(*groups)
+    check_found(mdr.measure_critical_velocity(case), case, truth(*groups))
+
+
 @pytest.mark.parametrize("name", ["flat, body, Kelvin", "cone, body, elastic", "r4, body, elastic"])
 def test_from_rest_the_same_velocity_is_found(name):
     case = make(*MEASURED[name])
