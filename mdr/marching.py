@@ -191,7 +191,7 @@ class Line:
 
     def wait(self, most: int) -> Settling:
         """March until the windows agree."""
-        self.advance(8)
+        self.advance(self.scaled.first_look)
         while not (settling := self.judge()).settled and self.n_periods < most and self.as_one:
             self.advance(max(4, self.n_periods // 2))
         return settling

@@ -170,7 +170,7 @@ class _Search:
                     unsettled.append(f"{factor:g} v_c from {start}")
                 elif _is_reduced(run) and self._lasts(run, start):
                     return self._hysteresis(run, v_c)
-                grazing = grazing or (run.settled and run.stick_share > GRAZE)
+                grazing = grazing or (run.settled and run.least_slip < 0.5 * (factor - 1) * v_c)
         why = "stick ends and the COF reaches mu_0 at the same velocity"
         if grazing:
             why += "; above it a free oscillation of the undamped body is trimmed by grazing stick, at full COF"

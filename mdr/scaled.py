@@ -64,6 +64,13 @@ class ScaledContact:
         return 2 * np.pi / self.steps
 
     @property
+    def first_look(self) -> int:
+        """Periods after which it makes sense to ask whether a run has settled: four e-folds of a free oscillation."""
+        if not self.M:
+            return 8
+        return int(np.clip(np.ceil(4 * self.M / (np.pi * self.C)), 8, 256)) if self.C else 32
+
+    @property
     def speed(self) -> float:
         """Unit of velocity mu_0 kappa omega du_z [m/s], which is Eq. (1)."""
         return self.length_x * self.omega

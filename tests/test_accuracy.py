@@ -58,7 +58,7 @@ def test_mass_and_spring(shape, alpha, T, body):
 
 
 def test_the_bound_holds_where_two_runs_agree_by_chance():
-    rows = list(spring_pull(("flat",), (1.2,), (3.0,), (BODIES[0],), (0.8,), steps=(1024, 4096)))
+    rows = list(spring_pull(("flat",), (1.2,), (3.0,), (BODIES[0],), (0.8,), steps=(256, 1024, 2048)))
     assert rows[0].doubt < 5e-7
     check(rows)
 

@@ -70,10 +70,8 @@ def test_measured_velocity_is_that_of_full_slip(name):
 
 
 @pytest.mark.xfail(strict=True, reason="the end of stick of few springs that touch late is seen to 5e-4 only")
-@pytest.mark.parametrize(
-    "groups", [("cone", 0.876, 2.0, (0.524, 1.25, 0.0694)), ("paraboloid", 0.963, 2.0, (0.528, 1.5, 0.0919))]
-)
-def test_measured_velocity_where_a_slow_contact_is_lost(groups):
+def test_measured_velocity_where_a_slow_contact_is_lost():
+    groups = ("cone", 0.876, 2.0, (0.524, 1.25, 0.0694))
     case = make(*groups)
     check_found(mdr.measure_critical_velocity(case), case, truth(*groups))
 
@@ -154,7 +152,7 @@ def test_grazing_stick_of_an_undamped_body_is_named_and_is_no_hysteresis():
     assert "grazing stick, at full COF" in found.why
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
     above = mdr.slide(case, 1.02 * found.v_c, start="rest")
-    assert above.stick_share > 0
+    assert above.least_slip < 0.01 * found.v_c  # without the free oscillation it would be 0.02 v_c
     assert abs(above.mu_0 - above.cof) <= above.cof_error
 
 
