@@ -151,8 +151,8 @@ def test_grazing_stick_of_an_undamped_body_is_named_and_is_no_hysteresis():
     assert found.kind == "grazing stick"
     assert "grazing stick, at full COF" in found.why
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
-    above = mdr.slide(case, 1.02 * found.v_c, start="rest")
-    assert above.least_slip < 0.01 * found.v_c  # without the free oscillation it would be 0.02 v_c
+    above = mdr.slide(case, 1.3 * found.v_c, start="rest")
+    assert above.least_slip < 0.15 * found.v_c  # without the free oscillation it would be 0.3 v_c
     assert abs(above.mu_0 - above.cof) <= above.cof_error
 
 
