@@ -10,8 +10,8 @@ reads v_c low. Two sharper signs give the digits:
 * stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket.
 
 Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
-has no other way to lose a free oscillation than to trim it by instants of stick (theory of that: the oscillation is
-cut back until slip just grazes zero), so grazing stick with a full COF is no friction reduction and is named, not
+has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes
+zero; so grazing stick with a full COF is no friction reduction and is named, not
 counted.
 """
 
@@ -88,7 +88,7 @@ class _Search:
         return MeasuredVelocity(None, None, None, "none", why, self.n_runs)
 
     def _first_free_run(self) -> SlidingRun | None:
-        """Go up until a settled run has no stick; a golden factor avoids landing on v_c by construction."""
+        """Go up until a settled run has no stick, by factors that do not land on v_c by construction."""
         v_0 = 1.37 * self.scale
         while v_0 < HIGHEST * self.scale:
             run = self.run(v_0)
@@ -141,7 +141,7 @@ class _Search:
         return bool(light and self.case.T > 0 and moving_edge)
 
     def _by_friction(self, high: float) -> MeasuredVelocity:
-        """Let the COF speak, whose root of the deficit falls linearly to zero at v_c."""
+        """Let the COF speak: its deficit to the power 2/3 falls smoothly to zero at v_c for a Kelvin contact."""
         v_0 = high * (1 - APART)
         roots: list[tuple[float, float]] = []
         while v_0 > 1e-6 * self.scale and len(roots) < 3:
