@@ -55,7 +55,17 @@ def bend_of(closing_0, closing_1):
 
 
 @_inline
-def elastic_spring(e, gap, z_1, du, inverse_dz, bend, late):
+def surge_of(du, ud_0, ud_1, h):
+    """How far the body gets ahead of half its step in the second half: what it gains while its velocity grows.
+
+    A spring that touches for the last share of a step sees the body travel share * (du + (1 - share) * surge).
+    """
+    most = abs(du)  # without inertia the velocity may jump, and no growth can be read off it
+    return min(max(0.5 * h * (ud_1 - ud_0), -most), most)
+
+
+@_inline
+def elastic_spring(e, gap, z_1, du, surge, inverse_dz, bend, late):
     """One elastic spring over one step: new extension, compression, share of the step in contact, trial extension.
 
     late: what a spring that turned from slip to stick within the step falls behind.
@@ -63,12 +73,12 @@ def elastic_spring(e, gap, z_1, du, inverse_dz, bend, late):
     s = max(z_1 - gap, 0.0)
     way = min(s * inverse_dz, 1.0)
     travelled = way * (1.0 - bend * (1.0 - way))
-    trial = e + travelled * du
+    trial = e + travelled * (du + (1.0 - travelled) * surge)
     return max(min(trial, s - travelled * late), -s), s, travelled, trial
 
 
 @_inline
-def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay):
+def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay):
     """One Kelvin spring over one step: new extension, compression, share of the step in contact, trial extension.
 
     zd, ud: velocities of indenter and body at both ends of the step. rate = 1/T, decay = exp(-h/T).
@@ -81,7 +91,7 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, de
     rise = s - relaxed
     way = rise / (rise + ahead + 1e-300)
     travelled = way * (1.0 - bend_of(zd_0 + s_0 * rate, zd_1 + relaxed * rate) * (1.0 - way))
-    trial = e * (travelled + (1.0 - travelled) * decay) + travelled * du
+    trial = e * (travelled + (1.0 - travelled) * decay) + travelled * (du + (1.0 - travelled) * surge)
     lag = s_0 - e
     D_0 = zd_0 - ud_0 + lag * rate  # > 0: sticks at the start
     sticks = D_0 > 0.0
@@ -101,10 +111,11 @@ def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
     bend = bend_of(zd_0, zd_1)
     late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
+    surge = surge_of(du, ud_0, ud_1, h)
     total = 0.0
     stuck = 0.0
     for i in range(e_0.size):
-        e, _, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, inverse_dz, bend, late)
+        e, _, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, surge, inverse_dz, bend, late)
         e_1[i] = e
         total += w[i] * e
         stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
@@ -114,11 +125,12 @@ def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
 @_jit
 def kelvin_step(e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay):
     """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
+    surge = surge_of(du, ud_0, ud_1, h)
     total = 0.0
     stuck = 0.0
     for i in range(e_0.size):
         e, s, travelled, trial = kelvin_spring(
-            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay
+            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay
         )
         e_1[i] = e
         s_1[i] = s
@@ -148,7 +160,7 @@ def settle_normal(s, gap, w, z, zd, T):
             total = 0.0
             for i in range(s.size):
                 _, value, _, _ = kelvin_spring(
-                    0.0, s[i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, h, rate, decay
+                    0.0, s[i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
                 )
                 s[i] = value if decay > 0.0 else max(z[k + 1] - gap[i], 0.0)
                 total += w[i] * s[i]
@@ -290,6 +302,7 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
         ux_dot_0 = v + (3.0 * y[k + 2] - 4.0 * y[k + 1] + y[k]) / (2.0 * h)
         z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
+        surge = surge_of(du, ux_dot_0, ux_dot, h)
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
         f_x = f_z = sum_e = sum_s = stick = friction = shear_viscous = normal_viscous = shear = press = 0.0
         for i in range(e.shape[1]):
@@ -305,7 +318,7 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
             per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
             relaxed = 1.0 - (1.0 - touched) * lost
             stretched, pressed = e_1 - e_0 * relaxed, s_1 - s_0 * relaxed
-            slip_rate = (touched * du - stretched) * per_time
+            slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
             normal_impulse = 0.5 * h * (s_0 + s_1) + T * (s_1 - s_0)
             friction += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
             free = (1.0 - touched) * lost * lost / h
@@ -315,7 +328,7 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
             press += w[i] * normal_impulse
             presses = s_1 > 0.0 and s_1 <= z_1 - gap[i]
             slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
-            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-3 else np.inf
+            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
         least, first = np.inf, np.inf
         for i in range(e.shape[1]):
             least = min(least, slips[i])

@@ -7,7 +7,8 @@ reads v_c low. Two sharper signs give the digits:
 
 * a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull
   does not depend on v_0. One such run therefore locates v_c by v_0 less its smallest slip velocity;
-* stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket.
+* stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket,
+  widened by what steps and springs still move.
 
 Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
 has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes
@@ -39,8 +40,8 @@ class MeasuredVelocity:
     """A critical velocity found from runs alone."""
 
     v_c: float | None  #: [m/s]; None where there is none
-    low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, next to v_c
-    high: float | None  #: lowest velocity [m/s] seen without
+    low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
+    high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
     kind: str  #: "end of stick" (all signs agree), "grazing stick", "end of friction reduction", "hysteresis" or "none"
     why: str  #: in words
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
@@ -63,6 +64,7 @@ class _Search:
         self.case, self.start, self.n_runs = case, start, 0
         self.steps, self.n_springs = default_steps(case), 384
         oscillation = case.oscillation
+        self.doubt = 0.0  # of the end of stick [m/s], by resolution
         # only a scale of velocity; the tangential travel per unit of normal travel is mu_0 kappa
         self.scale = oscillation.omega * oscillation.du_z * case.mu_0 * case.material.mindlin_ratio
 
@@ -98,16 +100,22 @@ class _Search:
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun:
-        """Double steps and springs until neither moves the end of stick by more than the margin; the finer run."""
+        """Double steps and springs until the end of stick moves by no more than the margin; the finest run.
+
+        A first touch falls anywhere within a step, so its error is irregular: three resolutions are compared, not two.
+        """
         for knob, most in (("steps", 16384), ("n_springs", 3072)):
             while (known := getattr(self, knob)) < most:
-                setattr(self, knob, 2 * known)
-                finer = self.run(free.v_0)
-                if not _is_free(finer):
-                    return free
-                moved = abs(finer.least_slip - free.least_slip)
-                free = finer
-                if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale):
+                slips = [free.least_slip]
+                for finer in (3 * known // 2, 2 * known):
+                    setattr(self, knob, finer)
+                    run = self.run(free.v_0)
+                    if not _is_free(run):
+                        return free
+                    slips.append(run.least_slip)
+                free, moved = run, max(slips) - min(slips)
+                if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale) or 2 * known >= most:
+                    self.doubt += moved
                     break
         return free
 
@@ -176,7 +184,8 @@ class _Search:
             why += "; above it a free oscillation of the undamped body is trimmed by grazing stick, at full COF"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
-        return MeasuredVelocity(v_c, low, high, "grazing stick" if grazing else "end of stick", why, self.n_runs)
+        kind = "grazing stick" if grazing else "end of stick"
+        return MeasuredVelocity(v_c, low - self.doubt, high + self.doubt, kind, why, self.n_runs)
 
     def _lasts(self, run: SlidingRun, start: str) -> bool:
         """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""

@@ -13,8 +13,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr import measurement
 
-# design.md: v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way; the rest is the scheme,
-# which locates a stick between two steps of 2 pi/1024, to second order.
+# design.md: v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way, and wider by what
+# the resolution still moves.
 BUDGET = 1e-4
 
 #: shape, u_z0/du_z, omega tau, and the body as k_x/k_xc, omega_0/omega, damping ratio, or None for a rigid pull
@@ -30,6 +30,9 @@ MEASURED = {
     "paraboloid, body, Kelvin": ("paraboloid", 3.0, 1.0, (3.0, 1.2, 0.1)),
     "paraboloid, body, elastic": ("paraboloid", 1.25, 0.0, (0.5, 2.5, 0.2)),
     "r4, body, elastic": ("r4", 3.0, 0.0, (0.5, 2.5, 0.2)),
+    # least slip is that of a few springs in the instant of their touch, which falls anywhere within a step
+    "cone, body, touches late": ("cone", 0.876, 2.0, (0.524, 1.25, 0.0694)),
+    "paraboloid, body, touches late": ("paraboloid", 0.963, 2.0, (0.528, 1.5, 0.0919)),
 }
 
 
@@ -55,9 +58,7 @@ def check_found(found, case, expected):
     assert_allclose(found.v_c / unit_of_velocity(case), expected, rtol=BUDGET)
     assert found.low < found.v_c < found.high
     assert found.high - found.low < 2 * BUDGET * found.v_c
-    # the bracket is that of the scheme: it holds the value, or misses it by less than the budget
-    slack = BUDGET * found.v_c
-    assert found.low - slack < expected * unit_of_velocity(case) < found.high + slack
+    assert found.low < expected * unit_of_velocity(case) < found.high
 
 
 # --- the measured velocity --------------------------------------------------------------------------------------
@@ -67,13 +68,6 @@ def check_found(found, case, expected):
 def test_measured_velocity_is_that_of_full_slip(name):
     case = make(*MEASURED[name])
     check_found(mdr.measure_critical_velocity(case), case, truth(*MEASURED[name]))
-
-
-@pytest.mark.xfail(strict=True, reason="the end of stick of few springs that touch late is seen to 5e-4 only")
-def test_measured_velocity_where_a_slow_contact_is_lost():
-    groups = ("cone", 0.876, 2.0, (0.524, 1.25, 0.0694))
-    case = make(*groups)
-    check_found(mdr.measure_critical_velocity(case), case, truth(*groups))
 
 
 @pytest.mark.parametrize("name", ["flat, body, Kelvin", "cone, body, elastic", "r4, body, elastic"])
