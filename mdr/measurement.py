@@ -181,7 +181,7 @@ class _Search:
                 grazing = grazing or (run.settled and run.least_slip < 0.5 * (factor - 1) * v_c)
         why = "stick ends and the COF reaches mu_0 at the same velocity"
         if grazing:
-            why += "; above it a free oscillation of the undamped body is trimmed by grazing stick, at full COF"
+            why += "; above it the body keeps a free oscillation that grazing stick trims, at full COF"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
         kind = "grazing stick" if grazing else "end of stick"

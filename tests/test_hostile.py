@@ -41,6 +41,7 @@ class Sly(float):
 #: call, expected exception, what the message must contain
 HOSTILE = [
     # indenters
+    (lambda: mdr.Indenter(), TypeError, "Indenter is no shape"),
     (lambda: mdr.FlatPunch(a=0), ValueError, "a must be positive"),
     (lambda: mdr.FlatPunch(a=-1e-3), ValueError, "a must be positive"),
     (lambda: mdr.FlatPunch(a=NAN), ValueError, "a must be a finite number"),

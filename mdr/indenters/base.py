@@ -40,6 +40,10 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         if not cls._gives_g and cls.profile_3d is Indenter.profile_3d:
             raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
 
+    def __init__(self) -> None:
+        if type(self) is Indenter:
+            raise TypeError("Indenter is no shape itself: use Cone(...), Profile(f) or a class of your own")
+
     @property
     def kinks(self) -> tuple[float, ...]:
         """Radii > 0 where f, and with it g, is not smooth [m]: springs, quadrature and plots heed them."""
