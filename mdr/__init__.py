@@ -15,7 +15,8 @@ from mdr.springs import SpringArray
 
 from mdr.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.theory import critical_velocity
-from mdr.full_slip import full_slip_critical_velocity, static_cof
+from mdr.full_slip import static_cof
+from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.runs import EnergyBalance, SlidingRun, State
 from mdr.sliding import slide
 from mdr.friction import CofCurve, cof_curve

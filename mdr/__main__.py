@@ -120,7 +120,8 @@ def _multiple(text: str) -> float:
 
 
 def _velocity(args: argparse.Namespace, case: SlidingContact) -> int:
-    from mdr.full_slip import full_slip_critical_velocity, static_cof
+    from mdr.full_slip import static_cof
+    from mdr.full_slip_body import full_slip_critical_velocity
 
     v_c, full_slip, static = critical_velocity(case), full_slip_critical_velocity(case), static_cof(case)
     equation, kappa = _equation(case), case.material.mindlin_ratio

@@ -1,4 +1,7 @@
-"""The COF curve of a contact: one run a velocity, and the static limit at v_0 = 0."""
+"""The COF curve of a contact: in closed form under a rigid pull, else one run a velocity.
+
+The point v_0 = 0 is the static limit.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,8 @@ from mdr.checks import finite_array
 from mdr.contact import SlidingContact, require_case
 from mdr.full_slip import static_cof
 from mdr.progress import progress
+from mdr.pull import RigidPull
+from mdr.rigid_pull import average_friction
 from mdr.sliding import slide
 from mdr.theory import critical_velocity
 
@@ -50,8 +55,8 @@ class CofCurve:
 def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None) -> CofCurve:
     """COF of a case over pulling velocities v_0 >= 0 [m/s], shape (n_v,).
 
-    method: None chooses; "march" forces the time march. Raises ValueError for velocities that are negative, infinite
-    or NaN.
+    method: None takes the closed form of a rigid pull (rigid_pull.py), and a run a velocity for a body; "march" forces
+    the runs. Raises ValueError for velocities that are negative, infinite or NaN.
     """
     case = require_case(case)
     if method not in (None, "march"):
@@ -61,16 +66,43 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
         raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
     if np.any(velocities < 0):
         raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
-    runs = [slide(case, v) if v > 0 else None for v in progress(velocities.tolist(), "cof_curve")]
-    static = static_cof(case)
+    static, moving = static_cof(case), velocities > 0
+    columns = _closed_form if method is None and isinstance(case.pull, RigidPull) else _runs
+    cof, error, settled, sticks, why = columns(case, velocities[moving])
+
+    def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:
+        out = np.full(velocities.shape, limit, dtype=values.dtype)
+        out[moving] = values
+        return out
+
     return CofCurve(
         v_0=velocities,
-        cof=np.array([run.cof if run else static for run in runs]),
-        cof_error=np.array([run.cof_error if run else 0.0 for run in runs]),
-        settled=np.array([run.settled if run else True for run in runs]),
-        stick_share=np.array([run.stick_share if run else 1.0 for run in runs]),
+        cof=with_limit(cof, static),
+        cof_error=with_limit(error, 0.0),
+        settled=with_limit(settled, True),
+        stick_share=with_limit(sticks, 1.0),
         v_c=critical_velocity(case),
         mu_0=case.mu_0,
         static_cof=static,
-        why=tuple(run.why if run else "" for run in runs),
+        why=tuple(with_limit(why, "").tolist()),
+    )
+
+
+Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
+
+
+def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
+    known = average_friction(case, v_0)
+    nothing = np.full(v_0.shape, "", dtype=object)
+    return known.cof, known.cof_error, np.ones(v_0.shape, dtype=bool), known.stick_share, nothing
+
+
+def _runs(case: SlidingContact, v_0: Array) -> Columns:
+    runs = [slide(case, v) for v in progress(v_0.tolist(), "cof_curve")]
+    return (
+        np.array([run.cof for run in runs]),
+        np.array([run.cof_error for run in runs]),
+        np.array([run.settled for run in runs], dtype=bool),
+        np.array([run.stick_share for run in runs]),
+        np.array([run.why for run in runs], dtype=object),
     )

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mdr.contact import SlidingContact, require_case
-from mdr.full_slip import full_slip_critical_velocity
+from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.measurement import LEAST, MeasuredVelocity, measure_critical_velocity
-from mdr.pull import RigidPull
+from mdr.pull import RigidPull, SpringPull
 from mdr.theory import critical_velocity, eq_1
 
 CLOSE = 2e-4  #: of v_c: what a measurement can resolve, bracket and scheme together
@@ -62,7 +62,11 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
     if not np.isfinite(eq_15):
         yield "the body is driven at its undamped natural frequency, where the formula has its pole"
     if not np.isfinite(full) and np.isfinite(eq_15):
-        yield "a harmonic of the normal force drives the body at its undamped natural frequency"
+        yield (
+            "a harmonic of the normal force drives the body at its undamped natural frequency"
+            if isinstance(case.pull, SpringPull) and case.pull.m > 0
+            else "dashpots that touch again throw the body, which has no inertia, at unbounded velocity for an instant"
+        )
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"
     confirmed = found.v_c is not None and abs(full / found.v_c - 1) < 10 * CLOSE

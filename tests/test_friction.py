@@ -111,7 +111,8 @@ def test_measuring_sees_runs_only(monkeypatch):
     def refuse(*args, **kwargs):
         raise AssertionError("a closed form was asked")
 
-    for name in ("theory.critical_velocity", "theory.eq_1", "theory.eq_15", "full_slip.full_slip_critical_velocity"):
+    closed = ("theory.critical_velocity", "theory.eq_1", "theory.eq_15", "full_slip_body.full_slip_critical_velocity")
+    for name in closed:
         monkeypatch.setattr(f"mdr.{name}", refuse)
     assert not {"critical_velocity", "full_slip_critical_velocity", "eq_1", "eq_15"} & set(vars(measurement))
     assert mdr.measure_critical_velocity(make(*MEASURED["cone, body, elastic"])).v_c > 0

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr.full_slip import full_slip
 
 NAN, INF = math.nan, math.inf
 RUBBER = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
@@ -189,8 +190,8 @@ OPEN = [
     (lambda: mdr.full_slip_critical_velocity(mdr.SlidingContact), TypeError, "case must be"),
     (lambda: mdr.parse_case(3), TypeError, "text must be"),
     (lambda: mdr.write_case(BALL), TypeError, "case must be"),
-    (lambda: mdr.full_slip_critical_velocity(CASE, n_t=0), ValueError, "n_t must be"),
-    (lambda: mdr.full_slip_critical_velocity(CASE, n_t=64.5), TypeError, "n_t must be"),
+    (lambda: full_slip(CASE, n_t=0), ValueError, "n_t must be"),
+    (lambda: full_slip(CASE, n_t=64.5), TypeError, "n_t must be"),
 ]
 
 

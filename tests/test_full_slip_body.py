@@ -1,0 +1,221 @@
+"""The body in full slip against the twin's shooting, a harmonic sum, Eqs. (1) and (15), and where it is infinite."""
+
+import math
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, contact, unit_of_velocity
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.full_slip import full_slip
+
+CURVED = ["cone", "paraboloid", "r4"]
+DAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15}
+SOFT = {"k_ratio": 0.05, "omega_0_ratio": 0.4, "c_ratio": 0.0}
+STIFF = {"k_ratio": 5.0, "omega_0_ratio": 7.3, "c_ratio": 0.0}
+BODIES = {"damped": DAMPED, "soft": SOFT, "stiff": STIFF}
+BUDGET = 1e-8
+
+
+def v_hat_c(case):
+    return mdr.full_slip_critical_velocity(case) / unit_of_velocity(case)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5, 2.5])
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_a_punch_that_keeps_contact_has_eq_15(body, T):
+    case = contact("flat", 3.0, T, **body)
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-10)
+
+
+@pytest.mark.parametrize("omega_0_ratio", [math.inf, 1e3])
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_a_light_body_has_eq_15_too(T, omega_0_ratio):
+    case = contact("flat", 3.0, T, 0.7, omega_0_ratio, 0.1)
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-9)
+
+
+@pytest.mark.parametrize(("depth_ratio", "T"), [(30.0, 0.0), (1.01, 0.0), (4.0, 3.0)])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_rigid_pull_that_keeps_contact_has_eq_1(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    assert case.keeps_contact
+    assert_allclose(v_hat_c(case), 1, rtol=1e-12)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.3, 3.0])
+@pytest.mark.parametrize("depth_ratio", [0.6, 0.0, -0.5, -0.9])
+@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
+def test_a_rigid_pull_that_touches_late_against_the_twin(shape, depth_ratio, T):
+    n = SHAPES[shape][1]
+    assert_allclose(
+        v_hat_c(contact(shape, depth_ratio, T)), reference.full_slip_critical_velocity(n, depth_ratio, T), rtol=BUDGET
+    )
+
+
+def test_a_touch_after_the_steepest_instant_in_closed_form():
+    # elastic, u_z0 = -du_z/2: it touches at cos t = 1/2 before the top, where the depth rises at sin(pi/3)
+    assert_allclose(v_hat_c(contact("cone", -0.5)), math.sin(math.pi / 3), rtol=BUDGET)
+
+
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+@pytest.mark.parametrize("depth_ratio", [10.0, 3.0, 1.5])
+@pytest.mark.parametrize("shape", CURVED)
+def test_elastic_body_against_the_twin(shape, depth_ratio, body):
+    got = v_hat_c(contact(shape, depth_ratio, 0.0, **body))
+    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, 0.0, **body)
+    assert_allclose(got, twin, rtol=BUDGET)
+
+
+@pytest.mark.parametrize(("T", "body"), [(0.3, SOFT), (3.0, DAMPED)])
+@pytest.mark.parametrize("shape", CURVED)
+def test_kelvin_body_against_the_twin(shape, T, body):
+    got = v_hat_c(contact(shape, 5.0, T, **body))
+    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], 5.0, T, **body)
+    assert_allclose(got, twin, rtol=BUDGET)
+
+
+@pytest.mark.parametrize("body", [DAMPED, SOFT], ids=["damped", "soft"])
+@pytest.mark.parametrize(
+    ("shape", "depth_ratio", "T"),
+    [
+        ("flat", 0.6, 0.0),
+        ("r4", 0.6, 0.0),
+        ("cone", 0.6, 0.0),
+        ("flat", 0.6, 0.3),
+        ("paraboloid", 0.6, 0.3),
+        ("cone", 3.0, 3.0),
+    ],
+)
+def test_body_on_a_contact_that_is_lost_against_the_twin(shape, depth_ratio, T, body):
+    got = v_hat_c(contact(shape, depth_ratio, T, **body))
+    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
+    assert_allclose(got, twin, rtol=BUDGET)
+
+
+@pytest.mark.parametrize("shape", CURVED)
+def test_small_amplitudes_lead_to_eq_15(shape):
+    deviations = []
+    for depth_ratio in (100.0, 1000.0):
+        case = contact(shape, depth_ratio, 0.0, **DAMPED)
+        deviations.append(abs(mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1))
+    assert 1e-8 < deviations[0] < 1e-2  # something is there to vanish
+    assert deviations[1] < 0.2 * deviations[0]  # at least linearly
+
+
+# --- resonance ---
+
+
+def on_resonance(shape, multiple, c_x=0.0, depth_ratio=3.0, T=0.0):
+    """omega_0 = multiple * omega, in numbers exact in binary."""
+    case = contact(shape, depth_ratio, T, omega=256.0)
+    pull = mdr.SpringPull(k_x=2.0**18 * multiple**2 / 16, m=0.25, c_x=c_x)
+    assert pull.omega_0 == multiple * 256.0
+    return mdr.SlidingContact(case.indenter, case.material, case.mu_0, case.oscillation, pull)
+
+
+@pytest.mark.parametrize(
+    ("shape", "T", "multiple"),
+    [
+        ("cone", 0.0, 1),
+        ("cone", 0.0, 2),
+        ("cone", 0.5, 3),
+        ("paraboloid", 0.0, 3),
+        ("paraboloid", 0.5, 2),
+        ("r4", 0.0, 4),
+    ],
+)
+def test_it_is_infinite_on_the_resonance_of_any_harmonic(shape, T, multiple):
+    assert math.isinf(mdr.full_slip_critical_velocity(on_resonance(shape, multiple, T=T)))
+    assert math.isfinite(mdr.full_slip_critical_velocity(on_resonance(shape, multiple, c_x=1e-3, T=T)))
+
+
+@pytest.mark.parametrize("multiple", [2, 3, 10])
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_a_punch_that_keeps_contact_has_no_higher_harmonics_to_resonate(T, multiple):
+    case = on_resonance("flat", multiple, T=T)
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-9)
+
+
+def test_an_elastic_cone_that_keeps_contact_has_two_harmonics():
+    # F_N ~ (u_z0 + du_z cos)**2 drives at omega and 2 omega and at nothing else
+    for multiple in (3, 4):
+        assert math.isfinite(mdr.full_slip_critical_velocity(on_resonance("cone", multiple)))
+
+
+def test_a_punch_resonates_at_its_one_harmonic_and_at_all_when_contact_is_lost():
+    assert math.isinf(mdr.full_slip_critical_velocity(on_resonance("flat", 1)))
+    assert math.isinf(mdr.full_slip_critical_velocity(on_resonance("flat", 2, depth_ratio=0.6)))
+
+
+# --- any body, any shape ---
+
+
+def test_forty_bodies_off_resonance_against_the_twin():
+    rng = np.random.default_rng(5)
+    for _ in range(40):
+        shape, T = rng.choice(list(SHAPES)), rng.choice([0.0, 0.1, 1.0, 5.0, 20.0])
+        depth_ratio = rng.choice([rng.uniform(0.05, 1.2), rng.uniform(1.2, 8)])
+        k, omega_0 = rng.uniform(0.2, 3), rng.choice([0.4, 1.25, 2.3, 3.4, 10.3])
+        c = reference.damping_for(rng.choice([0.0, rng.uniform(0, 0.15)]), k, omega_0)
+        twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, k, omega_0, c)
+        got = v_hat_c(contact(shape, depth_ratio, T, k, omega_0, c))
+        assert_allclose(got, twin, rtol=BUDGET, err_msg=f"{shape} {depth_ratio} {T} {k} {omega_0} {c}")
+
+
+@pytest.mark.parametrize("c_ratio", [0.0, 0.3])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_body_without_mass_against_a_sum_of_harmonics(shape, c_ratio):
+    """Elastic and always in contact, the force is analytic: 256 instants hold all its harmonics."""
+    case = contact(shape, 3.0, 0.0, 0.7, math.inf, c_ratio)
+    omega, n = case.oscillation.omega, np.arange(129)
+    F_n = np.fft.rfft(full_slip(case, 256).F_N) / 256
+    H = case.pull.receptance(n * omega)
+    phase = 2 * np.pi * np.arange(20_000)[:, None] / 20_000
+    y_dot = -2 * case.mu_0 * (1j * n * omega * H * F_n * np.exp(1j * n * phase)).real.sum(axis=1)
+    slope = -unit_of_velocity(case) * np.sin(phase[:, 0]) - y_dot
+    # the highest of 20 000 instants misses a smooth top by half a step squared over two
+    assert_allclose(mdr.full_slip_critical_velocity(case), slope.max(), rtol=3e-8)
+
+
+def test_a_light_body_tends_to_one_without_mass():
+    without = v_hat_c(contact("paraboloid", 3.0, 0.0, 0.7, math.inf, 0.1))
+    misses = [abs(v_hat_c(contact("paraboloid", 3.0, 0.0, 0.7, ratio, 0.1)) / without - 1) for ratio in (30, 300)]
+    assert misses[1] < misses[0] / 50  # mass enters as (omega/omega_0)**2
+    assert misses[1] < 1e-4
+
+
+def test_a_kinked_profile_against_its_closed_form():
+    """A paraboloid as a callable, and one with an idle kink: mapped by quadrature to 1e-9."""
+    ball = contact("paraboloid", 2.0, 0.5, **DAMPED)
+    for kinks in ((), (1e-4,)):
+        shape = mdr.Profile(lambda r: r**2 / 1e-2, kinks=kinks, name="ball")
+        assert_allclose(v_hat_c(contact(shape, 2.0, 0.5, **DAMPED)), v_hat_c(ball), rtol=BUDGET)
+
+
+@pytest.mark.parametrize("shape", ["flat", "paraboloid", "r4"])
+def test_a_light_body_jumps_when_dashpots_touch(shape):
+    assert math.isinf(v_hat_c(contact(shape, 0.5, 1.0, 0.7, math.inf)))
+    assert math.isfinite(v_hat_c(contact(shape, 0.5, 1.0, 0.7, math.inf, 0.1)))
+    assert math.isfinite(v_hat_c(contact(shape, 0.5, 0.0, 0.7, math.inf)))
+
+
+def test_a_sharp_tip_touches_without_a_jump():
+    assert math.isfinite(v_hat_c(contact("cone", 0.5, 1.0, 0.7, math.inf)))
+
+
+@pytest.mark.parametrize("length", [1e-9, 1e6])
+def test_units_do_not_matter(length):
+    """Lengths in another unit, with moduli, masses and dampers that keep all groups."""
+    case = contact("paraboloid", 1.3, 0.5, **DAMPED)
+    osc, pull = case.oscillation, case.pull
+    other = mdr.SlidingContact(
+        mdr.Paraboloid(R=case.indenter.R * length),
+        case.material,
+        case.mu_0,
+        mdr.NormalOscillation(osc.u_z0 * length, osc.du_z * length, osc.omega),
+        mdr.SpringPull(pull.k_x * length, pull.m * length, pull.c_x * length),
+    )
+    assert_allclose(v_hat_c(other), v_hat_c(case), rtol=1e-12)

@@ -1,0 +1,201 @@
+"""The closed form of a rigid pull against the twin, the march, its own asymptotics, and the definition of friction."""
+
+import math
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, contact, unit_of_velocity
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr import rigid_pull, theory
+from mdr.rigid_pull import average_friction, near_critical, small_velocity
+
+KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
+
+
+def friction(case, v_hat):
+    found = average_friction(case, np.asarray(v_hat) * unit_of_velocity(case))
+    return found.cof / case.mu_0, found.cof_error / case.mu_0, found.stick_share
+
+
+def refined_elastic(n, depth_ratio, v_hat):
+    return reference.rigid_elastic_cof(n, depth_ratio, v_hat, n_nodes=60, levels=4)
+
+
+# --- the value --------------------------------------------------------------------------------------------------
+
+
+def test_two_hundred_elastic_contacts_against_the_twin():
+    rng = np.random.default_rng(7)
+    worst = []
+    for _ in range(200):
+        shape = rng.choice(list(SHAPES))
+        depth_ratio = 1 / rng.uniform(0.01, 50) if rng.random() < 0.8 else -rng.uniform(0, 0.9)
+        v_hat = rng.choice([10 ** rng.uniform(-4, 0), rng.uniform(0, 1), 1 - 10 ** rng.uniform(-4, 0)])
+        cof, error, _ = friction(contact(shape, depth_ratio), v_hat)
+        twin = refined_elastic(SHAPES[shape][1], depth_ratio, v_hat)
+        worst.append(abs(cof - twin))
+        assert abs(cof - twin) <= error + 1e-12, (shape, depth_ratio, v_hat)  # the twin's own quadrature
+    assert max(worst) <= ELASTIC_BUDGET
+
+
+def test_a_hundred_kelvin_contacts_against_the_twin():
+    rng = np.random.default_rng(8)
+    worst = []
+    for _ in range(100):
+        shape, T, v_hat = rng.choice(list(SHAPES)), 10 ** rng.uniform(-2, 1.48), rng.uniform(0.005, 0.995)
+        depth_ratio = 10 ** rng.uniform(-1.7, 1.5) if rng.random() < 0.8 else -rng.uniform(0, 0.9)
+        cof, error, _ = friction(contact(shape, depth_ratio, T), v_hat)
+        twin = reference.rigid_kelvin_cof(SHAPES[shape][1], depth_ratio, v_hat, T, n_nodes=30, levels=7)
+        worst.append(abs(cof - twin))
+        assert abs(cof - twin) <= error + 2e-11, (shape, depth_ratio, T, v_hat)  # the twin's own quadrature
+    assert max(worst) <= KELVIN_BUDGET
+
+
+@pytest.mark.parametrize("v_hat", [0.03, 0.4, 0.9])
+def test_the_punch_has_the_deficit_of_one_spring(v_hat):
+    cof, _, _ = friction(contact("flat", 3.0), v_hat)
+    assert_allclose(1 - cof, theory.deficit(v_hat) / 3, rtol=1e-11)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.7])
+def test_above_v_c_friction_is_full_and_nothing_sticks(T):
+    cof, error, sticks = friction(contact("cone", 2.0, T), [1.0, 1.3, 1e6])
+    assert np.all(cof == 1)
+    assert np.all(sticks == 0)
+    assert np.all(error < 1e-12)
+
+
+@pytest.mark.parametrize("T", [1e-9, 1e-5])
+def test_a_fast_material_is_elastic(T):
+    for shape in ("cone", "flat"):
+        v_hat = np.array([0.1, 0.6])
+        fast, elastic = friction(contact(shape, 0.8, T), v_hat)[0], friction(contact(shape, 0.8), v_hat)[0]
+        assert_allclose(fast, elastic, rtol=0, atol=4 * T)
+
+
+def test_a_shape_with_a_kink_and_a_rim_against_a_sum_over_its_springs():
+    """A cone of two slopes on a punch of finite radius; g is known in closed form piece by piece."""
+    b, rim, slope = 0.6e-3, 1.1e-3, 0.01
+    shape = mdr.Profile(
+        lambda r: slope * r + 2 * slope * np.maximum(r - b, 0), kinks=(b,), r_max=rim, name="two slopes"
+    )
+    du_z, u_z0 = 12e-6, 24e-6  # passes the kink and the rim, and loses contact nowhere else
+
+    def g(x):
+        beyond = np.maximum(x, b)
+        return np.pi / 2 * slope * x + 2 * slope * beyond * np.arccos(b / beyond)
+
+    case = mdr.SlidingContact(shape, mdr.Elastic(3e6, 0.4), 0.4, mdr.NormalOscillation(u_z0, du_z, 300.0))
+    assert g(b) < u_z0 + du_z
+    for v_hat in (0.2, 0.7):
+        edge = math.sqrt(1 - v_hat**2)
+        marks = [case.indenter.contact_radius(u_z0 - h * du_z) for h in (-1.0, -edge, 0.0, edge, 1.0)]
+        breaks = np.unique([0.0, b, rim, *marks])
+        x, w = reference.gauss_panels(reference.graded(breaks, 0.1, 6), 30)
+        h = (u_z0 - g(x)) / du_z
+        twin = 1 - reference.elastic_lag(h, v_hat) @ w / (reference.mean_compression(h, 0.0) @ w)
+        assert_allclose(friction(case, v_hat)[0], twin, rtol=0, atol=2e-9)  # Profile maps to 1e-9
+
+
+@pytest.mark.parametrize("T", [0.0, 0.4, 3.0])
+@pytest.mark.parametrize(("shape", "depth_ratio"), [("flat", 5.0), ("paraboloid", 3.0), ("cone", 0.7), ("r4", 0.0)])
+def test_the_march_agrees_within_its_own_bound(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    for v_hat in (0.1, 0.55, 0.9):
+        run = mdr.slide(case, v_hat * unit_of_velocity(case))
+        cof, _, sticks = friction(case, v_hat)
+        assert abs(run.cof / case.mu_0 - cof) <= run.cof_error / case.mu_0
+        # modes are counted at the nodes: a few steps of a period of 1024, and a few springs of 512
+        assert_allclose(run.stick_share, sticks, rtol=0, atol=8e-3)
+
+
+def test_the_stick_of_the_punch_in_closed_form():
+    """Elastic, contact kept: the stick runs from phi_1 to phi_2, and the force is u_z0 + du_z cos phi."""
+    v_hat, depth_ratio = 0.3, 4.0
+    phi_1 = math.pi + math.asin(v_hat)
+    phi_2 = float(reference.elastic_stick(np.array([depth_ratio]), v_hat)[1][0])
+    share = (depth_ratio * (phi_2 - phi_1) + math.sin(phi_2) - math.sin(phi_1)) / (2 * math.pi * depth_ratio)
+    assert_allclose(friction(contact("flat", depth_ratio), v_hat)[2], share, rtol=1e-12)
+
+
+# --- what follows from it ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("shape", "depth_ratio", "T"),
+    [("flat", 3.0, 0.0), ("cone", 0.5, 0.0), ("paraboloid", 3.0, 0.0), ("flat", 5.0, 1.0), ("r4", 4.0, 0.3)],
+)
+def test_near_v_c(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    law = near_critical(case)
+    assert law.power == (1.5 if T else 2.0)
+    short = np.array([1e-3, 1e-4])
+    ratio = (1 - friction(case, 1 - short)[0]) / (law.coefficient * short**law.power)
+    # the next term is a power of one half higher, and for a Kelvin contact the elastic term beside it goes like 1/T
+    miss = np.abs(ratio - 1)
+    assert miss[1] < 3 * math.sqrt(short[1]) * (1 + (1 / T if T else 0))
+    assert miss[1] < 0.5 * miss[0]
+
+
+@pytest.mark.parametrize(
+    ("shape", "depth_ratio", "T", "power"),
+    [
+        ("flat", 3.0, 0.0, 1.0),
+        ("cone", 0.5, 0.0, 1.0),
+        ("paraboloid", 3.0, 0.0, 1.0),
+        ("flat", 5.0, 1.0, 2 / 3),
+        ("paraboloid", 4.0, 0.3, 2 / 3),
+    ],
+)
+def test_near_rest(shape, depth_ratio, T, power):
+    case = contact(shape, depth_ratio, T)
+    law = small_velocity(case)
+    assert law.power == power
+    v_hat = np.array([1e-4, 1e-6])
+    rise = friction(case, v_hat)[0] - mdr.static_cof(case) / case.mu_0
+    miss = np.abs(rise / (law.coefficient * v_hat**power) - 1)
+    assert miss[1] < 0.02
+    assert miss[1] < 0.4 * miss[0]
+
+
+def test_asymptotes_that_are_not_known_are_refused():
+    with pytest.raises(ValueError, match="lost entirely"):
+        small_velocity(contact("flat", 0.5, 1.0))
+    with pytest.raises(ValueError, match="open at the instant of fastest approach"):
+        near_critical(contact("cone", -0.2))
+
+
+# --- the curve, and wrong input ---------------------------------------------------------------------------------
+
+
+def test_a_curve_takes_the_closed_form_by_itself():
+    case = contact("paraboloid", 3.0, 0.5)
+    v_0 = unit_of_velocity(case) * np.array([[0.0, 0.4, 1.2]])[0]
+    curve, known = mdr.cof_curve(case, v_0), average_friction(case, v_0[1:])
+    assert np.array_equal(curve.cof[1:], known.cof)
+    assert np.array_equal(curve.stick_share[1:], known.stick_share)
+    assert np.all(curve.cof_error[1:] <= KELVIN_BUDGET * case.mu_0)
+    assert curve.cof[0] == mdr.static_cof(case)
+    assert curve.settled.all()
+    assert curve.why == ("", "", "")
+
+
+def test_it_shares_no_code_with_the_march():
+    assert not {"kernels", "slide", "march", "SpringArray", "ScaledContact"} & set(vars(rigid_pull))
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "match"),
+    [
+        (lambda: average_friction(contact("flat", 3.0, 0.0, 0.7, 1.6), 1e-3), TypeError, "rigid pull"),
+        (lambda: average_friction("case", 1e-3), TypeError, "case must be"),
+        (lambda: average_friction(contact("flat"), [1e-3, 0.0]), ValueError, "v_0 must be positive"),
+        (lambda: average_friction(contact("flat"), math.nan), ValueError, "v_0 must be finite"),
+    ],
+)
+def test_wrong_input(call, error, match):
+    with pytest.raises(error, match=match):
+        call()
