@@ -120,29 +120,27 @@ def _collocation() -> tuple[Array, Array, Array]:
 
 
 def _velocity(pull: SpringPull, panels: _Panels, mu_0: float, omega: float) -> Array:
-    """y' [m/s] of the body on the nodes, shape (n_panels, N_NODES)."""
+    """y' [m/s] of the body on the nodes, shape (n_panels, N_NODES); the phase is its time, so that all are lengths."""
     nodes, into, across = _collocation()
     force = -mu_0 * (panels.force - panels.mean)
-    h = ((panels.high - panels.low) / omega)[:, None, None]
+    M, C, K = pull.m * omega**2, pull.c_x * omega, pull.k_x
+    h = (panels.high - panels.low)[:, None, None]
     one, unit = np.ones_like(force), np.eye(nodes.size)
-    if pull.m > 0:  # the rate of w = y' is r: w = w_0 + h into r, y = y_0 + h nodes w_0 + h² into² r
-        stiffness = pull.k_x * h
-        matrix = pull.m * unit + h * (pull.c_x * into + stiffness * (into @ into))
-        of_w = -pull.c_x * one - stiffness[:, 0] * nodes
-        r = np.linalg.solve(matrix, np.stack([force, -pull.k_x * one, of_w], axis=2))
+    if M > 0:  # the rate of w = y' is r: w = w_0 + h into r, y = y_0 + h nodes w_0 + h² into² r
+        matrix = M * unit + h * (C * into + K * h * (into @ into))
+        r = np.linalg.solve(matrix, np.stack([force, -K * one, -C * one - K * h[:, 0] * nodes], axis=2))
         w = h * (into @ r) + np.array([0, 0, 1])
         y_end = h[:, 0] * (across @ w) + np.array([0, 1, 0])
         w_end = h[:, 0] * (across @ r) + np.array([0, 0, 1])
         start = _periodic(np.stack([y_end, w_end], axis=1))
-        return np.asarray(w[:, :, 0] + w[:, :, 1] * start[:, :1] + w[:, :, 2] * start[:, 1:])
-    if pull.c_x > 0:  # c w + k (y_0 + h into w) = force
-        w = np.linalg.solve(pull.c_x * unit + pull.k_x * h * into, np.stack([force, -pull.k_x * one], axis=2))
+        return np.asarray(w[:, :, 0] + w[:, :, 1] * start[:, :1] + w[:, :, 2] * start[:, 1:]) * omega
+    if C > 0:  # C w + K (y_0 + h into w) = force
+        w = np.linalg.solve(C * unit + K * h * into, np.stack([force, -K * one], axis=2))
         start = _periodic((h[:, 0] * (across @ w) + np.array([0, 1]))[:, None, :])
-        return np.asarray(w[:, :, 0] + w[:, :, 1] * start)
-    slope = legendre.legvander(2 * nodes - 1, N_NODES - 2) @ legendre.legder(
-        np.linalg.inv(legendre.legvander(2 * nodes - 1, N_NODES - 1))
-    )
-    return np.asarray(force @ slope.T * 2 / h[:, 0] / pull.k_x)
+        return np.asarray(w[:, :, 0] + w[:, :, 1] * start) * omega
+    x = 2 * nodes - 1
+    slope = legendre.legvander(x, N_NODES - 2) @ legendre.legder(np.linalg.inv(legendre.legvander(x, N_NODES - 1)))
+    return np.asarray(force @ slope.T * 2 / h[:, 0] / K) * omega
 
 
 def _periodic(maps: Array) -> Array:

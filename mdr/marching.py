@@ -1,8 +1,9 @@
 """The march of one contact through its periods, in scaled form: the one bridge to the compiled kernels.
 
-A march starts on the full-slip solution, or from rest, goes on until windows of periods agree (settling.py), and
-looks closely at its last periods: modes, forces and energies. If its core was lumped and turns out not to move as
-one, the march is done again with every spring for itself.
+A march starts on the full-slip solution, or from rest. From full slip the periodic state of a body is solved for
+(periodic.py); where that finds none, from rest, and under a rigid pull, which needs a period or two, the march goes on
+until windows of periods agree (settling.py). Then it looks closely at its last periods: modes, forces and energies. If
+its core was lumped and turns out not to move as one, the march is done again with every spring for itself.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr import kernels
+from mdr import kernels, periodic
 from mdr.contact import SlidingContact
 from mdr.scaled import ScaledContact
 from mdr.settling import Settling, judge
@@ -85,8 +86,12 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     v = v_0 / scaled.speed
     line = Line(scaled, v, knobs.start)
     n_seen = max(1, knobs.record)
-    settling = line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"]) if n_periods is None else None
-    if n_periods is not None:
+    settling = None
+    if n_periods is None:
+        if scaled.K and knobs.start == "full_slip":
+            settling = line.solve()
+        settling = settling or line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"])
+    else:
         line.advance(n_periods - n_seen)
     seen = [line.observe(keep=knobs.record > 0) for _ in range(n_seen)]
     if not line.as_one:  # the core did not move as one after all: every spring for itself
@@ -195,6 +200,50 @@ class Line:
         while not (settling := self.judge()).settled and self.n_periods < most and self.as_one:
             self.advance(max(4, self.n_periods // 2))
         return settling
+
+    def solve(self) -> Settling | None:
+        """Put the line into the periodic state that a march would end in, if there is one; else leave it as it was."""
+        start = self._state()
+        to_size, kicks = self._measures()
+        found = periodic.find(self._period_from, start, to_size, kicks)
+        if found is None:
+            self._put(start)
+            self.cofs, self.swings = np.empty(0), np.empty(0)
+            return None
+        self._put(found.x)
+        self.advance(1)
+        # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
+        spread = 2 * found.distance * float(np.linalg.norm(to_size @ found.x)) / self.mean_F_z
+        return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
+
+    def _state(self) -> Array:
+        return np.concatenate([self.e, self.history])
+
+    def _put(self, x: Array) -> None:
+        """Take over a state; a combination of states may leave the cone of friction, which it is clipped to."""
+        n = self.e.size
+        s = self._compression(0)
+        self.e[:] = np.clip(x[:n], -s, s)
+        self.history[:] = x[n:]
+        self.history[3] = float(self.scaled.w @ self.e)
+
+    def _period_from(self, x: Array) -> Array:
+        self._put(x)
+        self.advance(1)
+        return self._state()
+
+    def _measures(self) -> tuple[Array, tuple[Array, ...]]:
+        """What makes a state a vector whose square is an energy, and pushes of unit size in position and velocity."""
+        scaled, n = self.scaled, self.e.size
+        to_size = np.zeros((n + 2, n + 5))
+        to_size[:n, :n] = np.diag(np.sqrt(scaled.w))
+        to_size[n, n] = np.sqrt(scaled.K)
+        inertia = np.sqrt(scaled.M) if scaled.M else np.sqrt(scaled.K)
+        to_size[n + 1, n : n + 2] = np.array([1, -1]) * inertia / scaled.h
+        position, velocity = np.zeros(n + 5), np.zeros(n + 5)
+        position[n : n + 3] = 1 / np.sqrt(scaled.K)
+        velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / inertia
+        return to_size, (position, velocity)
 
     def judge(self) -> Settling:
         """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""

@@ -26,6 +26,7 @@ class Settling:
     spread: float  #: bound on what is missing to the limit; infinite when the run is too short to tell
     settled: bool  #: whether the spread is below the tolerance
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
+    solved: bool = False  #: whether the periodic state was solved for (periodic.py), not awaited
 
 
 def judge(values: NDArray[np.float64], tolerance: float) -> Settling:

@@ -78,7 +78,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         main = march(case, v_0, knobs)
         if not main.settling.settled:
             return finish(main)
-        as_long = main.n_periods - len(main.record) + 1  # whatever is kept
+        # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
+        as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1
         error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long))
         half, most = (
             march(case, v_0, knobs.coarser(steps), as_long) for steps in (knobs.steps // 2, 3 * knobs.steps // 4)
@@ -103,7 +104,8 @@ def _difference(main: March, companion: March) -> float:
     """
     if main.cof == companion.cof:
         return 0.0
+    missing = companion.settling.spread if main.settling.solved else 0.0
     finer_steps = main.knobs.steps > companion.knobs.steps
     coarseness = (2 * np.pi / main.knobs.steps) ** 2 if finer_steps else 4.0 / main.knobs.n_springs**2
     psi = min(max(1 - main.cof, 0.0) * main.mean_F_z, 1.0)
-    return abs(main.cof - companion.cof) + 0.015 * coarseness / main.mean_F_z * float(psi**0.25)
+    return missing + abs(main.cof - companion.cof) + 0.015 * coarseness / main.mean_F_z * float(psi**0.25)

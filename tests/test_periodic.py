@@ -1,0 +1,141 @@
+"""The periodic solver on maps whose fixed points are known, and on bodies against a march that waits."""
+
+import math
+
+import numpy as np
+import pytest
+import reference
+from conftest import contact
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr import periodic
+from mdr.marching import Knobs, Line, march
+
+RNG = np.random.default_rng(11)
+POINT = RNG.normal(size=6)
+KICKS = (np.eye(6)[0], np.eye(6)[1])
+
+
+def linear(slow, fast=0.01):
+    """A map with fixed point POINT: a slow block of two, as a body has, and fast ones, as springs are."""
+    slow = np.atleast_2d(slow)
+    A = fast * RNG.normal(size=(6, 6)) / 6
+    A[:2, :] = 0
+    A[:2, :2] = slow
+    return lambda x: POINT + A @ (x - POINT)
+
+
+def turning(size, angle):
+    return size * np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+
+
+@pytest.mark.parametrize(
+    ("block", "multiplier"),
+    [(turning(0.9, 1.0), 0.9), (turning(0.999, 0.3), 0.999), (np.diag([0.99, -0.95]), 0.99), (np.zeros((2, 2)), 0.0)],
+)
+def test_a_stable_fixed_point_is_found_with_its_multiplier(block, multiplier):
+    found = periodic.find(linear(block), POINT + RNG.normal(size=6), np.eye(6), KICKS)
+    assert multiplier - 1e-6 <= found.multiplier <= multiplier + 0.01  # the fast ones, a hundredth, may add to it
+    size = np.linalg.norm(POINT)
+    assert np.linalg.norm(found.x - POINT) <= 2 * found.distance * size
+    assert found.distance < 1e-6
+
+
+@pytest.mark.parametrize(
+    "block",
+    [turning(1.0, 1.0), turning(1.01, 0.3), np.diag([1.02, 0.5]), np.diag([-1.1, 0.5])],
+    ids=["neutral", "spiralling out", "running off", "period of two"],
+)
+def test_what_does_not_return_when_pushed_is_no_answer(block):
+    assert periodic.find(linear(block), POINT + 1e-3 * RNG.normal(size=6), np.eye(6), KICKS) is None
+
+
+def test_a_map_with_a_corner():
+    """Friction clips: the fixed point lies on the clipped side."""
+
+    def step(x):
+        return np.clip(linear(turning(0.98, 0.7))(x), -np.inf, POINT + 0.3)
+
+    found = periodic.find(step, POINT + 2.0, np.eye(6), KICKS)
+    assert_allclose(found.x, POINT, atol=1e-8)
+
+
+def test_no_fixed_point_is_no_answer():
+    assert periodic.find(lambda x: x + 1.0, np.zeros(6), np.eye(6), KICKS) is None
+
+
+# --- bodies -----------------------------------------------------------------------------------------------------
+
+#: shape, depth ratio, T, k ratio, omega_0/omega, damping ratio, share of v_c
+BODIES = {
+    "punch, elastic": ("flat", 6.5, 0.0, 0.34, 1.61, 0.028, 0.37),
+    "punch, Kelvin, no damper": ("flat", 4.0, 0.5, 0.35, 1.36, 0.0, 0.55),
+    "cone, slow beat": ("cone", 3.7, 0.0, 0.25, 0.42, 0.0025, 0.94),
+    "paraboloid, near resonance": ("paraboloid", 2.77, 0.0, 0.99, 0.995, 0.0, 0.68),
+    "paraboloid, contact lost": ("paraboloid", 0.35, 2.0, 0.55, 1.23, 0.017, 0.17),
+    "r4, no mass": ("r4", 3.0, 0.3, 0.7, math.inf, 0.0, 0.5),
+}
+
+
+def body(shape, depth_ratio, T, k, omega_0, zeta, share):
+    c = 0.0 if math.isinf(omega_0) else reference.damping_for(zeta, k, omega_0)
+    case = contact(shape, depth_ratio, T, k, omega_0, c)
+    return case, share * mdr.full_slip_critical_velocity(case)
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
+    case, v_0 = body(*BODIES[name])
+    knobs = Knobs(n_springs=96, steps=512, start="full_slip", lump=True)
+    solved = march(case, v_0, knobs)
+    monkeypatch.setattr(Line, "solve", lambda self: None)
+    awaited = march(case, v_0, knobs)
+    assert solved.settling.solved
+    assert solved.settling.settled
+    assert not awaited.settling.solved
+    assert abs(solved.cof - awaited.cof) <= solved.settling.spread + awaited.settling.spread
+    # and once more, until nothing moves
+    more = march(case, v_0, knobs, 20 * awaited.n_periods)
+    assert abs(solved.cof - more.settling.mean) <= solved.settling.spread + max(more.settling.spread, 1e-12)
+
+
+def test_a_failed_search_leaves_no_trace(monkeypatch):
+    case, v_0 = body(*BODIES["punch, elastic"])
+    knobs = Knobs(n_springs=32, steps=128, start="full_slip", lump=True)
+    with monkeypatch.context() as patch:
+        patch.setattr(Line, "solve", lambda self: None)
+        untouched = march(case, v_0, knobs)
+    monkeypatch.setattr(periodic, "STABLE", -1.0)
+    failed = march(case, v_0, knobs)
+    assert failed.cof == untouched.cof
+    assert failed.n_periods == untouched.n_periods
+
+
+def test_a_start_from_rest_is_awaited():
+    case, v_0 = body(*BODIES["punch, elastic"])
+    assert not march(case, v_0, Knobs(32, 128, "rest", True)).settling.solved
+
+
+def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
+    """Lightly damped bodies, the median; waiting is stopped as soon as it has the same spread."""
+    rng = np.random.default_rng(4)
+    shares = []
+    for _ in range(12):
+        case, v_0 = body(
+            rng.choice(["flat", "cone", "paraboloid", "r4"]),
+            rng.uniform(1, 8),
+            rng.choice([0.0, 0.3, 1.0]),
+            10 ** rng.uniform(-0.7, 0.5),
+            10 ** rng.uniform(-0.4, 0.6),
+            rng.choice([0.0, 0.001, 0.005]),
+            rng.uniform(0.1, 0.9),
+        )
+        knobs = Knobs(n_springs=64, steps=256, start="full_slip", lump=True)
+        solved = march(case, v_0, knobs)
+        with monkeypatch.context() as patch:
+            patch.setattr(Line, "solve", lambda self: None)
+            patch.setattr("mdr.marching.TOLERANCE", max(solved.settling.spread, 1e-13))
+            awaited = march(case, v_0, knobs)
+        shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
+    assert np.median(shares) <= 0.2
