@@ -275,7 +275,7 @@ def _verdict(args: argparse.Namespace, case: SlidingContact) -> int:
             ("full slip", _velocity_text(found.full_slip), "any amplitude, all harmonics of the force"),
             ("measured", _velocity_text(found.measured), "from simulation alone"),
             ("deviation", off, f"measured over {_equation(case)}, less 1"),
-            ("holds", "yes" if found.holds else "no", ""),
+            ("holds", {True: "yes", False: "no", None: "cannot be judged"}[found.holds], ""),
         ])  # fmt: skip
     return DONE if found.holds or found.measured is not None else FAILED  # no v_c on a resonance is an answer
 

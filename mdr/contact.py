@@ -12,11 +12,16 @@ import numpy as np
 
 from mdr.checks import positive
 from mdr.indenters.base import Indenter
-from mdr.materials import Material
+from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material
 from mdr.motion import NormalOscillation
-from mdr.pull import Pull, RigidPull
+from mdr.pull import Pull, RigidPull, SpringPull
 
-_KINDS = {"indenter": Indenter, "material": Material, "oscillation": NormalOscillation, "pull": Pull}
+_KINDS: dict[str, tuple[type, ...]] = {  # the rest of the chain knows these and no others
+    "indenter": (Indenter,),
+    "material": (Elastic, KelvinVoigt, ElasticPair),
+    "oscillation": (NormalOscillation,),
+    "pull": (RigidPull, SpringPull),
+}
 
 
 @dataclass(frozen=True)
@@ -30,11 +35,12 @@ class SlidingContact:
     pull: Pull = field(default_factory=RigidPull)  #: what pulls in the plane
 
     def __post_init__(self) -> None:
-        for name, kind in _KINDS.items():
+        for name, kinds in _KINDS.items():
             value = getattr(self, name)
-            if not isinstance(value, kind):
+            if not isinstance(value, kinds):
                 hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
-                raise TypeError(f"{name} must be of kind {kind.__name__}, got {value!r}{hint}")
+                names = " or ".join(kind.__name__ for kind in kinds)
+                raise TypeError(f"{name} must be of kind {names}, got {value!r}{hint}")
         object.__setattr__(self, "mu_0", positive("mu_0", self.mu_0, "coefficient of friction"))
         self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
 

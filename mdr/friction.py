@@ -17,16 +17,22 @@ from mdr.contact import SlidingContact, require_case
 from mdr.full_slip import static_cof
 from mdr.progress import progress
 from mdr.pull import RigidPull
+from mdr.records import ArrayRecord
 from mdr.rigid_pull import average_friction
 from mdr.sliding import slide
 from mdr.theory import critical_velocity
 
 Array = NDArray[np.float64]
 
+STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
+
 
 @dataclass(frozen=True, eq=False)
-class CofCurve:
-    """COF over pulling velocity; arrays of shape (n_v,). The point v_0 = 0 is the static limit."""
+class CofCurve(ArrayRecord):
+    """COF over pulling velocity; arrays of shape (n_v,). The point v_0 = 0 is the static limit.
+
+    v_0 [m/s]; cof, cof_error [-], absolute; settled; stick_share [-]; v_c [m/s] of Eq. (15), the scale of the curve.
+    """
 
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
@@ -78,7 +84,7 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
     return CofCurve(
         v_0=velocities,
         cof=with_limit(cof, static),
-        cof_error=with_limit(error, 0.0),
+        cof_error=with_limit(error, STATIC_ERROR * case.mu_0),
         settled=with_limit(settled, True),
         stick_share=with_limit(sticks, 1.0),
         v_c=critical_velocity(case),

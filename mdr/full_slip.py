@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 from mdr.checks import count
 from mdr.contact import SlidingContact, require_case
 from mdr.indenters.quadrature import double_exponential
+from mdr.records import ArrayRecord
 from mdr.unilateral import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
 
 Array = NDArray[np.float64]
@@ -41,7 +42,7 @@ N_INSTANTS = 8192  #: of the period; harmonics up to half of it
 
 
 @dataclass(frozen=True, eq=False)
-class FullSlip:
+class FullSlip(ArrayRecord):
     """One period of full slip at equidistant instants; arrays of shape (n_t,)."""
 
     t: Array  #: time [s]

@@ -1,6 +1,6 @@
 """The compiled march: one spring, one step, one run. Arrays and floats only, in scaled form.
 
-Scaled form (sliding.py makes it): time is omega t, normal lengths are divided by du_z, tangential lengths by
+Scaled form (scaled.py makes it): time is omega t, normal lengths are divided by du_z, tangential lengths by
 mu_0 kappa du_z, spring stiffnesses by their sum. Then mu_0, E* and G* are gone, Coulomb's law
 |dk_x L[e]| <= mu_0 dk_z L[s] reads |L[e]| <= L[s], and the same operator L = 1 + T d/dt acts on both sides.
 
@@ -21,7 +21,7 @@ One spring in one step, with compression s and extension e at its start:
 T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
 
 The body is a linear oscillator under the force of the springs, with its motion relative to the pull
-y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old), S = sum of w e; sliding.py derives the five
+y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old), S = sum of w e; scaled.py derives the five
 numbers. S_new depends on y_new, monotonically and piecewise linearly, and is solved for together with it by
 Newton's method inside a bracket, halved when that does not get on, to rounding.
 """

@@ -1,4 +1,4 @@
-"""The march of one contact through its periods, in scaled form: the one bridge to the compiled kernels.
+"""The march of one contact through its periods, in scaled form: the bridge to the compiled march.
 
 A march starts on the full-slip solution, or from rest. From full slip the periodic state of a body is solved for
 (periodic.py); where that finds none, from rest, and under a rigid pull, which needs a period or two, the march goes on
@@ -22,7 +22,9 @@ from mdr.springs import SpringArray
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
-SWING_TOLERANCE = 1e-3  #: growth of the swing of the body between windows, over v_0/omega
+SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
+DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
+FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
 
@@ -54,6 +56,7 @@ class March:
     springs: SpringArray
     settling: Settling
     n_periods: int
+    on_the_way: float  # periods that a run from rest takes to stretch springs and system
     mean_F_z: float
     seen: Seen  # the period that modes and energies are taken from
     record: tuple[Seen, ...]  # all observed periods
@@ -80,6 +83,16 @@ class Seen:
 
 def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
     """March until settled, or exactly n_periods; the last ones observed."""
+    if case.oscillation.u_z0 > DEEPEST * case.oscillation.du_z:
+        raise ValueError(
+            f"du_z = {case.oscillation.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
+            "march; raise it: 1 - cof/mu_0 is proportional to it there"
+        )
+    oscillation = case.oscillation
+    if v_0 > FASTEST * case.mu_0 * case.material.mindlin_ratio * oscillation.omega * oscillation.du_z:
+        raise ValueError(
+            f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
+        )
     springs = SpringArray.of(case, knobs.n_springs)
     lump = knobs.lump and knobs.start == "full_slip"
     scaled = ScaledContact.of(case, springs, knobs.steps, lump)
@@ -94,12 +107,26 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     else:
         line.advance(n_periods - n_seen)
     seen = [line.observe(keep=knobs.record > 0) for _ in range(n_seen)]
-    if not line.as_one:  # the core did not move as one after all: every spring for itself
+    if not np.isfinite(line.cofs).all():
+        raise ValueError(f"the run left the range of floats at v_0 = {v_0:g} m/s: use units nearer to one")
+    if not line.as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
         return march(case, v_0, replace(knobs, lump=False), n_periods)
     if settling is None:
         settling = line.judge()
     account = seen[0] if n_periods is None else seen[-1]  # the same period however many are kept
-    return March(case, v_0, knobs, scaled, springs, settling, line.n_periods, line.mean_F_z, account, tuple(seen))
+    return March(
+        case,
+        v_0,
+        knobs,
+        scaled,
+        springs,
+        settling,
+        line.n_periods,
+        line.on_the_way,
+        line.mean_F_z,
+        account,
+        tuple(seen),
+    )
 
 
 class Line:
@@ -110,11 +137,15 @@ class Line:
         n = scaled.gap.size
         self.s, self.e = np.zeros(n), np.zeros(n)
         self.mean_F_z = kernels.settle_normal(self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
+        self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
         if start == "full_slip":
             self.e[:] = self.s
             self.history = scaled.full_slip_history(self._full_slip_force())
         else:
             self.history = scaled.rest_history(v)
+            force = float(scaled.w @ np.maximum(1 - scaled.gap, 0))
+            distance = 1 - float(scaled.gap.min()) + (force / scaled.K if scaled.K else 0.0)
+            self.on_the_way = distance / (2 * np.pi * v)
         self.as_one = True
         self.cofs = np.empty(0)
         self.swings = np.empty(0)  # of the body, greatest less least y of a period
@@ -195,26 +226,34 @@ class Line:
         self.cofs = np.concatenate([self.cofs, mean / self.mean_F_z])
 
     def wait(self, most: int) -> Settling:
-        """March until the windows agree."""
-        self.advance(self.scaled.first_look)
-        while not (settling := self.judge()).settled and self.n_periods < most and self.as_one:
+        """March until the windows agree, but not before every spring has been pulled as far as it has to go."""
+        if self.on_the_way > most:
+            self.advance(self.scaled.first_look)
+            return replace(self.judge(), settled=False, kind="unsettled")
+        self.advance(max(self.scaled.first_look, int(self.on_the_way)))
+        while not (settling := self.judge()).settled and self._may_settle_by(most) and self.as_one:
             self.advance(max(4, self.n_periods // 2))
         return settling
 
     def solve(self) -> Settling | None:
         """Put the line into the periodic state that a march would end in, if there is one; else leave it as it was."""
-        start = self._state()
+        first = self._state()
         to_size, kicks = self._measures()
-        found = periodic.find(self._period_from, start, to_size, kicks)
-        if found is None:
-            self._put(start)
-            self.cofs, self.swings = np.empty(0), np.empty(0)
-            return None
-        self._put(found.x)
-        self.advance(1)
-        # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
-        spread = 2 * found.distance * float(np.linalg.norm(to_size @ found.x)) / self.mean_F_z
-        return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
+        starts = [first]
+        driven = self.scaled.resonant_history(self._full_slip_force(), self.v)
+        if driven is not None:
+            starts.insert(0, np.concatenate([self.e, driven]))
+        for start in starts:
+            found = periodic.find(self._period_from, start, to_size, kicks)
+            if found is not None:
+                self._put(found.x)
+                self.advance(1)
+                # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
+                spread = 2 * found.distance * float(np.linalg.norm(to_size @ found.x)) / self.mean_F_z
+                return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
+        self._put(first)
+        self.cofs, self.swings = np.empty(0), np.empty(0)
+        return None
 
     def _state(self) -> Array:
         return np.concatenate([self.e, self.history])
@@ -248,11 +287,27 @@ class Line:
     def judge(self) -> Settling:
         """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""
         settling = judge(self.cofs, TOLERANCE)
-        n = self.n_periods
-        grown = float(self.swings[n // 2 :].mean() - self.swings[n // 4 : n // 2].mean()) / self.v if n > 3 else 0.0
-        if settling.settled and grown > SWING_TOLERANCE:
+        if settling.settled and self.growth * self.n_periods > SWING_TOLERANCE:
             return replace(settling, settled=False, kind="unsettled")
         return settling
+
+    def _may_settle_by(self, most: int) -> bool:
+        """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""
+        driven = self.n_periods > 64 and self.growth * self.n_periods > SWING_TOLERANCE and self.scaled.C == 0
+        if driven and self.scaled.M and abs(1 - self.cofs[-1]) < TOLERANCE:
+            at_stick = 2 * self.v * np.sqrt(self.scaled.M / self.scaled.K)  # swing of a body that reaches -v
+            return float(at_stick / (self.growth * self.swings[-1])) < most and self.n_periods < most
+        return self.n_periods < most
+
+    @property
+    def growth(self) -> float:
+        """Growth of the swing of the body a period, over the swing, between the last two windows."""
+        n = self.n_periods
+        if n < 4 or not self.scaled.K:
+            return 0.0
+        late, early = float(self.swings[n // 2 :].mean()), float(self.swings[n // 4 : n // 2].mean())
+        # a swing that is rounding of the position does not count
+        return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.history[0]) else 0.0
 
     def observe(self, keep: bool) -> Seen:
         """March one more period with a close look; the march is the same with and without `keep`."""

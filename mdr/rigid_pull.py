@@ -52,6 +52,7 @@ from mdr.contact import SlidingContact, require_case
 from mdr.full_slip import edge_marks, mean_normal_force
 from mdr.indenters.quadrature import double_exponential
 from mdr.pull import RigidPull
+from mdr.records import ArrayRecord
 from mdr.unilateral import contact_edge, edge_rate, touching_phase
 
 Array = NDArray[np.float64]
@@ -60,7 +61,7 @@ STEPS = (0.11, 0.22)  #: of the double-exponential rule, and of the one that it 
 
 
 @dataclass(frozen=True, eq=False)
-class RigidPullFriction:
+class RigidPullFriction(ArrayRecord):
     """Average friction under a rigid pull; arrays in the shape of v_0."""
 
     cof: Array  #: average coefficient of friction [-]

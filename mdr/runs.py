@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from mdr import kernels
 from mdr.marching import TOLERANCE, March
+from mdr.records import ArrayRecord
+from mdr.settling import MIN_PERIODS
 
 Array = NDArray[np.float64]
 
@@ -56,8 +58,16 @@ class EnergyBalance:
 
 
 @dataclass(frozen=True, eq=False)
-class SlidingRun:
-    """Outcome of slide(). The arrays of the last periods are None unless `record` asked for them."""
+class SlidingRun(ArrayRecord):
+    """Outcome of slide(), in SI.
+
+    cof, cof_error: mean F_x over mean F_z and the bound on its numerical error [-]. settled, kind: whether the motion
+    is steady, and which: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"; why: what to change
+    if it is not. stick_share: force-weighted share of contact time spent sticking. least_slip [m/s]: smallest slip
+    velocity of a spring in contact. mean_F_x, mean_F_z [N]. energy_balance [J] of one period. With record: t [s],
+    u_x, u_z [m], F_x, F_z [N] of shape (n_t,), x [m] (n_springs,), e [m] and state (n_t, n_springs), modes as in
+    State; otherwise None.
+    """
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_error: float  #: bound on its numerical error: step, springs and settling [-]
@@ -117,13 +127,15 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
 
 def _why_not(march: March) -> str:
     settling, n = march.settling, march.n_periods
-    if not np.isfinite(settling.spread):
-        return f"{n} periods are too few to compare windows: raise n_periods to 8 or more"
+    if n < MIN_PERIODS:
+        return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
+    if march.knobs.start == "rest" and n < march.on_the_way:
+        return f"a start from rest takes {march.on_the_way:.3g} periods to stretch the springs: start from full slip"
     if settling.spread <= TOLERANCE:
         return f"the swing of the body still grows after {n} periods, as on a resonance: raise n_periods or add c_x"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
-    if march.scaled.K and march.scaled.C == 0:
-        return f"{change}: the free oscillation of a body without damper does not die out; add c_x"
+    if march.scaled.M and march.scaled.C == 0:
+        return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
     return f"{change}: raise n_periods" + ("" if march.knobs.start == "full_slip" else " or start from full slip")
 
 

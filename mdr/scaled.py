@@ -113,14 +113,38 @@ class ScaledContact:
         """
         if not self.K:
             return np.array([0.0, 0.0, 0.0, S[0], S[-1]])
-        a_1, a_2, b_1, b_0, b_m = self.body
-        turn = np.exp(1j * self.h * np.arange(self.steps // 2 + 1))
-        inertia = turn - a_1 - a_2 / turn
+        _, _, b_1, b_0, b_m = self.body
+        turn, inertia = self._inertia()
         S_n = np.fft.rfft(S)
-        resonant = np.abs(inertia) < max(1e-9 * self.h**2, 2e-15)
+        resonant = self._resonant(inertia)
         y_n = np.where(resonant, 0, -(b_1 * turn + b_0 + b_m / turn) * S_n / np.where(resonant, 1, inertia))
         y = np.fft.irfft(y_n, self.steps)
         return np.array([y[0], y[-1], y[-2], S[0], S[-1]])
+
+    def resonant_history(self, S: Array, v: float) -> Array | None:
+        """The same on an undamped resonance, with the free oscillation that the n-th harmonic drives until stick
+        stops it: y' reaches -v, once in each of its own periods, when that harmonic of the force is greatest. None off
+        resonance, and where the force does not contain it.
+        """
+        history = self.full_slip_history(S)
+        if not self.K or not (resonant := self._resonant(self._inertia()[1])).any():
+            return None
+        n = int(np.flatnonzero(resonant)[0])
+        F_n = complex(np.fft.rfft(S)[n]) / self.steps * (1 + 1j * n * self.T)
+        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())):
+            return None
+        phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
+        history[:3] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
+        return history
+
+    def _inertia(self) -> tuple[Array, Array]:
+        """exp(i n h) of every harmonic, and what the recursion answers it with."""
+        a_1, a_2 = self.body[:2]
+        turn = np.exp(1j * self.h * np.arange(self.steps // 2 + 1))
+        return turn, turn - a_1 - a_2 / turn
+
+    def _resonant(self, inertia: Array) -> NDArray[np.bool_]:
+        return np.asarray(np.abs(inertia) < max(1e-9 * self.h**2, 2e-15))
 
     def rest_history(self, v: float) -> Array:
         """State (5,) of a body at rest with nothing stretched, from which the pull sets off at v."""

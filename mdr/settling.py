@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 MIN_PERIODS = 8  #: fewer give no three windows
+UNKNOWN = 2.0  #: spread of a run too short to tell: a COF lies between -mu_0 and mu_0
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Settling:
     """What the windows say."""
 
     mean: float  #: mean of the second half
-    spread: float  #: bound on what is missing to the limit; infinite when the run is too short to tell
+    spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell
     settled: bool  #: whether the spread is below the tolerance
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
     solved: bool = False  #: whether the periodic state was solved for (periodic.py), not awaited
@@ -33,7 +34,7 @@ def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
     """Judge a run by its values per period, shape (n_periods,)."""
     n = values.size
     if n < MIN_PERIODS:
-        return Settling(float(values[-1]), np.inf, False, "unsettled")
+        return Settling(float(values[-1]), UNKNOWN, False, "unsettled")
     first, second, third = (
         float(values[low:high].mean()) for low, high in ((n // 8, n // 4), (n // 4, n // 2), (n // 2, n))
     )
@@ -48,7 +49,7 @@ def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
     if kind == "quasi-periodic":  # a mean over n periods cuts the beat to its n-th part
         spread = max(spread, 4 * float(np.ptp(values[n // 2 :])) / n)
     settled = bool(spread <= tolerance)
-    return Settling(third, float(spread), settled, kind if settled else "unsettled")
+    return Settling(third, float(min(spread, UNKNOWN)), settled, kind if settled else "unsettled")
 
 
 def _kind(values: NDArray[np.float64], tolerance: float) -> str:

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from mdr.checks import count
 from mdr.contact import SlidingContact, require_case
 from mdr.indenters.base import Indenter
+from mdr.records import ArrayRecord
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ MIN_SPRINGS = 16  #: fewer cannot serve all panels
 
 
 @dataclass(frozen=True, eq=False)
-class SpringArray:
+class SpringArray(ArrayRecord):
     """Springs of a contact, from the centre outwards; arrays of shape (n_springs,)."""
 
     x: Array  #: positions of the cell centres [m]

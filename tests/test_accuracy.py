@@ -11,7 +11,7 @@ from table_of_accuracy import BODIES, rigid_elastic, rigid_kelvin, spring_pull, 
 
 import mdr
 
-BUDGET = 1e-5  # design.md, accuracy budget: cof/mu_0 of a march with default knobs
+BUDGET = 1e-5  # the accuracy budget of cof/mu_0 of a march with default knobs
 
 
 def check(rows):

@@ -73,10 +73,10 @@ def test_the_pull_is_rigid_unless_said_otherwise():
     [
         ({"indenter": mdr.Elastic(1e6, 0.3)}, "indenter must be of kind Indenter"),
         ({"indenter": 5e-3}, "indenter must be .* got 0.005"),
-        ({"material": 3e6}, "material must be of kind Material, got 3000000.0"),
+        ({"material": 3e6}, "material must be of kind Elastic or KelvinVoigt or ElasticPair, got 3000000.0"),
         ({"oscillation": mdr.RigidPull()}, r"oscillation must be of kind NormalOscillation, got RigidPull\(\)"),
-        ({"pull": None}, "pull must be of kind Pull, got None"),
-        ({"pull": mdr.RigidPull}, r"pull must be of kind Pull, .*; write RigidPull\(...\)"),
+        ({"pull": None}, "pull must be of kind RigidPull or SpringPull, got None"),
+        ({"pull": mdr.RigidPull}, r"pull must be of kind RigidPull or SpringPull, .*; write RigidPull\(...\)"),
         ({"indenter": mdr.Paraboloid}, r"; write Paraboloid\(...\)"),
         ({"mu_0": "rough"}, "mu_0 must be a real number"),
     ],
@@ -140,3 +140,24 @@ def test_a_record_does_not_tell_an_int_from_a_float(three):
     one, other = mdr.SpringPull(k_x=three), mdr.SpringPull(k_x=3.0)
     assert (one, hash(one), repr(one)) == (other, hash(other), repr(other))
     assert pickle.dumps(one) == pickle.dumps(other)
+
+
+def test_kinds_that_the_chain_does_not_know_are_refused():
+    class Rope(mdr.Pull):
+        def receptance(self, omega):
+            return 0j
+
+    class Jelly(mdr.Material):
+        E_star = G_star = 1.0
+        mindlin_ratio = 1.0
+        dundurs_beta = 0.0
+        tau = 0.0
+
+        def dynamic_modulus(self, omega):
+            return 1.0
+
+    shape, osc = mdr.Cone(theta=0.1), mdr.NormalOscillation(2e-6, 1e-6, 100.0)
+    with pytest.raises(TypeError, match="pull must be of kind RigidPull or SpringPull"):
+        mdr.SlidingContact(shape, mdr.Elastic(1e6, 0.5), 0.5, osc, Rope())
+    with pytest.raises(TypeError, match="material must be of kind Elastic or KelvinVoigt or ElasticPair"):
+        mdr.SlidingContact(shape, Jelly(), 0.5, osc)

@@ -13,8 +13,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr import measurement
 
-# design.md: v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way, and wider by what
-# the resolution still moves.
+# v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way, and wider by what the resolution
+# still moves.
 BUDGET = 1e-4
 
 #: shape, u_z0/du_z, omega tau, and the body as k_x/k_xc, omega_0/omega, damping ratio, or None for a rigid pull
@@ -48,9 +48,7 @@ def truth(shape, depth_ratio, T, body=None):
     if body is None:
         return reference.full_slip_critical_velocity(n, depth_ratio, T)
     k, omega_0, zeta = body
-    return reference.full_slip_critical_velocity(
-        n, depth_ratio, T, k, omega_0, reference.damping_for(zeta, k, omega_0)
-    )
+    return reference.full_slip_critical_velocity(n, depth_ratio, T, k, omega_0, reference.damping_for(zeta, k, omega_0))
 
 
 def check_found(found, case, expected):
@@ -185,7 +183,8 @@ def test_a_curve_starts_at_the_static_limit_and_ends_at_mu_0(curve):
     assert curve.cof[0] == curve.static_cof == mdr.static_cof(CURVE)
     n = SHAPES["paraboloid"][1]
     assert_allclose(curve.cof[0] / CURVE.mu_0, reference.static_cof(n, 3.0, 0.3), rtol=1e-6)  # 8192 instants, parabola
-    assert (curve.cof_error[0], curve.stick_share[0], curve.settled[0]) == (0, 1, True)
+    assert (curve.stick_share[0], curve.settled[0]) == (1, True)
+    assert 0 < curve.cof_error[0] <= 1e-11 * CURVE.mu_0
     assert_allclose(curve.cof[-1], CURVE.mu_0, rtol=1e-9)
     assert curve.stick_share[-1] == 0
     assert np.all(np.diff(curve.cof) > 0)
@@ -243,7 +242,7 @@ def test_eq_15_holds_for_a_flat_punch_and_a_body():
     text = str(verdict)
     assert text.startswith("Eq. (15) holds: measured v_c = ")
     assert f"{verdict.eq_15:.6g} m/s" in text
-    assert "all springs leave stick together" in text
+    assert "all slip from the velocity of one element on" in text
 
 
 @pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
@@ -282,7 +281,7 @@ def test_on_resonance_the_verdict_names_the_pole():
     assert verdict.deviation is None
     assert verdict.holds, "no critical velocity, and the formula says so"
     assert "undamped natural frequency" in verdict.why
-    assert "no critical velocity against inf m/s" in str(verdict)
+    assert "no critical velocity, against inf m/s" in str(verdict)
 
 
 def test_on_resonance_the_coupling_is_said_as_well():
@@ -293,3 +292,51 @@ def test_loss_of_contact_is_said():
     verdict = mdr.verdict(make(*MEASURED["flat, body, loses contact"]))
     assert not verdict.holds
     assert "contact is lost in part of the period, Eq. (5)" in verdict.why
+
+
+# --- beyond the usual --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "case",
+    [contact("flat", 10.0, 0.0, 5e-4, math.inf), contact("flat", 10.0, 0.0, 0.01, 1.0, 2e-4)],
+    ids=["soft spring", "damped resonance"],
+)
+def test_a_critical_velocity_thousands_of_times_eq_1_is_found(case):
+    eq_15 = mdr.critical_velocity(case)  # exact for the punch that keeps contact
+    assert eq_15 > 1000 * unit_of_velocity(case)
+    verdict = mdr.verdict(case)
+    assert_allclose(verdict.measured, eq_15, rtol=BUDGET)
+    assert verdict.holds
+
+
+def test_a_velocity_beyond_reach_is_not_judged():
+    case = contact("flat", 10.0, 0.0, 0.01, 1.0, reference.damping_for(1e-4, 0.01, 1.0))
+    verdict = mdr.verdict(case)
+    assert mdr.critical_velocity(case) > 1e5 * unit_of_velocity(case)
+    assert (verdict.holds, verdict.measured) == (None, None)
+    assert str(verdict).startswith("Eq. (15) cannot be judged: no critical velocity, against")
+
+
+def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():
+    """m omega**2 = k_x + k_xc: the elastic punch has v_c = 0."""
+    found = mdr.measure_critical_velocity(contact("flat", 10.0, 0.0, 0.5, math.sqrt(1 / 3)))
+    assert 0 <= found.low <= found.v_c <= found.high <= 1.1e-4 * unit_of_velocity(contact("flat", 10.0))
+    assert "not told from zero" in found.why
+
+
+@pytest.mark.parametrize(("shape", "depth_ratio"), [("cone", 1e4), ("paraboloid", 100.0)])
+def test_the_wide_bracket_of_a_light_body_decides(shape, depth_ratio):
+    """The COF alone reads v_c low by a few tenths of a per cent; the bracket knows, so Eq. (15) is not called false."""
+    verdict = mdr.verdict(contact(shape, depth_ratio, 1.0, 0.7, math.inf, nu=0.5))
+    assert verdict.holds
+    assert verdict.measurement.low < verdict.eq_15 < verdict.measurement.high
+    assert "read off the COF" in verdict.why
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_a_curved_contact_on_a_whole_multiple_has_no_critical_velocity(n):
+    """The n-th harmonic of its force drives the undamped body; Eq. (15) is finite and false."""
+    verdict = mdr.verdict(contact("paraboloid", 3.0, 0.0, 1.5, float(n)))
+    assert (verdict.measured, verdict.holds, verdict.full_slip) == (None, False, math.inf)
+    assert "a harmonic of the normal force drives the body" in verdict.why

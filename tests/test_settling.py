@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.settling import MIN_PERIODS, judge
+from mdr.settling import MIN_PERIODS, UNKNOWN, judge
 
 TOLERANCE = 1e-6
 LIMIT = 0.3
@@ -59,7 +59,7 @@ def test_rounding_is_settled():
 @pytest.mark.parametrize("n", range(1, MIN_PERIODS))
 def test_a_short_run_cannot_tell(n):
     found = judge(np.full(n, LIMIT), TOLERANCE)
-    assert (found.spread, found.settled, found.kind) == (np.inf, False, "unsettled")
+    assert (found.spread, found.settled, found.kind) == (UNKNOWN, False, "unsettled")
     assert found.mean == LIMIT
 
 

@@ -9,7 +9,7 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
-from mdr import State, marching, sliding, theory
+from mdr import State, marching, rigid_pull, sliding, theory
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
 UNDAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6}
@@ -340,9 +340,12 @@ def test_energy_is_conserved(case):
 def test_the_energy_residual_falls_with_the_square_of_the_step(name):
     case, steps = CONTACTS[name], 64 * 2 ** np.arange(6)
     residual = [
-        np.mean([
-            abs(coarse(case, v_hat, 24, steps_per_period=int(n)).energy_balance.relative) for v_hat in (0.3, 0.43, 0.7)
-        ])
+        np.mean(
+            [
+                abs(coarse(case, v_hat, 24, steps_per_period=int(n)).energy_balance.relative)
+                for v_hat in (0.3, 0.43, 0.7)
+            ]
+        )
         for n in steps
     ]
     slope = np.polyfit(np.log(steps), np.log(residual), 1)[0]
@@ -376,12 +379,13 @@ def test_an_unsettled_run_says_why():
     run = coarse(contact("cone", 20.0), 0.05, 9, start="rest")
     assert not run.settled
     assert run.kind == "unsettled"
-    assert "still changes by" in run.why
-    assert "after 9 periods" in run.why
-    assert "raise n_periods or start from full slip" in run.why
+    periods = float(run.why.split(" takes ")[1].split(" periods to stretch the springs")[0])
+    assert periods == pytest.approx(21 / (2 * math.pi * 0.05), rel=0.05)  # u_z0 + du_z = 21 du_z; first of 96 springs
     assert run.cof_error > 1e-6 * run.mu_0
     undamped = coarse(contact("paraboloid", 3.0, **UNDAMPED), 0.3, 9, start="rest")
-    assert "without damper" in undamped.why
+    assert "still changes by" in undamped.why
+    assert "after 9 periods" in undamped.why
+    assert "raise n_periods, or add c_x" in undamped.why
 
 
 def test_a_run_of_given_length_says_what_its_error_leaves_out():
@@ -427,3 +431,64 @@ def test_the_body_moves_as_eq_10_above_v_c(T, v):
     assert_allclose(
         run.F_z, theory.eq_4(run.t, oscillation.u_z0, *groups), rtol=1e-9, err_msg="Eq. (4) is the load of a flat punch"
     )
+
+
+# --- found by trying to break it --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("T", [1e-3, 3e-3, 1e-2, 0.1])
+@pytest.mark.parametrize(("shape", "depth_ratio"), [("flat", 3.0), ("paraboloid", 10.0), ("paraboloid", 1.43)])
+def test_cof_error_bounds_materials_faster_than_a_step(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    for v_hat in (0.1, 0.25, 0.4, 0.6, 0.8, 0.9):
+        v_0 = v_hat * unit_of_velocity(case)
+        run, exact = mdr.slide(case, v_0), rigid_pull.average_friction(case, v_0)
+        assert abs(run.cof - exact.cof) <= run.cof_error
+        assert run.cof_error <= 1.0001e-5 * case.mu_0
+
+
+@pytest.mark.parametrize(
+    "knobs", [{"n_springs": 32}, {"steps_per_period": 32}, {"n_springs": 32, "steps_per_period": 32}]
+)
+@pytest.mark.parametrize("T", [0.0, 1.0])
+def test_cof_error_bounds_the_coarsest_runs(knobs, T):
+    case = contact("paraboloid", 1.3, T)
+    for v_hat in (0.2, 0.5, 0.8):
+        v_0 = v_hat * unit_of_velocity(case)
+        run = mdr.slide(case, v_0, **knobs)
+        assert abs(run.cof - rigid_pull.average_friction(case, v_0).cof) <= run.cof_error
+
+
+def test_a_start_from_rest_is_not_settled_before_the_springs_are_stretched():
+    case = contact("cone", 1e8)
+    run = mdr.slide(case, 0.5 * unit_of_velocity(case), start="rest")
+    assert not run.settled
+    assert "periods to stretch the springs" in run.why
+
+
+def test_an_amplitude_lost_in_rounding_is_refused():
+    case = contact("cone", 1e12)
+    with pytest.raises(ValueError, match="lost in the rounding of a march"):
+        mdr.slide(case, 0.5 * unit_of_velocity(case))
+    assert mdr.cof_curve(case, 0.5 * unit_of_velocity(case)).cof[0] < case.mu_0  # the closed form does not mind
+
+
+def test_a_run_too_short_to_tell_says_so_with_a_finite_bound():
+    case = contact("cone", 3.0)
+    run = mdr.slide(case, 0.5 * unit_of_velocity(case), n_periods=3)
+    assert not run.settled
+    assert 2 * case.mu_0 <= run.cof_error < 2.1 * case.mu_0
+    assert "raise n_periods to 8" in run.why
+
+
+def test_an_unsettled_body_without_mass_is_not_told_to_damp_its_oscillation():
+    case = contact("flat", 3.0, 1.0, 1e-7, math.inf)
+    run = mdr.slide(case, 0.5 * unit_of_velocity(case), start="rest", n_periods=40)
+    assert not run.settled
+    assert "add c_x" not in run.why
+
+
+@pytest.mark.parametrize("v_0", [1e25, 1e308])
+def test_a_velocity_that_drowns_all_others_is_refused(v_0):
+    with pytest.raises(ValueError, match="full slip but for rounding; lower it"):
+        mdr.slide(contact("flat", 3.0, 1.0), v_0)

@@ -1,0 +1,38 @@
+"""Records that hold arrays: they compare and hash by value, pickle, and cannot be written to."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+
+class ArrayRecord:
+    """Base of frozen dataclasses (eq=False) with arrays among their fields, which become read-only."""
+
+    def __post_init__(self) -> None:
+        for value in self._values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+
+    def _values(self) -> tuple[Any, ...]:
+        return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other) or not isinstance(other, ArrayRecord):
+            return NotImplemented
+        return all(_same(one, two) for one, two in zip(self._values(), other._values(), strict=True))
+
+    def __hash__(self) -> int:
+        return hash(
+            tuple(
+                (value.shape, value.tobytes()) if isinstance(value, np.ndarray) else value for value in self._values()
+            )
+        )
+
+
+def _same(one: Any, two: Any) -> bool:
+    if isinstance(one, np.ndarray) and isinstance(two, np.ndarray):
+        return np.array_equal(one, two)
+    return bool(type(one) is type(two) and one == two)

@@ -1,0 +1,48 @@
+"""Results compare and hash by value, survive pickling, and cannot be written to."""
+
+import pickle
+
+import numpy as np
+import pytest
+from conftest import contact, unit_of_velocity
+
+import mdr
+from mdr.full_slip import full_slip
+from mdr.rigid_pull import average_friction
+
+CASE = contact("cone", 2.0)
+V_0 = 0.5 * unit_of_velocity(CASE)
+MAKE = {
+    "run": lambda v: mdr.slide(CASE, v, n_springs=32, steps_per_period=64, n_periods=8, record=1),
+    "curve": lambda v: mdr.cof_curve(CASE, [0.0, v]),
+    "friction": lambda v: average_friction(CASE, [v]),
+    "springs": lambda v: mdr.SpringArray.of(CASE, 16 + int(v / V_0)),
+}
+
+
+@pytest.mark.parametrize("kind", MAKE)
+def test_equal_by_value(kind):
+    one, two, other = MAKE[kind](V_0), MAKE[kind](V_0), MAKE[kind](1.5 * V_0 if kind != "springs" else 3 * V_0)
+    assert one == two
+    assert hash(one) == hash(two)
+    assert one != other
+    assert one != "run"
+    again = pickle.loads(pickle.dumps(one))
+    assert again == one
+    assert hash(again) == hash(one)
+    assert len({one, two, other, again}) == 2
+
+
+def test_arrays_are_read_only():
+    run, motion = MAKE["run"](V_0), full_slip(CASE, 64)
+    for array in (run.F_x, run.state, motion.F_N, mdr.SpringArray.of(CASE).gap):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+def test_arrays_of_other_shape_or_kind_differ():
+    run = MAKE["run"](V_0)
+    bare = mdr.slide(CASE, V_0, n_springs=32, steps_per_period=64, n_periods=8)
+    assert run != bare  # None against arrays
+    assert bare.cof == run.cof
+    assert isinstance(run.F_x, np.ndarray)
