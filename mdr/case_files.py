@@ -109,9 +109,10 @@ def case_of(content: Mapping[str, Any], source: str = "<string>") -> SlidingCont
     """The case in tables already parsed. Raises CaseFileError with every fault."""
     known = _top_level()
     faults = [_unknown_top(key, value) for key, value in content.items() if key not in known]
+    tables = {**_meant(content), **content}
     parts: dict[str, Any] = {}
     for table in _TABLES.values():
-        part, found = table.read(content)
+        part, found = table.read(tables)
         faults += found
         if part is not None:
             parts[table.name] = part
@@ -257,6 +258,12 @@ def _unknown_top(key: str, value: Any) -> str:
     return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else _offer(key, keys))
 
 
+def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
+    """Misnamed tables by the name that is offered for them, so that their own faults are told too."""
+    unknown = {key: value for key, value in content.items() if isinstance(value, dict) and key not in _TABLES}
+    return {near: value for key, value in unknown.items() if (near := _near(key, list(_TABLES)))}
+
+
 # --- from values to records ---
 
 
@@ -390,7 +397,9 @@ def _offer(word: str, known: list[str]) -> str:
 
 def _near(word: str, known: list[str]) -> str | None:
     folded = {one.casefold(): one for one in known}
-    found = get_close_matches(word.casefold()[:99], folded, n=1)
+    word = word.casefold()[:99]
+    begun = [one for one in folded if word and one.startswith(word)]
+    found = begun if len(begun) == 1 else get_close_matches(word, folded, n=1)
     return folded[found[0]] if found else None
 
 

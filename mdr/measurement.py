@@ -35,7 +35,7 @@ APART = 0.01  #: step between velocities at which the deficit of the COF is read
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = 1e6  #: times Eq. (1): a run this fast is free of stick wherever there is a v_c that can be told
-HIGHEST = 1e3  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
+HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class _Search:
             run = self.run(v_0)
             if _is_free(run):
                 return run
-            v_0 *= 2.618
+            v_0 *= 6.85
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun:

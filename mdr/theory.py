@@ -2,7 +2,8 @@
 
 "Eq. (n)" is M. Popov, Critical velocity of controllability of sliding friction by normal oscillations in viscoelastic
 contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. All of it is one Kelvin element, or an
-array of them that all stay in contact, while every one slides forward; each function says when it holds.
+array of them that all stay in contact, while every one slides forward; each function says when it holds. NaN and
+infinities are refused.
 
 Symbols (SI): mu_0 coefficient of friction [-]; u_z0, du_z, omega mean depth, amplitude [m], angular frequency [rad/s]
 of Eq. (3); k_zc, k_xc, gamma_zc contact stiffness [N/m] and damping [N s/m]; k_x, m, c_x system spring, mass, damper;
@@ -11,32 +12,57 @@ v_0, v_c velocities [m/s]; mindlin_ratio kappa = k_zc/k_xc = E*/G* [-]; t time [
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import wraps
+from inspect import signature
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
+from mdr.checks import finite_array
 from mdr.contact import SlidingContact, require_case
 from mdr.pull import SpringPull
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+
+
+def _finite(formula: Callable[_P, _R]) -> Callable[_P, _R]:
+    """The formula, of finite numbers alone: ValueError by name for NaN and infinities, TypeError for no number."""
+    names = signature(formula)
+
+    @wraps(formula)
+    def checked(*args: _P.args, **kwargs: _P.kwargs) -> _R:
+        for name, value in names.bind(*args, **kwargs).arguments.items():
+            finite_array(name, value)
+        return formula(*args, **kwargs)
+
+    return checked
+
 
 # --- the normal force ---
 
 
+@_finite
 def eq_4(t: Any, u_z0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float) -> Any:
     """Normal force F_N(t) [N] of a Kelvin element, Eq. (4). Holds while it stays in contact, Eq. (5)."""
     phase = omega * np.asarray(t, dtype=float)
     return k_zc * (u_z0 + du_z * np.cos(phase)) - gamma_zc * omega * du_z * np.sin(phase)
 
 
+@_finite
 def eq_5(u_z0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float) -> bool:
     """Whether the element never leaves the plane: k_zc u_z0 > du_z sqrt(k_zc² + gamma_zc² omega²), Eq. (5)."""
     return bool(k_zc * u_z0 > eq_6(du_z, omega, k_zc, gamma_zc))
 
 
+@_finite
 def eq_6(du_z: float, omega: float, k_zc: float, gamma_zc: float) -> float:
     """Amplitude of the normal force [N], Eq. (6). Holds under Eq. (5)."""
     return float(du_z * np.hypot(k_zc, gamma_zc * omega))
 
 
+@_finite
 def eq_7(mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma_zc: float) -> float:
     """Static friction force [N]: mu_0 times the least normal force, Eq. (7). Holds under Eq. (5), for constant
     stiffness (flat punch).
@@ -47,6 +73,7 @@ def eq_7(mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma
 # --- motion in full slip ---
 
 
+@_finite
 def eq_10(
     t: Any,
     v_0: float,
@@ -62,18 +89,20 @@ def eq_10(
     """Position u_x(t) [m] of the body in full slip, Eq. (10).
 
     The particular solution of Eq. (8); a free oscillation of the body may ride on it, as friction does not damp it in
-    full slip. Holds for v_0 > v_c, under Eq. (5), without a system damper and for k_x != m omega².
+    full slip. Holds for v_0 > v_c, under Eq. (5), without a system damper and for k_x != m omega²: ValueError there.
     """
     phase = omega * np.asarray(t, dtype=float)
-    swing = mu_0 * du_z / (m * omega**2 - k_x) * (k_zc * np.cos(phase) - gamma_zc * omega * np.sin(phase))
+    swing = mu_0 * du_z / _inertia(omega, k_x, m) * (k_zc * np.cos(phase) - gamma_zc * omega * np.sin(phase))
     return v_0 * np.asarray(t, dtype=float) - mu_0 * k_zc / k_x * u_z0 + swing
 
 
+@_finite
 def eq_11(gamma_zc: float, mindlin_ratio: float) -> float:
     """Tangential contact damping gamma_xc = gamma_zc/kappa [N s/m], Eq. (11). Holds for a constant Poisson's ratio."""
     return gamma_zc / mindlin_ratio
 
 
+@_finite
 def eq_12(t: Any, mu_0: float, u_z0: float, du_z: float, omega: float, mindlin_ratio: float) -> Any:
     """Tangential extension u_x - u_xc [m] in full slip, Eq. (12): mu_0 kappa times the depth. Holds as Eq. (10)
     does.
@@ -81,6 +110,7 @@ def eq_12(t: Any, mu_0: float, u_z0: float, du_z: float, omega: float, mindlin_r
     return mu_0 * mindlin_ratio * (u_z0 + du_z * np.cos(omega * np.asarray(t, dtype=float)))
 
 
+@_finite
 def eq_13(
     t: Any,
     v_0: float,
@@ -99,6 +129,7 @@ def eq_13(
     return body - eq_12(t, mu_0, u_z0, du_z, omega, mindlin_ratio)
 
 
+@_finite
 def eq_14(
     t: Any,
     v_0: float,
@@ -111,17 +142,31 @@ def eq_14(
     k_x: float,
     m: float,
 ) -> Any:
-    """Velocity of the foot [m/s] in full slip, Eq. (14), second line. Slip stops where it would turn negative."""
+    """Velocity of the foot [m/s] in full slip, Eq. (14), second line. Slip stops where it would turn negative. Holds as
+    Eq. (10) does.
+    """
     phase = omega * np.asarray(t, dtype=float)
-    inertia = m * omega**2 - k_x
+    inertia = _inertia(omega, k_x, m)
     viscous = -gamma_zc * omega**2 / inertia * np.cos(phase)
     elastic = omega * mindlin_ratio * (inertia - k_zc / mindlin_ratio) / inertia * np.sin(phase)
     return v_0 + mu_0 * du_z * (viscous + elastic)
 
 
+def _inertia(omega: float, k_x: float, m: float) -> float:
+    """m omega² - k_x [N/m], refused where it vanishes."""
+    inertia = m * omega**2 - k_x
+    if inertia == 0:
+        raise ValueError(
+            f"resonance: k_x = m omega² = {k_x:.6g} N/m, where an undamped body in full slip swings without bound; "
+            "move omega, k_x or m away from it"
+        )
+    return inertia
+
+
 # --- critical velocity ---
 
 
+@_finite
 def eq_1(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:
     """Critical velocity [m/s] of a rigid pull, Eq. (1): mu_0 omega du_z E*/G*.
 
@@ -130,11 +175,13 @@ def eq_1(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:
     return mu_0 * omega * du_z * mindlin_ratio
 
 
+@_finite
 def eq_2(mu_0: float, du_z: float, omega: float, k_zc: float, k_xc: float, k_x: float, m: float) -> float:
     """Critical velocity [m/s] of an elastic contact under a mass and a spring, Eq. (2): Eq. (15) without damping."""
     return eq_15(mu_0, du_z, omega, k_zc, k_xc, 0.0, k_x, m)
 
 
+@_finite
 def eq_15(
     mu_0: float,
     du_z: float,
@@ -161,7 +208,17 @@ def eq_15(
 
 
 def critical_velocity(case: SlidingContact) -> float:
-    """Eq. (15) [m/s] with the contact stiffness at the mean depth u_z0; Eq. (1) for a rigid pull.
+    """Critical velocity [m/s], Eq. (15), with the contact stiffness k_zc, k_xc and damping gamma_zc at the mean depth:
+
+        v_c = mu_0 du_z omega |kappa (D - k_xc) - i gamma_zc omega| / |D|,   D = m omega² - k_x - i omega c_x,
+
+    kappa = k_zc/k_xc. Without the system's damper, c_x = 0, it reads as in the paper (M. Popov, Facta Universitatis,
+    Series: Mechanical Engineering 14 (2016) 335),
+
+        v_c = mu_0 du_z omega sqrt((gamma_zc omega)² + (kappa (m omega² - k_xc - k_x))²) / |m omega² - k_x|;
+
+    c_x is included here as k_x + i omega c_x in the place of k_x. A rigid pull is the limit k_x -> infinity, Eq. (1):
+    v_c = mu_0 du_z omega kappa.
 
     Infinite on the undamped resonance k_x = m omega². With u_z0 <= 0 (tapping) the contact has no stiffness at the
     mean depth, and Eq. (1) is left.

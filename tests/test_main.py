@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -33,8 +33,9 @@ def punch(tmp_path):
 def resonant(tmp_path):
     """The example on its resonance k_x = m omega²."""
     path = tmp_path / "resonant.toml"
-    text = Path(EXAMPLE).read_text(encoding="utf-8")
-    path.write_text(text.replace("314.159265", "400.0").replace("k_x = 2e4", "k_x = 16000.0"), encoding="utf-8")
+    example = read_case(EXAMPLE)
+    oscillation, pull = replace(example.oscillation, omega=400.0), mdr.SpringPull(k_x=16000.0, m=0.1)
+    path.write_text(write_case(replace(example, oscillation=oscillation, pull=pull)), encoding="utf-8")
     return str(path)
 
 

@@ -1,15 +1,19 @@
 """What users are promised: the names, how they are called, and that importing them is light."""
 
 import inspect
+import re
 import subprocess
 import sys
 from dataclasses import fields
 from importlib.metadata import version
+from pathlib import Path
 
-import numpy as np
 import pytest
 
 import mdr
+from mdr.case_files import read_case
+
+ROOT = Path(__file__).parents[1]
 
 SIGNATURES = {
     "FlatPunch": "a",
@@ -124,14 +128,21 @@ def test_import_is_light():
     assert found.stdout.strip() == "[]"
 
 
+def readme_case():
+    """The case that the script in the README builds, from the script itself."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    script = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
+    names = {}
+    exec(script[: script.index("v_c =")], names)
+    return names["case"]
+
+
 def test_the_sentence_of_the_readme_runs():
-    case = mdr.SlidingContact(
-        indenter=mdr.Paraboloid(R=5e-3),
-        material=mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-        mu_0=0.5,
-        oscillation=mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=2 * np.pi * 50),
-        pull=mdr.SpringPull(k_x=2e4, m=0.1, c_x=0.0),
-    )
+    case = readme_case()
     v_c = mdr.critical_velocity(case)
     assert 0 < mdr.static_cof(case) < case.mu_0
     assert abs(mdr.full_slip_critical_velocity(case) / v_c - 1) < 0.05
+
+
+def test_the_example_file_is_the_case_of_the_readme():
+    assert read_case(ROOT / "docs" / "example.toml") == readme_case()

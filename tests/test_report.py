@@ -6,8 +6,10 @@ import os
 import pickle
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -61,7 +63,7 @@ class Tags(HTMLParser):
         self.seen.append(tag)
         self.links += [value for key, value in attrs if key in ("href", "src")]
         self.ids += [value for key, value in attrs if key == "id"]
-        if tag not in ("meta", "img", "br"):
+        if tag not in ("meta", "img", "br", "input"):
             self.open.append(tag)
 
     def handle_endtag(self, tag):
@@ -149,13 +151,11 @@ def test_page_is_well_formed_and_needs_nothing_else():
     assert "4 of 4 checks held" in page
     assert "--quick" in page
     assert page.index('id="glance"') < page.index("<section")
-    assert page.count("<img") == 2
+    assert page.count("<img") == page.count("<label class=enlarge><input type=checkbox") == 2
 
 
 def test_a_failed_check_is_told_everywhere(tmp_path):
-    claim = made_up_claim(
-        checks=[Check("F_x <i>mean</i>", math.nan, 1.5, 0.1, "because"), Check("b", 1, 1, 0, "w")]
-    )
+    claim = made_up_claim(checks=[Check("F_x <i>mean</i>", math.nan, 1.5, 0.1, "because"), Check("b", 1, 1, 0, "w")])
     write_report([claim], tmp_path)
     record = json.loads((tmp_path / "checks.json").read_text(encoding="utf-8"))
     assert record["checks"][0] == {
@@ -166,6 +166,16 @@ def test_a_failed_check_is_told_everywhere(tmp_path):
     assert "<span class=no>1/2</span>" in page
     assert "✗" in page
     assert "NOT HELD F_x mean" in text_table([claim])
+
+
+def test_checks_are_folded_unless_one_failed():
+    failed = made_up_claim("map", checks=[Check("a", 1, 1, 0, "w"), Check("b", 2, 1, 0, "w")])
+    page = html_page([made_up_claim(), failed])
+    assert re.findall("<details.*</summary>", page) == [
+        "<details><summary>2 of 2 checks held</summary>",
+        "<details open><summary>1 of 2 checks held</summary>",
+    ]
+    assert page.count("</details>") == 2
 
 
 def test_checks_json_has_exactly_the_promised_keys(tmp_path):
@@ -264,9 +274,7 @@ def test_a_failed_check_gives_1_and_only_asks_for_some(claims):
 
 
 def test_claims_that_raise_die_or_are_missing_leave_the_others_alone(claims, capsys):
-    package = claims(
-        "some_raise", one=(1.0, "pass"), two=(1.0, "import os; os._exit(3)"), four=(1.0, "1 / 0")
-    )
+    package = claims("some_raise", one=(1.0, "pass"), two=(1.0, "import os; os._exit(3)"), four=(1.0, "1 / 0"))
     assert command.main(["-o", "out", "--jobs", "3"], package) == 1
     record = json.loads(Path("out/checks.json").read_text(encoding="utf-8"))
     assert [c["verdict"] for c in record["claims"]] == ["holds", "not tested", "not tested"]
@@ -290,9 +298,7 @@ def test_a_claim_carries_its_modules_name(claims, capsys):
     assert "must carry its module's name, got 'two'" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    "argv", [["--only", "nothing"], ["--quick", "--long"], ["--jobs", "0"], ["--effort"]]
-)
+@pytest.mark.parametrize("argv", [["--only", "nothing"], ["--quick", "--long"], ["--jobs", "0"], ["--effort"]])
 def test_wrong_arguments_give_2(argv):
     with pytest.raises(SystemExit) as stop:
         command.main(argv)
@@ -322,6 +328,74 @@ def test_the_command_itself_runs_claims_in_processes_of_their_own(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "Done with quick" in done.stdout
     assert re.fullmatch(r"mapping: 1/1 checks held, \d+\.\d s\n", done.stderr)
+
+
+ASLEEP = "open(f'{__name__}.pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(60)"
+
+
+@pytest.fixture
+def asleep(claims, tmp_path):
+    """A command with two claims asleep and one waiting: its process, and the numbers of those of the claims."""
+    claims("asleep", one=(1.0, "pass"), two=(1.0, ASLEEP), generalisation=(1.0, ASLEEP), late=(1.0, ASLEEP))
+    code = "import sys\nfrom validation.__main__ import main\n"
+    code += "if __name__ == '__main__': sys.exit(main(['--jobs', '2'], 'asleep'))"
+    Path("command.py").write_text(code, encoding="utf-8")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
+    command_line = [sys.executable, "command.py"]
+    process = subprocess.Popen(command_line, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+    files = [Path("asleep.generalisation.pid"), Path("asleep.two.pid")]
+    assert within(30, lambda: all(path.exists() and path.read_text() for path in files))
+    yield process, [int(path.read_text()) for path in files]
+    process.kill()
+    process.stderr.close()
+
+
+def within(seconds, happens):
+    end = time.monotonic() + seconds
+    while not happens() and time.monotonic() < end:
+        time.sleep(0.02)
+    return happens()
+
+
+def is_alive(number):
+    """Whether a process of this number runs; a dead one nobody has buried yet does not."""
+    stat = Path(f"/proc/{number}/stat")
+    try:
+        return stat.read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are looked up in /proc")
+@pytest.mark.parametrize("send", [os.kill, getattr(os, "killpg", os.kill)], ids=["parent", "group"])
+def test_an_interrupt_ends_the_command_and_its_processes(asleep, send):
+    process, workers = asleep
+    assert all(is_alive(number) for number in workers)
+    send(process.pid, signal.SIGINT)
+    _, err = process.communicate(timeout=2)
+    assert process.returncode == 130
+    assert re.fullmatch(r"one: 1/1 checks held, .* s\ninterrupted before the report was complete\n", err)
+    assert not any(is_alive(number) for number in workers)
+    assert not Path("report").exists()
+    assert not Path("asleep.late.pid").exists()
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are looked up in /proc")
+def test_claims_end_with_a_command_that_is_killed(asleep):
+    process, workers = asleep
+    process.kill()
+    process.wait(timeout=2)
+    assert within(2, lambda: not any(is_alive(number) for number in workers))
+
+
+def test_the_longest_claim_begins_first_and_the_page_keeps_its_order(claims):
+    claims("ordered", one=(1.0, "pass"), generalisation=(1.0, "pass"))
+    first, _ = next(command.run_all(["one", "generalisation"], "full", "ordered", 1))
+    assert first == "generalisation"
+    assert command.main(["--jobs", "1"], "ordered") == 0
+    record = json.loads(Path("report/checks.json").read_text(encoding="utf-8"))
+    assert [claim["name"] for claim in record["claims"]] == ["one", "generalisation"]
+    assert command.LONGEST in validation.CLAIMS
 
 
 def test_claims_are_listed_once():

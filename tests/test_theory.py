@@ -1,6 +1,9 @@
 """Every closed form against its neighbours: limits, derivatives, the equation of motion, the printed page."""
 
+import dataclasses
+import inspect
 import math
+import re
 
 import numpy as np
 import pytest
@@ -294,3 +297,48 @@ def test_deficit_ends_at_one_and_zero():
 def test_deficit_outside_its_range_is_refused(v_hat):
     with pytest.raises(ValueError, match=r"v_hat must lie in \[0, 1\]"):
         theory.deficit(v_hat)
+
+
+# --- what is refused ---
+
+EQUATIONS = {name: one for name, one in vars(theory).items() if name.startswith("eq_")}
+
+
+@pytest.mark.parametrize("name", ["eq_10", "eq_13", "eq_14"])
+def test_full_slip_on_the_undamped_resonance_is_refused_by_name(name):
+    equation = EQUATIONS[name]
+    values = dict.fromkeys(inspect.signature(equation).parameters, 1.0) | {"omega": 2.0, "m": 3.0, "k_x": 12.0}
+    with pytest.raises(ValueError, match=r"resonance: k_x = m omega² = 12 N/m"):
+        equation(**values)
+    assert np.isfinite(equation(**values | {"k_x": 13.0}))
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+@pytest.mark.parametrize("equation", EQUATIONS.values(), ids=EQUATIONS)
+def test_nothing_that_is_not_finite_gets_in(equation, bad):
+    for wrong in inspect.signature(equation).parameters:
+        values = dict.fromkeys(inspect.signature(equation).parameters, 1.0) | {wrong: bad}
+        with pytest.raises(ValueError, match=f"^{wrong} must be finite"):
+            equation(**values)
+
+
+def test_help_on_the_critical_velocity_prints_what_it_computes():
+    words = inspect.getdoc(mdr.critical_velocity)
+    assert "Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335" in " ".join(words.split())
+    case = contact("paraboloid", 5.0, 0.7, 0.6, 0.3, 0.2)
+    names = {
+        "mu_0": case.mu_0, "du_z": case.oscillation.du_z, "omega": case.oscillation.omega, "k_xc": case.k_xc,
+        "gamma_zc": case.gamma_zc, "kappa": case.k_zc / case.k_xc, "i": 1j, "sqrt": np.sqrt, "abs": abs,
+        "k_x": case.pull.k_x, "m": case.pull.m, "c_x": case.pull.c_x,
+    }  # fmt: skip
+
+    def value(line, **changes):
+        line = re.sub(r"\|([^|]*)\|", r"abs(\1)", line).replace("²", "**2")
+        line = re.sub(r"(?<=[\w)]) (?=[\w(])", " * ", line)
+        return eval(line, {**names, **changes})
+
+    general, D = re.search(r"v_c = (.*\|D\|), +D = (.*),", words).groups()
+    assert_allclose(value(general, D=value(D)), mdr.critical_velocity(case), rtol=1e-12)
+    undamped = dataclasses.replace(case, pull=dataclasses.replace(case.pull, c_x=0.0))
+    printed = re.search(r"v_c = (.*sqrt.*);", words)[1]
+    assert_allclose(value(printed), mdr.critical_velocity(undamped), rtol=1e-12)

@@ -5,12 +5,15 @@ order of the report. `python -m validation` runs them all and writes the page.
 """
 
 import importlib
+import multiprocessing
 import os
+import signal
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from validation.report import Claim
 
@@ -19,8 +22,10 @@ CLAIMS = (
     "full_slip_motion",
     "static_cof",
     "rigid_pull",
+    "one_curve",
     "spring_pull",
     "generalisation",
+    "resonances",
     "resolution",
     "energy",
 )
@@ -46,6 +51,22 @@ def run_claim(name: str, effort: str, package: str = "validation") -> Outcome:
     except (Exception, SystemExit) as error:
         return not_tested(name, error, time.perf_counter() - begin)
     return Outcome(claim, time.perf_counter() - begin)
+
+
+def send_claim(pipe: Any, name: str, effort: str, package: str) -> None:
+    """Run one claim in a process of its own and send the outcome; whoever began the process answers Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with pipe:
+        pipe.send(run_claim(name, effort, package))
+
+
+def _end_with_parent() -> None:
+    """End this process with the one that began it, however that ends."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def not_tested(name: str, error: BaseException, seconds: float) -> Outcome:

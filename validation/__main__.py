@@ -4,49 +4,107 @@ import argparse
 import importlib
 import multiprocessing
 import os
+import signal
 import sys
 import time
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from collections import deque
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import closing, contextmanager
+from multiprocessing import connection, resource_tracker
 from pathlib import Path
+from typing import Any, NamedTuple
 
-from validation import Outcome, not_tested, run_claim
+from validation import Outcome, not_tested, send_claim
 from validation.report import text_table, write_report
+
+LONGEST = "generalisation"  #: begun first, so that it is not alone at the end
 
 
 def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
-    """Test the claims of `package`; 0 if every check held, 1 if not, 2 for wrong arguments."""
+    """Test the claims of `package`; 0 if every check held, 1 if not, 2 for wrong arguments, 130 if interrupted."""
     known = importlib.import_module(package).CLAIMS
     args = _arguments(known).parse_args(argv)
     names = [name for name in known if name in (args.only or known)]
-    outcomes = {}
-    for name, outcome in _progress(run_all(names, args.effort, package, args.jobs), len(names)):
-        outcomes[name] = outcome.claim
-    claims = [outcomes[name] for name in names]
-    page = write_report(claims, args.output, args.effort)
+    try:
+        with closing(run_all(names, args.effort, package, args.jobs)) as ended:
+            outcomes = dict(_progress(ended, len(names)))
+        claims = [outcomes[name].claim for name in names]
+        page = write_report(claims, args.output, args.effort)
+    except KeyboardInterrupt:
+        print("interrupted before the report was complete", file=sys.stderr)
+        return 130
     print(text_table(claims))
     print(f"report: {page}")
     return 0 if all(claim.held for claim in claims) else 1
 
 
-def run_apart(name: str, effort: str, package: str) -> Outcome:
-    """Run one claim in a fresh process, whose death is this claim's alone."""
-    begin = time.perf_counter()
+def run_all(names: Sequence[str], effort: str, package: str, jobs: int) -> Generator[tuple[str, Outcome]]:
+    """Each claim's name and outcome as it ends, `jobs` at a time, each in a process whose death is its alone.
+
+    Closed early, as at Ctrl-C, it kills what still runs. Should this process be killed, those end by themselves.
+    """
+    waiting = deque(sorted(names, key=lambda name: name != LONGEST))
+    running: dict[Any, _Running] = {}
     try:
-        with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as process:
-            return process.submit(run_claim, name, effort, package).result()
-    except Exception as error:
-        return not_tested(name, error, time.perf_counter() - begin)
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                with _interrupts_held():
+                    pipe, claim = _start(waiting.popleft(), effort, package)
+                    running[pipe] = claim
+            for pipe in connection.wait(list(running)):
+                claim = running[pipe]
+                outcome = _received(pipe, claim)
+                del running[pipe]
+                yield claim.name, outcome
+    finally:
+        for claim in running.values():
+            claim.process.kill()
+        for claim in running.values():
+            claim.process.join()
 
 
-def run_all(names: Sequence[str], effort: str, package: str, jobs: int) -> Iterator[tuple[str, Outcome]]:
-    """Each claim's name and outcome as it ends; one job runs them in this process, one after the other."""
-    if jobs == 1:
-        yield from ((name, run_claim(name, effort, package)) for name in names)
+class _Running(NamedTuple):
+    name: str
+    process: Any
+    begin: float
+
+
+def _start(name: str, effort: str, package: str) -> tuple[Any, _Running]:
+    """The end of a pipe at which a claim's outcome will arrive, and the fresh process that tests it."""
+    context = multiprocessing.get_context("spawn")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=send_claim, args=(there, name, effort, package), name=name)
+    process.start()
+    there.close()  # the process then holds the only one: its death is the end of the pipe
+    return here, _Running(name, process, time.perf_counter())
+
+
+def _received(pipe: Any, claim: _Running) -> Outcome:
+    """What the process of a claim sent, or how it died."""
+    try:
+        outcome: Outcome = pipe.recv()
+    except (EOFError, OSError):
+        claim.process.join()
+        code = claim.process.exitcode
+        how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
+        error = RuntimeError(f"the process of this claim died with {how}")
+        return not_tested(claim.name, error, time.perf_counter() - claim.begin)
+    claim.process.join()
+    return outcome
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Let Ctrl-C wait until the process begun here is listed; it and its threads inherit that they do not hear it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
         return
-    with ThreadPoolExecutor(jobs) as threads:
-        running = {threads.submit(run_apart, name, effort, package): name for name in names}
-        yield from ((running[done], done.result()) for done in as_completed(running))
+    resource_tracker.ensure_running()  # would end the wait when begun later
+    held = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, held)
 
 
 def _progress(ended: Iterator[tuple[str, Outcome]], total: int) -> Iterator[tuple[str, Outcome]]:

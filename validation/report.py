@@ -171,9 +171,7 @@ def write_report(claims: Sequence[Claim], folder: str | Path, effort: str = "ful
             (folder / f"{claim.name}-{figure.name}.svg").write_bytes(figure.svg)
             (folder / f"{claim.name}-{figure.name}.png").write_bytes(figure.png)
     record = {
-        "claims": [
-            {"name": c.name, "verdict": plain(c.verdict), "sentence": plain(c.sentence)} for c in claims
-        ],
+        "claims": [{"name": c.name, "verdict": plain(c.verdict), "sentence": plain(c.sentence)} for c in claims],
         "checks": [check.record(claim.name) for claim in claims for check in claim.checks],
     }
     text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
@@ -198,12 +196,12 @@ def text_table(claims: Iterable[Claim]) -> str:
 
 
 def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
-    """Give the whole report as one page that needs no other file."""
+    """Give the whole report as one page that needs no other file; a tap on a figure enlarges it or undoes that."""
     glance = [(c, f) for c in claims for f in c.figures if f.name == "glance"][:1]
     n_checks, n_held = sum(len(c.checks) for c in claims), sum(c.n_held for c in claims)
     parts = [
         _HEAD,
-        f"<p class=count>{n_held} of {n_checks} checks held.</p>",
+        f"<p class=count>{_count(n_held, n_checks)}.</p>",
         _table("verdicts", ("Claim", "Verdict", "In one sentence", "Checks"), claims, _verdict_row),
         *(_figure(claim, figure) for claim, figure in glance),
         *(_section(claim, [figure for _, figure in glance]) for claim in claims),
@@ -268,25 +266,21 @@ def _section(claim: Claim, above: Sequence[Figure]) -> str:
     for label, text in (("Tested over", claim.range), ("Measured", claim.measured)):
         if text:
             parts.append(f"<p><b>{label}:</b> {markup(text)}</p>")
-    link = (
-        "" if len(shown) == len(claim.figures) else ' <a href="#glance">Its main figure opens this page.</a>'
-    )
+    link = "" if len(shown) == len(claim.figures) else ' <a href="#glance">Its main figure opens this page.</a>'
     parts += [
         f"<p><b>Verdict:</b> {_verdict_row(claim)[1]}. {markup(claim.sentence)}{link}</p>",
         *(_figure(claim, figure) for figure in shown),
+        f"<details{'' if claim.held else ' open'}><summary>{_count(claim.n_held, len(claim.checks))}</summary>",
         _table("checks", head, claim.checks, _check_row),
-        "</section>",
+        "</details></section>",
     ]
     return "\n".join(parts)
 
 
-def _table(
-    kind: str, head: Sequence[str], items: Iterable[Any], row: Callable[[Any], tuple[str, ...]]
-) -> str:
+def _table(kind: str, head: Sequence[str], items: Iterable[Any], row: Callable[[Any], tuple[str, ...]]) -> str:
     """Set a table whose cells carry their heading, so that a narrow screen can stack them."""
     rows = [
-        "".join(f'<td data-label="{h}">{cell}</td>' for h, cell in zip(head, row(item), strict=True))
-        for item in items
+        "".join(f'<td data-label="{h}">{cell}</td>' for h, cell in zip(head, row(item), strict=True)) for item in items
     ]
     heading = "".join(f"<th scope=col>{h}</th>" for h in head)
     body = "\n".join(f"<tr>{cells}</tr>" for cells in rows)
@@ -297,7 +291,12 @@ def _figure(claim: Claim, figure: Figure) -> str:
     name = "glance" if figure.name == "glance" else f"{claim.name}-{figure.name}"
     data = base64.b64encode(figure.svg).decode("ascii")
     image = f'<img src="data:image/svg+xml;base64,{data}" alt="{html.escape(plain(figure.alt))}">'
-    return f'<figure id="{name}">{image}<figcaption>{markup(figure.caption)}</figcaption></figure>'
+    enlarge = f'<label class=enlarge><input type=checkbox aria-label="full size">{image}</label>'
+    return f'<figure id="{name}">{enlarge}<figcaption>{markup(figure.caption)}</figcaption></figure>'
+
+
+def _count(n_held: int, n: int) -> str:
+    return f"{n_held} of {n} checks held"
 
 
 def _symbol(match: re.Match[str]) -> str:
@@ -370,6 +369,10 @@ th { border-bottom: 2px solid #555; white-space: nowrap; }
 .holds, .yes { color: #00603a; font-weight: bold; } .holds-if { color: #7a5200; font-weight: bold; }
 .fails, .not, .no { color: #a3180c; font-weight: bold; }
 figure { margin: 1.5rem 0; break-inside: avoid; } img { max-width: 100%; height: auto; }
+.enlarge { display: block; overflow-x: auto; cursor: zoom-in; }
+.enlarge input { position: absolute; opacity: 0; } .enlarge input:focus-visible + img { outline: 2px solid #00518a; }
+.enlarge input:checked + img { max-width: none; width: max(150%, 60rem); cursor: zoom-out; }
+summary { cursor: pointer; font-weight: bold; }
 figcaption { font-size: .85rem; line-height: 1.45; color: #333; max-width: 46rem; }
 footer { border-top: 1px solid #bbb; margin-top: 2.5rem; font-size: .8rem; color: #444; }
 @media screen and (max-width: 40rem) {
@@ -379,7 +382,8 @@ footer { border-top: 1px solid #bbb; margin-top: 2.5rem; font-size: .8rem; color
   .checks td:nth-child(n+2):nth-child(-n+5) { display: inline-block; margin-right: 1em; }
   td::before { content: attr(data-label) ": "; font: bold .75rem Arial, sans-serif; color: #555; }
 }
-@media print { body { font-size: 10.5pt; } main { max-width: none; padding: 0; } tr { break-inside: avoid; } }
+@media print { body { font-size: 10.5pt; } main { max-width: none; padding: 0; } tr { break-inside: avoid; }
+  details::details-content { content-visibility: visible; } }
 """
 
 _HEAD = f"""<!DOCTYPE html>

@@ -90,12 +90,16 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         Written as 2E*(d a − ∫g dx) it is stationary in a, so that a's rounding does not show in it.
         """
         d, E_star = finite_array("d", d, "m"), positive_array("E_star", E_star, "Pa")
-        a = self.contact_radius(d)
-        return plain(2 * E_star * np.maximum(np.maximum(d, 0) * a - self.profile_area(a), 0))
+        with np.errstate(over="ignore", invalid="ignore"):
+            a = self.contact_radius(d)
+            F_N = 2 * E_star * (np.maximum(d, 0) * a - self.profile_area(a))
+        return plain(np.maximum(self._in_range("F_N", F_N, d), 0))
 
     def stiffness(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
         """Contact stiffness k_zc = dF_N/dd = 2E*a [N/m], 0 where d <= 0."""
-        return plain(2 * positive_array("E_star", E_star, "Pa") * self.contact_radius(d))
+        with np.errstate(over="ignore"):
+            k_zc = 2 * positive_array("E_star", E_star, "Pa") * self.contact_radius(d)
+        return plain(self._in_range("k_zc", k_zc, d))
 
     def pressure(self, r: ArrayLike, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
         """Pressure p [Pa] at the distance r from the axis and the depth d, 0 for r >= a.
@@ -144,6 +148,15 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
             )
         return r
 
+    def _in_range(self, name: str, answer: FloatArray, d: ArrayLike) -> FloatArray:
+        """The answer, refused where it, or a term of it, lies beyond the range of floats."""
+        if not np.all(np.isfinite(answer)):
+            raise ValueError(
+                f"{name} of {self!r} is beyond the range of floats at d = {np.max(np.asarray(d)):.6g} m: "
+                "the shape is too flat, or pressed too deep"
+            )
+        return answer
+
     def _search(self, d: FloatArray) -> FloatArray:
         start = np.array(self.kinks[0] if self.kinks else min(self.max_radius / 2, 1e300))
         start = np.broadcast_to(start if self.kinks or self.max_radius < np.inf else d, d.shape)
@@ -152,11 +165,33 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         else:
             a, ended = panels.invert(self._f, self._edges, d, start)
         if ended.any():
-            raise ValueError(
-                f"{type(self).__name__} has no finite height beyond r = {a[ended].min():.6g} m, but at "
-                f"the depth d = {d[ended].min():.6g} m more of it touches: press less, or give r_max"
-            )
+            raise ValueError(self._why_no_radius(float(d[ended].min()), float(a[ended].min())))
         return a
+
+    def _why_no_radius(self, d: float, end: float) -> str:
+        """Why no radius up to ``end`` belongs to the depth d: what the heights from r = d on say."""
+        name, height = ("g(x)", self._g) if self._gives_g else ("f(r)", self._f)
+        r = np.unique(np.minimum(np.geomspace(min(d, end), end, 2048), end))
+        with np.errstate(all="ignore"):
+            heights, further = height(r), height(np.array([min(2 * end, np.finfo(float).max)]))[0]
+        known = np.isfinite(heights)
+        below = known & (heights < 0)
+        if below.any():
+            return (
+                f"{type(self).__name__} falls below its tip, from which the depth counts: {name} = "
+                f"{heights[below][0]:.6g} m at {r[below][0]:.6g} m from the axis; check its sign, "
+                "or end it before (r_max)"
+            )
+        highest = np.max(heights[known], initial=further)
+        if highest < d:  # not where nothing is known further out
+            return (
+                f"{type(self).__name__} never gets as high as d = {d:.6g} m: {name} stays at or below "
+                f"{highest:.6g} m however far out; press less"
+            )
+        return (
+            f"{type(self).__name__} has no finite height beyond r = {end:.6g} m, but at the depth d = {d:.6g} m "
+            "more of it touches: press less, or give r_max"
+        )
 
     def _refuse_beyond(self, d: FloatArray) -> None:
         if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:

@@ -11,7 +11,7 @@ from mdr.indenters.base import Indenter, rim_pressure
 
 @dataclass(frozen=True)
 class FlatPunch(Indenter):
-    """Flat-ended cylinder, touching with its whole face; both profiles are inf beyond the rim."""
+    """Flat-ended cylinder, touching with its whole face; both profiles end at the rim."""
 
     a: float  #: radius [m]
 
@@ -24,12 +24,12 @@ class FlatPunch(Indenter):
         return self.a
 
     def profile_3d(self, r: ArrayLike) -> FloatArray:
-        """Height f = 0 for r <= a, inf beyond."""
-        return plain(np.where(np.abs(finite_array("r", r, "m")) <= self.a, 0.0, np.inf))
+        """Height f = 0 for r <= a."""
+        return plain(0 * self._within(finite_array("r", r, "m")))
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """Height g = 0 for |x| <= a, inf beyond."""
-        return plain(np.where(np.abs(finite_array("x", x, "m")) <= self.a, 0.0, np.inf))
+        """Height g = 0 for |x| <= a."""
+        return plain(0 * self._within(finite_array("x", x, "m")))
 
     def contact_radius(self, d: ArrayLike) -> FloatArray:
         """The radius of the punch for d > 0, else 0."""

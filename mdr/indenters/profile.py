@@ -70,7 +70,10 @@ class Profile(Indenter):
                 heights = self.f(r)
             except (TypeError, ValueError):  # f knows single numbers only
                 heights = np.vectorize(self.f, otypes=[float])(r)
-        return np.broadcast_to(np.asarray(heights, dtype=np.float64), np.shape(r))
+        heights = np.asarray(heights)
+        if heights.dtype.kind not in "iufb" or heights.shape not in ((), np.shape(r)):
+            raise TypeError(f"f must answer an array of radii with as many real heights, got {heights!r}")
+        return np.broadcast_to(heights.astype(np.float64), np.shape(r))
 
     def _refuse_offset(self) -> None:
         offset = float(self._f(np.zeros(1))[0])

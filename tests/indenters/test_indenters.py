@@ -48,8 +48,10 @@ def test_g_is_the_quadrature_of_f(shape):
 
     def slope(t):
         r, h = x * math.sin(t), 1e-4 * x * math.sin(t)
-        return float(8 * (shape.profile_3d(r + h) - shape.profile_3d(r - h))
-                     - (shape.profile_3d(r + 2 * h) - shape.profile_3d(r - 2 * h))) / (12 * h)
+        return float(
+            8 * (shape.profile_3d(r + h) - shape.profile_3d(r - h))
+            - (shape.profile_3d(r + 2 * h) - shape.profile_3d(r - 2 * h))
+        ) / (12 * h)
 
     g = x * quad(slope, 1e-9, math.pi / 2, epsabs=0, epsrel=1e-11)[0]
     # fourth-order differences, h = 1e-4 r, leave 1e-12 of rounding; the start cut off at 1e-9 is the rest
@@ -157,11 +159,13 @@ def test_textbook_forces_and_pressures():
     assert_allclose(Paraboloid(R).pressure(r, d, E_STAR), hertz, rtol=EXACT)
     a_cone = 2 * d / (math.pi * T)
     assert_allclose(Cone(0.05).force(d, E_STAR), 2 / math.pi * E_STAR * d**2 / T, rtol=EXACT)
-    assert_allclose(Cone(0.05).pressure(discs(a_cone), d, E_STAR),
-                    E_STAR * T / 2 * np.arccosh(a_cone / discs(a_cone)), rtol=EXACT)
+    assert_allclose(
+        Cone(0.05).pressure(discs(a_cone), d, E_STAR), E_STAR * T / 2 * np.arccosh(a_cone / discs(a_cone)), rtol=EXACT
+    )
     assert_allclose(FlatPunch(a).force(d, E_STAR), 2 * E_STAR * a * d, rtol=EXACT)
-    assert_allclose(FlatPunch(a).pressure(discs(a), d, E_STAR),
-                    E_STAR * d / math.pi / np.sqrt(a**2 - discs(a) ** 2), rtol=EXACT)
+    assert_allclose(
+        FlatPunch(a).pressure(discs(a), d, E_STAR), E_STAR * d / math.pi / np.sqrt(a**2 - discs(a) ** 2), rtol=EXACT
+    )
 
 
 @pytest.mark.parametrize(("mapped", "closed"), MAPPED, ids=lambda s: name(s))
@@ -209,6 +213,43 @@ def test_annular_contact_is_refused_by_name():
         Profile(lambda r: r**2 * (1e-4 - r**2), r_max=0.02)
     with pytest.raises(ValueError, match="annular contact"):
         Profile(lambda r: -(r**2), r_max=1e-3)
+
+
+@pytest.mark.parametrize(("f", "d", "words"), [
+    (lambda r: -(r**2), 1e-5, r"falls below its tip.*f\(r\) = -1e-10 m at 1e-05 m from the axis; check its sign"),
+    (lambda r: r**2 * (1e-4 - r**2), 1e-5, "falls below its tip"),
+    (lambda r: 1e-6 * np.tanh(r / 1e-3), 1e-5, r"never gets as high as d = 1e-05 m: f\(r\) stays at or below 1e-06 m"),
+    (lambda r: 0 * r, 1e-5, "never gets as high"),
+    (lambda r: 1 - np.sqrt(1 - r**2), 5.0, "no finite height beyond r = 0.9998.*give r_max"),
+])  # fmt: skip
+def test_a_depth_without_a_radius_is_told_why(f, d, words):
+    with pytest.raises(ValueError, match=words):
+        Profile(f).contact_radius(d)
+    with pytest.raises(ValueError, match=words):
+        Profile(f).force([-d, d], 1.0)
+
+
+def test_a_bounded_profile_is_pressed_up_to_its_bound():
+    shape = Profile(lambda r: 1e-6 * np.tanh(r / 1e-3))
+    assert_allclose(shape.profile_1d(shape.contact_radius(0.9e-6)), 0.9e-6, rtol=MAP)
+
+
+@pytest.mark.parametrize("ask", [FlatPunch(2e-3).profile_3d, FlatPunch(2e-3).profile_1d])
+def test_a_punch_ends_at_its_rim(ask):
+    assert np.array_equal(ask([-2e-3, 0, 2e-3]), [0, 0, 0])
+    with pytest.raises(ValueError, match=r"FlatPunch ends at r = 0.002 m, got 0.0021 m"):
+        ask([0, 2.1e-3])
+
+
+@pytest.mark.parametrize("theta", [1e-300, 1e-160])
+def test_a_force_beyond_the_range_of_floats_is_refused(theta):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ValueError, match=r"F_N of Cone\(theta=1e-\d+\) is beyond the range of floats"):
+            Cone(theta).force([0, 1e-5], 1e6)
+        with pytest.raises(ValueError, match=r"k_zc of Cone.* is beyond the range of floats"):
+            Cone(1e-300).stiffness(1e4, 1e6)
+        assert_allclose(Cone(1e-140).force(1e-5, 1e6), 2 / math.pi * 1e6 * 1e-10 / 1e-140, rtol=EXACT)
 
 
 def test_profiles_compare_by_their_function():

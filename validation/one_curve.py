@@ -1,0 +1,249 @@
+"""At small amplitude the elastic COF curves of all shapes are one; what is left of the shape is known to first order.
+
+Rigid pull, elastic contact that is kept. A spring of gap c, its foot du_z c below the mean surface, |c| < 1, touches at
+theta with cos(theta) = c. It sticks with the core from phi_1, sin(phi_1) = -v, if it touched before; at once if it
+touches later while -sin(theta) > v; and never after that. A stick from theta to theta_2 has
+
+    cos(theta_2) = cos(theta) + v (theta_2 - theta),
+    l(theta) = [sin(theta_2) - sin(theta) - (theta_2 - theta) cos(theta) - v (theta_2 - theta)²/2]/(2 pi)
+
+as its mean lag; that of the core, l(phi_1) = psi, is theory.deficit. For f ~ r^n the stiffness of the contact follows
+its edge like k_zc (1 + alpha c)^(1/n), k_zc at u_z0, and the lags of all springs are together
+
+    (1 - mu/mu_0) <F_N>/(k_zc du_z) = psi (1 - alpha)^(1/n) + integral of l d(1 + alpha c)^(1/n)
+                                    = psi(v) [1 + C(v) alpha/n + O(alpha²)],  C = integral of l dc/psi - 1,
+
+the integrals over c from -1 to 1. The first order is all there is for the flat punch (n = infinity) and for the cone
+(n = 1), whose stiffness is linear in the depth; the second has the factor (1/n) (1/n - 1)/2. C is -1/4 at v = 0, and 0
+at v = 1, where springs that touch before 3 pi/2, c < 0, have the lag of the core, and all others have none.
+
+Symbols: alpha = du_z/u_z0, v = v_0/v_c, phi, theta phases, <F_N> mean normal force, psi deficit of the punch.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from mdr import theory
+from mdr.full_slip import mean_normal_force
+from mdr.rigid_pull import average_friction
+from validation.cases import SHAPES, contact
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+POWERS = dict(zip(SHAPES, (np.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n
+ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
+SHOWN = 0.3  #: alpha of the figure
+
+
+@dataclass(frozen=True)
+class OneCurve:
+    """psi and C at velocities v; arrays of shape (n_v,)."""
+
+    v: Array
+    psi: Array
+    C: Array
+
+    def of(self, shape: str, alpha: float) -> Array:
+        """psi (1 + C alpha/n)."""
+        return np.asarray(self.psi * (1 + self.C * alpha / POWERS[shape]))
+
+
+def claim(effort: str) -> Claim:
+    """Scale the curves of four shapes on one, and count the order of what is left."""
+    quick = effort == "quick"
+    law = one_curve(np.linspace(1e-6, 0.999, 40 if quick else 120))
+    orders = {shape: order(shape, law, corrected=True) for shape in ("paraboloid", "r^4")}
+    raw, scaled, left = spreads(law)
+    return Claim(
+        name="one_curve",
+        title="At small amplitude the whole COF curve, not only v_c, is the same for all shapes",
+        quote=(
+            "In the present paper, the critical velocity of controllability was determined for … the simplest possible"
+            " contact geometry … However, it does not depend on absolute indentation, which permits easy"
+            " generalization to more realistic contact geometry. (Section 3)"
+        ),
+        range=(
+            "Elastic flat punch, cone, paraboloid and r^4 that keep contact, rigid pull, Δu_z/u_z0 up to 0.98,"
+            f" {law.v.size} velocities up to v_c; closed form of the COF, and runs for the punch and the cone."
+        ),
+        measured=(
+            "The lost friction 1 − μ/μ_0, in units of k_zc Δu_z/⟨F_N⟩, is one function ψ(v_0/v_c) for all shapes, up"
+            " to terms of order Δu_z/u_z0: that of a single spring, since all springs of the core move alike. The"
+            " first of these terms comes from the springs at the edge and is <i>C</i>(v_0/v_c) Δu_z/(<i>n</i> u_z0)"
+            " for <i>f</i> ~ <i>r</i>^n, with the same <i>C</i> for all. With it the punch and the cone are"
+            " exact at any amplitude that keeps contact, and what is left of the others falls with the amplitude to the"
+            " power"
+            f" {orders['paraboloid']:.2f} (paraboloid) and {orders['r^4']:.2f} (r^4). At Δu_z/u_z0 = {SHOWN:g} the"
+            f" curves differ among each other by up to {raw:.2g}, the scaled ones from ψ by {scaled:.1g}, and by"
+            f" {left:.1g} after the correction."
+        ),
+        verdict="holds",
+        sentence=(
+            "To first order in the amplitude a contact of any shape loses the friction of a single spring,"
+            " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order that times 1 + <i>C</i> Δu_z/(<i>n</i> u_z0)."
+        ),
+        checks=(
+            *_exact_checks(law, 6 if quick else 25),
+            *_first_order_checks(),
+            *_order_checks(law, orders),
+        ),
+        figures=(_figure(law),),
+    )
+
+
+def one_curve(v: Array) -> OneCurve:
+    """The two functions at 0 < v < 1, shape (n_v,)."""
+    return OneCurve(v, np.array([theory.deficit(x) for x in v]), np.array([edge_band(x) for x in v]))
+
+
+def edge_band(v: float) -> float:
+    """C(v): the lag of springs of gaps -1 to 1 over that of as many springs of the core, less 1; 0 < v < 1."""
+    from scipy.optimize import brentq
+
+    first, last = np.pi + np.arcsin(v), 2 * np.pi - np.arcsin(v)  # touches that are followed by a stick at once
+    node, weight = np.polynomial.legendre.leggauss(60)
+    total = 0.0
+    for theta, w in zip(first + (last - first) * (node + 1) / 2, (last - first) / 2 * weight, strict=True):
+        turn = 3 * np.pi - np.arcsin(v)  # where the depth falls as fast as the pull; the stick ends before
+        end = brentq(lambda t, at=theta: np.cos(t) - np.cos(at) - v * (t - at), last, turn, xtol=1e-14)
+        span = end - theta
+        lag = (np.sin(end) - np.sin(theta) - np.cos(theta) * span - v * span**2 / 2) / (2 * np.pi)
+        total += w * lag * -np.sin(theta)
+    return float(total / theory.deficit(v) - np.sqrt(1 - v**2))  # gaps from -1 to cos(first) have the lag psi
+
+
+def lost(shape: str, alpha: float, v: Array) -> Array:
+    """1 - mu/mu_0 of an elastic contact, shape (n_v,)."""
+    case = contact(shape, alpha)
+    return np.asarray(1 - average_friction(case, v * mdr.critical_velocity(case)).cof / case.mu_0)
+
+
+def unit(shape: str, alpha: float) -> float:
+    """k_zc du_z/<F_N>, the unit of the lost friction."""
+    case = contact(shape, alpha)
+    return float(case.k_zc * case.oscillation.du_z / mean_normal_force(case))
+
+
+def left_over(shape: str, alpha: float, law: OneCurve, *, corrected: bool) -> Array:
+    """The scaled curve less psi, or less psi with its first-order term; (n_v,)."""
+    return lost(shape, alpha, law.v) / unit(shape, alpha) - (law.of(shape, alpha) if corrected else law.psi)
+
+
+def order(shape: str, law: OneCurve, *, corrected: bool) -> float:
+    """Power of alpha with which the largest left-over grows, fitted over ALPHAS."""
+    largest = [np.max(np.abs(left_over(shape, alpha, law, corrected=corrected))) for alpha in ALPHAS]
+    return float(np.polynomial.polynomial.polyfit(np.log(ALPHAS), np.log(largest), 1)[1])
+
+
+def spreads(law: OneCurve) -> tuple[float, float, float]:
+    """At alpha = SHOWN, the largest: spread of 1 - mu/mu_0; left-over; left-over of the corrected curve."""
+    raw = np.max(np.ptp([lost(shape, SHOWN, law.v) for shape in SHAPES], axis=0))
+    before, after = (
+        np.max(np.abs([left_over(shape, SHOWN, law, corrected=corrected) for shape in SHAPES]))
+        for corrected in (False, True)
+    )
+    return float(raw), float(before), float(after)
+
+
+# --- checks ---
+
+
+def _exact_checks(law: OneCurve, n_v: int) -> list[Check]:
+    """Punch and cone, by the closed form and by runs."""
+    checks = []
+    run_at = one_curve(np.linspace(0.02, 0.98, n_v))
+    for shape in ("flat punch", "cone"):
+        for alpha in (0.03, 0.5, 0.98):
+            share, case = unit(shape, alpha), contact(shape, alpha)
+            off = share * np.max(np.abs(left_over(shape, alpha, law, corrected=True)))
+            what = f"1 − (k_zc Δu_z/⟨F_N⟩) ψ (1 + C Δu_z/(n u_z0)), worst: elastic {shape}, Δu_z/u_z0 = {alpha:g}"
+            why = "what the closed form promises for an elastic contact"
+            checks.append(Check.at_most(f"COF/μ_0 in closed form against {what}", off, 1e-10, why))
+            runs = np.array([mdr.slide(case, v * mdr.critical_velocity(case)).cof for v in run_at.v])
+            off = np.max(np.abs(runs / case.mu_0 - 1 + share * run_at.of(shape, alpha)))
+            why = "what a run promises when it chooses step and springs itself"
+            checks.append(Check.at_most(f"COF/μ_0 of slide() against {what}", off, 1e-5, why))
+    return checks
+
+
+def _first_order_checks() -> list[Check]:
+    """C from two small amplitudes, for every shape that has such a term."""
+    near, far = 1e-3, 2e-3
+    checks = []
+    law = one_curve(np.array([0.1, 0.3, 0.7]))
+    slopes = [
+        [POWERS[shape] * left_over(shape, alpha, law, corrected=False) / (alpha * law.psi) for alpha in (near, far)]
+        for shape in ("cone", "paraboloid", "r^4")
+    ]
+    found = np.array([2 * at_near - at_far for at_near, at_far in slopes])  # (n_shapes, n_v)
+    for i, v in enumerate(law.v):
+        worst = max(found[:, i], key=lambda value, C=law.C[i]: abs(value - C))
+        name = f"first-order term C of the lost friction, worst of cone, paraboloid and r^4: v_0/v_c = {v:g}"
+        why = "two amplitudes extrapolated leave their product, the next order, with a factor of order one"
+        checks.append(Check(name, worst, law.C[i], near * far, why))
+    why = "at rest the lag of a spring is its mean compression: 3/4 of that of the core; C rises from it like v_0/2"
+    checks.append(Check("C at v_0/v_c = 1e-9", edge_band(1e-9), -0.25, 1e-8, why))
+    return checks
+
+
+def _order_checks(law: OneCurve, orders: dict[str, float]) -> list[Check]:
+    """The power of alpha before and after the correction."""
+    why = f"the next order is smaller by Δu_z/u_z0, at most {ALPHAS[-1]:g}, with a factor of order one"
+    name = "power of Δu_z/u_z0 by which the scaled curve differs from"
+    before = [
+        Check(f"{name} ψ: {shape}", order(shape, law, corrected=False), 1.0, ALPHAS[-1], why)
+        for shape in ("cone", *orders)
+    ]
+    after = [
+        Check(f"{name} ψ (1 + C Δu_z/(n u_z0)): {shape}", got, 2.0, ALPHAS[-1], why) for shape, got in orders.items()
+    ]
+    alpha = ALPHAS[0]
+    second = {shape: left_over(shape, alpha, law, corrected=True)[0] for shape in orders}
+    n_2, n_4 = (1 / POWERS[shape] * (1 / POWERS[shape] - 1) for shape in ("paraboloid", "r^4"))
+    name = f"what is left of r^4 over that of the paraboloid near rest, Δu_z/u_z0 = {alpha:g}, as (1/n)(1/n − 1)"
+    why = "the next order is smaller by Δu_z/u_z0"
+    return [*before, *after, Check(name, second["r^4"] / second["paraboloid"], n_4 / n_2, alpha, why)]
+
+
+# --- figure ---
+
+
+def _figure(law: OneCurve) -> Figure:
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import COLOURS, style
+
+    v = law.v
+    with style():
+        fig, (curves, scaled, left) = plt.subplots(1, 3, figsize=(12.6, 4.2))
+        for shape, colour in zip(SHAPES, COLOURS, strict=False):
+            label = shape.replace("r^4", "$r^4$")
+            raw = lost(shape, SHOWN, v)
+            curves.plot(v, raw, color=colour, label=label)
+            scaled.plot(v, raw / unit(shape, SHOWN), color=colour)
+            left.plot(v, left_over(shape, SHOWN, law, corrected=False), color=colour, lw=1, ls="--")
+            left.plot(v, left_over(shape, SHOWN, law, corrected=True), color=colour)
+        scaled.plot(v, law.psi, color="k", lw=1, ls=":", label=r"$\psi$")
+        left.plot([], [], color="0.3", lw=1, ls="--", label=r"from $\psi$")
+        left.plot([], [], color="0.3", label=r"from $\psi\,(1+C\alpha/n)$")
+        curves.set(title="lost friction", ylabel=r"$1-\mu/\mu_0$")
+        scaled.set(title="scaled", ylabel=r"$(1-\mu/\mu_0)\,\langle F_N\rangle/(k_{zc}\,\Delta u_z)$")
+        left.set(title="difference of the scaled curves", ylabel="scaled curve less its law")
+        for ax in (curves, scaled, left):
+            ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1))
+            ax.legend()
+    raw, before, after = spreads(law)
+    return Figure(
+        "collapse",
+        f"Elastic contacts of four shapes, α = Δu_z/u_z0 = {SHOWN:g}. Left: they lose up to {raw:.2g} μ_0 more or less"
+        " than each other. Middle: in units of k_zc Δu_z/⟨F_N⟩ all lose ψ(v_0/v_c), the deficit of a single spring, to"
+        f" {before:.1g}. Right: what the edge adds in first order, <i>C</i>(v_0/v_c) α/<i>n</i>, leaves {after:.1g} of"
+        " the paraboloid and less of r^4 (solid), and nothing of the punch and the cone, solid lines at zero.",
+        fig,
+        "Three panels over velocity: four curves apart; the same scaled, nearly one; what is left with and without a"
+        " correction.",
+    )

@@ -1,0 +1,308 @@
+"""Resonances: where the natural frequency of the body is a whole multiple of the frequency of the oscillation.
+
+A contact shaken at omega drives the body with the harmonics F_n of its normal force. Where omega_0 = n omega and
+nothing damps the body, the n-th one feeds its free oscillation without end; friction in full slip, mu_0 F_N(t), does
+not hold it back. The swing grows until the body, at y' = -v_0, comes to rest on the indenter once in each of its own
+periods. There springs stick, and friction stays short of mu_0 F_N by delta(t) in n short pulses a period. A steady
+motion needs
+
+    the n-th harmonic of mu_0 F_N - delta to vanish:  <delta> = mu_0 |F_n|,
+
+as short pulses, all at one phase of the own oscillation, have a mean as large as their n-th harmonic. So
+
+    mu/mu_0 -> 1 - |F_n|/F_0                                                                                    (*)
+
+at any velocity, however high: there is no critical velocity. For the punch |F_1|/F_0 = ½ alpha sqrt(1 + T²), half of
+its static reduction; for a curved shape |F_n| ~ alpha^n. At finite velocity the pulses last for a time ~ v_0^(-1/4) of
+the period and (*) is exceeded by a share ~ v_0^(-1/2), their square.
+
+Close to a resonance, or damped, v_c is finite, and on its poles of first order: with the detuning |omega_0/omega - n|
+
+    v_c |omega_0/omega - n| -> mu_0 |F_n|/(m omega),                                                           (**)
+
+so that the window in which v_c exceeds Eq. (15) by its own amount is mu_0 |F_n|/(m omega v_c15) wide on either side.
+
+Symbols: F_n complex harmonics of the normal force in full slip, F_0 its mean; alpha = du_z/u_z0, T = omega tau.
+"""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from mdr import theory
+from mdr.full_slip import mean_normal_force, normal_force_harmonics
+from mdr.plots import COLOURS, style
+from mdr.progress import progress
+from validation.cases import contact
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
+MULTIPLES = (1, 2, 3, 4, 5)
+FAST = (5, 20, 100)  # velocities over Eq. (15), on its own pole over Eq. (1)
+LEAST = 5e-6  # share of F_0 that a harmonic must have for its reduction of the COF to stand out of the error of a run
+TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  # bracket of a measurement, and second order in its step, over v_c
+LOOKS = {"flat punch": (COLOURS[0], "s"), "paraboloid": (COLOURS[2], "o")}
+
+
+def system(shape: str, T: float, ratio: float, damping_ratio: float = 0.0) -> mdr.SlidingContact:
+    """A body with omega_0 = ratio * omega."""
+    return contact(shape, ALPHA, T, k_ratio=STIFFNESS, omega_0_ratio=ratio, damping_ratio=damping_ratio)
+
+
+@cache
+def share(shape: str, T: float, n: int) -> float:
+    """|F_n|/F_0 of the normal force in full slip."""
+    F_n = normal_force_harmonics(system(shape, T, n))
+    return float(abs(F_n[n]) / F_n[0].real)
+
+
+def unit(case: mdr.SlidingContact, n: int) -> float:
+    """Eq. (15) of a case [m/s], or Eq. (1) on its pole."""
+    rigid = theory.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
+    return rigid if n == 1 else mdr.critical_velocity(case)
+
+
+@cache
+def reduction(shape: str, T: float, n: int, speed: float) -> tuple[float, float]:
+    """1 - cof/mu_0 on the undamped resonance at a speed in units of `unit`, and its error; NaN while its swing
+    still grows.
+    """
+    case = system(shape, T, n)
+    run = mdr.slide(case, speed * unit(case, n), n_springs=192, steps_per_period=1024)
+    if run.kind == "unsettled":
+        return np.nan, np.nan
+    return 1 - run.cof / run.mu_0, run.cof_error / run.mu_0
+
+
+def contacts(effort: str) -> list[tuple[str, float, int]]:
+    """Shape, T and multiple."""
+    multiples = (1, 2) if effort == "quick" else MULTIPLES
+    return [(s, T, n) for s in LOOKS for T in ((0.0,) if effort == "quick" else (0.0, 1.0)) for n in multiples]
+
+
+def claim(effort: str) -> Claim:
+    """COF far above Eq. (15) on every resonance, v_c with and without damping, the width of the window."""
+    known = contacts(effort)
+    driven = [knobs for knobs in known if share(*knobs) > LEAST]
+    idle = [knobs for knobs in known if share(*knobs) < 1e-12]
+    faint = [knobs for knobs in known if 1e-12 <= share(*knobs) <= LEAST]
+    ends = {knobs: _end(*knobs, 0.0) for knobs in progress([*driven, *idle], "resonances")}
+    damped = {knobs: _end(*knobs, 0.01) for knobs in known if knobs[2] <= 3}
+    speeds = FAST[1:2] if effort == "quick" else FAST
+    checks = [
+        *_end_checks(driven, idle, ends),
+        *_damped_checks(damped),
+        *_plateau_checks(driven, speeds),
+        *_pole_checks(driven),
+    ]
+    worst = max(damped.items(), key=lambda item: abs(item[1][0] or np.nan))
+    growing = [f"{_name(knobs)} at {v} v_c" for knobs in driven for v in speeds if np.isnan(reduction(*knobs, v)[0])]
+    unseen = "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: |F_n|/F_0 = {share(s, T, n):.1e}" for s, T, n in faint)
+    return Claim(
+        name="resonances",
+        title="Where the body resonates with a harmonic of the normal force there is no critical velocity",
+        quote=(
+            "Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where v_c"
+            " becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
+            " plateau (which is less than μ_0) at fairly low sliding velocities and does not change thereafter."
+            " (Section 1, on Eq. (2))"
+        ),
+        range=(
+            f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c;"
+            f" ωτ = {', '.join(f'{T:g}' for T in sorted({T for _, T, _ in known}))};"
+            f" ω_0/ω = {', '.join(str(n) for n in sorted({n for _, _, n in known}))};"
+            f" without damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15)."
+        ),
+        measured=(
+            "Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has all"
+            " harmonics, and an undamped body with ω_0 = nω has no critical velocity for any n: its swing grows until"
+            " it comes to rest on the indenter once in each of its own periods, and at any velocity, however high, the"
+            " COF stays at 1 − |F_n|/F_0 of μ_0. "
+            + "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: {_percent(share(s, T, n))}" for s, T, n in driven)
+            + " less than μ_0. With a damper of 1 % there is a critical velocity again, that of full slip with all"
+            f" harmonics; it is off Eq. (15) by up to {100 * ((worst[1][0] or np.nan) - 1):+.0f} % ({_name(worst[0])})."
+            + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
+            + (f" Too faint to be told from the error of a run: {unseen}." if unseen else "")
+        ),
+        verdict="fails when ω_0 is a whole multiple of ω",
+        sentence=(
+            "Eq. (15) knows one resonance, a curved contact has one at every ω_0 = nω: without damping friction stays"
+            " reduced by |F_n|/F_0 at any velocity; the window narrows like α^n."
+        ),
+        checks=tuple(checks),
+        figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
+    )
+
+
+def _name(knobs: tuple[str, float, int]) -> str:
+    shape, T, n = knobs
+    return f"{shape}, {'elastic' if T == 0 else f'ωτ = {T:g}'}, ω_0 = {n}ω"
+
+
+def _percent(value: float) -> str:
+    return f"{100 * value:.2g} %"
+
+
+def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | None, float, str]:
+    """Measured v_c over Eq. (15) or None, over the full-slip value, and its kind."""
+    case = system(shape, T, n, damping_ratio)
+    found = mdr.measure_critical_velocity(case)
+    if found.v_c is None:
+        return None, np.nan, found.kind
+    return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case), found.kind
+
+
+def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> list[Check]:
+    found = sum(ends[knobs][0] is not None for knobs in driven)
+    why = "the harmonic drives the body up to stick at any velocity"
+    checks = [Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)]
+    whole = sum(not np.isinf(mdr.full_slip_critical_velocity(system(*knobs))) for knobs in driven)
+    checks.append(Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why))
+    for knobs in idle:
+        why = "the force has no such harmonic; bracket and second order in the step"
+        checks.append(Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], 1.0, TOLERANCE, why))
+    return checks
+
+
+def _damped_checks(damped: dict[Any, Any]) -> list[Check]:
+    worst = max(damped.values(), key=lambda end: abs(end[1] - 1))
+    why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
+    name = f"v_c over the full-slip value, damper of 1 %, worst of {len(damped)} resonances"
+    return [Check(name, worst[1], 1.0, TOLERANCE, why)]
+
+
+def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> list[Check]:
+    checks = []
+    for knobs in driven:
+        for speed in speeds:
+            got, error = reduction(*knobs, speed)
+            law = share(*knobs)
+            if np.isnan(got):  # said in words
+                continue
+            # pulses of a width ~ v^(-1/4) exceed the law by its square, at most 0.3 at v = 1; error of the run
+            tolerance = 0.3 * speed**-0.5 + law + error / law
+            why = (
+                "law of short pulses; their width adds up to 0.3 (v/v_c)^(-1/2), their size |F_n|/F_0; error of the run"
+            )
+            checks.append(
+                Check(f"(1 − COF/μ_0) F_0/|F_n| at {speed} v_c: {_name(knobs)}", got / law, 1.0, tolerance, why)
+            )
+    n_found = sum(not np.isnan(reduction(*knobs, v)[0]) for knobs in driven for v in speeds)
+    why = (
+        "a steady motion is solved for; the faintest harmonics drive too slowly at the highest speeds to be sure of it"
+    )
+    checks.append(
+        Check.at_least(
+            f"runs of {len(driven) * len(speeds)} that are steady", n_found, 0.8 * len(driven) * len(speeds), why
+        )
+    )
+    fall = [(reduction("flat punch", 0.0, 1, v)[0] / share("flat punch", 0.0, 1) - 1) for v in (4, 16, 64)]
+    power = float(np.polyfit(np.log([4, 16, 64]), np.log(fall), 1)[0])
+    why = "pulses of a width ~ v^(-1/4) exceed the law by the square of it; the next order is not small at v = 4"
+    checks.append(Check("power of the velocity with which the punch comes down to the law", power, -0.5, 0.1, why))
+    return checks
+
+
+def _pole_checks(driven: list[Any]) -> list[Check]:
+    """The residue of v_c at the pole from full-slip values at a small detuning on both sides."""
+    checks = []
+    for shape, T, n in driven:
+        case = system(shape, T, n)
+        residue = case.mu_0 * share(shape, T, n) * mean_normal_force(case)
+        residue /= case.pull.m * case.oscillation.omega  # type: ignore[attr-defined]
+        shift = 1e-3 * residue / unit(case, n)  # v_c is then about a thousand times its usual value
+        both = [mdr.full_slip_critical_velocity(system(shape, T, n * (1 + side * shift / n))) for side in (-1, 1)]
+        name = f"v_c |ω_0/ω − n| m ω/(μ_0 |F_n|): {_name((shape, T, n))}"
+        why = "the other harmonics add up to a few thousandths at that detuning"
+        checks.append(Check(name, float(np.mean(both)) * shift / residue, 1.0, 5e-3, why))
+    return checks
+
+
+def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:
+    import matplotlib.pyplot as plt
+
+    shown = [knobs for knobs in driven if knobs[1] == 0.0]
+    velocities = np.geomspace(1.5, max(speeds), 6 if len(speeds) == 1 else 14)
+    with style():
+        fig, ax = plt.subplots(figsize=(7.2, 4.6))
+        for knobs in shown:
+            shape, T, n = knobs
+            colour, marker = LOOKS[shape]
+            ax.plot(velocities, [reduction(shape, T, n, float(v))[0] for v in velocities], marker, color=colour, ms=5)
+            ax.axhline(share(*knobs), color=colour, lw=1.2, ls="-" if shape == "flat punch" else "--")
+            name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$"
+            at = (1.0, share(*knobs))
+            ax.annotate(
+                name, at, (6, 0), ("axes fraction", "data"), "offset points", color=colour, va="center", fontsize=9
+            )
+        ax.set(
+            xscale="log",
+            yscale="log",
+            xlim=(1.2, 1.25 * max(speeds)),
+            xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)",
+            ylabel=r"$1 - \mu/\mu_0$",
+        )
+        ax.set_xticks([2, 5, 10, 20, 50, 100][: 4 if len(speeds) == 1 else 6])
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.minorticks_off()
+    return Figure(
+        "plateau",
+        "Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs"
+        " (symbols). It does not come back to μ_0: the reduction stays at |F_n|/F_0 (lines), the share of the harmonic"
+        " of the normal force that drives the body, and comes down to it like v^(−1/2).",
+        fig,
+        "Log-log plot of the reduction of friction over velocity, flat at the level of the driving harmonic.",
+    )
+
+
+def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
+    import matplotlib.pyplot as plt
+
+    near = [
+        n + side * s
+        for n in MULTIPLES
+        for side in (-1, 1)
+        for s in np.geomspace(1e-4, 0.45, 12 if effort == "quick" else 40)
+    ]
+    ratios = np.unique(np.array([r for r in [*near, *np.linspace(0.55, 5.5, 120)] if r > 0.55]))
+    with style():
+        fig, axes = plt.subplots(1, 2, figsize=(9.6, 4.2), sharey=True)
+        for ax, T in zip(axes, (0.0, 1.0), strict=True):
+            for shape, (colour, marker) in LOOKS.items():
+                for damping_ratio, line in ((0.0, "-"), (0.01, ":")):
+                    values = [_full_over_unit(shape, T, float(r), damping_ratio) for r in ratios]
+                    label = f"{shape}, {'no damper' if damping_ratio == 0 else 'damper 1 %'}"
+                    ax.plot(ratios, values, line, color=colour, lw=1.2, label=label)
+                here = [
+                    (n, end[0] * _eq_15_over_unit(s, t, n)) for (s, t, n), end in damped.items() if (s, t) == (shape, T)
+                ]
+                if here:
+                    ax.plot(*np.array(here).T, marker, color=colour, mec="white", mew=0.6, ms=7)
+            ax.set(yscale="log", ylim=(0.8, 60), xlim=(0.55, 5.5), xlabel=r"$\omega_0/\omega$")
+            ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau = {T:g}$")
+        axes[0].set_ylabel("full-slip $v_c$ over Eq. (1)")
+        fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return Figure(
+        "window",
+        "Critical velocity in full slip over the natural frequency of the body. The punch has the one pole of Eq. (15);"
+        " the paraboloid has one at every whole multiple, the narrower the higher, and wider where the material"
+        " dissipates and the force is less sinusoidal. A damper of 1 % (dotted) leaves the first two. Symbols:"
+        " measured, with damper.",
+        fig,
+        "Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch.",
+    )
+
+
+def _full_over_unit(shape: str, T: float, ratio: float, damping_ratio: float) -> float:
+    case = system(shape, T, ratio, damping_ratio)
+    return mdr.full_slip_critical_velocity(case) / unit(case, 1)
+
+
+def _eq_15_over_unit(shape: str, T: float, n: int) -> float:
+    case = system(shape, T, n, 0.01)
+    return mdr.critical_velocity(case) / unit(case, 1)
