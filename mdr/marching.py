@@ -238,18 +238,17 @@ class Line:
     def solve(self) -> Settling | None:
         """Put the line into the periodic state that a march would end in, if there is one; else leave it as it was."""
         first = self._state()
-        to_size, kicks = self._measures()
         starts = [first]
         driven = self.scaled.resonant_history(self._full_slip_force(), self.v)
         if driven is not None:
             starts.insert(0, np.concatenate([self.e, driven]))
         for start in starts:
-            found = periodic.find(self._period_from, start, to_size, kicks)
+            found = periodic.find(self._period_from, start, self._size, self._kicks())
             if found is not None:
                 self._put(found.x)
                 self.advance(1)
                 # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
-                spread = 2 * found.distance * float(np.linalg.norm(to_size @ found.x)) / self.mean_F_z
+                spread = 2 * found.distance * float(np.linalg.norm(self._size(found.x))) / self.mean_F_z
                 return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
         self._put(first)
         self.cofs, self.swings = np.empty(0), np.empty(0)
@@ -271,18 +270,20 @@ class Line:
         self.advance(1)
         return self._state()
 
-    def _measures(self) -> tuple[Array, tuple[Array, ...]]:
-        """What makes a state a vector whose square is an energy, and pushes of unit size in position and velocity."""
+    def _size(self, x: Array) -> Array:
+        """States (..., n + 5) as vectors (..., n + 2) whose squares are energies of springs, system spring and mass."""
         scaled, n = self.scaled, self.e.size
-        to_size = np.zeros((n + 2, n + 5))
-        to_size[:n, :n] = np.diag(np.sqrt(scaled.w))
-        to_size[n, n] = np.sqrt(scaled.K)
-        inertia = np.sqrt(scaled.M) if scaled.M else np.sqrt(scaled.K)
-        to_size[n + 1, n : n + 2] = np.array([1, -1]) * inertia / scaled.h
+        y, y_old = x[..., n], x[..., n + 1]
+        body = [np.sqrt(scaled.K) * y, np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h]
+        return np.concatenate([np.sqrt(scaled.w) * x[..., :n], np.stack(body, axis=-1)], axis=-1)
+
+    def _kicks(self) -> tuple[Array, ...]:
+        """Pushes of unit size to the body, in its position and in its velocity."""
+        scaled, n = self.scaled, self.e.size
         position, velocity = np.zeros(n + 5), np.zeros(n + 5)
         position[n : n + 3] = 1 / np.sqrt(scaled.K)
-        velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / inertia
-        return to_size, (position, velocity)
+        velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
+        return position, velocity
 
     def judge(self) -> Settling:
         """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""

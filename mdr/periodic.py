@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Step = Callable[[Array], Array]
+Measure = Callable[[Array], Array]
 
 MEMORY = 8  #: periods that are combined
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
@@ -49,53 +50,53 @@ class FixedPoint:
         return (self.change + 1e-15) / (1 - self.multiplier)  # 1e-15: rounding
 
 
-def find(step: Step, start: Array, weight: Array, kicks: tuple[Array, ...]) -> FixedPoint | None:
+def find(step: Step, start: Array, measure: Measure, kicks: tuple[Array, ...]) -> FixedPoint | None:
     """The stable fixed point of `step` near `start`, shape (n,), or None.
 
-    weight: (n,) or a matrix (k, n), makes a state a vector whose length measures it. kicks: pushes of unit length.
+    measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. kicks: pushes of unit length.
     """
-    found = _anderson(step, start, weight)
+    found = _anderson(step, start, measure)
     if found is None:
         return None
     x, change = found
-    multiplier = _multiplier(step, x, weight, kicks)
+    multiplier = _multiplier(step, x, measure, kicks)
     return FixedPoint(x, change, multiplier) if multiplier < STABLE else None
 
 
-def _anderson(step: Step, x: Array, weight: Array) -> tuple[Array, float] | None:
+def _anderson(step: Step, x: Array, measure: Measure) -> tuple[Array, float] | None:
     images: list[Array] = []
     changes: list[Array] = []
     least = np.inf
     for turn in range(MOST):
         image = step(x)
-        size = float(np.linalg.norm(weight @ image)) + 1e-300
-        change = float(np.linalg.norm(weight @ (image - x))) / size
+        size = float(np.linalg.norm(measure(image))) + 1e-300
+        change = float(np.linalg.norm(measure(image - x))) / size
         if change <= CLOSE:
             return image, change
         if change > GROWTH * least:
             images, changes, least = [], [], np.inf
         least = min(least, change)
         images, changes = [*images, image][-MEMORY:], [*changes, image - x][-MEMORY:]
-        x = image if turn < PLAIN or len(images) < 2 else _combined(images, changes, weight)
+        x = image if turn < PLAIN or len(images) < 2 else _combined(images, changes, measure)
     return None
 
 
-def _combined(images: list[Array], changes: list[Array], weight: Array) -> Array:
+def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Array:
     """The combination of images, of weights that sum to one, whose change is least."""
     steps = np.diff(np.array(changes), axis=0)
-    share = np.linalg.lstsq(weight @ steps.T, weight @ changes[-1], rcond=1e-10)[0]
+    share = np.linalg.lstsq(measure(steps).T, measure(changes[-1]), rcond=1e-10)[0]
     return np.asarray(images[-1] - share @ np.diff(np.array(images), axis=0))
 
 
-def _multiplier(step: Step, x: Array, weight: Array, kicks: tuple[Array, ...]) -> float:
-    size = KICK * float(np.linalg.norm(weight @ x))
+def _multiplier(step: Step, x: Array, measure: Measure, kicks: tuple[Array, ...]) -> float:
+    size = KICK * float(np.linalg.norm(measure(x)))
     before, after = [], []
     for kick in kicks:
         pushed = x + size * kick
         for _ in range(AFTER):
             pushed = step(pushed)
-        before.append(weight @ (pushed - x) / size)
-        after.append(weight @ (step(pushed) - x) / size)
+        before.append(measure(pushed - x) / size)
+        after.append(measure(step(pushed) - x) / size)
     left, lengths, right = np.linalg.svd(np.array(before).T, full_matrices=False)
     lasts = lengths > FORGOTTEN
     if not lasts.any():

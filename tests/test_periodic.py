@@ -17,6 +17,10 @@ POINT = RNG.normal(size=6)
 KICKS = (np.eye(6)[0], np.eye(6)[1])
 
 
+def itself(x):
+    return x
+
+
 def linear(slow, fast=0.01):
     """A map with fixed point POINT: a slow block of two, as a body has, and fast ones, as springs are."""
     slow = np.atleast_2d(slow)
@@ -35,7 +39,7 @@ def turning(size, angle):
     [(turning(0.9, 1.0), 0.9), (turning(0.999, 0.3), 0.999), (np.diag([0.99, -0.95]), 0.99), (np.zeros((2, 2)), 0.0)],
 )
 def test_a_stable_fixed_point_is_found_with_its_multiplier(block, multiplier):
-    found = periodic.find(linear(block), POINT + RNG.normal(size=6), np.eye(6), KICKS)
+    found = periodic.find(linear(block), POINT + RNG.normal(size=6), itself, KICKS)
     assert multiplier - 1e-6 <= found.multiplier <= multiplier + 0.01  # the fast ones, a hundredth, may add to it
     size = np.linalg.norm(POINT)
     assert np.linalg.norm(found.x - POINT) <= 2 * found.distance * size
@@ -48,7 +52,7 @@ def test_a_stable_fixed_point_is_found_with_its_multiplier(block, multiplier):
     ids=["neutral", "spiralling out", "running off", "period of two"],
 )
 def test_what_does_not_return_when_pushed_is_no_answer(block):
-    assert periodic.find(linear(block), POINT + 1e-3 * RNG.normal(size=6), np.eye(6), KICKS) is None
+    assert periodic.find(linear(block), POINT + 1e-3 * RNG.normal(size=6), itself, KICKS) is None
 
 
 def test_a_map_with_a_corner():
@@ -57,12 +61,12 @@ def test_a_map_with_a_corner():
     def step(x):
         return np.clip(linear(turning(0.98, 0.7))(x), -np.inf, POINT + 0.3)
 
-    found = periodic.find(step, POINT + 2.0, np.eye(6), KICKS)
+    found = periodic.find(step, POINT + 2.0, itself, KICKS)
     assert_allclose(found.x, POINT, atol=1e-8)
 
 
 def test_no_fixed_point_is_no_answer():
-    assert periodic.find(lambda x: x + 1.0, np.zeros(6), np.eye(6), KICKS) is None
+    assert periodic.find(lambda x: x + 1.0, np.zeros(6), itself, KICKS) is None
 
 
 # --- bodies -----------------------------------------------------------------------------------------------------
