@@ -51,7 +51,7 @@ def figure():
         top.plot(1e6 * depths, 1e3 * of_punch, color="0.6", label="mass and spring, flat punch: Eq. (15)")
         top.plot(1e6 * depths, 1e3 * eq_15, label="mass and spring, cone: Eq. (15)")
         top.plot(at, 1e3 * measured, "ko", label="the same, measured in runs")
-        top.set(title="$v_c$ knows the depth through $k_{xc}$ alone", ylim=(0, 2.2), ylabel="$v_c$ [mm/s]")
+        top.set(title="Eq. (15) knows the depth through $k_{xc}$ alone", ylim=(0, 2.2), ylabel="$v_c$ [mm/s]")
         top.legend(loc="upper left")
         off.axhline(0, color="0.4", lw=0.8)
         off.plot(1e6 * depths, 100 * (full / eq_15 - 1), color=COLOURS[1], label="all harmonics of $F_N$")

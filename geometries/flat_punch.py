@@ -28,7 +28,7 @@ def foot(T, du_z=tapping.du_z):
 loss_tangents = (0.0, 0.3, 1.0, 3.0)
 v_c = [mdr.critical_velocity(foot(T)) for T in loss_tangents]  # Eq. (15)
 lost_above = [tapping.u_z0 / np.hypot(1, T) for T in loss_tangents]  # amplitude at which Eq. (5) ends
-shares = np.array([0.0, 0.25, 0.45, 0.65, 0.9, 1.15])  # of v_c
+shares = np.r_[0, np.geomspace(2e-3, 0.1, 7), np.linspace(0.16, 0.94, 14), 1.15]  # of v_c; steep near 0
 curves = [mdr.cof_curve(foot(T), v * shares) for T, v in zip(loss_tangents, v_c, strict=True)]
 static = [curve.static_cof for curve in curves]  # Eq. (7)
 beyond = 1.2 * np.array(lost_above)
@@ -45,7 +45,7 @@ def figure():
         fig, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(9, 4))
         for i, (T, colour) in enumerate(zip(loss_tangents, COLOURS, strict=False)):
             look = {"color": colour, "ms": 6 - i, "lw": 2.8 - 0.4 * i}  # thinner on top: two curves nearly agree
-            left.plot(1e3 * curves[i].v_0, curves[i].cof, "o-", label=rf"$T = {T:g}$", **look)
+            left.plot(1e3 * curves[i].v_0, curves[i].cof, "-", label=rf"$T = {T:g}$", **look)
             left.plot(1e3 * v_c[i], 0.82, "v", color=colour)
             amplitude = [0, tapping.du_z, lost_above[i], beyond[i]]  # straight in between
             cof = [0.8, static[i], 0, at_rest_beyond[i]]

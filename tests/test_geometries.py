@@ -134,8 +134,8 @@ def test_paraboloid_friction_is_lowered_where_v_c_exceeds_the_speed():
     assert lowered.any()
     assert not lowered.all()
     assert np.array_equal(s.cof < 0.7 - 1e-4, lowered)
-    at_rest = [mdr.static_cof(s.slider(f)) for f in s.shaken[[3, -1]]]
-    assert np.all(s.cof[[3, -1]] > at_rest)
+    for f in (300, 20e3):
+        assert s.cof[s.shaken == f] > mdr.static_cof(s.slider(f))
 
 
 def test_paraboloid_static_limit_of_a_slow_oscillation_is_hertz():

@@ -8,7 +8,7 @@ import pytest
 from validation.report import Claim
 
 
-@pytest.mark.parametrize("name", ["spring_pull", "generalisation", "resolution", "energy"])
+@pytest.mark.parametrize("name", ["spring_pull", "generalisation", "resonances", "resolution", "energy"])
 def test_every_check_of_the_claim_holds(name: str) -> None:
     claim = importlib.import_module(f"validation.{name}").claim("quick")
     assert isinstance(claim, Claim)

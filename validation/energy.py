@@ -50,6 +50,7 @@ class Balance:
     """The energies of one case under refinement."""
 
     name: str
+    kind: str  #: shape, and whether contact is kept
     residual: Array  #: (n_levels,) relative, root mean square over velocities
     example: mdr.SlidingRun  #: at the finest level and half of v_c
 
@@ -70,7 +71,7 @@ def balance(shape: str, alpha: float, T: float, pull: str, shares: tuple[float, 
     residual = [np.sqrt(np.mean([run(share, n).energy_balance.relative ** 2 for share in shares])) for n in LEVELS]
     kept = "contact kept" if case.keeps_contact else "contact lost"
     material = "elastic" if T == 0 else f"ωτ = {T:g}"
-    return Balance(f"{shape}, {kept}, {material}, {pull}", np.array(residual), run(0.5, LEVELS[-1]))
+    return Balance(f"{shape}, {kept}, {material}, {pull}", f"{shape}, {kept}", np.array(residual), run(0.5, LEVELS[-1]))
 
 
 def in_full_slip(case: mdr.SlidingContact, v_0: float) -> dict[str, float]:
@@ -182,7 +183,11 @@ def _figure(balances: list[Balance]) -> Figure:
     import matplotlib.pyplot as plt
 
     with style():
-        fig, (bars, lines) = plt.subplots(1, 2, figsize=(10.4, 5.0), width_ratios=(1.15, 1))
+        kinds = list(dict.fromkeys(b.kind for b in balances))
+        fig = plt.figure(figsize=(10.4, 6.4))
+        columns = fig.add_gridspec(1, 2, width_ratios=(1.15, 1))
+        bars = fig.add_subplot(columns[0])
+        panels: Any = columns[1].subgridspec(len(kinds), 1).subplots(sharex=True, sharey=True)
         place = np.arange(len(balances), dtype=float)[::-1]
         runs = [b.example.energy_balance for b in balances]
         total = np.array([run.pull_work + run.normal_work for run in runs])
@@ -206,35 +211,34 @@ def _figure(balances: list[Balance]) -> Figure:
         bars.set(xlabel="share of the supply", xlim=(0, 1.02))
         bars.legend(loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=5, handlelength=1, columnspacing=1)
         n = np.array(LEVELS, dtype=float)
-        for b in balances:
-            colour = COLOURS[0] if "rigid" in b.name else COLOURS[1]
-            marker = {"marker": "o", "mfc": colour if "elastic" in b.name else "white"}
-            lines.plot(n, b.residual, ms=4, lw=1.0, color=colour, **marker)
+        top = 3 * max(float(b.residual[0]) for b in balances)
+        for ax, kind in zip(panels, kinds, strict=True):
+            for b in (b for b in balances if b.kind == kind):
+                colour, full = COLOURS["spring" in b.name], "elastic" in b.name
+                ax.plot(n, b.residual, "o" if full else "s", ms=5, color=colour, mfc=colour if full else "white")
+                line = np.polyfit(np.log(n), np.log(b.residual), 1)
+                ax.plot(n, np.exp(np.polyval(line, np.log(n))), color=colour, lw=1.0, ls="-" if full else "--")
+            ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.2)
+            ax.set(xscale="log", yscale="log", ylabel="residual")
+            ax.set_title(kind, loc="right", y=0.82)
         for name, look in (
-            ("rigid pull", {"color": COLOURS[0]}),
-            ("spring pull", {"color": COLOURS[1]}),
-            ("elastic", {"color": "0.3", "ls": "", "marker": "o"}),
-            (r"$\omega\tau$ = 1", {"color": "0.3", "ls": "", "marker": "o", "mfc": "white"}),
+            ("rigid pull, elastic", {"color": COLOURS[0], "marker": "o"}),
+            ("spring pull, elastic", {"color": COLOURS[1], "marker": "o"}),
+            (r"rigid pull, $\omega\tau$ = 1", {"color": COLOURS[0], "marker": "s", "mfc": "white", "ls": "--"}),
+            (r"spring pull, $\omega\tau$ = 1", {"color": COLOURS[1], "marker": "s", "mfc": "white", "ls": "--"}),
+            ("second order", {"color": "0.6", "ls": ":"}),
         ):
-            lines.plot([], [], label=name, **look)
-        lines.plot(
-            n,
-            3 * max(float(b.residual[0]) for b in balances) * (n[0] / n) ** 2,
-            color="0.4",
-            ls="--",
-            lw=1.0,
-            label="second order",
-        )
-        lines.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="relative residual")
-        lines.set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
-        lines.minorticks_off()
-        lines.legend(loc="lower left")
+            panels[0].plot([], [], label=name, ms=5, lw=1.0, **look)
+        panels[0].legend(loc="lower center", bbox_to_anchor=(0.45, 1.0), ncols=2)
+        panels[-1].set_xlabel("steps per period")
+        panels[-1].set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
+        panels[-1].minorticks_off()
     return Figure(
         "balance",
         "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at "
         "half of v_c; the bars end "
-        "together. Right: what is missing, over the losses, falls with the second power of the step for each of "
-        "these cases.",
+        "together. Right: what is missing, over the losses, falls with the second power of the step in each case; "
+        "lines are least-squares fits, from whose slopes the orders are taken.",
         fig,
         "Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of "
         "the steps.",
