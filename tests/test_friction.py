@@ -68,7 +68,7 @@ def test_measured_velocity_is_that_of_full_slip(name):
     check_found(mdr.measure_critical_velocity(case), case, truth(*MEASURED[name]))
 
 
-@pytest.mark.parametrize("name", ["flat, body, Kelvin", "cone, body, elastic", "r4, body, elastic"])
+@pytest.mark.parametrize("name", ["paraboloid, body, Kelvin", "cone, body, elastic", "r4, body, elastic"])
 def test_from_rest_the_same_velocity_is_found(name):
     case = make(*MEASURED[name])
     check_found(mdr.measure_critical_velocity(case, start="rest"), case, truth(*MEASURED[name]))

@@ -330,14 +330,16 @@ def test_the_command_itself_runs_claims_in_processes_of_their_own(tmp_path):
     assert re.fullmatch(r"mapping: 1/1 checks held, \d+\.\d s\n", done.stderr)
 
 
-ASLEEP = "open(f'{__name__}.pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(60)"
+ASLEEP = "open(f'{__name__}.pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(600)"
 
 
 @pytest.fixture
 def asleep(claims, tmp_path):
     """A command with two claims asleep and one waiting: its process, and the numbers of those of the claims."""
     claims("asleep", one=(1.0, "pass"), two=(1.0, ASLEEP), generalisation=(1.0, ASLEEP), late=(1.0, ASLEEP))
-    code = "import sys\nfrom validation.__main__ import main\n"
+    # a shell that starts tests in the background has them ignore interrupts, and all they start with them
+    code = "import signal, sys\nfrom validation.__main__ import main\n"
+    code += "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
     code += "if __name__ == '__main__': sys.exit(main(['--jobs', '2'], 'asleep'))"
     Path("command.py").write_text(code, encoding="utf-8")
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
@@ -372,7 +374,7 @@ def test_an_interrupt_ends_the_command_and_its_processes(asleep, send):
     process, workers = asleep
     assert all(is_alive(number) for number in workers)
     send(process.pid, signal.SIGINT)
-    _, err = process.communicate(timeout=2)
+    _, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert re.fullmatch(r"one: 1/1 checks held, .* s\ninterrupted before the report was complete\n", err)
     assert not any(is_alive(number) for number in workers)
@@ -384,8 +386,8 @@ def test_an_interrupt_ends_the_command_and_its_processes(asleep, send):
 def test_claims_end_with_a_command_that_is_killed(asleep):
     process, workers = asleep
     process.kill()
-    process.wait(timeout=2)
-    assert within(2, lambda: not any(is_alive(number) for number in workers))
+    process.wait(timeout=60)
+    assert within(60, lambda: not any(is_alive(number) for number in workers))
 
 
 def test_the_longest_claim_begins_first_and_the_page_keeps_its_order(claims):
