@@ -336,7 +336,7 @@ ASLEEP = "open(f'{__name__}.pid', 'w').write(str(__import__('os').getpid())); __
 @pytest.fixture
 def asleep(claims, tmp_path):
     """A command with two claims asleep and one waiting: its process, and the numbers of those of the claims."""
-    claims("asleep", one=(1.0, "pass"), two=(1.0, ASLEEP), generalisation=(1.0, ASLEEP), late=(1.0, ASLEEP))
+    claims("asleep", one=(1.0, "pass"), two=(1.0, ASLEEP), resonances=(1.0, ASLEEP), late=(1.0, ASLEEP))
     # a shell that starts tests in the background has them ignore interrupts, and all they start with them
     code = "import signal, sys\nfrom validation.__main__ import main\n"
     code += "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
@@ -345,7 +345,7 @@ def asleep(claims, tmp_path):
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
     command_line = [sys.executable, "command.py"]
     process = subprocess.Popen(command_line, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True)
-    files = [Path("asleep.generalisation.pid"), Path("asleep.two.pid")]
+    files = [Path("asleep.resonances.pid"), Path("asleep.two.pid")]
     assert within(30, lambda: all(path.exists() and path.read_text() for path in files))
     yield process, [int(path.read_text()) for path in files]
     process.kill()
@@ -391,12 +391,12 @@ def test_claims_end_with_a_command_that_is_killed(asleep):
 
 
 def test_the_longest_claim_begins_first_and_the_page_keeps_its_order(claims):
-    claims("ordered", one=(1.0, "pass"), generalisation=(1.0, "pass"))
-    first, _ = next(command.run_all(["one", "generalisation"], "full", "ordered", 1))
-    assert first == "generalisation"
+    claims("ordered", one=(1.0, "pass"), resonances=(1.0, "pass"))
+    first, _ = next(command.run_all(["one", "resonances"], "full", "ordered", 1))
+    assert first == "resonances"
     assert command.main(["--jobs", "1"], "ordered") == 0
     record = json.loads(Path("report/checks.json").read_text(encoding="utf-8"))
-    assert [claim["name"] for claim in record["claims"]] == ["one", "generalisation"]
+    assert [claim["name"] for claim in record["claims"]] == ["one", "resonances"]
     assert command.LONGEST in validation.CLAIMS
 
 
