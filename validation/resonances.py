@@ -134,8 +134,8 @@ def claim(effort: str) -> Claim:
         verdict="fails when ω_0 is a whole multiple of ω",
         sentence=(
             "Eq. (15) knows one resonance, a curved contact has one at every ω_0 = nω: without damping friction stays"
-            " reduced by |F_n|/F_0 at any velocity; this share and the window go like α^n for an elastic contact, like α^2"
-            " for a viscoelastic one."
+            " reduced by |F_n|/F_0 at any velocity; this share and the window go like α^n for an elastic contact, like"
+            " α^2 for a viscoelastic one."
         ),
         checks=tuple(checks),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
