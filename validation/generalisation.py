@@ -132,8 +132,7 @@ def grid(effort: str) -> list[tuple[str, float, float, str, float]]:
             *(
                 (shape, alpha, T, "rigid pull", DEPTH)
                 for shape in ("cone", "r^4")
-                for alpha in (0.02, 0.6)
-                for T in (0.0, 1.0)
+                for alpha, T in ((0.02, 0.0), (0.6, 0.0), (0.6, 1.0))
             ),
             *(
                 (shape, alpha, 0.0, "stiff spring", DEPTH)
@@ -142,7 +141,7 @@ def grid(effort: str) -> list[tuple[str, float, float, str, float]]:
             ),
             ("flat punch", 0.3, 1.0, "stiff spring", DEPTH),
             ("cone", 0.3, 1.0, "stiff spring", DEPTH),
-            ("cone", 0.3, 1.0, "soft spring", 2 * DEPTH),
+            ("cone", 0.3, 0.0, "soft spring", 2 * DEPTH),
         ]
     if effort == "long":
         return [(s, a, T, p, d) for s in SHAPES for a in ALPHAS for T in (0.0, 1.0) for p in PULLS for d in DEPTHS]
