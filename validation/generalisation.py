@@ -139,7 +139,6 @@ def grid(effort: str) -> list[tuple[str, float, float, str, float]]:
                 for shape in ("flat punch", "cone", "paraboloid")
                 for alpha in (0.02, 0.6)
             ),
-            ("flat punch", 0.3, 1.0, "stiff spring", DEPTH),
             ("cone", 0.3, 1.0, "stiff spring", DEPTH),
             ("cone", 0.3, 0.0, "soft spring", 2 * DEPTH),
         ]
