@@ -42,9 +42,8 @@ _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 @_inline
 def after_change(D_0, D_1, h, rate):
     """What the new mode adds in a step through which its lead D runs from D_0 < 0 to D_1 > 0; rate = 1/T damps it."""
-    lead = max(D_1, 0.0)
-    rest = h * lead / (lead + max(-D_0, 0.0) + 1e-300)  # of the step, after the change
-    return 0.5 * lead * rest / (1.0 + 0.5 * rate * rest)
+    lead = max(D_1, 0.0)  # the rest of the step, after the change, is h lead/(lead + max(-D_0, 0))
+    return 0.5 * h * lead * lead / (lead + max(-D_0, 0.0) + 0.5 * rate * h * lead + 1e-300)
 
 
 @_inline
@@ -96,7 +95,8 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, r
     D_0 = zd_0 - ud_0 + lag * rate  # > 0: sticks at the start
     sticks = D_0 > 0.0
     D_1 = zd_1 - ud_1 + (max(s - trial, 0.0) if sticks else lag * decay) * rate
-    change = after_change(-D_0, -D_1, h, rate) if sticks else after_change(D_0, D_1, h, rate)
+    turn = -1.0 if sticks else 1.0
+    change = after_change(turn * D_0, turn * D_1, h, rate)
     forward = s - lag * decay
     first = min((trial if sticks else forward) - travelled * change, forward)
     return max(first, (s_0 + e) * decay - s), s, travelled, trial
@@ -155,6 +155,13 @@ def settle_normal(s, gap, w, z, zd, T):
     mean = 0.0
     for i in range(s.size):
         s[i] = max(z[0] - gap[i], 0.0)
+    if decay == 0.0:
+        for k in range(n_z):
+            total = 0.0
+            for i in range(s.size):
+                total += w[i] * max(z[k] - gap[i], 0.0)
+            mean += total
+        return mean / n_z
     for turn in range(2):
         for k in range(n_z):
             total = 0.0
@@ -162,7 +169,7 @@ def settle_normal(s, gap, w, z, zd, T):
                 _, value, _, _ = kelvin_spring(
                     0.0, s[i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
                 )
-                s[i] = value if decay > 0.0 else max(z[k + 1] - gap[i], 0.0)
+                s[i] = value
                 total += w[i] * s[i]
             mean += total if turn == 1 else 0.0
     return mean / n_z

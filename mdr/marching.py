@@ -320,7 +320,7 @@ class Line:
         y_all, S_all, S_start = [self.history[2::-1].copy()], [], self.history[3]
         stored = self._stored()
         done = 0
-        for part in _parts(n_steps, max(1, 1_000_000 // n)):
+        for part in _parts(n_steps, max(1, 50_000 // n)):  # arrays that stay in cache
             e, s = np.empty((part + 1, n)), np.empty((part + 1, n))
             e[0], s[0] = self.e, self._compression(done)
             history = self.history[2::-1].copy()
