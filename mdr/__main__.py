@@ -21,7 +21,7 @@ import mdr
 from mdr.case_files import CaseFileError, read_case, write_case
 from mdr.contact import SlidingContact
 from mdr.pull import SpringPull
-from mdr.theory import critical_velocity, eq_1
+from mdr.theory import critical_velocity
 
 if TYPE_CHECKING:
     from mdr.friction import CofCurve
@@ -181,10 +181,10 @@ def _curve(args: argparse.Namespace, case: SlidingContact) -> int:
 
 def velocity_scale(case: SlidingContact) -> float:
     """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero."""
-    v_c, oscillation = critical_velocity(case), case.oscillation
+    v_c = critical_velocity(case)
     if math.isfinite(v_c) and v_c > 0:
         return v_c
-    return eq_1(case.mu_0, oscillation.du_z, oscillation.omega, case.material.mindlin_ratio)
+    return case.unit_velocity
 
 
 def _columns(curve: CofCurve) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material
 from mdr.motion import NormalOscillation
 from mdr.pull import Pull, RigidPull, SpringPull
+from mdr.unilateral import kept_gap
 
 _KINDS: dict[str, tuple[type, ...]] = {  # the rest of the chain knows these and no others
     "indenter": (Indenter,),
@@ -81,9 +82,14 @@ class SlidingContact:
         return self.oscillation.omega * self.material.tau
 
     @property
+    def unit_velocity(self) -> float:
+        """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities."""
+        return self.mu_0 * self.material.mindlin_ratio * self.oscillation.omega * self.oscillation.du_z
+
+    @property
     def keeps_contact(self) -> bool:
         """Whether the centre of the contact is never lost, Eq. (5): u_z0 > du_z sqrt(1 + T²)."""
-        return self.oscillation.u_z0 > self.oscillation.du_z * float(np.hypot(1, self.T))
+        return self.oscillation.u_z0 > -self.oscillation.du_z * kept_gap(self.T)
 
 
 def require_case(case: object) -> SlidingContact:

@@ -67,7 +67,7 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
     case = require_case(case)
     if method not in (None, "march"):
         raise ValueError(f'method must be None or "march", got {method!r}')
-    velocities = np.atleast_1d(finite_array("v_0", v_0, "m/s"))
+    velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)  # a copy: the record keeps it
     if velocities.ndim != 1 or velocities.size == 0:
         raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
     if np.any(velocities < 0):

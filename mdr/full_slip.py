@@ -24,7 +24,6 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -52,21 +51,13 @@ class FullSlip(ArrayRecord):
     in_contact: NDArray[np.bool_]  #: whether any spring touches
 
 
-@lru_cache(maxsize=64)
-def _edge_of_period(n_t: int, T: float) -> Array:
-    """The contact edge at n_t instants of a period, which depends on nothing but T; read-only."""
-    edge = contact_edge(2 * np.pi * np.arange(n_t) / n_t, T)
-    edge.setflags(write=False)
-    return edge
-
-
 def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     """The normal force and the contact of a case over one period, at n_t instants."""
     oscillation = require_case(case).oscillation
     n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
     u_z_dot = -oscillation.omega * oscillation.du_z * np.sin(phase)
-    edge = _edge_of_period(n_t, case.T)
+    edge = contact_edge(phase, case.T)
     g_c = np.maximum(oscillation.u_z0 + oscillation.du_z * edge, 0)
     F_N = _force(case, phase, edge)
     return FullSlip(phase / oscillation.omega, F_N, np.asarray(case.indenter.contact_radius(g_c)), u_z_dot, g_c > 0)
@@ -104,7 +95,7 @@ def mean_normal_force(case: SlidingContact) -> float:
     ends = [0.0, *(float(leaving_phase(gap, T)) for gap in marks), turn, *(touching_phase(gap, T) for gap in marks)]
     total = 0.0
     for low, high in pairwise(sorted([*ends, 2 * np.pi])):
-        phase = np.where(rule.from_low < 0.5, low + (high - low) * rule.from_low, high - (high - low) * rule.to_high)
+        phase = rule.between(np.array(low), np.array(high))
         total += (high - low) * float(np.sum(rule.weight * normal_force(case, phase)))
     return total / (2 * np.pi)
 

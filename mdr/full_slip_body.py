@@ -47,18 +47,17 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
     without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the
     tip is sharp): its velocity then has no bound at that instant, brief as it is.
     """
-    oscillation = require_case(case).oscillation
-    unit = case.mu_0 * case.material.mindlin_ratio * oscillation.omega * oscillation.du_z
+    omega, unit = require_case(case).oscillation.omega, case.unit_velocity
     on, off = contact_span(case)
     if not isinstance(case.pull, SpringPull):
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
     panels = _panels(case, SMALLEST_RATE if case.pull.m == case.pull.c_x == 0 else SMALLEST)
-    resonant = _resonant_harmonic(case.pull, oscillation.omega)
+    resonant = _resonant_harmonic(case.pull, omega)
     if _touches_with_a_jolt(case) or (
         resonant and abs(panels.harmonic(panels.force, resonant)) > RESONANT * panels.mean
     ):
         return np.inf
-    y_dot = _velocity(case.pull, panels, case.mu_0, oscillation.omega)
+    y_dot = _velocity(case.pull, panels, case.mu_0, omega)
     if resonant:  # the force does not contain it, so neither does the periodic motion
         y_dot -= 2 * (panels.harmonic(y_dot, resonant) * np.exp(1j * resonant * panels.phase)).real
     middle = 0.5 * (panels.low + panels.high)

@@ -11,7 +11,7 @@ from mdr.contact import SlidingContact, require_case
 from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.measurement import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.pull import RigidPull, SpringPull
-from mdr.theory import critical_velocity, eq_1
+from mdr.theory import critical_velocity
 
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
 
@@ -39,9 +39,8 @@ class Verdict:
         head = f"{self.formula} {words[self.holds]}"
         measured = "no critical velocity" if self.measured is None else f"measured v_c = {self.measured:.6g} m/s"
         off = "" if self.deviation is None else f" ({100 * self.deviation:+.3g} %)"
-        low, high = self.measurement.low, self.measurement.high
-        if self.measured is not None and low is not None and high is not None:
-            measured += f" within {100 * (low / self.measured - 1):+.2g} and {100 * (high / self.measured - 1):+.2g} %"
+        if self.measured is not None:
+            measured += f" (between {self.measurement.low:.8g} and {self.measurement.high:.8g})"
         return f"{head}: {measured}, against {self.eq_15:.6g} m/s{off}. {self.why}"
 
 
@@ -52,19 +51,17 @@ def verdict(case: SlidingContact) -> Verdict:
     """
     eq_15, full = critical_velocity(require_case(case)), full_slip_critical_velocity(case)
     found = measure_critical_velocity(case)
-    rigid = eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
     deviation: float | None = None
     holds: bool | None
     if found.v_c is None:
         # no stick-free run up to HIGHEST: that agrees with a pole, and says nothing about a velocity beyond
-        holds = True if not np.isfinite(eq_15) else (None if eq_15 > HIGHEST * rigid else False)
+        holds = True if not np.isfinite(eq_15) else (None if eq_15 > HIGHEST * case.unit_velocity else False)
     elif not np.isfinite(eq_15):
         holds = False
     else:
-        scale = max(eq_15, LEAST * rigid)
+        scale = max(eq_15, LEAST * case.unit_velocity)
         deviation = (found.v_c - eq_15) / scale
-        low, high = found.low or 0.0, found.high or found.v_c
-        holds = low <= eq_15 <= high or max(eq_15, found.v_c) < scale
+        holds = found.contains(eq_15) or max(eq_15, found.v_c) < scale
     reasons = list(_reasons(case, eq_15, full, found))
     if holds and found.kind == "end of stick":
         reasons = ["the springs that stick to the last all slip from the velocity of one element on"]
@@ -88,11 +85,10 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
         )
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"
-    confirmed = None not in (found.v_c, found.low, found.high) and (found.low or 0) <= full <= (found.high or 0)
     if isinstance(case.pull, RigidPull):
         if full < eq_15 * (1 - SAME):
             yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
-    elif np.isfinite(eq_15) and confirmed:
+    elif np.isfinite(eq_15) and found.contains(full):
         yield (
             "at this amplitude the contact stiffness changes within the period and the normal force has harmonics; "
             "with them the full-slip condition gives the measured value"

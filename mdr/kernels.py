@@ -71,8 +71,8 @@ def elastic_spring(e, gap, z_1, du, surge, inverse_dz, bend, late):
     """
     s = max(z_1 - gap, 0.0)
     way = min(s * inverse_dz, 1.0)
-    travelled = way * (1.0 - bend * (1.0 - way))
-    trial = e + travelled * (du + (1.0 - travelled) * surge)
+    travelled = way * ((1.0 - bend) + bend * way)
+    trial = e + travelled * ((du + surge) - travelled * surge)
     return max(min(trial, s - travelled * late), -s), s, travelled, trial
 
 
@@ -106,14 +106,19 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, r
 
 
 @_jit
-def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
-    """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
+def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rigid):
+    """All elastic springs over one step: fills e_1 and returns sum(w e) and, unless rigid, the stiffness that stuck."""
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
     bend = bend_of(zd_0, zd_1)
     late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
     surge = surge_of(du, ud_0, ud_1, h)
     total = 0.0
     stuck = 0.0
+    if rigid:
+        for i in range(e_0.size):
+            e_1[i] = elastic_spring(e_0[i], gap[i], z_1, du, surge, inverse_dz, bend, late)[0]
+            total += w[i] * e_1[i]
+        return total, stuck
     for i in range(e_0.size):
         e, _, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, surge, inverse_dz, bend, late)
         e_1[i] = e
@@ -208,7 +213,7 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
             du = v * h + (y_1 - y_0)
             ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
-                S_1, stuck = elastic_step(e_0, e_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h)
+                S_1, stuck = elastic_step(e_0, e_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid)
             else:
                 S_1, stuck = kelvin_step(
                     e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay

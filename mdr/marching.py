@@ -88,8 +88,7 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
             f"du_z = {case.oscillation.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
-    oscillation = case.oscillation
-    if v_0 > FASTEST * case.mu_0 * case.material.mindlin_ratio * oscillation.omega * oscillation.du_z:
+    if v_0 > FASTEST * case.unit_velocity:
         raise ValueError(
             f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
         )
@@ -137,14 +136,17 @@ class Line:
         n = scaled.gap.size
         self.s, self.e = np.zeros(n), np.zeros(n)
         self.mean_F_z = kernels.settle_normal(self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
+        self.driven: Array | None = None  # history of the body on an undamped resonance, if it is on one
         self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
         if start == "full_slip":
             self.e[:] = self.s
-            self.history = scaled.full_slip_history(self._full_slip_force())
+            force = self._full_slip_force()
+            self.history = scaled.full_slip_history(force)
+            self.driven = scaled.resonant_history(force, v)
         else:
             self.history = scaled.rest_history(v)
-            force = float(scaled.w @ np.maximum(1 - scaled.gap, 0))
-            distance = 1 - float(scaled.gap.min()) + (force / scaled.K if scaled.K else 0.0)
+            load = float(scaled.w @ np.maximum(1 - scaled.gap, 0))
+            distance = 1 - float(scaled.gap.min()) + (load / scaled.K if scaled.K else 0.0)
             self.on_the_way = distance / (2 * np.pi * v)
         self.as_one = True
         self.cofs = np.empty(0)
@@ -239,9 +241,8 @@ class Line:
         """Put the line into the periodic state that a march would end in, if there is one; else leave it as it was."""
         first = self._state()
         starts = [first]
-        driven = self.scaled.resonant_history(self._full_slip_force(), self.v)
-        if driven is not None:
-            starts.insert(0, np.concatenate([self.e, driven]))
+        if self.driven is not None:
+            starts.insert(0, np.concatenate([self.e, self.driven]))
         for start in starts:
             found = periodic.find(self._period_from, start, self._size, self._kicks())
             if found is not None:
@@ -320,8 +321,10 @@ class Line:
         y_all, S_all, S_start = [self.history[2::-1].copy()], [], self.history[3]
         stored = self._stored()
         done = 0
-        for part in _parts(n_steps, max(1, 50_000 // n)):  # arrays that stay in cache
-            e, s = np.empty((part + 1, n)), np.empty((part + 1, n))
+        at_once = min(n_steps, max(1, 50_000 // n))  # arrays that stay in cache
+        e_all, s_all = np.empty((at_once + 1, n)), np.empty((at_once + 1, n))
+        for part in _parts(n_steps, at_once):
+            e, s = e_all[: part + 1], s_all[: part + 1]
             e[0], s[0] = self.e, self._compression(done)
             history = self.history[2::-1].copy()
             y, S = self._call(part, done, e[1:], s[1:])

@@ -54,6 +54,10 @@ class MeasuredVelocity:
     why: str  #: in words
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
 
+    def contains(self, v_0: float) -> bool:
+        """Whether a velocity [m/s] lies within the bracket."""
+        return self.low is not None and self.high is not None and self.low <= v_0 <= self.high
+
 
 def measure_critical_velocity(case: SlidingContact, *, start: str = "full_slip") -> MeasuredVelocity:
     """Measure v_c of a case from simulated runs alone; `start` is that of the runs that locate it.
@@ -73,10 +77,8 @@ class _Search:
         self.case, self.start, self.n_runs = case, start, 0
         self.ticker = Ticker("measure_critical_velocity, runs")
         self.steps, self.n_springs = default_steps(case), N_SPRINGS
-        oscillation = case.oscillation
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
-        # only a scale of velocity; the tangential travel per unit of normal travel is mu_0 kappa
-        self.scale = oscillation.omega * oscillation.du_z * case.mu_0 * case.material.mindlin_ratio
+        self.scale = case.unit_velocity  # only a scale of velocity
 
     def run(self, v_0: float, start: str | None = None) -> SlidingRun:
         self.n_runs += 1

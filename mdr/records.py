@@ -12,9 +12,16 @@ class ArrayRecord:
     """Base of frozen dataclasses (eq=False) with arrays among their fields, which become read-only."""
 
     def __post_init__(self) -> None:
-        for value in self._values():
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
             if isinstance(value, np.ndarray):
-                value.setflags(write=False)
+                own = value.view()  # the array itself may be somebody's, who goes on writing to it
+                own.setflags(write=False)
+                object.__setattr__(self, field.name, own)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        ArrayRecord.__post_init__(self)
 
     def _values(self) -> tuple[Any, ...]:
         return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]

@@ -53,7 +53,7 @@ from mdr.full_slip import edge_marks, mean_normal_force
 from mdr.indenters.quadrature import double_exponential
 from mdr.pull import RigidPull
 from mdr.records import ArrayRecord
-from mdr.unilateral import contact_edge, edge_rate, touching_phase
+from mdr.unilateral import contact_edge, edge_rate, kept_gap, touching_phase
 
 Array = NDArray[np.float64]
 
@@ -98,7 +98,7 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     v_0 = finite_array("v_0", v_0, "m/s")
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
-    v = v_0.ravel() / _unit(case)
+    v = v_0.ravel() / case.unit_velocity
     fine, coarse = (_integrals(case, v, step) for step in STEPS)
     # halving the step would square the error of the rule; 1e-13 is rounding
     error = np.abs(fine[0] - coarse[0]) ** 1.5 + 1e-13
@@ -126,7 +126,7 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z)."""
     case = _rigid(case)
     oscillation, T, F_N = case.oscillation, case.T, mean_normal_force(case)
-    R = float(np.hypot(1, T))
+    R = -kept_gap(T)
     core = float(_stiffness(case, np.array(-R))) * oscillation.du_z / F_N
     if T > 0 and core > 0:
         return Asymptote(2 / 3, 0.5 * np.cbrt(R) * (3 * np.pi * T) ** (2 / 3) * core)
@@ -136,7 +136,7 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     marks = [0.0, *(float(np.arccos(c)) for c in sorted(edge_marks(case), reverse=True)), np.pi]
     total = 0.0
     for low, high in pairwise(marks):
-        phi = _nodes(np.array([low]), np.array([high]), rule.from_low, rule.to_high)[0]
+        phi = rule.between(np.array(low), np.array(high))
         total += (high - low) * float(np.sum(rule.weight * phi * _stiffness(case, np.cos(phi))))
     return Asymptote(1.0, 2 / np.pi * oscillation.du_z / F_N * total)
 
@@ -145,12 +145,6 @@ def _rigid(case: SlidingContact) -> SlidingContact:
     if not isinstance(require_case(case).pull, RigidPull):
         raise TypeError(f"the closed form is that of a rigid pull, got {case.pull!r}")
     return case
-
-
-def _unit(case: SlidingContact) -> float:
-    """Eq. (1) [m/s], the unit of v."""
-    oscillation = case.oscillation
-    return case.mu_0 * case.material.mindlin_ratio * oscillation.omega * oscillation.du_z
 
 
 def _stiffness(case: SlidingContact, gap: Array) -> Array:
@@ -175,7 +169,7 @@ def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
     ends = [np.zeros_like(v), *(_stick_of_touch(touching_phase(gap, T), v, T, longest) for gap in marks), longest]
     lag, sticks = np.zeros_like(v), np.zeros_like(v)
     for low, high in pairwise(ends):
-        sigma = _nodes(low, high, rule.from_low, rule.to_high)
+        sigma = rule.between(low, high)
         stick = _stick(sigma, v[:, None], T)
         gap = contact_edge(stick.begin, T)
         weight = (high - low)[:, None] * rule.weight * _stiffness(case, gap)
@@ -186,12 +180,6 @@ def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
     core_force = np.asarray(case.indenter.force(depth, case.material.E_star))
     F_N = mean_normal_force(case)
     return np.array([lag, sticks + longest * core_force / oscillation.du_z]) * oscillation.du_z / (2 * np.pi * F_N)
-
-
-def _nodes(low: Array, high: Array, from_low: Array, to_high: Array) -> Array:
-    """Nodes between ends of shape (n,), each measured from the end that it is near to; (n, n_nodes)."""
-    low, high = low[:, None], high[:, None]
-    return np.asarray(np.where(from_low < 0.5, low + (high - low) * from_low, high - (high - low) * to_high))
 
 
 def _stick(sigma: Array, v: Array, T: float) -> _Stick:

@@ -26,6 +26,7 @@ from mdr.checks import count
 from mdr.contact import SlidingContact, require_case
 from mdr.indenters.base import Indenter
 from mdr.records import ArrayRecord
+from mdr.unilateral import kept_gap
 
 Array = NDArray[np.float64]
 
@@ -92,7 +93,7 @@ def _panels(case: SlidingContact) -> list[_Panel]:
     """The row cut at the depths where the behaviour of a spring changes, and at the kinks of the shape."""
     u_z0, du_z = case.oscillation.u_z0, case.oscillation.du_z
     shape = case.indenter
-    kept = -du_z * float(np.hypot(1, case.T))  # gap of the last spring that never leaves, Eq. (5) spring by spring
+    kept = du_z * kept_gap(case.T)
     gaps = [gap for gap in (kept, -du_z, 0.0, du_z) if u_z0 + gap > 0]
     marks = [(0.0, -u_z0)] + [(float(shape.contact_radius(u_z0 + gap)), gap) for gap in gaps]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < marks[-1][0]]

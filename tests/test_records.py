@@ -46,3 +46,12 @@ def test_arrays_of_other_shape_or_kind_differ():
     assert run != bare  # None against arrays
     assert bare.cof == run.cof
     assert isinstance(run.F_x, np.ndarray)
+
+
+def test_an_array_that_somebody_gave_stays_his():
+    v_0 = V_0 * np.array([0.0, 1.0])
+    curve = mdr.cof_curve(CASE, v_0)
+    v_0[0] = V_0
+    assert curve.v_0[0] == 0
+    with pytest.raises(ValueError, match="read-only"):
+        pickle.loads(pickle.dumps(curve)).cof[...] = 0

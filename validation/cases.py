@@ -23,6 +23,8 @@ SHAPES: dict[str, mdr.Indenter] = {
     "r^4": mdr.PowerLaw(n=4, c=3 * DEPTH / (8 * RADIUS**4)),  # g = (8/3) c x⁴
 }
 
+POWERS = dict(zip(SHAPES, (math.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n, of which k_zc ~ d^(1/n)
+
 
 def contact(
     shape: str,

@@ -41,8 +41,8 @@ from mdr.plots import style
 from mdr.progress import progress
 from mdr.pull import SpringPull
 from mdr.unilateral import turning_phase
-from validation.cases import SHAPES, contact
-from validation.generalisation import EXPONENT, LOOKS, TOLERANCE, rigid
+from validation.cases import POWERS, SHAPES, contact
+from validation.generalisation import LOOKS, TOLERANCE
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -115,8 +115,7 @@ class Point:
     @property
     def in_bracket(self) -> bool:
         """Whether the full-slip value lies in the bracket of this very measurement."""
-        low, high = self.found.low, self.found.high
-        return low is not None and high is not None and low <= mdr.full_slip_critical_velocity(self.case) <= high
+        return self.found.contains(mdr.full_slip_critical_velocity(self.case))
 
     @property
     def lost(self) -> bool:
@@ -344,7 +343,7 @@ def _power_checks(effort: str) -> list[Check]:
     checks.append(Check(f"elastic: α_x at twice the damping, over α_x, worst of {len(twice)}", worst, 2, 0.05, why))
     for T in (0.0, 1.0):
         loss = "elastic" if T == 0 else f"ωτ = {T:g}"
-        C = [deviation(s, 1e-5, T, 2.0) / 1e-5 / EXPONENT[s] for s in CURVED]
+        C = [deviation(s, 1e-5, T, 2.0) / 1e-5 * POWERS[s] for s in CURVED]
         why = "C/n, one C for all; α = 1e-5 times a next order of up to 300"
         name = f"{loss}, ω_0 = 2ω: n times deviation/α for α → 0, worst shape over the cone"
         checks.append(Check(name, max((c / C[0] for c in C), key=lambda c: abs(c - 1)), 1, 5e-3, why))
@@ -443,7 +442,8 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
         for k, T in enumerate((0.0, 1.0)):
             panels = axes[2 * k : 2 * k + 2].flat
             for ax, ratio in zip(panels, RATIOS, strict=False):
-                unit = _over_rigid(system("cone", 0.1, T, ratio))
+                case = system("cone", 0.1, T, ratio)
+                unit = mdr.critical_velocity(case) / case.unit_velocity
                 for shape, (colour, marker) in LOOKS.items():
                     ax.plot(alphas, [unit * (1 + deviation(shape, float(a), T, ratio)) for a in alphas], color=colour)
                     here = [p for p in points if (p.shape, p.T, p.ratio) == (shape, T, ratio)]
@@ -487,7 +487,3 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
         "Fourteen panels of critical velocity over amplitude, one for each natural frequency, elastic above and "
         "viscoelastic below: all shapes start on the dashed line of Eq. (15); the punch leaves it at the dotted line.",
     )
-
-
-def _over_rigid(case: mdr.SlidingContact) -> float:
-    return mdr.critical_velocity(case) / rigid(case)

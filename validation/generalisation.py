@@ -31,16 +31,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr import theory
 from mdr.plots import COLOURS, style
 from mdr.progress import progress
 from mdr.unilateral import contact_edge
-from validation.cases import DEPTH, SHAPES, contact
+from validation.cases import DEPTH, POWERS, SHAPES, contact
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
 
-EXPONENT = {"flat punch": 0.0, "cone": 1.0, "paraboloid": 1 / 2, "r^4": 1 / 4}  # of the stiffness, k_zc ~ d^(1/n)
 PULLS: dict[str, dict[str, Any]] = {
     "rigid pull": {},
     "stiff spring": {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05},  # omega_0 > omega
@@ -67,11 +65,6 @@ def system(
     """A contact at any depth under the same spring, mass and damper, which belong to the depth of 20 µm."""
     knobs = PULLS[pull] if damped else PULLS[pull] | ({"damping_ratio": 0.0} if PULLS[pull] else {})
     return replace(contact(shape, alpha, T, u_z0=u_z0), pull=contact(shape, alpha, T, **knobs).pull)
-
-
-def rigid(case: mdr.SlidingContact) -> float:
-    """Eq. (1) of a case [m/s]."""
-    return theory.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
 
 
 @dataclass(frozen=True)
@@ -120,7 +113,7 @@ def measure(shape: str, alpha: float, T: float, pull: str, u_z0: float) -> Point
         found.v_c,
         mdr.critical_velocity(case),
         mdr.full_slip_critical_velocity(case),
-        rigid(case),
+        case.unit_velocity,
         found.kind,
     )
 
@@ -305,7 +298,7 @@ def _power_checks() -> list[Check]:
             (1.0, "soft spring", True, 1),
         ):
             if damped:
-                got, limit = constant(shape, T, pull), EXPONENT[shape] * constant_of_first_order(T, pull)
+                got, limit = constant(shape, T, pull), constant_of_first_order(T, pull) / POWERS[shape]
                 checks.append(
                     Check(
                         f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0",
@@ -347,7 +340,7 @@ def _depth_checks(depths: list[Point]) -> list[Check]:
             )
             continue
         expected = np.array([p.eq_15 / p.rigid for p in here])
-        near = max(p.alpha for p in here) * EXPONENT[shape] * abs(constant_of_first_order(0.0, "stiff spring"))
+        near = max(p.alpha for p in here) * abs(constant_of_first_order(0.0, "stiff spring")) / POWERS[shape]
         checks.append(
             Check(
                 f"{shape}: spread of v_c over depths, amplitude fixed",
@@ -475,7 +468,7 @@ def _depths(depths: list[Point]) -> Figure:
             cases = [system(shape, AMPLITUDE / (r * DEPTH), 0.0, "stiff spring", r * DEPTH) for r in ratios]
             ax.plot(
                 ratios * DEPTH * 1e6,
-                [mdr.critical_velocity(case) / rigid(case) for case in cases],
+                [mdr.critical_velocity(case) / case.unit_velocity for case in cases],
                 color=colour,
                 lw=1.2,
             )

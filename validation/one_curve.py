@@ -29,12 +29,11 @@ import mdr
 from mdr import theory
 from mdr.full_slip import mean_normal_force
 from mdr.rigid_pull import average_friction
-from validation.cases import SHAPES, contact
+from validation.cases import POWERS, SHAPES, contact
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
 
-POWERS = dict(zip(SHAPES, (np.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
 SHOWN = 0.3  #: alpha of the figure
 

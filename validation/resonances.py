@@ -33,7 +33,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr import theory
 from mdr.full_slip import mean_normal_force, normal_force_harmonics
 from mdr.plots import COLOURS, style
 from mdr.progress import progress
@@ -64,8 +63,7 @@ def share(shape: str, T: float, n: int) -> float:
 
 def unit(case: mdr.SlidingContact, n: int) -> float:
     """Eq. (15) of a case [m/s], or Eq. (1) on its pole."""
-    rigid = theory.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
-    return rigid if n == 1 else mdr.critical_velocity(case)
+    return case.unit_velocity if n == 1 else mdr.critical_velocity(case)
 
 
 @cache
@@ -315,9 +313,9 @@ def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
 
 def _full_over_unit(shape: str, T: float, ratio: float, damping_ratio: float) -> float:
     case = system(shape, T, ratio, damping_ratio)
-    return mdr.full_slip_critical_velocity(case) / unit(case, 1)
+    return mdr.full_slip_critical_velocity(case) / case.unit_velocity
 
 
 def _eq_15_over_unit(shape: str, T: float, n: int) -> float:
     case = system(shape, T, n, 0.01)
-    return mdr.critical_velocity(case) / unit(case, 1)
+    return mdr.critical_velocity(case) / case.unit_velocity

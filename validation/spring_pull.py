@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr import theory
 from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
@@ -72,11 +71,6 @@ def punch(s: float, T: float, damping_ratio: float = DAMPING) -> mdr.SlidingCont
     return contact("flat punch", ALPHA, T, k_ratio=1.0, omega_0_ratio=s**-0.5, damping_ratio=damping_ratio)
 
 
-def rigid(case: mdr.SlidingContact) -> float:
-    """Eq. (1) of a case [m/s], the scale of velocity."""
-    return theory.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
-
-
 @dataclass(frozen=True)
 class Point:
     """One measurement beside Eq. (15)."""
@@ -97,19 +91,20 @@ def measure(s: float, T: float, damping_ratio: float = DAMPING) -> Point:
     """Measure one point. Foot and body miss their own velocities by STEP each, also where the two nearly cancel."""
     case = punch(s, T, damping_ratio)
     found = mdr.measure_critical_velocity(case).v_c
-    expected = mdr.critical_velocity(case) / rigid(case)
+    expected = mdr.critical_velocity(case) / case.unit_velocity
     assert isinstance(case.pull, mdr.SpringPull)
     body = (
         abs(case.k_zc * (1 + 1j * T) * complex(case.pull.receptance(case.oscillation.omega)))
         / case.material.mindlin_ratio
     )
-    return Point(s, T, None if found is None else found / rigid(case), expected, BRACKET + STEP * (1 + body) / expected)
+    got = None if found is None else found / case.unit_velocity
+    return Point(s, T, got, expected, BRACKET + STEP * (1 + body) / expected)
 
 
 def on_the_pole(T: float, ratio: float, start: str = "full_slip") -> mdr.SlidingRun:
     """The run at v_0 = ratio times Eq. (1), undamped, k_x = m omega²."""
     case = punch(1.0, T, 0.0)
-    return mdr.slide(case, ratio * rigid(case), start=start)
+    return mdr.slide(case, ratio * case.unit_velocity, start=start)
 
 
 def half_way(T: float) -> float:
@@ -185,7 +180,7 @@ def _undamped_checks(effort: str) -> list[Check]:
             )
         )
     case = punch(ZERO, 0.0, 0.0)
-    run = mdr.slide(case, 0.01 * rigid(case))
+    run = mdr.slide(case, 0.01 * case.unit_velocity)
     checks.append(
         Check.at_most(
             "undamped, elastic, at the zero: 1 − cof/mu_0 at 0.01 of Eq. (1)",
@@ -260,7 +255,7 @@ def _sweep_figure(points: list[Point], materials: tuple[float, ...]) -> Figure:
         for T, colour in zip(materials, COLOURS, strict=False):
             for damping, look in ((DAMPING, {"lw": 1.6}), (0.0, {"lw": 0.8, "ls": "--"})):
                 cases = [punch(float(value), T, damping) for value in s]
-                curve = np.array([mdr.critical_velocity(case) / rigid(case) for case in cases])
+                curve = np.array([mdr.critical_velocity(case) / case.unit_velocity for case in cases])
                 ax.plot(s, np.where(np.isfinite(curve), curve, np.nan), color=colour, **look)
             here = [p for p in points if p.T == T and p.measured is not None]
             name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
@@ -306,7 +301,7 @@ def _pole_figure(plateaus: dict[float, Array]) -> Figure:
             ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {name}")
         off = punch(0.5, 0.0)
         ratios = np.geomspace(0.1, 6.0, 40)
-        away = [mdr.slide(off, ratio * rigid(off)) for ratio in ratios]
+        away = [mdr.slide(off, ratio * off.unit_velocity) for ratio in ratios]
         ax.plot(
             ratios,
             [run.cof / run.mu_0 for run in away],

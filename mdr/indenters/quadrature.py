@@ -30,6 +30,12 @@ class Rule(NamedTuple):
     to_high: FloatArray
     weight: FloatArray
 
+    def between(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Nodes between ends (...), shape (..., n), each measured from the end that it is nearer to."""
+        low, high = np.asarray(low)[..., None], np.asarray(high)[..., None]
+        near_low = low + (high - low) * self.from_low
+        return np.asarray(np.where(self.from_low < 0.5, near_low, high - (high - low) * self.to_high))
+
 
 @lru_cache
 def double_exponential(step: float = 0.11) -> Rule:
