@@ -100,10 +100,10 @@ def _panels(case: SlidingContact, smallest: float) -> _Panels:
     ends = np.unique(np.concatenate([low + (high - low) * graded for low, high in pairwise(sorted(cuts))]))
     if isinstance(pull, SpringPull) and pull.m > 0:
         most = max(np.pi * case.oscillation.omega / pull.omega_0, 2 * np.pi / MOST_PANELS)
-        ends = np.concatenate(
-            [np.linspace(low, high, int(np.ceil((high - low) / most)), endpoint=False) for low, high in pairwise(ends)]
-            + [[2 * np.pi]]
-        )
+        length = np.diff(ends)
+        parts = np.ceil(length / most).astype(int)
+        part = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)  # 0, 1, ... in each stretch
+        ends = np.append(np.repeat(ends[:-1], parts) + part * np.repeat(length / parts, parts), 2 * np.pi)
     low, high = ends[:-1], ends[1:]
     phase = low[:, None] + (high - low)[:, None] * _collocation()[0]
     return _Panels(low, high, phase, normal_force(case, phase), mean_normal_force(case))
@@ -113,9 +113,14 @@ def _panels(case: SlidingContact, smallest: float) -> _Panels:
 def _collocation() -> tuple[Array, Array, Array]:
     """Gauss nodes on (0, 1); matrix from values there to integrals from 0 to each node; weights of the whole."""
     x, weights = leggauss(N_NODES)
-    basis = np.linalg.inv(legendre.legvander(x, N_NODES - 1))  # values to coefficients
     integrals = legendre.legvander(x, N_NODES) @ legendre.legint(np.eye(N_NODES), lbnd=-1)
-    return (x + 1) / 2, integrals @ basis / 2, weights / 2
+    return (x + 1) / 2, integrals @ _series() / 2, weights / 2
+
+
+@lru_cache
+def _series() -> Array:
+    """Matrix from values on the Gauss nodes to Legendre coefficients."""
+    return np.asarray(np.linalg.inv(legendre.legvander(leggauss(N_NODES)[0], N_NODES - 1)))
 
 
 def _velocity(pull: SpringPull, panels: _Panels, mu_0: float, omega: float) -> Array:
@@ -138,7 +143,7 @@ def _velocity(pull: SpringPull, panels: _Panels, mu_0: float, omega: float) -> A
         start = _periodic((h[:, 0] * (across @ w) + np.array([0, 1]))[:, None, :])
         return np.asarray(w[:, :, 0] + w[:, :, 1] * start) * omega
     x = 2 * nodes - 1
-    slope = legendre.legvander(x, N_NODES - 2) @ legendre.legder(np.linalg.inv(legendre.legvander(x, N_NODES - 1)))
+    slope = legendre.legvander(x, N_NODES - 2) @ legendre.legder(_series())
     return np.asarray(force @ slope.T * 2 / h[:, 0] / K) * omega
 
 
@@ -175,8 +180,7 @@ def _touches_with_a_jolt(case: SlidingContact) -> bool:
 
 def _peak(values: Array) -> float:
     """Largest value in a panel of the polynomial through its nodes, ends included."""
-    x = 2 * _collocation()[0] - 1
-    series = legendre.legfit(x, values, N_NODES - 1)
+    series = _series() @ values
     turns = legendre.legroots(legendre.legder(series))
     inner = turns.real[(abs(turns.imag) < 1e-6) & (abs(turns.real) < 1)]
     return float(legendre.legval(np.concatenate([[-1.0, 1.0], inner]), series).max())

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mdr import kernels, periodic
 from mdr.contact import SlidingContact
 from mdr.scaled import ScaledContact
-from mdr.settling import Settling, judge
+from mdr.settling import Settling, judge, smooth_mean
 from mdr.springs import SpringArray
 
 Array = NDArray[np.float64]
@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
+CLEAR = 0.1  #: least slip velocity over v_0 from which on no coarser step would stick
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
@@ -65,6 +66,13 @@ class March:
     def cof(self) -> float:
         """COF over mu_0."""
         return self.settling.mean
+
+    @property
+    def clear_of_stick(self) -> bool:
+        """Whether springs slip so fast, all the time, that they would at any step: F_x is mu_0 F_z without error."""
+        sums = self.seen.sums
+        fast = float(sums[kernels.LEAST_SLIP]) > CLEAR * self.v_0 / self.scaled.speed
+        return fast and float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -307,7 +315,7 @@ class Line:
         n = self.n_periods
         if n < 4 or not self.scaled.K:
             return 0.0
-        late, early = float(self.swings[n // 2 :].mean()), float(self.swings[n // 4 : n // 2].mean())
+        late, early = smooth_mean(self.swings[n // 2 :]), smooth_mean(self.swings[n // 4 : n // 2])
         # a swing that is rounding of the position does not count
         return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.history[0]) else 0.0
 

@@ -204,10 +204,11 @@ class _Search:
                 elif _is_reduced(run) and self._lasts(run, start):
                     return self._hysteresis(run, start, v_c)
                 full = full or run.settled
-                grazing = grazing or (run.settled and run.least_slip < 0.5 * (factor - 1) * v_c)
+                alike = abs(run.least_slip - (run.v_0 - v_c)) < 0.1 * (run.v_0 - v_c)  # as in full slip at any v_0
+                grazing = grazing or (run.settled and not alike)
         why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
         if grazing:
-            why += "; above it the body keeps a free oscillation that grazing stick trims, at full COF"
+            why += "; above it, at full COF, the body keeps a free oscillation, which grazing stick trims"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
         return MeasuredVelocity(v_c, low, high, "grazing stick" if grazing else "end of stick", why, self.n_runs)

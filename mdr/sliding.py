@@ -90,7 +90,7 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
     """Run with its companions; refine what was left free while the error exceeds the budget."""
     while True:
         main = march(case, v_0, knobs)
-        if not main.settling.settled:
+        if not main.settling.settled or main.clear_of_stick:
             return finish(main)
         # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
         as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1

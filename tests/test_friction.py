@@ -142,10 +142,10 @@ def test_grazing_stick_of_an_undamped_body_is_named_and_is_no_hysteresis():
     case = contact("flat", 10.0, 0.0, 0.3, 0.6)
     found = mdr.measure_critical_velocity(case)
     assert found.kind == "grazing stick"
-    assert "grazing stick trims, at full COF" in found.why
+    assert "free oscillation, which grazing stick trims" in found.why
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
-    above = mdr.slide(case, 1.3 * found.v_c, start="rest")
-    assert above.least_slip < 0.15 * found.v_c  # without the free oscillation it would be 0.3 v_c
+    above = mdr.slide(case, 1.3 * found.v_c, start="rest", record=40, n_springs=64)
+    assert 0 < np.mean(above.state == mdr.State.STICK) < 0.01  # without the free oscillation none sticks
     assert abs(above.mu_0 - above.cof) <= above.cof_error
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.settling import MIN_PERIODS, UNKNOWN, judge
+from mdr.settling import MIN_PERIODS, UNKNOWN, judge, smooth_mean
 
 TOLERANCE = 1e-6
 LIMIT = 0.3
@@ -87,9 +87,9 @@ def test_spread_bounds_a_power_law(p, n):
     # the windows see n + 1 in place of n
     assert abs(found.mean - LIMIT) <= found.spread * (1 + 2 / n)
     if p <= 1:
-        assert_allclose(found.spread, abs(found.mean - LIMIT), rtol=5 / n)  # extrapolated, not guessed
+        assert_allclose(found.spread, 2 * abs(found.mean - LIMIT), rtol=5 / n)  # extrapolated, not guessed
     else:
-        assert found.spread < 5 * abs(found.mean - LIMIT)
+        assert found.spread < 15 * abs(found.mean - LIMIT)
 
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.3])
@@ -99,9 +99,20 @@ def test_spread_bounds_an_exponential_that_lasted_for_some_time_constants(share)
     assert abs(found.mean - LIMIT) <= found.spread
 
 
-def test_mean_is_that_of_the_second_half():
-    values = np.random.default_rng(3).standard_normal(50)
-    assert_allclose(judge(values, TOLERANCE).mean, values[25:].mean(), rtol=1e-14)
+def test_mean_is_over_the_second_half():
+    values = np.r_[np.full(25, 5.0), np.full(25, LIMIT)]
+    assert judge(values, TOLERANCE).mean == LIMIT
+
+
+@pytest.mark.parametrize("n", [10, 100, 1000])
+def test_smooth_mean_keeps_little_of_a_beat(n):
+    """N beats in a window leave less than N^-3/3 of themselves, at any phase; a constant keeps its last digit."""
+    phase = np.linspace(0, 2 * np.pi, 32)
+    for beats in (2.0, 2.5, 3.7, 0.3 * n):
+        if 2 <= beats < n / 2:
+            left = [abs(smooth_mean(np.cos(2 * np.pi * beats * np.arange(n) / n + at))) for at in phase]
+            assert max(left) < 0.4 * beats**-3
+    assert smooth_mean(np.full(n, 0.1)) == 0.1
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6, 1e-8])
@@ -145,11 +156,10 @@ def test_a_logarithm_never_settles(n):
 
 def test_a_beat_that_does_not_repeat_is_quasi_periodic():
     golden = (np.sqrt(5) - 1) / 2
-    found = judge(transient(lambda P: np.cos(2 * np.pi * golden * P))(2**17), 1e-5)
+    found = judge(transient(lambda P: np.cos(2 * np.pi * golden * P))(512), 1e-6)
     assert found.settled
     assert found.kind == "quasi-periodic"
-    # a sum of cosines is bounded by 1/sin(pi golden) < 1.1 terms
-    assert abs(found.mean - LIMIT) < 1.1 * SIZE / 2**16
+    assert abs(found.mean - LIMIT) <= found.spread < 1e-7  # a plain mean would keep up to 1.1 SIZE/256
 
 
 def slow_beats(n_beats=200):

@@ -24,8 +24,12 @@ CLAIMS = (
     "rigid_pull",
     "one_curve",
     "spring_pull",
+    "indentation",
     "generalisation",
+    "finite_amplitude",
+    "lost_contact",
     "resonances",
+    "uniqueness",
     "resolution",
     "energy",
 )

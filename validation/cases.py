@@ -10,6 +10,7 @@ contact stiffness at u_z0, omega_0² = k_x/m.
 import math
 
 import mdr
+from mdr.plots import COLOURS
 
 DEPTH = 20e-6  #: mean depth u_z0 [m]
 RADIUS = 1e-3  #: contact radius there [m]
@@ -23,7 +24,18 @@ SHAPES: dict[str, mdr.Indenter] = {
     "r^4": mdr.PowerLaw(n=4, c=3 * DEPTH / (8 * RADIUS**4)),  # g = (8/3) c x⁴
 }
 
+LOOKS = dict(zip(SHAPES, zip(COLOURS, "sv^o", strict=False), strict=False))  #: colour and marker
 POWERS = dict(zip(SHAPES, (math.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n, of which k_zc ~ d^(1/n)
+
+
+def shape_label(shape: str) -> str:
+    """The name of a shape as matplotlib sets it."""
+    return shape.replace("r^4", "$r^4$")
+
+
+def loss(T: float) -> str:
+    """The material in words."""
+    return "elastic" if T == 0 else f"ωτ = {T:g}"
 
 
 def contact(

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 import mdr
 from mdr.full_slip import full_slip, normal_force_harmonics
 from mdr.plots import COLOURS, style
-from validation.cases import contact
+from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -70,7 +70,7 @@ def balance(shape: str, alpha: float, T: float, pull: str, shares: tuple[float, 
 
     residual = [np.sqrt(np.mean([run(share, n).energy_balance.relative ** 2 for share in shares])) for n in LEVELS]
     kept = "contact kept" if case.keeps_contact else "contact lost"
-    material = "elastic" if T == 0 else f"ωτ = {T:g}"
+    material = loss(T)
     return Balance(f"{shape}, {kept}, {material}, {pull}", f"{shape}, {kept}", np.array(residual), run(0.5, LEVELS[-1]))
 
 

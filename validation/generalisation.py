@@ -31,10 +31,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.plots import COLOURS, style
+from mdr.plots import style
 from mdr.progress import progress
 from mdr.unilateral import contact_edge
-from validation.cases import DEPTH, POWERS, SHAPES, contact
+from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation.measured import Measured
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -46,15 +47,9 @@ PULLS: dict[str, dict[str, Any]] = {
 }
 ALPHAS = (0.02, 0.1, 0.3, 0.6)
 DEPTHS = (0.5 * DEPTH, DEPTH, 2 * DEPTH)
-AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
-SWEEP = {
-    "quick": (0.5, 1.0, 2.0),
-    "full": (0.25, 1.0, 4.0),
-    "long": tuple(2.0 ** (i / 2) for i in range(-4, 5)),
-}  # u_z0/DEPTH
+SPAN, LOSSES = (0.25, 4.5), (0.01, 10.0)  # omega_0/omega and T of the map
 SMALL = np.geomspace(2.5e-4, 2e-3, 4)  # alphas of the fits
 TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  # bracket of a measurement, and second order in its step, over v_c
-LOOKS = dict(zip(SHAPES, zip(COLOURS, "sv^o", strict=False), strict=False))
 BESIDE = dict(zip(SHAPES, (0.76, 0.9, 1.06, 1.23), strict=True))  # of alpha, so that points of one value all show
 LEAST = 3e-9  # deviation that is drawn; only elastic undamped values, good to rounding, come near it
 
@@ -68,19 +63,14 @@ def system(
 
 
 @dataclass(frozen=True)
-class Point:
-    """One contact: what was measured beside Eq. (15) and the full-slip value."""
+class Point(Measured):
+    """One contact of the grid, measured from runs alone."""
 
     shape: str
     alpha: float
     T: float
     pull: str
     u_z0: float
-    measured: float | None  #: [m/s]
-    eq_15: float  #: [m/s]
-    full_slip: float  #: [m/s]
-    rigid: float  #: Eq. (1) [m/s]
-    kind: str
 
     @property
     def where(self) -> str:
@@ -88,34 +78,12 @@ class Point:
         pull = f"ω_0 = {PULLS[self.pull]['omega_0_ratio']:g} ω" if PULLS[self.pull] else self.pull
         return f"{self.shape}, α = {self.alpha:g}, ωτ = {self.T:g}, {pull}, {self.u_z0 * 1e6:g} µm deep"
 
-    @property
-    def deviation(self) -> float:
-        """Measured over Eq. (15), less 1; NaN where nothing was measured."""
-        return np.nan if self.measured is None else self.measured / self.eq_15 - 1
-
-    @property
-    def miss(self) -> float:
-        """Measured over the full-slip value, less 1; NaN where nothing was measured."""
-        return np.nan if self.measured is None else self.measured / self.full_slip - 1
-
 
 @cache
 def measure(shape: str, alpha: float, T: float, pull: str, u_z0: float) -> Point:
-    """Measure v_c of one contact from runs alone."""
+    """Measure v_c of one contact."""
     case = system(shape, alpha, T, pull, u_z0)
-    found = mdr.measure_critical_velocity(case)
-    return Point(
-        shape,
-        alpha,
-        T,
-        pull,
-        u_z0,
-        found.v_c,
-        mdr.critical_velocity(case),
-        mdr.full_slip_critical_velocity(case),
-        case.unit_velocity,
-        found.kind,
-    )
+    return Point(case, mdr.measure_critical_velocity(case), shape, alpha, T, pull, u_z0)
 
 
 def grid(effort: str) -> list[tuple[str, float, float, str, float]]:
@@ -125,13 +93,10 @@ def grid(effort: str) -> list[tuple[str, float, float, str, float]]:
             *(
                 (shape, alpha, T, "rigid pull", DEPTH)
                 for shape in ("cone", "r^4")
-                for alpha, T in ((0.02, 0.0), (0.6, 0.0), (0.6, 1.0))
+                for alpha, T in ((0.02, 0.0), (0.6, 0.0))
             ),
-            *(
-                (shape, alpha, 0.0, "stiff spring", DEPTH)
-                for shape in ("flat punch", "cone", "paraboloid")
-                for alpha in (0.02, 0.6)
-            ),
+            *((shape, 0.6, 0.0, "stiff spring", DEPTH) for shape in ("flat punch", "cone", "paraboloid")),
+            ("cone", 0.02, 0.0, "stiff spring", DEPTH),
             ("cone", 0.3, 1.0, "stiff spring", DEPTH),
             ("cone", 0.3, 0.0, "soft spring", 2 * DEPTH),
         ]
@@ -166,32 +131,49 @@ def power(shape: str, T: float, pull: str, damped: bool = True) -> float:
 
 def constant(shape: str, T: float, pull: str) -> float:
     """Deviation/alpha for alpha -> 0, from two small alphas with the next power taken out."""
-    one, two = (deviation(shape, alpha, T, pull) / alpha for alpha in (1e-3, 2e-3))
-    return 2 * one - two
+    return limit(*(system(shape, alpha, T, pull) for alpha in (1e-3, 2e-3)))
 
 
-@cache
-def constant_of_first_order(T: float, pull: str, n_t: int = 4096) -> float:
+def limit(one: mdr.SlidingContact, two: mdr.SlidingContact) -> float:
+    """The same of two cases, the second of twice the amplitude of the first."""
+    a, b = ((mdr.full_slip_critical_velocity(c) / mdr.critical_velocity(c) - 1) / c.alpha for c in (one, two))
+    return 2 * a - b
+
+
+def mapped(ratio: float, T: float, alpha: float = 0.1, shape: str = "paraboloid") -> mdr.SlidingContact:
+    """A contact of the map: the stiff spring with another mass."""
+    return contact(shape, alpha, T, **(PULLS["stiff spring"] | {"omega_0_ratio": ratio}))
+
+
+def first_order_map(effort: str) -> tuple[Array, Array, Array]:
+    """C over omega_0/omega (n,) and T (m,), shape (m, n)."""
+    n, m = (121, 33) if effort == "quick" else (241, 65)
+    ratios, losses = np.linspace(*SPAN, n), np.geomspace(*LOSSES, m)
+    return ratios, losses, np.array([[first_order(mapped(float(r), float(T)), 512) for r in ratios] for T in losses])
+
+
+def first_order(case: mdr.SlidingContact, n_t: int = 4096) -> float:
     """C of the module's docstring: deviation = C alpha/n of every shape."""
-    case = system("paraboloid", 0.1, T, pull)
-    phi = 2 * np.pi * np.arange(n_t) / n_t
-    edge, p = contact_edge(phi, T), np.cos(phi) - T * np.sin(phi)
-    m = np.arange(n_t // 2 + 1)
+    q_m = _second_order_force(case.T, n_t)
+    m = np.arange(q_m.size)
     H = np.asarray(case.pull.receptance(m * case.oscillation.omega))
-    q_m = np.fft.rfft(0.5 * (2 * edge * p - edge**2)) / (n_t / 2)
-    single = case.material.mindlin_ratio + case.k_zc * (1 + 1j * T) * H[1]
+    single = case.material.mindlin_ratio + case.k_zc * (1 + 1j * case.T) * H[1]
     top = np.exp(-1j * np.angle(1j * single))  # exp(i phi) where Eq. (15) has its maximum
     return float(np.sum(np.real(1j * m * q_m * case.k_zc * H * top**m)) / abs(single))
 
 
+@cache
+def _second_order_force(T: float, n_t: int) -> Array:
+    """Harmonics q_m of q, the normal force of second order in du_z."""
+    phi = 2 * np.pi * np.arange(n_t) / n_t
+    edge, p = contact_edge(phi, T), np.cos(phi) - T * np.sin(phi)
+    return np.asarray(np.fft.rfft(0.5 * (2 * edge * p - edge**2)) / (n_t / 2))
+
+
 def claim(effort: str) -> Claim:
-    """Measure the grid and the sweep of depths, fit the powers, and say where Eq. (15) holds."""
+    """Measure the grid, fit the powers, map the first order, and say where Eq. (15) holds."""
     points = [measure(*knobs) for knobs in progress(grid(effort), "generalisation")]
-    shapes = ("flat punch", "cone") if effort == "quick" else tuple(SHAPES)
-    depths = [
-        measure(s, AMPLITUDE / (r * DEPTH), 0.0, "stiff spring", r * DEPTH) for s in shapes for r in SWEEP[effort]
-    ]
-    checks = [*_measured_checks([*points, *depths]), *_power_checks(), *_depth_checks(depths)]
+    fields = first_order_map(effort)
     springs = [p for p in points if p.pull != "rigid pull" and p.shape != "flat punch"]
     far = max(springs, key=lambda p: abs(p.deviation))
     small = max((p for p in springs if p.alpha == 0.02), key=lambda p: abs(p.deviation))
@@ -209,7 +191,8 @@ def claim(effort: str) -> Claim:
         f"{', '.join(f'{a:g}' for a in sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths "
         f"{', '.join(f'{d * 1e6:g}' for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and "
         f"damper; rigid pull, ω_0 = 1.7 ω and 0.6 ω; "
-        f"{len(points) + len(depths)} measured velocities",
+        f"{len(points)} measured velocities. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and ωτ = "
+        f"{LOSSES[0]:g} … {LOSSES[1]:g}",
         measured=f"Rigid pull: Eq. (1) for every shape, depth, amplitude and relaxation time tested, to "
         f"{_worst(points, 'rigid pull'):.1e}; each of these contacts exists when its depth grows fastest, as α ≤ "
         f"{max(p.alpha for p in points):g} and ωτ ≤ {max(p.T for p in points):g}. Spring pull: Eq. (15) for the flat "
@@ -217,15 +200,15 @@ def claim(effort: str) -> Claim:
         f"times the exponent of the stiffness k_zc ∝ d^{{1/n}}, with one factor for all shapes (elastic and undamped: "
         f"to α^2); for large α it turns back and may change its sign. Farthest off: {100 * far.deviation:+.1f} % "
         f"({far.where}); at α = 0.02: {100 * small.deviation:+.2f} % ({small.where}). The full-slip condition with "
-        f"all harmonics gives the measured value everywhere, to {max(abs(p.miss) for p in [*points, *depths]):.1e}.",
+        f"all harmonics gives the measured value everywhere, to {max(abs(p.miss) for p in points):.1e}.",
         verdict="holds if the pull is rigid, or the contact a flat punch, or the amplitude small",
         sentence="As long as the contact exists when the depth grows fastest (tested: α ≤ 0.6, ωτ = 0 and 1), Eq. "
         "(15) with the contact stiffness at the mean depth is exact for the rigid pull and the flat punch, and the "
         "limit of small amplitude for every other shape: for small α its error is proportional to α times the "
         "exponent with which the stiffness depends on depth. Only for the rigid pull and the flat punch does the "
         "depth drop out.",
-        checks=tuple(checks),
-        figures=(_glance(points), _powers(), _depths(depths)),
+        checks=(*_measured_checks(points), *_power_checks(), *_map_checks()),
+        figures=(_glance(points, effort), _powers(effort), _map_figure(*fields)),
     )
 
 
@@ -275,7 +258,7 @@ def _measured_checks(points: list[Point]) -> list[Check]:
                     f"Eq. (15) is off by far more than the measurement ({large.where})",
                 )
             )
-    odd = [p for p in points if p.kind != "end of stick"]
+    odd = [p for p in points if p.found.kind != "end of stick"]
     checks.append(
         Check(
             f"measurements of {len(points)} whose signs disagree",
@@ -298,7 +281,7 @@ def _power_checks() -> list[Check]:
             (1.0, "soft spring", True, 1),
         ):
             if damped:
-                got, limit = constant(shape, T, pull), constant_of_first_order(T, pull) / POWERS[shape]
+                got, limit = constant(shape, T, pull), first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
                 checks.append(
                     Check(
                         f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0",
@@ -322,42 +305,23 @@ def _power_checks() -> list[Check]:
     return checks
 
 
-def _depth_checks(depths: list[Point]) -> list[Check]:
-    checks = []
-    for shape in dict.fromkeys(p.shape for p in depths):
-        here = [p for p in depths if p.shape == shape]
-        assert all(p.measured for p in here)
-        ratio = np.array([(p.measured or np.nan) / p.rigid for p in here])
-        spread = float(np.ptp(ratio) / ratio.mean())
-        if shape == "flat punch":
-            checks.append(
-                Check.at_most(
-                    f"{shape}: spread of v_c over depths, amplitude fixed",
-                    spread,
-                    TOLERANCE,
-                    "its stiffness does not depend on depth",
-                )
-            )
-            continue
-        expected = np.array([p.eq_15 / p.rigid for p in here])
-        near = max(p.alpha for p in here) * abs(constant_of_first_order(0.0, "stiff spring")) / POWERS[shape]
-        checks.append(
-            Check(
-                f"{shape}: spread of v_c over depths, amplitude fixed",
-                spread,
-                float(np.ptp(expected) / expected.mean()),
-                2 * near,
-                "Eq. (15) with k_c(u_z0); its own deviation C α/n at either end",
-            )
-        )
-    return checks
+def _map_checks() -> list[Check]:
+    rng, ratios = np.random.default_rng(15), []
+    for shape in ("cone", "paraboloid", "r^4"):
+        for _ in range(6):
+            ratio, T = float(rng.uniform(*SPAN)), float(LOSSES[0] * (LOSSES[1] / LOSSES[0]) ** rng.uniform())
+            got = limit(*(mapped(ratio, T, alpha, shape) for alpha in (2e-5, 4e-5)))
+            ratios.append(got * POWERS[shape] / first_order(mapped(ratio, T)))
+    name = f"n times deviation/α for α → 0 over C of the map, worst of {len(ratios)} random places and shapes"
+    why = "1e-10 of v_c in the full-slip value over C α; powers beyond the next"
+    return [Check(name, max(ratios, key=lambda r: abs(r - 1)), 1.0, 2e-3, why)]
 
 
 def _called(T: float, pull: str, damped: bool) -> str:
-    return f"{'elastic' if T == 0 else f'ωτ = {T:g}'}, {pull}{'' if damped else ' undamped'}"
+    return f"{loss(T)}, {pull}{'' if damped else ' undamped'}"
 
 
-def _glance(points: list[Point]) -> Figure:
+def _glance(points: list[Point], effort: str) -> Figure:
     import matplotlib.pyplot as plt
     from matplotlib.lines import Line2D
 
@@ -366,7 +330,7 @@ def _glance(points: list[Point]) -> Figure:
         ("spring pull, elastic", 0.0, "stiff spring"),
         (r"spring pull, $\omega\tau$ = 1", 1.0, "stiff spring"),
     )
-    alphas = np.geomspace(0.01, 0.7, 80)
+    alphas = np.geomspace(0.01, 0.7, 30 if effort == "quick" else 80)
     with style():
         fig, axes = plt.subplots(1, 3, sharey=True, figsize=(9.6, 4.6))
         for ax, (title, T, pull) in zip(axes, panels, strict=True):
@@ -393,7 +357,7 @@ def _glance(points: list[Point]) -> Figure:
             ax.minorticks_off()
         axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
         handles = [
-            Line2D([], [], color=colour, marker=marker, mfc="none", mew=1.6, ms=7, label=shape.replace("r^4", "$r^4$"))
+            Line2D([], [], color=colour, marker=marker, mfc="none", mew=1.6, ms=7, label=shape_label(shape))
             for shape, (colour, marker) in LOOKS.items()
         ]
         fig.legend(handles=handles, loc="outside lower center", ncols=4)
@@ -412,11 +376,11 @@ def _glance(points: list[Point]) -> Figure:
     )
 
 
-def _powers() -> Figure:
+def _powers(effort: str) -> Figure:
     import matplotlib.pyplot as plt
     from matplotlib.lines import Line2D
 
-    alphas = np.r_[np.geomspace(1e-3, 0.1, 20), np.linspace(0.11, 0.6, 50)]
+    alphas = np.r_[np.geomspace(1e-3, 0.1, 9), np.linspace(0.11, 0.6, 20 if effort == "quick" else 50)]
     kinds = (
         ("elastic, undamped", 0.0, False, ":"),
         ("elastic, damper", 0.0, True, "--"),
@@ -435,9 +399,7 @@ def _powers() -> Figure:
             ylabel="|full-slip value over Eq. (15) − 1|",
             ylim=(LEAST, 1),
         )
-        handles = [
-            Line2D([], [], color=LOOKS[shape][0], label=shape.replace("r^4", "$r^4$")) for shape in list(SHAPES)[1:]
-        ]
+        handles = [Line2D([], [], color=LOOKS[shape][0], label=shape_label(shape)) for shape in list(SHAPES)[1:]]
         handles += [Line2D([], [], color="0.3", ls=line, label=name) for name, _, _, line in kinds]
         ax.legend(handles=handles, loc="lower right", ncols=2)
     return Figure(
@@ -457,44 +419,29 @@ def _ratios(T: float, damped: bool) -> str:
     return " : ".join(f"{value / at[0]:.2g}" for value in at)
 
 
-def _depths(depths: list[Point]) -> Figure:
+def _map_figure(ratios: Array, losses: Array, C: Array) -> Figure:
     import matplotlib.pyplot as plt
+    from matplotlib.colors import LogNorm
 
-    ratios = np.geomspace(0.22, 4.5, 60)
+    reach = 0.01 / np.abs(C)
     with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.2))
-        for shape in dict.fromkeys(p.shape for p in depths):
-            colour, marker = LOOKS[shape]
-            cases = [system(shape, AMPLITUDE / (r * DEPTH), 0.0, "stiff spring", r * DEPTH) for r in ratios]
-            ax.plot(
-                ratios * DEPTH * 1e6,
-                [mdr.critical_velocity(case) / case.unit_velocity for case in cases],
-                color=colour,
-                lw=1.2,
-            )
-            here = [p for p in depths if p.shape == shape]
-            ax.plot(
-                [p.u_z0 * 1e6 for p in here],
-                [(p.measured or np.nan) / p.rigid for p in here],
-                marker,
-                color=colour,
-                ms=6.5,
-                mec="white",
-                mew=0.5,
-                label=shape.replace("r^4", "$r^4$"),
-            )
-        ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
-        ax.annotate("rigid pull", (80, 1.0), (0, 4), textcoords="offset points", ha="right", fontsize=9)
-        ax.set(xscale="log", xlabel="mean depth $u_{z0}$ [µm]", ylabel="$v_c$ over Eq. (1)", ylim=(0.9, None))
-        ax.set_xticks([5, 10, 20, 40, 80], ["5", "10", "20", "40", "80"])
-        ax.minorticks_off()
-        ax.legend(loc="upper left")
+        fig, ax = plt.subplots(figsize=(7.6, 4.4))
+        mesh = ax.pcolormesh(ratios, losses, reach, norm=LogNorm(5e-4, 0.5), cmap="viridis", rasterized=True)
+        ax.contour(ratios, losses, reach, (1e-3, 1e-2, 1e-1), colors="white", linewidths=0.8)
+        ax.set(yscale="log", xlabel=r"$\omega_0/\omega$", ylabel=r"$\omega\tau$")
+        ax.grid(False)
+        bar = fig.colorbar(mesh, ax=ax, extend="both")
+        bar.set_label("amplitude at which Eq. (15) is off by 1 %, cone")
+    row, column = np.unravel_index(np.argmin(reach), reach.shape)
     return Figure(
-        "depth",
-        f"Measured v_c (points) over the mean depth at a fixed amplitude of {AMPLITUDE * 1e6:g} µm under one and the "
-        f"same spring and mass, elastic; lines are Eq. (15) with the stiffness "
-        "at that depth. Eq. (15) is independent of the depth as far as k_x,c is, for the flat punch, and for all "
-        "shapes under a rigid pull (dashed).",
+        "map",
+        "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone "
+        "(n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four "
+        "times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies "
+        "near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: "
+        f"α = {reach[row, column]:.1e} at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials under "
+        "heavy bodies, ω_0 < ω, are the best. Along thin bright lines C changes its sign, and the next order decides.",
         fig,
-        "Critical velocity over depth: constant for the flat punch, rising with depth for the curved shapes.",
+        "Map of the amplitude at which Eq. (15) is off by one per cent, over natural frequency and relaxation time: "
+        "dark for slow materials and near twice the frequency.",
     )

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.cases import DEPTH, RADIUS, SHAPES, E, contact
+from validation.cases import DEPTH, RADIUS, SHAPES, E, contact, shape_label
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -296,7 +296,7 @@ def _pressure_figure() -> Figure:
                 r,
                 np.asarray(indenter.pressure(r * RADIUS, DEPTH, E_STAR)) / mean,
                 color=colour,
-                label=shape.replace("r^4", "$r^4$"),
+                label=shape_label(shape),
             )
             left.plot(
                 few,

@@ -29,7 +29,7 @@ import mdr
 from mdr import theory
 from mdr.full_slip import mean_normal_force
 from mdr.rigid_pull import average_friction
-from validation.cases import POWERS, SHAPES, contact
+from validation.cases import POWERS, SHAPES, contact, shape_label
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -220,7 +220,7 @@ def _figure(law: OneCurve) -> Figure:
     with style():
         fig, (curves, scaled, left) = plt.subplots(1, 3, figsize=(12.6, 4.2))
         for shape, colour in zip(SHAPES, COLOURS, strict=False):
-            label = shape.replace("r^4", "$r^4$")
+            label = shape_label(shape)
             raw = lost(shape, SHOWN, v)
             curves.plot(v, raw, color=colour, label=label)
             scaled.plot(v, raw / unit(shape, SHOWN), color=colour)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import mdr
 from mdr.plots import COLOURS, style
-from validation.cases import contact
+from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ class Study:
     @property
     def name(self) -> str:
         """For tables and legends."""
-        return f"{self.system}, " + ("elastic" if self.T == 0 else f"ωτ = {self.T:g}")
+        return f"{self.system}, " + loss(self.T)
 
 
 def study(knob: str, system: str, T: float, n_velocities: int) -> Study:

@@ -36,7 +36,7 @@ import mdr
 from mdr.full_slip import mean_normal_force, normal_force_harmonics
 from mdr.plots import COLOURS, style
 from mdr.progress import progress
-from validation.cases import contact
+from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -143,7 +143,7 @@ def claim(effort: str) -> Claim:
 
 def _name(knobs: tuple[str, float, int]) -> str:
     shape, T, n = knobs
-    return f"{shape}, {'elastic' if T == 0 else f'ωτ = {T:g}'}, ω_0 = {n}ω"
+    return f"{shape}, {loss(T)}, ω_0 = {n}ω"
 
 
 def _percent(value: float) -> str:
@@ -280,9 +280,10 @@ def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
         n + side * s
         for n in MULTIPLES
         for side in (-1, 1)
-        for s in np.geomspace(1e-4, 0.45, 12 if effort == "quick" else 40)
+        for s in np.geomspace(1e-4, 0.45, 7 if effort == "quick" else 40)
     ]
-    ratios = np.unique(np.array([r for r in [*near, *np.linspace(0.55, 5.5, 120)] if r > 0.55]))
+    even = np.linspace(0.55, 5.5, 30 if effort == "quick" else 120)
+    ratios = np.unique(np.array([r for r in [*near, *even] if r > 0.55]))
     with style():
         fig, axes = plt.subplots(1, 2, figsize=(9.6, 4.2), sharey=True)
         for ax, T in zip(axes, (0.0, 1.0), strict=True):

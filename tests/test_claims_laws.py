@@ -1,32 +1,15 @@
-"""The claims on mapping, full slip, static limit, rigid pull and its one curve, in their quick form."""
+"""The laws that claims are tested with, each against its own definition."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from validation import one_curve, rigid_pull, run_claim, static_cof
+from validation import one_curve, rigid_pull
 from validation.cases import RADIUS, SHAPES, contact
+from validation.lost_contact import amplitude_limit, late, slow_limit, touch_depth
 from validation.one_curve import edge_band
-from validation.rigid_pull import amplitude_limit, late, leading_term, read_off, slow_limit, touch_depth
-
-
-@pytest.mark.parametrize("name", ["mapping", "full_slip_motion", "static_cof", "rigid_pull", "one_curve"])
-def test_every_check_of_the_claim_holds(name):
-    outcome = run_claim(name, "quick")
-    missed = [f"{c.name}: got {c.got}, expected {c.expected}" for c in outcome.claim.checks if not c.held]
-    assert not missed, "\n".join([outcome.trace, *missed])
-    assert outcome.claim.figures
-    assert all(figure.caption and figure.alt for figure in outcome.claim.figures)
-
-
-def test_a_claim_fails_when_the_physics_is_wrong(monkeypatch):
-    """A static limit that is one part in a thousand off is seen, both in closed form and in the slow runs."""
-    right = static_cof.mdr.static_cof
-    monkeypatch.setattr(static_cof.mdr, "static_cof", lambda case: 1.001 * right(case))
-    missed = [check.name for check in static_cof.claim("quick").checks if not check.held]
-    assert any("Eq. (7)" in name for name in missed)
-    assert any("COF − static over the derived law" in name for name in missed)
+from validation.rigid_pull import leading_term, read_off
 
 
 def test_all_shapes_touch_over_the_same_disc():

@@ -1,0 +1,63 @@
+"""Every claim in its quick form: all checks hold, and they do not where something is wrong."""
+
+import os
+
+import pytest
+
+from validation import CLAIMS, finite_amplitude, lost_contact, static_cof
+from validation.__main__ import run_all
+from validation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure, system
+
+
+@pytest.fixture(scope="module")
+def outcomes(request):
+    """Name and outcome of the claims that tests have been asked for, each tested in a process of its own."""
+    asked = {item.callspec.params["name"] for item in request.session.items if "outcomes" in item.fixturenames}
+    names = [name for name in CLAIMS if name in asked]
+    return dict(run_all(names, "quick", "validation", os.cpu_count() or 1))
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_every_check_of_the_claim_holds(outcomes, name):
+    claim, _, trace = outcomes[name]
+    missed = [f"{c.name}: got {c.got}, expected {c.expected}" for c in claim.checks if not c.held]
+    assert not missed, "\n".join([trace, *missed])
+    assert claim.figures
+    assert all(figure.caption and figure.alt for figure in claim.figures)
+
+
+def test_a_claim_fails_when_the_physics_is_wrong(monkeypatch):
+    """A static limit that is one part in a thousand off is seen, both in closed form and in the slow runs."""
+    right = static_cof.mdr.static_cof
+    monkeypatch.setattr(static_cof.mdr, "static_cof", lambda case: 1.001 * right(case))
+    missed = [check.name for check in static_cof.claim("quick").checks if not check.held]
+    assert any("Eq. (7)" in name for name in missed)
+    assert any("COF − static over the derived law" in name for name in missed)
+
+
+def test_a_full_slip_value_that_is_off_is_seen(monkeypatch):
+    right = finite_amplitude.mdr.full_slip_critical_velocity
+    points = [measure(*knobs) for knobs in FEW]  # from runs alone, so as they were
+    monkeypatch.setattr(finite_amplitude.mdr, "full_slip_critical_velocity", lambda case: 1.001 * right(case))
+    missed = [c.name for c in finite_amplitude._measured_checks(points) if not c.held]
+    assert any("bracket" in name for name in missed)
+    assert any("worst |v_c/full-slip" in name for name in missed)
+    assert sum("power of α" in c.name and not c.held for c in finite_amplitude._power_checks("quick")) == 12
+    assert sum("passes 1e-9" in c.name and not c.held for c in lost_contact._onset_checks()) == 4
+    assert sum("over (**)" in c.name and not c.held for c in lost_contact._slow_checks()) >= 4
+
+
+@pytest.mark.parametrize("wrong", [0.9, 1.1])
+def test_an_onset_that_is_off_is_seen(monkeypatch, wrong):
+    right = lost_contact.onset
+    monkeypatch.setattr(lost_contact, "onset", lambda *knobs: wrong * right(*knobs))
+    assert sum("passes 1e-9" in c.name and not c.held for c in lost_contact._onset_checks()) >= 2
+
+
+def test_the_full_grid_loses_contact_with_every_shape():
+    known = grid("full")
+    assert len(set(known)) == len(known) == 28 + len(KELVIN) + len(RIDGE)
+    for T in (0.0, 1.0):
+        assert {s for s, alpha, loss, _ in known if alpha == 1.3 and loss == T} == set(finite_amplitude.SHAPES)
+    assert {ratio for *_, ratio in known} == {*RATIOS, 2.0}
+    assert all(system(*knobs).oscillation.du_z > 0 for knobs in known)

@@ -1,0 +1,264 @@
+"""Indentation: what of v_c depends on the mean depth, and what does not.
+
+Eq. (15) does not contain u_z0. But it contains the stiffness k = k_xc, and that of a curved contact grows with the
+depth, as u_z0^(1/n) for f ~ r^n. With v_1 of Eq. (1), q = m omega² - k_x - i c_x omega and z = 1 + i T, Eq. (15) is
+
+    v_c = v_1 |q - z k|/|q|,      d ln v_c/d ln u_z0 = S/n,      S = Re[-z k/(q - z k)],
+
+at a given du_z. So v_c does not depend on the depth
+
+* at any amplitude, under a rigid pull (|q| infinite), as long as Eq. (1) holds (validation/lost_contact.py), and for
+  a flat punch (1/n = 0), as long as contact is kept;
+* nearly, under a heavy or stiff body, |q| >> k, whose S is -k Re(z/q);
+* to first order, where k = Re(q/z) (which takes a body above its resonance, q > 0 but for the damper): there v_c is
+  least, v_1 |Im(q/z)| |z|/|q|.
+
+Otherwise it does, by up to a power of -1/n and more next to the resonance |q - z k| -> 0 of an elastic contact. At
+finite amplitude a curved contact depends on the depth in a second way, through alpha = du_z/u_z0
+(validation/generalisation.py); what is measured here is at small alpha, but for the rigid pull and the punch.
+
+Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from mdr.plots import COLOURS, style
+from mdr.progress import progress
+from mdr.pull import SpringPull
+from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation.generalisation import PULLS, TOLERANCE
+from validation.measured import Measured
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
+SHALLOW = 0.021 * DEPTH  # of the deepest amplitudes: alpha = 0.95
+SWEEP = {  # u_z0/DEPTH under a body: T, pull, depths
+    "quick": ((0.0, "stiff spring", (0.25, 4.0)),),
+    "full": ((0.0, "stiff spring", (0.25, 1.0, 4.0)), (1.0, "heavy body", (0.25, 1.0, 4.0))),
+}
+BODIES = PULLS | {"heavy body": {"k_ratio": 1.5, "omega_0_ratio": 0.6, "damping_ratio": 0.05}}
+TINY = 1e-6  # alpha at which the full-slip value is Eq. (15) but for C alpha
+
+
+def system(shape: str, u_z0: float, T: float, pull: str, du_z: float = AMPLITUDE) -> mdr.SlidingContact:
+    """A contact at any depth under the same spring, mass and damper, which belong to the depth of 20 µm."""
+    body = contact(shape, 0.1, T, **BODIES[pull]).pull
+    return replace(contact(shape, du_z / u_z0, T, u_z0=u_z0), pull=body)
+
+
+def groups(case: mdr.SlidingContact) -> tuple[complex, complex]:
+    """q [N/m] and z of the module."""
+    pull, omega = case.pull, case.oscillation.omega
+    assert isinstance(pull, SpringPull)
+    return complex(pull.m * omega**2 - pull.k_x, -pull.c_x * omega), complex(1, case.T)
+
+
+def sensitivity(case: mdr.SlidingContact) -> float:
+    """S of the module: d ln v_c/d ln k_xc of Eq. (15)."""
+    q, z = groups(case)
+    return float((-z * case.k_xc / (q - z * case.k_xc)).real)
+
+
+def flattest(case: mdr.SlidingContact) -> tuple[float, float]:
+    """k_xc [N/m] at which v_c does not change with depth, and v_c over Eq. (1) there."""
+    q, z = groups(case)
+    return (q / z).real, abs((q / z).imag) * abs(z) / abs(q)
+
+
+def measured_sensitivity(shape: str, u_z0: float, T: float, pull: str) -> float:
+    """n d ln v_c/d ln u_z0 of the full-slip value at a tiny amplitude, by central differences."""
+    step, du_z = 1e-3, TINY * u_z0
+    up, down = (
+        np.log(mdr.full_slip_critical_velocity(system(shape, u_z0 * np.exp(s), T, pull, du_z))) for s in (step, -step)
+    )
+    return float(POWERS[shape] * (up - down) / (2 * step))
+
+
+@dataclass(frozen=True)
+class Point(Measured):
+    """One contact at one depth, and its critical velocity from runs alone."""
+
+    shape: str
+    T: float
+    pull: str
+    u_z0: float
+
+
+@cache
+def measure(shape: str, u_z0: float, T: float, pull: str) -> Point:
+    """Measure v_c of one contact."""
+    case = system(shape, u_z0, T, pull)
+    return Point(case, mdr.measure_critical_velocity(case), shape, T, pull, u_z0)
+
+
+def claim(effort: str) -> Claim:
+    """Measure v_c over the depth, and set its slope beside the derivative of Eq. (15)."""
+    size = "quick" if effort == "quick" else "full"
+    shapes = ("flat punch", "cone") if effort == "quick" else tuple(SHAPES)
+    rigid_depths = (SHALLOW, 500 * SHALLOW)
+    knobs = [(s, u_z0, 0.0, "rigid pull") for s in shapes for u_z0 in rigid_depths]
+    knobs += [(s, r * DEPTH, T, pull) for T, pull, depths in SWEEP[size] for s in shapes for r in depths]
+    points = [measure(*one) for one in progress(knobs, "indentation")]
+    stiff = contact("cone", 0.1, 0.0, **BODIES["stiff spring"])
+    heavy = contact("cone", 0.1, 0.0, **BODIES["heavy body"])
+    spans = {
+        shape: np.max(ratios) / np.min(ratios)
+        for shape in shapes
+        for ratios in [[p.over_rigid for p in points if (p.shape, p.pull, p.T) == (shape, "stiff spring", 0.0)]]
+    }
+    return Claim(
+        name="indentation",
+        title="What of v_c depends on the mean indentation",
+        quote="Note that the critical velocity depends on the oscillation amplitude but not on the average "
+        "indentation. (Section 2, after Eq. (15)) […] it does not depend on absolute indentation, which permits easy "
+        "generalization to more realistic contact geometry. (Section 3)",
+        range=f"{', '.join(shapes)}; an amplitude of {AMPLITUDE * 1e6:g} µm at depths from {SHALLOW * 1e6:.2g} to "
+        f"{500 * SHALLOW * 1e6:.0f} µm under a rigid pull, and from {0.25 * DEPTH * 1e6:g} to {4 * DEPTH * 1e6:g} µm "
+        f"under one and the same mass, spring and damper; {len(points)} measured velocities, and slopes of the "
+        "full-slip value.",
+        measured="It is the formula that does not contain the depth, not v_c: the stiffness in Eq. (15) is that at the "
+        "mean depth. Over a factor of 16 in depth, at the same amplitude and body (ω_0 = 1.7 ω), v_c changes by a "
+        "factor of "
+        + ", ".join(f"{span:.4g} ({shape})" for shape, span in spans.items())
+        + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
+        f"z = 1 + iωτ and q = mω² − k_x − ic_xω: S = {sensitivity(stiff):.2g} for that body and "
+        f"{sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: under a rigid "
+        "pull, for any shape, here over a factor of 500 in depth and up to α = 0.95; for a flat punch; and at the one "
+        "depth at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in "
+        "depth.",
+        verdict="holds if the pull is rigid or the contact stiffness does not depend on depth",
+        sentence="v_c does not depend on the indentation for a rigid pull or a flat punch; otherwise as much as the "
+        "stiffness k_x,c(u_z0) in Eq. (15) makes it, by S/n per cent for each per cent of depth, so to use Eq. (15) "
+        "one has to know the depth.",
+        checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
+        figures=(_depth_figure(points, effort), _slope_figure()),
+    )
+
+
+def _measured_checks(points: list[Point]) -> list[Check]:
+    checks = []
+    for shape, T, pull in dict.fromkeys((p.shape, p.T, p.pull) for p in points):
+        here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
+        ratios = np.array([p.over_rigid for p in here])
+        name = f"{shape}, {pull}, {loss(T)}: spread of v_c over {len(here)} depths"
+        if pull == "rigid pull" or shape == "flat punch":
+            why = "its stiffness does not depend on depth" if shape == "flat punch" else "Eq. (1) holds no stiffness"
+            checks.append(Check.at_most(name, float(np.ptp(ratios) / ratios.mean()), TOLERANCE, why))
+            continue
+        expected = np.array([mdr.full_slip_critical_velocity(p.case) / p.case.unit_velocity for p in here])
+        span = float(np.ptp(expected) / expected.mean())
+        why = "full slip at each depth; bracket of the measurement at either end"
+        checks.append(Check(name, float(np.ptp(ratios) / ratios.mean()), span, 2 * TOLERANCE, why))
+        checks.append(Check.at_least(f"{name}, at least", span, 10 * TOLERANCE, "v_c does depend on the depth"))
+    return checks
+
+
+def _slope_checks(effort: str) -> list[Check]:
+    checks = []
+    depths = (DEPTH,) if effort == "quick" else (0.3 * DEPTH, DEPTH, 5 * DEPTH)
+    for pull in ("stiff spring", "heavy body"):
+        off = [
+            measured_sensitivity(s, d, T, pull) - sensitivity(system(s, d, T, pull))
+            for s in list(SHAPES)[1:]
+            for T in (0.0, 1.0)
+            for d in depths
+        ]
+        name = f"{pull}: n d ln v_c/d ln u_z0 less S, worst of {len(off)} shapes, depths and materials"
+        why = "differences of second order over 0.1 % of depth; C α at α = 1e-6; 1e-10 of v_c over 0.1 %, times n"
+        checks.append(Check(name, max(off, key=abs), 0.0, 2e-5, why))
+    return checks
+
+
+def _minimum_checks() -> list[Check]:
+    from scipy.optimize import minimize_scalar
+
+    checks, T = [], 1.0
+    for shape in list(SHAPES)[1:]:
+        case = system(shape, DEPTH, T, "heavy body")
+        k, least = flattest(case)
+        depth = DEPTH * (k / case.k_xc) ** POWERS[shape]
+        bracket = (np.log(0.7 * depth), np.log(depth), np.log(1.4 * depth))
+        found = minimize_scalar(lambda x, shape=shape: _over_depth(shape, float(np.exp(x)), T), bracket=bracket)
+        unit = system(shape, 1.0, T, "heavy body", TINY).unit_velocity
+        name = f"{shape}, heavy body, ωτ = {T:g}: least v_c over Eq. (1), over |Im(q/z)| |z|/|q|"
+        checks.append(Check(name, float(found.fun) / unit / least, 1.0, 1e-5, "C α at α = 1e-6"))
+        name = f"{shape}, heavy body, ωτ = {T:g}: k_xc at that depth over Re(q/z)"
+        at = float((np.exp(found.x) / depth) ** (1 / POWERS[shape]))
+        checks.append(Check(name, at, 1.0, 1e-3, "a minimum is found to the root of what its value is known to"))
+    return checks
+
+
+def _over_depth(shape: str, u_z0: float, T: float) -> float:
+    """Full-slip value over u_z0, and so over Eq. (1) but for a factor, at one tiny alpha."""
+    return mdr.full_slip_critical_velocity(system(shape, u_z0, T, "heavy body", TINY * u_z0)) / u_z0
+
+
+def _depth_figure(points: list[Point], effort: str) -> Figure:
+    import matplotlib.pyplot as plt
+
+    ratios = np.geomspace(0.1, 10, 60)
+    panels = [(0.0, "stiff spring", r"elastic, $\omega_0$ = 1.7 $\omega$")]
+    panels.append((1.0, "heavy body", r"$\omega\tau$ = 1, $\omega_0$ = 0.6 $\omega$"))
+    with style():
+        fig, axes = plt.subplots(1, 2, sharey=True, figsize=(9.6, 4.2))
+        for ax, (T, pull, title) in zip(axes, panels, strict=True):
+            for shape, (colour, marker) in LOOKS.items():
+                cases = [system(shape, float(r * DEPTH), T, pull) for r in ratios]
+                curve = [mdr.critical_velocity(case) / case.unit_velocity for case in cases]
+                ax.plot(ratios * DEPTH * 1e6, curve, color=colour, lw=1.2, label=shape_label(shape))
+                here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
+                ax.plot([p.u_z0 * 1e6 for p in here], [p.over_rigid for p in here], marker, color=colour, mec="white")
+            ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
+            ax.set(xscale="log", yscale="log", xlabel="mean depth $u_{z0}$ [µm]", title=title)
+            ax.set_xticks([2, 5, 10, 20, 50, 100, 200], ["2", "5", "10", "20", "50", "100", "200"])
+            ax.set_yticks([0.7, 1, 2, 5, 10], ["0.7", "1", "2", "5", "10"])
+            ax.minorticks_off()
+        axes[0].annotate("rigid pull", (190, 1.0), (0, -11), textcoords="offset points", ha="right", fontsize=9)
+        axes[0].set_ylabel("$v_c$ over Eq. (1)")
+        axes[0].legend(loc="upper left")
+    return Figure(
+        "depth",
+        f"v_c over the mean depth at a fixed amplitude of {AMPLITUDE * 1e6:g} µm under one and the same spring, mass "
+        "and damper: Eq. (15) with the stiffness at that depth (lines) and measured (points; the right panel has them "
+        "in the full report). Eq. (15) is independent of the depth as far as k_x,c is: for the flat punch, and for all "
+        "shapes under a rigid pull (dashed). Below its resonance the body amplifies and v_c grows with depth; a heavy "
+        "body has one depth of least v_c, the same stiffness for every shape.",
+        fig,
+        "Critical velocity over depth: constant for the flat punch, rising for curved shapes on the left, with a "
+        "minimum on the right.",
+    )
+
+
+def _slope_figure() -> Figure:
+    import matplotlib.pyplot as plt
+
+    q = np.linspace(-4, 8, 1201)
+    with style():
+        fig, ax = plt.subplots(figsize=(6.8, 4.2))
+        for colour, T in zip(COLOURS, (0.1, 0.3, 1.0, 3.0), strict=False):
+            z = 1 + 1j * T
+            ax.plot(q, (-z / (q - z)).real, color=colour, label=rf"$\omega\tau$ = {T:g}")
+            if abs(z) ** 2 < q[-1]:
+                ax.plot(abs(z) ** 2, 0, "o", mfc="white", color=colour)
+        ax.axhline(0, color="0.5", lw=0.8)
+        ax.axvline(0, color="0.5", lw=0.8, ls=":")
+        ax.set(
+            xlabel=r"$(m\omega^2-k_x)/k_{x,c}$", ylabel=r"$S = n\,\mathrm{d}\ln v_c/\mathrm{d}\ln u_{z0}$", ylim=(-4, 4)
+        )
+        ax.legend(loc="upper right")
+    return Figure(
+        "slope",
+        "How strongly v_c depends on the depth, S = d ln v_c/d ln k_x,c, over the state of the body without damper. At "
+        "the pole mω² = k_x (dotted) S = 1, beside the zero mω² = k_x + k_x,c of a nearly elastic contact it is "
+        "largest, and far from both it tends to 0, the rigid pull. Circles: no dependence to first order.",
+        fig,
+        "Sensitivity of the critical velocity to depth over the detuning of the body, with a pole-like swing for "
+        "small damping.",
+    )

@@ -1,0 +1,40 @@
+"""A critical velocity measured from runs alone, beside the two formulas that it is compared with."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import mdr
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One contact and its measured critical velocity; ratios are NaN where none was found."""
+
+    case: mdr.SlidingContact
+    found: mdr.MeasuredVelocity
+
+    @property
+    def v_c(self) -> float:
+        """Measured [m/s]."""
+        return np.nan if self.found.v_c is None else self.found.v_c
+
+    @property
+    def over_rigid(self) -> float:
+        """Measured over Eq. (1)."""
+        return self.v_c / self.case.unit_velocity
+
+    @property
+    def deviation(self) -> float:
+        """Measured over Eq. (15), less 1."""
+        return self.v_c / mdr.critical_velocity(self.case) - 1
+
+    @property
+    def miss(self) -> float:
+        """Measured over the full-slip value, less 1."""
+        return self.v_c / mdr.full_slip_critical_velocity(self.case) - 1
+
+    @property
+    def in_bracket(self) -> bool:
+        """Whether the full-slip value lies in the bracket of this very measurement."""
+        return self.found.contains(mdr.full_slip_critical_velocity(self.case))

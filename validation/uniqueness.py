@@ -1,0 +1,422 @@
+"""One COF for one velocity, and never less at a higher one: a given normal motion leaves no room for hysteresis.
+
+Coulomb's law under a given normal force N is monotone: of two tangential states of a spring with forces f_1, f_2 and
+slip velocities g_1, g_2, where |f| <= N and f = N sign(g) in slip, always (f_1 - f_2)(g_1 - g_2) >= 0. Take any two
+motions of one contact, at pulling velocities that differ by dv, and call all differences d. With the body
+m u'' = P - F, pulled by P = k_x (v_0 t - u) + c_x (v_0 - u'), and springs f = k (e + tau e'), u' = e' + g, their
+distance
+
+    D = [m du'² + k_x (du - dv t)² + sum of k de²]/2
+
+changes by
+
+    D' <= dv dP - c_x (du' - dv)² - sum of k tau de'²,                                                          (*)
+
+where all that friction does is in the sign <=: the sum of df dg was left out. Hence
+
+* dv = 0: two motions at one velocity never move apart. Where damping sees them differ, they merge.
+* In the mean over a long time D is bounded and <dP> = <dF>, so dv <dF> >= 0: the mean friction at a higher velocity is
+  never less, whatever the two motions are. With cof <= mu_0 it stays at mu_0 above any velocity at which it is mu_0.
+* Two motions at one v_0 both lie between those at v_0 - dv and v_0 + dv. So the COF is unique, except where it jumps.
+
+It is the COF that is unique, not the motion: in full slip all motions have the same forces, and without c_x a free
+oscillation of the body lasts for ever. Nothing was used of shape, amplitude, contact kept or lost, or the body, which
+may be any passive linear system; only that the normal motion is given and mu_0 constant. Hysteresis seen in an
+experiment is therefore the sign of what these springs leave out: a normal motion that feels the tangential one, or a
+local friction that depends on slip velocity or time.
+
+Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m, v_c of the full-slip condition.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from mdr.marching import TOLERANCE, Line
+from mdr.plots import COLOURS, style
+from mdr.progress import progress
+from mdr.rigid_pull import average_friction
+from mdr.scaled import ScaledContact
+from mdr.settling import Settling
+from validation.cases import SHAPES, contact
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
+SYSTEMS = {"quick": 6, "full": 60, "long": 200}
+CURVES = {"quick": 2, "full": 12, "long": 40}
+RIGID = {"quick": 60, "full": 300, "long": 1000}
+STARTS = ("full slip", "rest", "random", "random", "random")
+MOST = 3000  # periods a start may take
+PERIODS = 40  # of the distances
+FASTER = (0.1, 0.3, 0.5, 0.7, 0.85, 0.95, 1.05, 1.5)  # v_0/v_c of a curve
+SWEEP = tuple(np.linspace(0.1, 1.2, 12))  # v_0/v_c up and down
+SHORT = 12  # periods at each of them
+
+
+@dataclass(frozen=True)
+class System:
+    """A random contact under a body, and the velocity at which it is pulled."""
+
+    shape: str
+    alpha: float
+    T: float
+    ratio: float  #: omega_0/omega
+    k_ratio: float  #: k_x/k_xc
+    damping_ratio: float
+    v_hat: float  #: v_0/v_c
+
+    @property
+    def case(self) -> mdr.SlidingContact:
+        """The contact."""
+        return contact(
+            self.shape,
+            self.alpha,
+            self.T,
+            k_ratio=self.k_ratio,
+            omega_0_ratio=self.ratio,
+            damping_ratio=self.damping_ratio,
+        )
+
+    @property
+    def v_0(self) -> float:
+        """Pulling velocity [m/s]."""
+        return self.v_hat * mdr.full_slip_critical_velocity(self.case)
+
+    def line(self, start: str, rng: np.random.Generator, steps: int = STEPS) -> Line:
+        """A march about to begin in full slip, at rest or anywhere."""
+        case = self.case
+        scaled = ScaledContact.of(case, mdr.SpringArray.of(case, SPRINGS), steps, lump=False)
+        line = Line(scaled, self.v_0 / scaled.speed, "rest" if start == "rest" else "full_slip")
+        if start == "random":
+            scatter(line, rng)
+        return line
+
+
+def scatter(line: Line, rng: np.random.Generator) -> None:
+    """Stretch every spring at random within its cone of friction, and push the body by some units both ways."""
+    line.e[:] = rng.uniform(-1, 1, line.e.size) * line.s
+    y, y_dot = line.history[0] + rng.normal(), line.v * rng.normal()
+    line.history[:3] = y - np.arange(3) * line.scaled.h * y_dot
+    line.history[3:] = line.scaled.w @ line.e
+
+
+def distance(one: Line, two: Line) -> float:
+    """D of the module, in scaled form."""
+    scaled, y = one.scaled, one.history[:3] - two.history[:3]
+    y_dot = (1.5 * y[0] - 2 * y[1] + 0.5 * y[2]) / scaled.h
+    return float(0.5 * (scaled.M * y_dot**2 + scaled.K * y[0] ** 2 + scaled.w @ (one.e - two.e) ** 2))
+
+
+@cache
+def distances(system: System) -> Array:
+    """D of two random motions at the ends of so many periods, shape (PERIODS + 1,)."""
+    rng = np.random.default_rng(7)
+    return _followed(system.line("random", rng), system.line("random", rng))
+
+
+def swinging(steps: int) -> Array:
+    """The same for an undamped body in full slip and one that swings a little besides, so that neither sticks."""
+    system, rng = System("r^4", 0.5, 0.0, 1.3, 1.5, 0.0, 1.5), np.random.default_rng(0)
+    one, two = (system.line("full slip", rng, steps) for _ in range(2))
+    two.history[:3] += 0.1
+    return _followed(one, two)
+
+
+def _followed(one: Line, two: Line) -> Array:
+    found = [distance(one, two)]
+    for _ in range(PERIODS):
+        one.advance(1)
+        two.advance(1)
+        found.append(distance(one, two))
+    return np.array(found)
+
+
+def growth(system: System) -> float:
+    """Largest growth of D over a period, over D, while D is more than rounding."""
+    D = distances(system)
+    told = D[:-1] > 1e-16 * D[0]
+    return float(np.max(D[1:][told] / D[:-1][told]) - 1)
+
+
+def drawn(n: int) -> list[System]:
+    """Random systems with damping ratio 0.005 to 0.1, one in three of them undamped."""
+    rng = np.random.default_rng(2016)
+    names, systems = tuple(SHAPES), []
+    for i in range(n):
+        log = rng.uniform(size=4)
+        systems.append(
+            System(
+                shape=names[int(rng.integers(4))],
+                alpha=float(0.05 * 30 ** log[0]),
+                T=float((0.0, 0.1 * 30 ** log[1])[int(rng.integers(2))]),
+                ratio=float(0.4 * 6 ** rng.uniform()),
+                k_ratio=float(0.3 * 10 ** log[2]),
+                damping_ratio=0.0 if i % 3 == 0 else float(0.005 * 20 ** log[3]),
+                v_hat=float(rng.uniform(0.1, 1.2)),
+            )
+        )
+    return systems
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Where a system ended from each of its starts."""
+
+    system: System
+    settlings: tuple[Settling, ...]
+
+    @property
+    def settled(self) -> list[Settling]:
+        """Those that ended."""
+        return [s for s in self.settlings if s.settled]
+
+    @property
+    def excess(self) -> float:
+        """Largest difference of two COFs over mu_0 less what their spreads allow, of all pairs that settled."""
+        pairs = combinations(self.settled, 2)
+        return max((abs(a.mean - b.mean) - a.spread - b.spread for a, b in pairs), default=-np.inf)
+
+    @property
+    def difference(self) -> float:
+        """Largest difference of two settled COFs over mu_0."""
+        means = [s.mean for s in self.settled]
+        return float(np.ptp(means)) if means else 0.0
+
+
+@cache
+def ends(system: System) -> Ends:
+    """March from every start until settled, or give up."""
+    rng = np.random.default_rng(5)
+    found = []
+    for start in STARTS:
+        line = system.line(start, rng)
+        settling = line.solve() if start == "full slip" else None
+        found.append(settling or line.wait(MOST))
+    return Ends(system, tuple(found))
+
+
+@cache
+def swept(n_periods: int | None) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """COF over mu_0 of one lightly damped system up and down the velocities, each going on from the former's state.
+
+    n_periods: at each velocity; None waits until settled. Returns (2, n) means, spreads and whether settled.
+    """
+    base = System("paraboloid", 0.5, 0.0, 0.97, 0.5, 0.01, 1.0)
+    rng = np.random.default_rng(0)
+    runs: list[Settling] = []
+    state = None
+    for v_hat in (*SWEEP, *SWEEP[::-1]):
+        line = replace(base, v_hat=v_hat).line("full slip", rng)
+        if state is not None:
+            line.e[:], line.history[:] = state
+        if n_periods is None:
+            runs.append(line.wait(MOST))
+        else:
+            line.advance(n_periods)
+            runs.append(replace(line.judge(), mean=float(line.cofs[n_periods // 2 :].mean())))
+        state = line.e.copy(), line.history.copy()
+    means, spreads, settled = (np.array([getattr(r, k) for r in runs]) for k in ("mean", "spread", "settled"))
+    back = [np.stack([values[: len(SWEEP)], values[len(SWEEP) :][::-1]]) for values in (means, spreads, settled)]
+    return back[0], back[1], back[2]
+
+
+def claim(effort: str) -> Claim:
+    """Follow motions of random systems from several starts, and friction over velocity."""
+    found = [ends(system) for system in progress(drawn(SYSTEMS[effort]), "uniqueness")]
+    curves = _curves(effort)
+    n_runs, n_settled = sum(len(e.settlings) for e in found), sum(len(e.settled) for e in found)
+    open_ends = [e.system for e in found if len(e.settled) < len(STARTS)]
+    short, waited = swept(SHORT), swept(None)
+    loop = float(np.abs(short[0][0] - short[0][1]).max())
+    return Claim(
+        name="uniqueness",
+        title="One coefficient of friction for one velocity, and never less at a higher one",
+        quote="Second, the coefficient of friction increases monotonically (again, barring exceptional "
+        "system-dynamical circumstances) until it reaches the microscopic value at some critical velocity. "
+        "(Section 3)",
+        range=f"{len(found)} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4, "
+        f"k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from {len(STARTS)} states each: full slip, "
+        f"rest and {STARTS.count('random')} random ones; {len(curves)} of them over {len(FASTER)} velocities, and "
+        f"{RIGID[effort]} rigid pulls in closed form.",
+        measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this "
+        "alone it follows that two motions of one contact never move apart, that the mean friction at a higher "
+        "velocity is never less, and that the COF is unique: no hysteresis, no coexisting states, for any shape, "
+        f"amplitude, relaxation time and body, on a resonance too. Of {n_runs} runs {n_settled} settled, and those of "
+        f"one system agree to {max(e.difference for e in found):.1e}, each pair within its own spreads; the others, of "
+        f"{len(open_ends)} systems without damper, still changed, said so, and are not compared. The "
+        "motion is not unique: in full slip an undamped body keeps its free oscillation for "
+        f"ever, with the same friction. Sweeping the velocity up and down with {SHORT} periods at each step shows a "
+        f"loop of {loop:.2f} μ_0, made of transients that no run calls settled; waiting closes it to "
+        f"{np.abs(waited[0][0] - waited[0][1]).max():.1e}.",
+        verdict="holds",
+        sentence="The COF is unique and never falls with velocity, without exception, as long as the normal motion is "
+        "given and μ_0 constant: once friction is back at μ_0 it stays there, so there is one v_c. Hysteresis in an "
+        "experiment is the mark of something else.",
+        checks=(*_distance_checks(found), *_end_checks(found), *_curve_checks(curves, effort), *_sweep_checks()),
+        figures=(_distance_figure(), _sweep_figure()),
+    )
+
+
+def _distance_checks(found: list[Ends]) -> list[Check]:
+    checks, systems = [], [e.system for e in found]
+    worst = max(systems, key=growth)
+    why = "the scheme is of second order: h² of the exchange between speed and position, per period"
+    name = f"largest growth of the distance of two motions over a period, {len(systems)} systems"
+    checks.append(Check.at_most(name, growth(worst), 4 * np.pi * (2 * np.pi / STEPS) ** 2, why))
+    once, half = (float(np.ptp(D) / D[0]) for D in (swinging(STEPS), swinging(STEPS // 2)))
+    name = f"undamped body in full slip: change of the distance in {PERIODS} periods, over it"
+    checks.append(Check.at_most(name, once, 4 * (2 * np.pi / STEPS) ** 2, "no force sees them differ; h² of velocity"))
+    name = "the same at half the steps, over that"
+    checks.append(Check(name, half / once, 4.0, 0.2, "of second order in the step, so none without it"))
+    damped = [float(distances(s)[-1] / distances(s)[0]) for s in systems if s.damping_ratio]
+    slowest = [np.exp(-4 * np.pi * s.damping_ratio * s.ratio * PERIODS) for s in systems if s.damping_ratio]
+    left = max(d / s for d, s in zip(damped, slowest, strict=True))
+    name = f"with a damper: distance left after {PERIODS} periods over that of the free body, worst of {len(damped)}"
+    checks.append(Check.at_most(name, left, 1.5, "friction only helps; phase of the oscillation at either end"))
+    return checks
+
+
+def _end_checks(found: list[Ends]) -> list[Check]:
+    compared = [e for e in found if len(e.settled) > 1]
+    why = "spreads that the runs state of themselves; rounding"
+    name = f"largest difference of the COFs of one system over μ_0, less both spreads, {len(compared)} systems"
+    damped = [e for e in found if e.system.damping_ratio]
+    return [
+        Check.at_most(name, max(e.excess for e in compared), 1e-12, why),
+        Check(
+            f"starts of {len(damped)} damped systems that did not settle",
+            sum(len(STARTS) - len(e.settled) for e in damped),
+            0,
+            0,
+            "a damper of 0.5 % lets a free oscillation die out in some hundred periods",
+        ),
+        Check(
+            "settled motions that do not repeat after one period",
+            sum(s.kind not in ("periodic", "full slip") for e in damped for s in e.settled),
+            0,
+            0,
+            "two motions one period apart merge like any other two",
+        ),
+    ]
+
+
+def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
+    """Runs over FASTER velocities: the first on an undamped resonance, the others random and damped."""
+    resonant = System("cone", 0.3, 0.0, 2.0, 1.5, 0.0, 1.0)
+    systems = [resonant, *(s for s in drawn(3 * CURVES[effort]) if s.damping_ratio)][: CURVES[effort]]
+    out = []
+    for system in progress(systems, "uniqueness, curves"):
+        case = system.case
+        v_c = mdr.full_slip_critical_velocity(case)
+        v_c = v_c if np.isfinite(v_c) else mdr.critical_velocity(case)
+        out.append((system, [mdr.slide(case, v * v_c, n_springs=SPRINGS, steps_per_period=STEPS) for v in FASTER]))
+    return out
+
+
+def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> list[Check]:
+    falls = [
+        (a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0
+        for _, runs in curves
+        for a, b in combinations([run for run in runs if run.settled], 2)
+    ]
+    n_settled = sum(run.settled for _, runs in curves for run in runs)
+    name = f"largest fall of COF/μ_0 with velocity, less both errors, {n_settled} runs of {len(curves)} systems"
+    rng = np.random.default_rng(3)
+    drops, names, v_hat = [], tuple(SHAPES), np.sort(np.r_[np.geomspace(1e-3, 1, 60), np.linspace(0.05, 1.2, 60)])
+    for _ in range(RIGID[effort]):
+        T = float((0.0, 0.03 * 1000 ** rng.uniform())[int(rng.integers(2))])
+        case = contact(names[int(rng.integers(4))], float(0.02 * 250 ** rng.uniform()), T)
+        cof = average_friction(case, v_hat * mdr.critical_velocity(case)).cof / case.mu_0
+        drops.append(float(np.max(-np.diff(cof))))
+    why = "accuracy of the closed form"
+    return [
+        Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding"),
+        Check.at_least("of them settled", n_settled / sum(len(runs) for _, runs in curves), 0.8, "all that are damped"),
+        Check.at_most(f"largest fall in {len(drops)} closed-form curves of rigid pulls", max(drops), 1e-8, why),
+    ]
+
+
+def _sweep_checks() -> list[Check]:
+    short, waited = swept(SHORT), swept(None)
+    up, down = waited[0]
+    off = np.abs(short[0] - waited[0])
+    return [
+        Check.at_most(
+            "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads",
+            float(np.max(np.abs(up - down) - waited[1].sum(axis=0))),
+            1e-12,
+            "spreads that the runs state of themselves",
+        ),
+        Check("of these runs settled", float(waited[2].mean()), 1.0, 0.0, "the damper ends every transient"),
+        Check.at_least(
+            f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0",
+            float(np.abs(short[0][0] - short[0][1]).max()),
+            0.01,
+            "a loop made of transients",
+        ),
+        Check(
+            f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0",
+            float(np.sum(short[2] & (off > TOLERANCE))),
+            0.0,
+            0.0,
+            "what settled means: a transient is not taken for an end",
+        ),
+    ]
+
+
+def _distance_figure() -> Figure:
+    import matplotlib.pyplot as plt
+
+    shown = (
+        ("damper 1 %, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.01, 0.5)),
+        ("no damper, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.0, 0.5)),
+        (r"no damper, 0.5 $v_c$, $\omega\tau$ = 1", System("cone", 1.5, 1.0, 0.6, 0.7, 0.0, 0.5)),
+        ("damper 1 %, 1.5 $v_c$", System("r^4", 0.5, 0.0, 1.3, 1.5, 0.01, 1.5)),
+        ("no damper, 1.5 $v_c$", System("r^4", 0.5, 0.0, 1.3, 1.5, 0.0, 1.5)),
+    )
+    with style():
+        fig, ax = plt.subplots(figsize=(7.4, 4.4))
+        for colour, (label, system) in zip(COLOURS, shown, strict=False):
+            D = distances(system)
+            ax.semilogy(np.maximum(D / D[0], 1e-18), "o-", ms=3, lw=1.1, color=colour, label=label)
+        ax.set(xlabel="periods", ylabel="distance $D$ of two motions, over its start", ylim=(1e-10, 10))
+        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return Figure(
+        "distance",
+        "Two motions of one contact from random states never move apart. Below v_c stick takes part of their "
+        "difference in every period, with or without a damper; above v_c they slip with the same forces, only a "
+        "damper sees them differ, and without one the free oscillation of the body stays as it is.",
+        fig,
+        "Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an "
+        "undamped body in full slip.",
+    )
+
+
+def _sweep_figure() -> Figure:
+    import matplotlib.pyplot as plt
+
+    short, waited, v = swept(SHORT)[0], swept(None)[0], np.array(SWEEP)
+    with style():
+        fig, ax = plt.subplots(figsize=(6.8, 4.2))
+        ax.plot(v, short[0], ">-", color=COLOURS[1], lw=1, label=f"up, {SHORT} periods each")
+        ax.plot(v, short[1], "<-", color=COLOURS[2], lw=1, label=f"down, {SHORT} periods each")
+        ax.plot(v, waited[0], "o", ms=9, mfc="none", color=COLOURS[0], label="up, until settled")
+        ax.plot(v, waited[1], ".", color=COLOURS[0], label="down, until settled")
+        ax.axvline(1.0, color="0.5", lw=0.9, ls=":")
+        ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"coefficient of friction $\mu/\mu_0$")
+        ax.legend(loc="lower right")
+    return Figure(
+        "sweep",
+        "A loop that is none: velocity swept up and down on a lightly damped body (paraboloid, elastic, α = 0.5, ω_0 = "
+        f"0.97 ω, damper 1 %), each run going on from the state of the last. With {SHORT} periods at each velocity "
+        "(triangles) friction seems to depend on the direction; when each run is awaited (circles and dots) the two "
+        "ways coincide.",
+        fig,
+        "Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones.",
+    )
