@@ -24,7 +24,6 @@ Array = NDArray[np.float64]
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
-CLEAR = 0.1  #: least slip velocity over v_0 from which on no coarser step would stick
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
@@ -68,11 +67,11 @@ class March:
         return self.settling.mean
 
     @property
-    def clear_of_stick(self) -> bool:
-        """Whether springs slip so fast, all the time, that they would at any step: F_x is mu_0 F_z without error."""
+    def least_slip(self) -> float:
+        """Least slip velocity in contact over v_0 of a run in full slip; zero of any other."""
         sums = self.seen.sums
-        fast = float(sums[kernels.LEAST_SLIP]) > CLEAR * self.v_0 / self.scaled.speed
-        return fast and float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < 1e-12
+        full = float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < 1e-12
+        return float(sums[kernels.LEAST_SLIP]) * self.scaled.speed / self.v_0 if full else 0.0
 
 
 @dataclass(frozen=True, eq=False)

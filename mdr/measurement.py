@@ -11,9 +11,8 @@ reads v_c low. Two sharper signs give the digits:
   widened by what steps and springs still move.
 
 Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
-has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes
-zero; so grazing stick with a full COF is no friction reduction and is named, not
-counted.
+has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes zero. Such a
+rest of a free oscillation, with a full COF, is no friction reduction and is named, not counted.
 """
 
 from __future__ import annotations
@@ -42,15 +41,16 @@ HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, th
 class MeasuredVelocity:
     """A critical velocity found from runs alone: v_c between low and high [m/s], all None where there is none.
 
-    kind: "end of stick" (least slip velocity, stick and COF name one velocity), "grazing stick" (so too, but a free
-    oscillation above it keeps touching zero slip velocity at full COF), "end of friction reduction" (read off the
-    COF, a bracket of per cents), "hysteresis" (v_c is that of the start that keeps friction reduced) or "none".
+    kind: "end of stick" (least slip velocity, stick and COF name one velocity), "free oscillation" (so
+    too, but above it a body that starts from rest keeps one, which grazes stick now and then, at full COF), "end of
+    friction reduction" (read off the COF, a bracket of per cents), "hysteresis" (v_c is that of the start that keeps
+    friction reduced) or "none".
     """
 
     v_c: float | None  #: [m/s]; None where there is none
     low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
     high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
-    kind: str  #: "end of stick" (all signs agree), "grazing stick", "end of friction reduction", "hysteresis" or "none"
+    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "hysteresis" or "none"
     why: str  #: in words
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
 
@@ -195,7 +195,8 @@ class _Search:
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs beyond v_c from both starts: does friction stay full?"""
-        grazing, full, unsettled = False, False, []
+        swinging, full, unsettled = False, False, []
+        of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
         for factor in ABOVE:
             for start in ("full_slip", "rest"):
                 run = self.look(factor * v_c, start)
@@ -204,14 +205,15 @@ class _Search:
                 elif _is_reduced(run) and self._lasts(run, start):
                     return self._hysteresis(run, start, v_c)
                 full = full or run.settled
-                alike = abs(run.least_slip - (run.v_0 - v_c)) < 0.1 * (run.v_0 - v_c)  # as in full slip at any v_0
-                grazing = grazing or (run.settled and not alike)
+                # in full slip the body moves alike at any v_0, but for the error of a step
+                swings = abs(run.least_slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
+                swinging = swinging or (run.settled and swings)
         why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
-        if grazing:
-            why += "; above it, at full COF, the body keeps a free oscillation, which grazing stick trims"
+        if swinging:
+            why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
-        return MeasuredVelocity(v_c, low, high, "grazing stick" if grazing else "end of stick", why, self.n_runs)
+        return MeasuredVelocity(v_c, low, high, "free oscillation" if swinging else "end of stick", why, self.n_runs)
 
     def _lasts(self, run: SlidingRun, start: str) -> bool:
         """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""

@@ -9,8 +9,8 @@ scatter instead, as under a beat, their scatter is the spread. They are weighted
 a window: of a beat that fits into it N times they keep some N^-3, where the plain mean keeps N^-1. The run has settled
 when the spread is below the tolerance.
 
-No motion is quasi-periodic or of several periods for good, but for the free oscillation of an undamped body in full
-slip, which friction does not see (validation/uniqueness.py): such a kind names a transient that the mean outlives.
+With any damping no motion is quasi-periodic or of several periods for good, as two motions one period apart merge like
+any other two (validation/uniqueness.py): such a kind names a transient that the mean outlives.
 """
 
 from __future__ import annotations

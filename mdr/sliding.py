@@ -90,14 +90,15 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
     """Run with its companions; refine what was left free while the error exceeds the budget."""
     while True:
         main = march(case, v_0, knobs)
-        if not main.settling.settled or main.clear_of_stick:
+        if not main.settling.settled:
             return finish(main)
         # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
         as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1
+        half = march(case, v_0, knobs.coarser(knobs.steps // 2), as_long)
+        if _clear_of_stick(main, half):
+            return finish(main)
+        most = march(case, v_0, knobs.coarser(3 * knobs.steps // 4), as_long)
         error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long))
-        half, most = (
-            march(case, v_0, knobs.coarser(steps), as_long) for steps in (knobs.steps // 2, 3 * knobs.steps // 4)
-        )
         error_steps = max(_difference(main, half), 2 * _difference(main, most)) + _of_fast_relaxation(main)
         run = finish(main, error_springs + error_steps)
         finer = replace(
@@ -108,6 +109,19 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         if run.cof_error <= BUDGET * case.mu_0 or finer == knobs:
             return run
         knobs = finer
+
+
+def _clear_of_stick(main: March, half: March) -> bool:
+    """Whether no finer step would stick either, so that F_x is mu_0 F_z without error.
+
+    Both runs must slip throughout, by more than a tenth of v_0 and ten times what doubling the steps changed. And this
+    change must be small beside v_0 less the slip velocity, which is v_c, so that it converges: the velocity of a light
+    body may jump by more with every finer step. That of one without mass and damper, on dashpots, has no bound at all.
+    """
+    if main.scaled.T and main.scaled.K and not main.scaled.M and not main.scaled.C:
+        return False
+    least, moved = min(main.least_slip, half.least_slip), abs(main.least_slip - half.least_slip)
+    return least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12
 
 
 def _of_fast_relaxation(main: March) -> float:

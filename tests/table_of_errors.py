@@ -6,6 +6,7 @@ nearest to their bound. The reference has errors of its own, 1/256 and 1/16 of t
 settling, which is added to the bound.
 """
 
+import math
 import sys
 from dataclasses import dataclass
 
@@ -43,12 +44,16 @@ def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float]]:
         shape = tuple(SHAPES)[int(rng.integers(4))]
         alpha, T = 0.03 * 50 ** rng.uniform(), (0.0, 0.1 * 30 ** rng.uniform())[int(rng.integers(2))]
         k_ratio, ratio = 0.3 * 10 ** rng.uniform(), 0.3 * 8 ** rng.uniform()
+        if i % 10 in (7, 9):  # a light body, or none
+            ratio = 3 * 10 ** rng.uniform() if i % 10 == 7 else math.inf
         damping, v_hat = 0.1 * rng.uniform(), rng.uniform(0.05, 1.1)
-        body = (k_ratio, ratio, 2 * damping * k_ratio / ratio) if i % 2 else ()  # c_x omega/k_xc
+        c_ratio = 2 * damping * k_ratio / min(ratio, 10.0)  # c_x omega/k_xc; of a body without mass by itself
+        body = (k_ratio, ratio, c_ratio) if i % 2 else ()
         case = contact(shape, 1 / alpha, T, *body)
         name = f"{shape}, alpha = {alpha:.3g}, T = {T:.3g}, v = {v_hat:.3g} v_c"
         name += f", k = {k_ratio:.2g}, omega_0 = {ratio:.2g}, zeta = {damping:.2g}" if body else ""
-        out.append((name, case, v_hat * mdr.full_slip_critical_velocity(case)))
+        v_c = mdr.full_slip_critical_velocity(case)
+        out.append((name, case, v_hat * (v_c if math.isfinite(v_c) else mdr.critical_velocity(case))))
     return out
 
 
@@ -87,7 +92,7 @@ def main(n: int) -> int:
     print(f"worst error {max(r.error for r in usable):.2g} mu_0; median cof_error/error of {len(partial)}: {ratio:.3g}")
     for r in sorted(partial, key=lambda r: r.error / r.bound)[:-9:-1]:
         print(f"  error {r.error:.1e}  bound {r.bound:.1e}  ratio {r.error / r.bound:.2f}  {r.name}")
-    return 0 if held >= 0.99 * len(usable) and len(usable) >= 0.95 * n else 1
+    return 0 if held >= 0.99 * len(usable) and len(usable) >= 0.95 * n and ratio <= 100 else 1
 
 
 if __name__ == "__main__":

@@ -1,10 +1,14 @@
 """Every claim in its quick form: all checks hold, and they do not where something is wrong."""
 
 import os
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from validation import CLAIMS, finite_amplitude, lost_contact, static_cof
+import mdr
+from mdr.settling import Settling
+from validation import CLAIMS, finite_amplitude, indentation, lost_contact, static_cof, uniqueness
 from validation.__main__ import run_all
 from validation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure, system
 
@@ -51,7 +55,49 @@ def test_a_full_slip_value_that_is_off_is_seen(monkeypatch):
 def test_an_onset_that_is_off_is_seen(monkeypatch, wrong):
     right = lost_contact.onset
     monkeypatch.setattr(lost_contact, "onset", lambda *knobs: wrong * right(*knobs))
-    assert sum("passes 1e-9" in c.name and not c.held for c in lost_contact._onset_checks()) >= 2
+    assert sum("passes 1e-9" in c.name and not c.held for c in lost_contact._onset_checks()) == 4
+
+
+def test_limits_of_lost_contact_that_are_off_are_seen(monkeypatch):
+    points = [lost_contact.measure(shape, alpha, T) for alpha, T, shape in lost_contact.RIGID["quick"]]
+    assert all(c.held for c in lost_contact._rigid_checks(points))
+    late, limit = lost_contact.late, lost_contact.amplitude_limit
+    monkeypatch.setattr(lost_contact, "late", lambda *knobs: 1.0001 * late(*knobs))
+    monkeypatch.setattr(lost_contact, "amplitude_limit", lambda T: 1.001 * limit(T))
+    assert not any(c.held for c in lost_contact._rigid_checks(points))
+    assert not any(c.held for c in lost_contact._limit_checks())
+
+
+def test_a_slope_over_depth_that_is_off_is_seen(monkeypatch):
+    right, flat = indentation.sensitivity, indentation.flattest
+    monkeypatch.setattr(indentation, "sensitivity", lambda case: 1.001 * right(case))
+    monkeypatch.setattr(indentation, "flattest", lambda case: (1.01 * flat(case)[0], 1.001 * flat(case)[1]))
+    assert not any(c.held for c in indentation._slope_checks("quick"))
+    assert not any(c.held for c in indentation._minimum_checks())
+
+
+def test_two_friction_coefficients_at_one_velocity_would_be_seen():
+    system = uniqueness.drawn(2)[1]
+    one = Settling(0.5, 1e-7, True, "periodic")
+    alike, other = replace(one, mean=0.5 + 1e-7), replace(one, mean=0.5 + 1e-6, kind="period-2")
+    assert all(c.held for c in uniqueness._end_checks([uniqueness.Ends(system, (one, alike, one, alike, one))]))
+    found = [uniqueness.Ends(system, (one, alike, one, other, replace(one, settled=False)))]
+    assert not any(c.held for c in uniqueness._end_checks(found))
+
+
+def test_friction_that_falls_with_velocity_would_be_seen():
+    system = uniqueness.drawn(2)[1]
+    run = mdr.slide(system.case, system.v_0, n_springs=32, steps_per_period=64)
+    less = replace(run, cof=run.cof - 3 * run.cof_error)
+    assert uniqueness._curve_checks([(system, [less, run])], "quick")[0].held
+    assert not uniqueness._curve_checks([(system, [run, less])], "quick")[0].held
+
+
+def test_motions_that_move_apart_would_be_seen(monkeypatch):
+    system = uniqueness.drawn(2)[1]
+    right = uniqueness.distances(system)
+    monkeypatch.setattr(uniqueness, "distances", lambda system: right * 1.3 ** np.arange(right.size) ** 2)
+    assert not uniqueness._distance_checks([uniqueness.Ends(system, ())])[0].held
 
 
 def test_the_full_grid_loses_contact_with_every_shape():

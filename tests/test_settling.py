@@ -106,7 +106,7 @@ def test_mean_is_over_the_second_half():
 
 @pytest.mark.parametrize("n", [10, 100, 1000])
 def test_smooth_mean_keeps_little_of_a_beat(n):
-    """N beats in a window leave less than N^-3/3 of themselves, at any phase; a constant keeps its last digit."""
+    """N beats in a window leave less than 0.4 N^-3 of themselves, at any phase; a constant keeps its last digit."""
     phase = np.linspace(0, 2 * np.pi, 32)
     for beats in (2.0, 2.5, 3.7, 0.3 * n):
         if 2 <= beats < n / 2:

@@ -492,3 +492,21 @@ def test_an_unsettled_body_without_mass_is_not_told_to_damp_its_oscillation():
 def test_a_velocity_that_drowns_all_others_is_refused(v_0):
     with pytest.raises(ValueError, match="full slip but for rounding; lower it"):
         mdr.slide(contact("flat", 3.0, 1.0), v_0)
+
+
+# --- runs that need no companions ---
+
+
+def test_full_slip_clear_of_stick_has_no_error_of_step():
+    case = contact("cone", 3.0, 0.0, 0.7, 1.6, 0.1)
+    run = mdr.slide(case, 3 * mdr.full_slip_critical_velocity(case))
+    assert run.kind == "full slip"
+    assert run.cof_error < 1e-10
+
+
+def test_a_slip_velocity_that_falls_with_every_finer_step_is_not_clear_of_stick():
+    """A punch on dashpots touches with a jump, and a body without mass follows at once, however fast it is pulled."""
+    case = contact("flat", 1 / 1.3, 1.0, 1.0, math.inf)
+    run = mdr.slide(case, 200 * unit_of_velocity(case))
+    assert run.mu_0 - run.cof > 1e-4 * run.mu_0
+    assert run.steps_per_period > 1024  # at the first it slips throughout

@@ -1,7 +1,7 @@
 """Finite amplitude: Eq. (15) beside the full-slip v_c and the measured one, up to and beyond the loss of contact.
 
-Eq. (15) keeps one harmonic of the normal force. A curved contact has all of them at any amplitude, a punch only once it
-loses contact; a body with omega_0 near n omega answers the n-th one most. So the error of Eq. (15) is a map over alpha
+Eq. (15) keeps one harmonic of the normal force. A curved contact has more at any amplitude, a punch only once it loses
+contact; a body with omega_0 near n omega answers the n-th one most. So the error of Eq. (15) is a map over alpha
 and omega_0/omega, and the full-slip condition with all harmonics (mdr/full_slip_body.py) is the one that is measured.
 
 Curved shapes. For alpha -> 0 the deviation is C alpha/n (validation/generalisation.py), C = 0 where nothing dissipates;
@@ -220,8 +220,9 @@ def claim(effort: str) -> Claim:
         sentence=f"With a body on a spring “small” depends on the body: Eq. (15) is good to 1 % for every curved "
         f"shape up to α = {reach[0.0]:.2g} (elastic) and {reach[1.0]:.2g} (ωτ = 1), but only to "
         f"{resonant[0.0]:.2g} and {resonant[1.0]:.2g} on the resonance ω_0 = 2ω (cone, damper {100 * DAMPING:g} %), "
-        f"and worse too beside ω_0 = {ZERO:.2g} ω, where it nearly vanishes itself (elastic); for a flat punch it is "
-        "exact until contact is lost, and the full-slip condition is exact throughout, lost contact included.",
+        f"and less too beside ω_0 = {ZERO:.2g} ω, where it nearly vanishes itself (elastic; the first two hold more "
+        f"than {ASIDE:g} ω aside of both); for a flat punch it is exact "
+        "until contact is lost, and the full-slip condition is exact throughout, lost contact included.",
         checks=(*_measured_checks(points), *_power_checks(effort)),
         figures=(_map_figure(known, points), _table_figure(points, effort)),
     )
@@ -400,7 +401,7 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
         f"The critical velocity over shape, natural frequency and amplitude: Eq. (15) (dashed, one value for all "
         f"shapes and amplitudes), full slip with all harmonics (lines) and {len(shown)} measured values (symbols), "
         f"which lie on the lines to {max(abs(p.miss) for p in shown):.1e}. The flat punch follows Eq. (15) up to the "
-        f"dotted line, where it loses contact, and then leaves it as far as the others do: "
+        f"dotted line, where it loses contact, and then leaves it: "
         f"{100 * far.deviation:+.0f} % measured at α = {far.alpha:g}, ωτ = {far.T:g}, ω_0 = {far.ratio:g} ω.",
         fig,
         "Panels of critical velocity over amplitude, one for each natural frequency, elastic above and "

@@ -7,14 +7,15 @@ depth, as u_z0^(1/n) for f ~ r^n. With v_1 of Eq. (1), q = m omega² - k_x - i c
 
 at a given du_z. So v_c does not depend on the depth
 
-* at any amplitude, under a rigid pull (|q| infinite), as long as Eq. (1) holds (validation/lost_contact.py), and for
-  a flat punch (1/n = 0), as long as contact is kept;
+* at any amplitude, under a rigid pull (|q| infinite), as long as Eq. (1) holds (a surface that comes back late ends it,
+  at a depth of its own: validation/lost_contact.py), and for a flat punch (1/n = 0), as long as contact is kept;
 * nearly, under a heavy or stiff body, |q| >> k, whose S is -k Re(z/q);
 * to first order, where k = Re(q/z) (which takes a body above its resonance, q > 0 but for the damper): there v_c is
   least, v_1 |Im(q/z)| |z|/|q|.
 
-Otherwise it does, by up to a power of -1/n and more next to the resonance |q - z k| -> 0 of an elastic contact. At
-finite amplitude a curved contact depends on the depth in a second way, through alpha = du_z/u_z0
+Otherwise it does: like u_z0^(1/n) under a soft or light body and on the pole q = 0, S = 1, and by more, of either sign,
+next to the zero q = z k of an elastic contact. At finite amplitude a curved contact depends on the depth in a second
+way, through alpha = du_z/u_z0
 (validation/generalisation.py); what is measured here is at small alpha, but for the rigid pull and the punch.
 
 Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m.
@@ -103,7 +104,7 @@ def claim(effort: str) -> Claim:
     size = "quick" if effort == "quick" else "full"
     shapes = ("flat punch", "cone") if effort == "quick" else tuple(SHAPES)
     rigid_depths = (SHALLOW, 500 * SHALLOW)
-    knobs = [(s, u_z0, 0.0, "rigid pull") for s in shapes for u_z0 in rigid_depths]
+    knobs = [(s, u_z0, 1.0, "rigid pull") for s in shapes for u_z0 in rigid_depths]
     knobs += [(s, r * DEPTH, T, pull) for T, pull, depths in SWEEP[size] for s in shapes for r in depths]
     points = [measure(*one) for one in progress(knobs, "indentation")]
     stiff = contact("cone", 0.1, 0.0, **BODIES["stiff spring"])
@@ -130,13 +131,13 @@ def claim(effort: str) -> Claim:
         + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
         f"z = 1 + iωτ and q = mω² − k_x − ic_xω: S = {sensitivity(stiff):.2g} for that body and "
         f"{sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: under a rigid "
-        "pull, for any shape, here over a factor of 500 in depth and up to α = 0.95; for a flat punch; and at the one "
-        "depth at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in "
-        "depth.",
+        "pull, for any shape, here over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface that comes "
+        "back late ends this); for a flat punch that keeps contact; and at the one depth "
+        "at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in depth.",
         verdict="holds if the pull is rigid or the contact stiffness does not depend on depth",
-        sentence="v_c does not depend on the indentation for a rigid pull or a flat punch; otherwise as much as the "
-        "stiffness k_x,c(u_z0) in Eq. (15) makes it, by S/n per cent for each per cent of depth, so to use Eq. (15) "
-        "one has to know the depth.",
+        sentence="v_c does not depend on the indentation for a rigid pull, unless the surface comes back late, nor for "
+        "a flat punch that keeps contact; otherwise, at small amplitude, as much as the stiffness k_x,c(u_z0) in Eq. "
+        "(15) makes it, by S/n per cent for each per cent of depth, so to use Eq. (15) one has to know the depth.",
         checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
         figures=(_depth_figure(points, effort), _slope_figure()),
     )
@@ -156,7 +157,8 @@ def _measured_checks(points: list[Point]) -> list[Check]:
         span = float(np.ptp(expected) / expected.mean())
         why = "full slip at each depth; bracket of the measurement at either end"
         checks.append(Check(name, float(np.ptp(ratios) / ratios.mean()), span, 2 * TOLERANCE, why))
-        checks.append(Check.at_least(f"{name}, at least", span, 10 * TOLERANCE, "v_c does depend on the depth"))
+        least = float(np.ptp(ratios) / ratios.mean())
+        checks.append(Check.at_least(f"{name}, measured", least, 10 * TOLERANCE, "v_c does depend on the depth"))
     return checks
 
 

@@ -120,10 +120,10 @@ def claim(effort: str) -> Claim:
             f" without damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15)."
         ),
         measured=(
-            "Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has all"
-            " harmonics, and an undamped body with ω_0 = nω has no critical velocity for any n: its swing grows until"
-            " it comes to rest on the indenter once in each of its own periods, and at any velocity, however high, the"
-            " COF stays at 1 − |F_n|/F_0 of μ_0. "
+            "Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has more (a"
+            " paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is an"
+            " n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
+            " velocity, however high, the COF stays at 1 − |F_n|/F_0 of μ_0. "
             + "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: {_percent(share(s, T, n))}" for s, T, n in driven)
             + " less than μ_0. With a damper of 1 % there is a critical velocity again, that of full slip with all"
             f" harmonics; it is off Eq. (15) by up to {100 * ((worst[1][0] or np.nan) - 1):+.0f} % ({_name(worst[0])})."
@@ -132,9 +132,9 @@ def claim(effort: str) -> Claim:
         ),
         verdict="fails when ω_0 is a whole multiple of ω",
         sentence=(
-            "Eq. (15) knows one resonance, a curved contact has one at every ω_0 = nω: without damping friction stays"
-            " reduced by |F_n|/F_0 at any velocity; this share and the window go like α^n for an elastic contact, like"
-            " α^2 for a viscoelastic one."
+            "Eq. (15) knows one resonance, a curved contact has one at each ω_0 = nω of its force: without damping"
+            " friction stays reduced by |F_n|/F_0 at any velocity; this share and the window go like α^n for an"
+            " elastic contact, like α^2 for a viscoelastic one."
         ),
         checks=tuple(checks),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
