@@ -196,6 +196,7 @@ class _Search:
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs beyond v_c from both starts: does friction stay full?"""
         swinging, full, unsettled = False, False, []
+        undamped = isinstance(self.case.pull, SpringPull) and self.case.pull.c_x == 0  # else a swing is a transient
         of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
         for factor in ABOVE:
             for start in ("full_slip", "rest"):
@@ -207,7 +208,7 @@ class _Search:
                 full = full or run.settled
                 # in full slip the body moves alike at any v_0, but for the error of a step
                 swings = abs(run.least_slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
-                swinging = swinging or (run.settled and swings)
+                swinging = swinging or (undamped and run.settled and swings)
         why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
         if swinging:
             why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"

@@ -21,6 +21,7 @@ from mdr.unilateral import kept_gap
 
 BUDGET = 1e-5  #: of cof/mu_0, what the default knobs are to meet
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
+LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
 N_SPRINGS, _STEPS = 384, 1024  # first choice; doubled while cof_error exceeds the budget
 
 
@@ -99,7 +100,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             return finish(main)
         most = march(case, v_0, knobs.coarser(3 * knobs.steps // 4), as_long)
         error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long))
-        error_steps = max(_difference(main, half), 2 * _difference(main, most)) + _of_fast_relaxation(main)
+        error_steps = max(_difference(main, half), 2 * _difference(main, most)) * _erratic(case)
+        error_steps += _of_fast_relaxation(main)
         run = finish(main, error_springs + error_steps)
         finer = replace(
             knobs,
@@ -122,6 +124,14 @@ def _clear_of_stick(main: March, half: March) -> bool:
         return False
     least, moved = min(main.least_slip, half.least_slip), abs(main.least_slip - half.least_slip)
     return least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12
+
+
+def _erratic(case: SlidingContact) -> float:
+    """Margin on the differences of companions: a light body rings on the contact through stick and slip, and where the
+    nodes meet its oscillation makes the error of a step erratic; of ten random bodies with omega_1 from 4 to 40 omega,
+    two exceeded the plain differences, by 2 and 3 % (tests/table_of_errors.py).
+    """
+    return 1.5 if LIGHT < fast_ratio(case) < np.inf else 1.0
 
 
 def _of_fast_relaxation(main: March) -> float:
