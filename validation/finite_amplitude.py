@@ -213,9 +213,7 @@ def claim(effort: str) -> Claim:
         f"(elastic) and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. "
         f"The relative error is large too beside ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself "
         f"nearly vanishes: {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). "
-        "The flat punch leaves Eq. (15) where it loses contact, α √(1 + (ωτ)²) = 1 + ε, as ε^{3/2} if elastic and ε^2 "
-        "if viscoelastic: what a Kelvin contact misses as a pull while it is off, it misses again as pressure before "
-        "it returns.",
+        "Where a flat punch is lost it leaves Eq. (15), by a law of its own (next claim).",
         verdict="holds if the amplitude is small (near ω_0 = 2ω, very small); for a flat punch, while contact is kept",
         sentence=f"With a body on a spring “small” depends on the body: Eq. (15) is good to 1 % for every curved "
         f"shape up to α = {reach[0.0]:.2g} (elastic) and {reach[1.0]:.2g} (ωτ = 1), but only to "

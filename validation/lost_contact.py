@@ -476,7 +476,7 @@ def _slow_figure(points: list[Point], effort: str) -> Figure:
             Line2D([], [], color="0.2", ls="--", lw=1, label="Eq. (15)"),
             Line2D([], [], color="0.4", ls="-.", lw=1, label="law (**)"),
         ]
-        axes[0].legend(handles=handles, loc="upper left", fontsize=8)
+        fig.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8.5)
     return Figure(
         "slow",
         "A slow material that loses contact, α = 1, under mass and spring: full-slip v_c (full lines) and what was "
