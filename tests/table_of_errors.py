@@ -17,7 +17,7 @@ import mdr
 from mdr.marching import Knobs, march
 
 FINER = 16, 4  # times the steps, times the springs
-MOST = 8e7  # spring-steps per period of a reference: a run that has itself refined gets 8 or 4 times the steps
+MOST = 3e8  # spring-steps per period of a reference: a run that has itself refined gets 8 or 4 times the steps
 
 
 @dataclass(frozen=True)
