@@ -15,6 +15,7 @@ from conftest import SHAPES, contact
 
 import mdr
 from mdr.marching import Knobs, march
+from mdr.progress import progress
 
 FINER = 16, 4  # times the steps, times the springs
 MOST = 3e8  # spring-steps per period of a reference: a run that has itself refined gets 8 or 4 times the steps
@@ -78,11 +79,7 @@ def row(name: str, case: mdr.SlidingContact, v_0: float) -> Row:
 
 def main(n: int) -> int:
     """Print the table; 0 if at least 99 of 100 errors are within their bound."""
-    rows = []
-    for one in drawn(n):
-        rows.append(row(*one))
-        print(f"\r{len(rows)}/{n}", end="", file=sys.stderr)
-    print(file=sys.stderr)
+    rows = [row(*one) for one in progress(drawn(n), "table_of_errors")]
     usable = [r for r in rows if r.settled and r.finer]
     held = sum(r.within for r in usable)
     partial = [r for r in usable if r.error > 1e-13]  # not in full slip, where the error is none

@@ -13,6 +13,7 @@ from conftest import SHAPES, contact
 
 import mdr
 from mdr.marching import TOLERANCE, Line
+from mdr.progress import progress
 from mdr.scaled import ScaledContact
 from mdr.settling import Settling, judge
 
@@ -83,11 +84,7 @@ def row(name: str, damping: float, case: mdr.SlidingContact, v_0: float) -> Row:
 
 def main(n: int) -> int:
     """Print the table; 0 if all agree and the solver takes at most a fifth of the periods."""
-    rows = []
-    for one in drawn(n):
-        rows.append(row(*one))
-        print(f"\r{len(rows)}/{n}", end="", file=sys.stderr)
-    print(file=sys.stderr)
+    rows = [row(*one) for one in progress(drawn(n), "table_of_periods")]
     solved = [r for r in rows if r.solved is not None]
     light = [r for r in solved if r.damping < 0.01]
     apart = [r for r in solved if r.excess > 0]

@@ -27,8 +27,7 @@ import mdr
 from mdr.plots import style
 from mdr.progress import progress
 from validation.cases import LOOKS, POWERS, SHAPES, contact, loss, shape_label
-from validation.generalisation import TOLERANCE
-from validation.measured import Measured
+from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]

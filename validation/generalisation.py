@@ -35,7 +35,7 @@ from mdr.plots import style
 from mdr.progress import progress
 from mdr.unilateral import contact_edge
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
-from validation.measured import Measured
+from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -49,7 +49,6 @@ ALPHAS = (0.02, 0.1, 0.3, 0.6)
 DEPTHS = (0.5 * DEPTH, DEPTH, 2 * DEPTH)
 SPAN, LOSSES = (0.25, 4.5), (0.01, 10.0)  # omega_0/omega and T of the map
 SMALL = np.geomspace(2.5e-4, 2e-3, 4)  # alphas of the fits
-TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  # bracket of a measurement, and second order in its step, over v_c
 BESIDE = dict(zip(SHAPES, (0.76, 0.9, 1.06, 1.23), strict=True))  # of alpha, so that points of one value all show
 LEAST = 3e-9  # deviation that is drawn; only elastic undamped values, good to rounding, come near it
 

@@ -21,9 +21,6 @@ way, through alpha = du_z/u_z0
 Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m.
 """
 
-from dataclasses import dataclass, replace
-from functools import cache
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,9 +28,10 @@ import mdr
 from mdr.plots import COLOURS, style
 from mdr.progress import progress
 from mdr.pull import SpringPull
+from validation import generalisation
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
-from validation.generalisation import PULLS, TOLERANCE
-from validation.measured import Measured
+from validation.generalisation import PULLS, Point, measure
+from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -42,16 +40,14 @@ AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
 SHALLOW = 0.021 * DEPTH  # of the deepest amplitudes: alpha = 0.95
 SWEEP = {  # u_z0/DEPTH under a body: T, pull, depths
     "quick": ((0.0, "stiff spring", (0.25, 4.0)),),
-    "full": ((0.0, "stiff spring", (0.25, 1.0, 4.0)), (1.0, "heavy body", (0.25, 1.0, 4.0))),
+    "full": ((0.0, "stiff spring", (0.25, 1.0, 4.0)), (1.0, "soft spring", (0.25, 1.0, 4.0))),
 }
-BODIES = PULLS | {"heavy body": {"k_ratio": 1.5, "omega_0_ratio": 0.6, "damping_ratio": 0.05}}
 TINY = 1e-6  # alpha at which the full-slip value is Eq. (15) but for C alpha
 
 
 def system(shape: str, u_z0: float, T: float, pull: str, du_z: float = AMPLITUDE) -> mdr.SlidingContact:
     """A contact at any depth under the same spring, mass and damper, which belong to the depth of 20 µm."""
-    body = contact(shape, 0.1, T, **BODIES[pull]).pull
-    return replace(contact(shape, du_z / u_z0, T, u_z0=u_z0), pull=body)
+    return generalisation.system(shape, du_z / u_z0, T, pull, u_z0)
 
 
 def groups(case: mdr.SlidingContact) -> tuple[complex, complex]:
@@ -82,21 +78,9 @@ def measured_sensitivity(shape: str, u_z0: float, T: float, pull: str) -> float:
     return float(POWERS[shape] * (up - down) / (2 * step))
 
 
-@dataclass(frozen=True)
-class Point(Measured):
-    """One contact at one depth, and its critical velocity from runs alone."""
-
-    shape: str
-    T: float
-    pull: str
-    u_z0: float
-
-
-@cache
-def measure(shape: str, u_z0: float, T: float, pull: str) -> Point:
+def measured(shape: str, u_z0: float, T: float, pull: str) -> Point:
     """Measure v_c of one contact."""
-    case = system(shape, u_z0, T, pull)
-    return Point(case, mdr.measure_critical_velocity(case), shape, T, pull, u_z0)
+    return measure(shape, AMPLITUDE / u_z0, T, pull, u_z0)
 
 
 def claim(effort: str) -> Claim:
@@ -107,9 +91,9 @@ def claim(effort: str) -> Claim:
     rigid_shapes = shapes[1:] if effort == "quick" else shapes
     knobs = [(s, u_z0, 1.0, "rigid pull") for s in rigid_shapes for u_z0 in rigid_depths]
     knobs += [(s, r * DEPTH, T, pull) for T, pull, depths in SWEEP[size] for s in shapes for r in depths]
-    points = [measure(*one) for one in progress(knobs, "indentation")]
-    stiff = contact("cone", 0.1, 0.0, **BODIES["stiff spring"])
-    heavy = contact("cone", 0.1, 0.0, **BODIES["heavy body"])
+    points = [measured(*one) for one in progress(knobs, "indentation")]
+    stiff = contact("cone", 0.1, 0.0, **PULLS["stiff spring"])
+    heavy = contact("cone", 0.1, 0.0, **PULLS["soft spring"])
     spans = {
         shape: np.max(ratios) / np.min(ratios)
         for shape in shapes
@@ -166,7 +150,7 @@ def _measured_checks(points: list[Point]) -> list[Check]:
 def _slope_checks(effort: str) -> list[Check]:
     checks = []
     depths = (DEPTH,) if effort == "quick" else (0.3 * DEPTH, DEPTH, 5 * DEPTH)
-    for pull in ("stiff spring", "heavy body"):
+    for pull in ("stiff spring", "soft spring"):
         off = [
             measured_sensitivity(s, d, T, pull) - sensitivity(system(s, d, T, pull))
             for s in list(SHAPES)[1:]
@@ -184,12 +168,12 @@ def _minimum_checks() -> list[Check]:
 
     checks, T = [], 1.0
     for shape in list(SHAPES)[1:]:
-        case = system(shape, DEPTH, T, "heavy body")
+        case = system(shape, DEPTH, T, "soft spring")
         k, least = flattest(case)
         depth = DEPTH * (k / case.k_xc) ** POWERS[shape]
         bracket = (np.log(0.7 * depth), np.log(depth), np.log(1.4 * depth))
         found = minimize_scalar(lambda x, shape=shape: _over_depth(shape, float(np.exp(x)), T), bracket=bracket)
-        unit = system(shape, 1.0, T, "heavy body", TINY).unit_velocity
+        unit = system(shape, 1.0, T, "soft spring", TINY).unit_velocity
         name = f"{shape}, heavy body, ωτ = {T:g}: least v_c over Eq. (1), over |Im(q/z)| |z|/|q|"
         checks.append(Check(name, float(found.fun) / unit / least, 1.0, 1e-5, "C α at α = 1e-6"))
         name = f"{shape}, heavy body, ωτ = {T:g}: k_xc at that depth over Re(q/z)"
@@ -200,7 +184,7 @@ def _minimum_checks() -> list[Check]:
 
 def _over_depth(shape: str, u_z0: float, T: float) -> float:
     """Full-slip value over u_z0, and so over Eq. (1) but for a factor, at one tiny alpha."""
-    return mdr.full_slip_critical_velocity(system(shape, u_z0, T, "heavy body", TINY * u_z0)) / u_z0
+    return mdr.full_slip_critical_velocity(system(shape, u_z0, T, "soft spring", TINY * u_z0)) / u_z0
 
 
 def _depth_figure(points: list[Point], effort: str) -> Figure:
@@ -208,7 +192,7 @@ def _depth_figure(points: list[Point], effort: str) -> Figure:
 
     ratios = np.geomspace(0.1, 10, 60)
     panels = [(0.0, "stiff spring", r"elastic, $\omega_0$ = 1.7 $\omega$")]
-    panels.append((1.0, "heavy body", r"$\omega\tau$ = 1, $\omega_0$ = 0.6 $\omega$"))
+    panels.append((1.0, "soft spring", r"$\omega\tau$ = 1, $\omega_0$ = 0.6 $\omega$"))
     with style():
         fig, axes = plt.subplots(1, 2, sharey=True, figsize=(9.6, 4.2))
         for ax, (T, pull, title) in zip(axes, panels, strict=True):

@@ -66,7 +66,7 @@ from mdr.pull import SpringPull
 from mdr.unilateral import contact_edge, turning_phase
 from validation.cases import LOOKS, SHAPES, contact, loss, shape_label
 from validation.finite_amplitude import DAMPING, STIFFNESS, deviation, system
-from validation.measured import Measured
+from validation.measured import Measured, worst
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -153,7 +153,7 @@ def onset(eps: float, T: float, ratio: float) -> float:
 
 
 def blow(case: mdr.SlidingContact, n_springs: int = 4096) -> float:
-    """v_c [m/s] of a slow material under a body, (**) of the module; for T to infinity with case.T infinite."""
+    """v_c [m/s] of a slow material under a body, (**) of the module."""
     pull, oscillation, lam = _spring(case), case.oscillation, free_oscillation(case)
     springs = mdr.SpringArray.of(case, n_springs)
     depth = np.maximum(oscillation.du_z - springs.gap, 0)
@@ -267,7 +267,7 @@ def _rigid_checks(points: list[Point]) -> list[Check]:
     return [
         Check(
             f"measured v_c over Eq. (1), worst of {len(here)} shapes: ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}",
-            max((p.over_rigid for p in here), key=lambda v: abs(v - late(1 / alpha, T))),
+            worst((p.over_rigid for p in here), late(1 / alpha, T)),
             late(1 / alpha, T),
             SHARP * late(1 / alpha, T),
             why,

@@ -1,10 +1,13 @@
 """A critical velocity measured from runs alone, beside the two formulas that it is compared with."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 import mdr
+
+TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  #: bracket of a measurement, and second order in its step, over v_c
 
 
 @dataclass(frozen=True)
@@ -38,3 +41,8 @@ class Measured:
     def in_bracket(self) -> bool:
         """Whether the full-slip value lies in the bracket of this very measurement."""
         return self.found.contains(mdr.full_slip_critical_velocity(self.case))
+
+
+def worst(values: Iterable[float], expected: float) -> float:
+    """The value furthest from the expected one; NaN where there is any."""
+    return max(values, key=lambda value: np.inf if np.isnan(value) else abs(value - expected))

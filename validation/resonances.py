@@ -37,6 +37,7 @@ from mdr.full_slip import mean_normal_force, normal_force_harmonics
 from mdr.plots import COLOURS, style
 from mdr.progress import progress
 from validation.cases import contact, loss
+from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -45,7 +46,6 @@ ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
 MULTIPLES = (1, 2, 3, 4, 5)
 FAST = (5, 20, 100)  # velocities over Eq. (15), on its own pole over Eq. (1)
 LEAST = 5e-6  # share of F_0 that a harmonic must have for its reduction of the COF to stand out of the error of a run
-TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  # bracket of a measurement, and second order in its step, over v_c
 LOOKS = {"flat punch": (COLOURS[0], "s"), "paraboloid": (COLOURS[2], "o")}
 
 

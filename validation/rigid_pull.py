@@ -1,18 +1,8 @@
 """Rigid pull: v_c is Eq. (1) for any shape, amplitude and relaxation time, as long as the contact is there in time.
 
 In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 = mu_0 kappa omega du_z of Eq. (1), so v_c = v_1
-if any spring touches at phi = -pi/2, where the depth grows fastest. The centre touches longest. A Kelvin surface that
-was left relaxes like exp(-theta/T), so by the definition of unilateral contact the centre touches at the phase phi if
-u_z0/du_z is at least
-
-    max over theta > 0 of [cos(phi - theta) exp(-theta/T) - cos(phi)]/[1 - exp(-theta/T)]
-
-(theta: how long ago). It comes back at phi_c, where both are equal: v_c/v_1 = 1 if that is before -pi/2, and
-sin|phi_c| after. With u_z0 > 0 the limit phi_c = -pi/2 is
-
-    alpha_1(T) = min over pi < theta < 2 pi of [exp(theta/T) - 1]/(-sin theta),
-
-which tends to sqrt(1 + theta²)/T at tan theta = theta for large T: far above the limit 1/sqrt(1 + T²) of Eq. (5).
+if any spring touches at phi = -pi/2, where the depth grows fastest. A slow surface that was left may come back later, at
+phi_c, and v_c is then v_1 sin|phi_c|: when, is derived and tested in validation/lost_contact.py.
 
 Below v_c the COF is known in closed form (mdr/rigid_pull.py), and so are both ends of its curve. It is set beside runs,
 which share no code with it. What the curves of different shapes have in common: validation/one_curve.py; how runs leave
@@ -32,6 +22,7 @@ import mdr
 from mdr.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
 from validation.cases import SHAPES, contact, shape_label
 from validation.lost_contact import SHARP, amplitude_limit, late, slow_limit
+from validation.measured import worst
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -133,19 +124,14 @@ def _velocity_checks(found: Measured, tapped: dict[float, Any]) -> list[Check]:
 
 def _of_one(name: str, expected: float, measured: dict[str, tuple[float | None, float]]) -> list[Check]:
     """The worst of the shapes, for runs and for the full-slip condition."""
-    runs = _worst([np.nan if run is None else run for run, _ in measured.values()], expected)
-    full = _worst([full for _, full in measured.values()], expected)
+    runs = worst([np.nan if run is None else run for run, _ in measured.values()], expected)
+    full = worst([full for _, full in measured.values()], expected)
     whom = f"worst of {len(measured)} shapes" if len(measured) > 1 else next(iter(measured))
     why = "bracket of 2e-5 of the measurement and h²/6 = 6e-6 of the mean over a step"
     return [
         Check(f"measured v_c over Eq. (1), {whom}: {name}", runs, expected, SHARP * expected, why),
         Check(f"full-slip v_c over Eq. (1), {whom}: {name}", full, expected, 1e-8, "1, or a root against a root"),
     ]
-
-
-def _worst(values: Iterable[float], expected: float) -> float:
-    """The value furthest from the expected one; NaN where there is any."""
-    return max(values, key=lambda value: np.inf if np.isnan(value) else abs(value - expected))
 
 
 def _contact(alpha: float, T: float) -> str:
@@ -225,8 +211,8 @@ def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> lis
     )
     whom = f"worst of {len(fits)}"
     return [
-        Check(f"power of {name}, {whom}", _worst([fit.power for fit in fits], power), power, 5e-6, why),
-        Check(f"coefficient over the derived one of {name}, {whom}", _worst(ratio, 1.0), 1.0, 1e-4, why),
+        Check(f"power of {name}, {whom}", worst([fit.power for fit in fits], power), power, 5e-6, why),
+        Check(f"coefficient over the derived one of {name}, {whom}", worst(ratio, 1.0), 1.0, 1e-4, why),
     ]
 
 
