@@ -1,8 +1,8 @@
 """Rigid pull: v_c is Eq. (1) for any shape, amplitude and relaxation time, as long as the contact is there in time.
 
 In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 = mu_0 kappa omega du_z of Eq. (1), so v_c = v_1
-if any spring touches at phi = -pi/2, where the depth grows fastest. A slow surface that was left may come back later, at
-phi_c, and v_c is then v_1 sin|phi_c|: when, is derived and tested in validation/lost_contact.py.
+if any spring touches at phi = -pi/2, where the depth grows fastest. A slow surface that was left may come back later,
+at phi_c, and v_c is then v_1 sin|phi_c|: when, is derived and tested in validation/lost_contact.py.
 
 Below v_c the COF is known in closed form (mdr/rigid_pull.py), and so are both ends of its curve. It is set beside runs,
 which share no code with it. What the curves of different shapes have in common: validation/one_curve.py; how runs leave
