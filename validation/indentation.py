@@ -114,7 +114,7 @@ def claim(effort: str) -> Claim:
         "factor of "
         + ", ".join(f"{span:.4g} ({shape})" for shape, span in spans.items())
         + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
-        f"z = 1 + iωτ and q = mω² − k_x − ic_xω: S = {sensitivity(stiff):.2g} for that body and "
+        f"z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {sensitivity(stiff):.2g} for that body and "
         f"{sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: under a rigid "
         "pull, for any shape, here over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface that comes "
         "back late ends this); for a flat punch that keeps contact; and at the one depth "
