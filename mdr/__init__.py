@@ -7,7 +7,7 @@ a sliding contact; from there to closed forms, runs, curves and the verdict on t
 from importlib.metadata import PackageNotFoundError, version
 
 from mdr.indenters import Cone, FlatPunch, Indenter, Paraboloid, PowerLaw, Profile
-from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material
+from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
 from mdr.motion import NormalOscillation
 from mdr.pull import Pull, RigidPull, SpringPull
 from mdr.contact import SlidingContact
@@ -44,12 +44,14 @@ __all__ = [
     "Paraboloid",
     "PowerLaw",
     "Profile",
+    "Prony",
     "Pull",
     "RigidPull",
     "SlidingContact",
     "SlidingRun",
     "SpringArray",
     "SpringPull",
+    "StandardLinearSolid",
     "State",
     "Verdict",
     "cof_curve",

@@ -1,0 +1,8 @@
+"""The half-space: how stiff and how slow a material makes each spring; `Material` says what one must answer."""
+
+from mdr.materials.base import Material
+from mdr.materials.elastic import Elastic, ElasticPair
+from mdr.materials.kelvin_voigt import KelvinVoigt
+from mdr.materials.prony import Prony, StandardLinearSolid
+
+__all__ = ["Elastic", "ElasticPair", "KelvinVoigt", "Material", "Prony", "StandardLinearSolid"]

@@ -1,0 +1,170 @@
+"""What every material must answer: how stiff it makes a spring, and how it answers in time and frequency.
+
+A rigid indenter on one deformable body has, with Young's modulus E and Poisson's ratio nu,
+
+    1/E* = (1 - nu²)/E,    1/G* = (2 - nu)/(4 G),    G = E/(2 (1 + nu)),
+
+and two bodies add their compliances (Popov and Heß 2015, Method of Dimensionality Reduction, ch. 3).
+Their ratio kappa = E*/G* is the Mindlin ratio. The general linear material is a Kelvin branch, modulus and dashpot in
+parallel, beside any number of Maxwell arms (a generalised Maxwell, or Wiechert, body); in terms of contact moduli
+
+    E*(omega) = E* (1 + i omega tau) + sum_j E*_j i omega tau_j/(1 + i omega tau_j),
+
+and with a constant Poisson's ratio one operator serves both directions, which is Eq. (11).
+
+Symbols: E, G, E_star, G_star moduli [Pa], nu Poisson's ratio [-], tau, tau_j relaxation times [s],
+eta shear viscosity [Pa s], omega angular frequency [rad/s], t time [s].
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.checks import FloatArray, finite, finite_array, plain
+
+
+def poisson_ratio(name: str, value: float) -> float:
+    """Poisson's ratio of a stable isotropic body, -1 < nu <= 1/2."""
+    nu = finite(name, value)
+    if not -1 < nu <= 0.5:
+        raise ValueError(f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5")
+    return nu
+
+
+class Material(ABC):
+    """What every material must answer; long-time moduli are properties, the rest follows from them."""
+
+    tau: float
+
+    def _set(self, **checked: float) -> None:
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    @abstractmethod
+    def E_star(self) -> float:
+        """Long-time normal contact modulus E* [Pa]."""
+
+    @property
+    @abstractmethod
+    def G_star(self) -> float:
+        """Long-time tangential contact modulus G* [Pa]."""
+
+    @property
+    @abstractmethod
+    def dundurs_beta(self) -> float:
+        """Dundurs' beta [-], the strength of normal-tangential coupling that the springs leave out."""
+
+    @property
+    def mindlin_ratio(self) -> float:
+        """kappa = E*/G* [-], the ratio of normal to tangential contact stiffness."""
+        return self.E_star / self.G_star
+
+    @property
+    def contact_arms(self) -> tuple[tuple[float, float], ...]:
+        """Maxwell arms as (E*_j [Pa], tau_j [s]), beside the branch of E_star and tau; none for most materials."""
+        return ()
+
+    @property
+    def instantaneous_modulus(self) -> float:
+        """Contact modulus E*(t -> 0) [Pa] of a sudden step: E* and all arms; infinite with a dashpot, tau > 0."""
+        return self.E_star + sum(E_j for E_j, _ in self.contact_arms) if self.tau == 0 else np.inf
+
+    def dynamic_modulus(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
+        """Complex contact modulus E*(omega) [Pa], see the module's docstring, in the shape of omega [rad/s]."""
+        omega = finite_array("omega", omega, "rad/s")
+        modulus = self.E_star * (1 + 1j * omega * self.tau)
+        for E_j, tau_j in self.contact_arms:
+            lead = 1j * omega * tau_j
+            modulus = modulus + E_j * lead / (1 + lead)
+        return complex(modulus) if modulus.ndim == 0 else np.asarray(modulus)
+
+    def relaxation_modulus(self, t: ArrayLike) -> FloatArray:
+        """Contact modulus E*(t) [Pa] at times t >= 0 [s] after a sudden step of depth; a dashpot, tau > 0, adds an
+        impulse E* tau at t = 0, which is left out. ValueError for t < 0.
+        """
+        t = _elapsed(t)
+        return plain(self.E_star + sum((E_j * np.exp(-t / tau_j) for E_j, tau_j in self.contact_arms), 0 * t))
+
+    def creep_compliance(self, t: ArrayLike) -> FloatArray:
+        """Depth over load [1/Pa] of a spring of unit width at times t >= 0 [s] after a sudden unit load.
+
+        The inverse of the operator whose answer to a step is `relaxation_modulus`: 1/E* after a long time, without
+        bound for a material with E_star = 0, which flows. ValueError for t < 0.
+        """
+        t = _elapsed(t)
+        start, rates, times = self._retardation()
+        with np.errstate(divide="ignore"):
+            shares = [
+                rate * (t if np.isinf(theta) else -theta * np.expm1(-t / theta))
+                for rate, theta in zip(rates, times, strict=True)
+            ]
+        return plain(start + sum(shares, 0 * t))
+
+    def _retardation(self) -> tuple[float, FloatArray, FloatArray]:
+        """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): its start, the rates and the times of retardation.
+
+        Written with the roots of the energies, sqrt(E_j) q_j, the free motion under constant load is a symmetric
+        matrix, whose eigenvalues are -1/theta.
+        """
+        arms = np.array(self.contact_arms).reshape(-1, 2)
+        E_j, tau_j = arms[:, 0], arms[:, 1]
+        if self.tau > 0:  # the dashpot carries what springs and arms leave of the load
+            roots = np.sqrt(np.concatenate([[self.E_star], E_j]))
+            relax = np.concatenate([[0.0], 1 / tau_j])
+            eta = self.E_star * self.tau
+            values, vectors = np.linalg.eigh(-np.outer(roots, roots) / eta - np.diag(relax))
+            start, push, read = 0.0, vectors.T @ roots / eta, vectors[0] / roots[0]
+        else:
+            glassy = self.E_star + E_j.sum()
+            roots = np.sqrt(E_j / tau_j)
+            values, vectors = np.linalg.eigh(np.outer(roots, roots) / glassy - np.diag(1 / tau_j))
+            start, push, read = 1 / glassy, vectors.T @ roots / glassy, roots @ vectors / glassy
+        flows = values > -1e-14 * np.abs(values).max(initial=0.0)
+        if self.E_star > 0:
+            flows[:] = False
+        with np.errstate(divide="ignore"):
+            return float(start), push * read, np.where(flows, np.inf, -1 / values)
+
+    def loss_tangent(self, omega: ArrayLike) -> NDArray[np.float64] | float:
+        """Loss over storage modulus at omega [rad/s]; omega tau for a Kelvin body."""
+        modulus = np.asarray(self.dynamic_modulus(omega))
+        ratio = modulus.imag / modulus.real
+        return float(ratio) if ratio.ndim == 0 else ratio
+
+
+class OneBody(Material):
+    """A deformable body of modulus E and ratio nu under a rigid indenter."""
+
+    E: float
+    nu: float
+
+    @property
+    def E_star(self) -> float:
+        """E/(1 - nu²) [Pa]."""
+        return self.E / (1 - self.nu**2)
+
+    @property
+    def G_star(self) -> float:
+        """4 G/(2 - nu) [Pa]."""
+        return 2 * self.E / ((1 + self.nu) * (2 - self.nu))
+
+    @property
+    def mindlin_ratio(self) -> float:
+        """kappa = (2 - nu)/(2 (1 - nu)) [-]."""
+        return (2 - self.nu) / (2 * (1 - self.nu))
+
+    @property
+    def dundurs_beta(self) -> float:
+        """(1 - 2 nu)/(2 (1 - nu)) [-]: zero for an incompressible body, 2/7 for nu = 0.3."""
+        return (1 - 2 * self.nu) / (2 * (1 - self.nu))
+
+
+def _elapsed(t: ArrayLike) -> FloatArray:
+    t = finite_array("t", t, "s")
+    if np.any(t < 0):
+        raise ValueError(f"t must not be negative, got {float(t.min())!r} s: before the step there is no answer to it")
+    return t

@@ -1,0 +1,80 @@
+"""Elastic bodies: one under a rigid indenter, or two in contact, whose compliances add."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+from mdr.checks import positive
+from mdr.materials.base import Material, OneBody, poisson_ratio
+
+
+@dataclass(frozen=True)
+class Elastic(OneBody):
+    """An elastic body under a rigid indenter."""
+
+    E: float  #: Young's modulus [Pa]
+    nu: float  #: Poisson's ratio [-]
+
+    def __post_init__(self) -> None:
+        self._set(E=positive("E", self.E, "Young's modulus in Pa"), nu=poisson_ratio("nu", self.nu))
+
+    @property
+    def tau(self) -> float:  # type: ignore[override]
+        """Relaxation time [s] of an elastic body: zero."""
+        return 0.0
+
+    @classmethod
+    def from_shear(cls, *, G: float, nu: float) -> Elastic:
+        """The body of shear modulus G [Pa]: E = 2 G (1 + nu)."""
+        return cls(E=2 * positive("G", G, "shear modulus in Pa") * (1 + poisson_ratio("nu", nu)), nu=nu)
+
+
+@dataclass(frozen=True)
+class ElasticPair(Material):
+    """Two elastic bodies in contact; their compliances add."""
+
+    E_1: float  #: Young's modulus of the first body [Pa]
+    nu_1: float  #: its Poisson's ratio [-]
+    E_2: float  #: Young's modulus of the second body [Pa]
+    nu_2: float  #: its Poisson's ratio [-]
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value: Any = getattr(self, field.name)
+            ratio = field.name.startswith("nu")
+            self._set(
+                **{
+                    field.name: poisson_ratio(field.name, value)
+                    if ratio
+                    else positive(field.name, value, "Young's modulus in Pa")
+                }
+            )
+
+    @property
+    def tau(self) -> float:  # type: ignore[override]
+        """Relaxation time [s] of elastic bodies: zero."""
+        return 0.0
+
+    @property
+    def _bodies(self) -> tuple[Elastic, Elastic]:
+        return Elastic(self.E_1, self.nu_1), Elastic(self.E_2, self.nu_2)
+
+    @property
+    def E_star(self) -> float:
+        """1/E* = (1 - nu_1²)/E_1 + (1 - nu_2²)/E_2 [Pa]."""
+        one, two = self._bodies
+        return 1 / (1 / one.E_star + 1 / two.E_star)
+
+    @property
+    def G_star(self) -> float:
+        """1/G* = (2 - nu_1)/(4 G_1) + (2 - nu_2)/(4 G_2) [Pa]."""
+        one, two = self._bodies
+        return 1 / (1 / one.G_star + 1 / two.G_star)
+
+    @property
+    def dundurs_beta(self) -> float:
+        """[(1-2 nu_1)/G_1 - (1-2 nu_2)/G_2] / [2 (1-nu_1)/G_1 + 2 (1-nu_2)/G_2] [-]; zero for like materials."""
+        G_1, G_2 = self.E_1 / (2 * (1 + self.nu_1)), self.E_2 / (2 * (1 + self.nu_2))
+        mismatch = (1 - 2 * self.nu_1) / G_1 - (1 - 2 * self.nu_2) / G_2
+        return mismatch / (2 * (1 - self.nu_1) / G_1 + 2 * (1 - self.nu_2) / G_2)

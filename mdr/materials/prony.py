@@ -1,0 +1,169 @@
+"""Bodies with memory: a spring, or a Kelvin element, in parallel with Maxwell arms.
+
+    E(t) = E_inf + sum_j E_j exp(-t/tau_j),
+    E(omega) = E_inf (1 + i omega tau) + sum_j E_j i omega tau_j/(1 + i omega tau_j)
+
+One arm makes the standard linear solid (in Zener's form), none the Kelvin body. With E_inf = 0 every spring is a fluid
+in the end: a mean load relaxes to nothing, or sinks in without end. Such a Maxwell body has no periodic state under a
+mean load, so that no average friction belongs to it; `mdr.indent` takes it all the same.
+
+Symbols: E_inf, E_j Young's moduli [Pa], tau_j relaxation times of the arms, tau Kelvin time of the E_inf branch [s],
+nu Poisson's ratio [-], constant in time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+
+from numpy.typing import ArrayLike
+
+from mdr.checks import not_negative, positive
+from mdr.materials.base import OneBody, poisson_ratio
+
+Arms = tuple[tuple[float, float], ...]
+
+
+class _WithArms(OneBody):
+    """A body of long-time modulus E_inf and Maxwell arms."""
+
+    E_inf: float
+
+    @property
+    def E(self) -> float:  # type: ignore[override]
+        """Long-time Young's modulus E_inf [Pa]."""
+        return self.E_inf
+
+    @property
+    def G_star(self) -> float:
+        """Long-time 4 G/(2 - nu) [Pa]."""
+        return self.E_star / self.mindlin_ratio
+
+    def _contact_arms(self, arms: Arms) -> Arms:
+        return tuple((E_j / (1 - self.nu**2), tau_j) for E_j, tau_j in arms if E_j > 0)
+
+
+@dataclass(frozen=True)
+class StandardLinearSolid(_WithArms):
+    """A spring E_inf in parallel with one Maxwell arm: glassy modulus E_inf + E_1, relaxing with tau_1."""
+
+    E_inf: float  #: long-time Young's modulus [Pa]; 0 is a Maxwell body, for mdr.indent alone
+    E_1: float  #: Young's modulus of the arm [Pa]
+    tau_1: float  #: relaxation time of the arm [s]
+    nu: float  #: Poisson's ratio [-], constant
+
+    def __post_init__(self) -> None:
+        self._set(
+            E_inf=not_negative("E_inf", self.E_inf, "long-time Young's modulus in Pa"),
+            E_1=not_negative("E_1", self.E_1, "Young's modulus of the arm in Pa"),
+            tau_1=positive("tau_1", self.tau_1, "relaxation time of the arm in s"),
+            nu=poisson_ratio("nu", self.nu),
+        )
+        _refuse_nothing(self.E_inf, ((self.E_1, self.tau_1),))
+
+    @property
+    def tau(self) -> float:  # type: ignore[override]
+        """Kelvin time [s] of the E_inf branch: zero."""
+        return 0.0
+
+    @property
+    def contact_arms(self) -> Arms:
+        """The arm as (E*_1 [Pa], tau_1 [s])."""
+        return self._contact_arms(((self.E_1, self.tau_1),))
+
+
+@dataclass(frozen=True)
+class Prony(_WithArms):
+    """A Kelvin element (E_inf, tau) in parallel with any number of Maxwell arms (E_j, tau_j)."""
+
+    E_inf: float  #: long-time Young's modulus [Pa]; 0 is a generalised Maxwell body, for mdr.indent alone
+    arms: Arms  #: (E_j [Pa], tau_j [s]) of each arm
+    nu: float  #: Poisson's ratio [-], constant
+    tau: float = 0.0  #: Kelvin time of the E_inf branch [s]
+
+    def __post_init__(self) -> None:
+        self._set(
+            E_inf=not_negative("E_inf", self.E_inf, "long-time Young's modulus in Pa"),
+            nu=poisson_ratio("nu", self.nu),
+            tau=not_negative("tau", self.tau, "Kelvin time in s"),
+        )
+        object.__setattr__(self, "arms", _checked(self.arms))
+        _refuse_nothing(self.E_inf, self.arms)
+        if self.E_inf == 0 and self.tau > 0:
+            raise ValueError("tau must be 0 where E_inf = 0: it is the time of that branch; name the dashpot as an arm")
+
+    @property
+    def contact_arms(self) -> Arms:
+        """The arms as (E*_j [Pa], tau_j [s]), those of zero modulus left out."""
+        return self._contact_arms(self.arms)
+
+    @classmethod
+    def fit(
+        cls, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, *, nu: float, n_arms: int | None = None
+    ) -> Prony:
+        """The body whose E(omega) comes closest to measured storage and loss moduli E', E'' [Pa], arrays (n,) over
+        omega [rad/s]: least squares of the relative deviation, with no negative arm.
+
+        n_arms relaxation times are spread evenly in log time over the measured range (None: three a decade, but no more
+        than half the data can tell); those of no use are dropped. `misfit` says how close it came. Outside the
+        measured range the answer is the body's own. Raises ValueError for data that are negative, infinite or NaN.
+        """
+        from mdr.materials import prony_fit
+
+        return cls(*prony_fit.to_data(omega, storage, loss, n_arms), nu=nu)
+
+    @classmethod
+    def power_law(
+        cls, *, modulus: float, exponent: float, omega: tuple[float, float], nu: float, error: float = 1e-3
+    ) -> Prony:
+        """A fractional material, E(omega) = modulus (i omega tau_0)^exponent with tau_0 = 1/omega[0], spread over arms.
+
+        modulus [Pa] is |E| at omega[0]; exponent lies between 0 (elastic) and 1 (viscous). As many arms are taken as
+        bring the relative deviation of E(omega) below `error` for all omega[0] <= omega <= omega[1] [rad/s]; beyond
+        this range the body is stiffer, or less lossy, than a power law. ValueError where no 60 arms reach it.
+        """
+        from mdr.materials import prony_fit
+
+        return cls(*prony_fit.to_power_law(modulus, exponent, omega, error), nu=nu)
+
+    @classmethod
+    def read(cls, path: str | PathLike[str], *, nu: float | None = None) -> Prony:
+        """The body of a table of arms, .csv or .toml.
+
+        CSV: columns E_j [Pa] and tau_j [s] under a header that names them; the row with tau_j = inf, or an empty one,
+        is E_inf. nu is given here. TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted,
+        tau, as in a case file; a nu given here takes its place. Raises ValueError with the line or key that is wrong.
+        """
+        from mdr.materials import prony_fit
+
+        return cls(**prony_fit.from_table(path, nu))
+
+    def misfit(self, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
+        """Greatest relative deviation |E(omega) - E' - i E''|/|E' + i E''| [-] from data [Pa], arrays (n,)."""
+        from mdr.materials import prony_fit
+
+        return prony_fit.misfit(self, omega, storage, loss)
+
+
+def _checked(arms: Sequence[Sequence[float]]) -> Arms:
+    """Arms as a tuple of pairs, each named in what is wrong with it."""
+    try:
+        pairs = [tuple(arm) for arm in arms]
+    except TypeError:
+        raise TypeError(f"arms must be a sequence of pairs (E_j, tau_j), got {arms!r}") from None
+    for j, pair in enumerate(pairs):
+        if len(pair) != 2:
+            raise ValueError(f"arms[{j}] must be a pair (E_j, tau_j), got {pair!r}")
+    return tuple(
+        (
+            not_negative(f"arms[{j}] modulus", E_j, "E_j in Pa"),
+            positive(f"arms[{j}] relaxation time", tau_j, "tau_j in s"),
+        )
+        for j, (E_j, tau_j) in enumerate(pairs)
+    )
+
+
+def _refuse_nothing(E_inf: float, arms: Arms) -> None:
+    if E_inf == 0 and not any(E_j > 0 for E_j, _ in arms):
+        raise ValueError("E_inf = 0 and no arm has a modulus: nothing carries a load; give E_inf or an arm above zero")
