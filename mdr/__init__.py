@@ -6,9 +6,28 @@ a sliding contact; from there to closed forms, runs, curves and the verdict on t
 
 from importlib.metadata import PackageNotFoundError, version
 
-from mdr.indenters import Cone, FlatPunch, Indenter, Paraboloid, PowerLaw, Profile
+from mdr.indenters import (
+    CappedCone,
+    CappedParaboloid,
+    ConcavePunch,
+    Cone,
+    ConstantPressure,
+    Ellipsoid,
+    FlatPunch,
+    FromForce,
+    Hyperboloid,
+    Indenter,
+    Paraboloid,
+    PowerLaw,
+    Profile,
+    RoundedPunch,
+    SampledProfile,
+    Sphere,
+    TruncatedCone,
+    TruncatedParaboloid,
+)
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
-from mdr.motion import NormalOscillation
+from mdr.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.pull import Pull, RigidPull, SpringPull
 from mdr.contact import SlidingContact
 from mdr.springs import SpringArray
@@ -29,30 +48,45 @@ except PackageNotFoundError:  # run from a folder that was never installed
     __version__ = "0+unknown"
 
 __all__ = [
+    "CappedCone",
+    "CappedParaboloid",
     "CaseFileError",
     "CofCurve",
+    "ConcavePunch",
     "Cone",
+    "ConstantPressure",
     "Elastic",
     "ElasticPair",
+    "Ellipsoid",
     "EnergyBalance",
     "FlatPunch",
+    "FromForce",
+    "Hyperboloid",
     "Indenter",
     "KelvinVoigt",
+    "LoadOscillation",
     "Material",
     "MeasuredVelocity",
+    "Motion",
     "NormalOscillation",
     "Paraboloid",
+    "PeriodicMotion",
     "PowerLaw",
     "Profile",
     "Prony",
     "Pull",
     "RigidPull",
+    "RoundedPunch",
+    "SampledProfile",
     "SlidingContact",
     "SlidingRun",
+    "Sphere",
     "SpringArray",
     "SpringPull",
     "StandardLinearSolid",
     "State",
+    "TruncatedCone",
+    "TruncatedParaboloid",
     "Verdict",
     "cof_curve",
     "critical_velocity",

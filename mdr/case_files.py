@@ -19,6 +19,9 @@ default, and no [pull] is a rigid pull:
     [pull]
     k_x = 2e4
 
+The keys of [oscillation] tell what it is: F_z0 and dF_z make a LoadOscillation, lists cos and sin a PeriodicMotion.
+A Prony material has arms = [[E_j, tau_j], ...].
+
 A file that is wrong is refused with every fault at once. Values are checked by the records themselves. To see
 behind a wrong or missing value, harmless numbers of several magnitudes take its place in turn: what is refused
 with each of them, in the same words, is a further fault.
@@ -37,11 +40,11 @@ from os import PathLike, fsdecode
 from types import ModuleType
 from typing import Any
 
-from mdr import indenters, materials
+from mdr import indenters, materials, motion
 from mdr.contact import SlidingContact, require_case
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
-from mdr.motion import NormalOscillation
+from mdr.motion import Motion, NormalOscillation
 from mdr.pull import RigidPull, SpringPull
 
 MAX_BYTES = 2**24  #: of a case file
@@ -132,7 +135,7 @@ class _Table:
     """One table of the file: the records it may describe, and the key that chooses among them."""
 
     name: str
-    choice: str  #: the key that names the record; empty where there is but one
+    choice: str  #: the key that names the record; empty where its other keys tell
     module: ModuleType | None
     kind: type[Any]
 
@@ -177,7 +180,8 @@ class _Table:
     def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, str]:
         """The record that the table names, or what is wrong with the name."""
         if not self.choice:
-            return self.kind, ""
+            own = [(sum(key in self.keys(record) for key in table), record) for record in self.records().values()]
+            return max(own, key=lambda one: (one[0], one[1] is NormalOscillation))[1], ""
         names, name = self.writable(), table.get(self.choice)
         others = f"choose one of {', '.join(names)}"
         if self.choice not in table:
@@ -213,7 +217,7 @@ _TABLES = {
     for table in (
         _Table("indenter", "shape", indenters, Indenter),
         _Table("material", "model", materials, Material),
-        _Table("oscillation", "", None, NormalOscillation),
+        _Table("oscillation", "", motion, Motion),
         _Table("pull", "", None, SpringPull),
     )
 }

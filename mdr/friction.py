@@ -61,8 +61,9 @@ class CofCurve(ArrayRecord):
 def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None) -> CofCurve:
     """COF of a case over pulling velocities v_0 >= 0 [m/s], shape (n_v,).
 
-    method: None takes the closed form of a rigid pull (rigid_pull.py), and a run a velocity for a body; "march" forces
-    the runs. Raises ValueError for velocities that are negative, infinite or NaN.
+    method: None takes the closed form of a rigid pull (rigid_pull.py) under a harmonic depth, elastic or Kelvin, and a
+    run a velocity for every other case; "march" forces the runs. Raises ValueError for velocities that are negative,
+    infinite or NaN.
     """
     case = require_case(case)
     if method not in (None, "march"):
@@ -73,7 +74,8 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
     if np.any(velocities < 0):
         raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
     static, moving = static_cof(case), velocities > 0
-    columns = _closed_form if method is None and isinstance(case.pull, RigidPull) else _runs
+    closed = method is None and isinstance(case.pull, RigidPull) and case.is_of_the_paper
+    columns = _closed_form if closed else _runs
     cof, error, settled, sticks, why = columns(case, velocities[moving])
 
     def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:

@@ -1,4 +1,4 @@
-"""The full-slip periodic solution: any shape, any amplitude, elastic or Kelvin material.
+"""The full-slip periodic solution: any shape, any amplitude, any material, any periodic depth.
 
 While every spring slides forward, e_i = mu_0 kappa s_i for all of them, through loss and return of contact too,
 because the same operator acts on both sides of Coulomb's law. The tangential force is then mu_0 F_N(t), whatever the
@@ -13,6 +13,10 @@ contact when the supremum is attained at theta = 0, i.e. for all g below
 whose limits are u_z + tau u_z' (theta -> 0, the retreating edge, released while still compressed) and u_z (full
 relaxation). The force follows from the elastic law alone, F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
 
+That is for a harmonic depth on an elastic or Kelvin material, the case of the paper. Materials with arms and other
+motions have no such closed form: normal_cycle.py follows their springs, to 1e-6 or better of mean F_N. Under an
+oscillating load the force is known beforehand, F_N = F_z(t) - m_z u_z''.
+
 Body and critical velocity. With harmonics F_n of F_N and the receptance H, y = -mu_0 sum F_n H(n omega) exp(i n omega
 t), and
 
@@ -24,6 +28,7 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -32,6 +37,8 @@ from numpy.typing import NDArray
 from mdr.checks import count
 from mdr.contact import SlidingContact, require_case
 from mdr.indenters.quadrature import double_exponential
+from mdr.motion import LoadOscillation
+from mdr.normal_cycle import N_STEPS, NormalCycle, normal_cycle, of_harmonics
 from mdr.records import ArrayRecord
 from mdr.unilateral import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
 
@@ -53,35 +60,57 @@ class FullSlip(ArrayRecord):
 
 def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     """The normal force and the contact of a case over one period, at n_t instants."""
-    oscillation = require_case(case).oscillation
+    cycle = require_case(case).cycle
     n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
-    u_z_dot = -oscillation.omega * oscillation.du_z * np.sin(phase)
+    u_z_dot = cycle.omega * cycle.du_z * cycle.over_a_period(n_t)[1][:-1]
+    if not case.is_of_the_paper:
+        known = followed(case, n_t)
+        return FullSlip(phase / cycle.omega, force_of(case, known), known.contact_radius, u_z_dot, known.in_contact)
     edge = contact_edge(phase, case.T)
-    g_c = np.maximum(oscillation.u_z0 + oscillation.du_z * edge, 0)
+    g_c = np.maximum(cycle.u_z0 + cycle.du_z * edge, 0)
     F_N = _force(case, phase, edge)
-    return FullSlip(phase / oscillation.omega, F_N, np.asarray(case.indenter.contact_radius(g_c)), u_z_dot, g_c > 0)
+    return FullSlip(phase / cycle.omega, F_N, np.asarray(case.indenter.contact_radius(g_c)), u_z_dot, g_c > 0)
+
+
+@lru_cache(maxsize=8)
+def followed(case: SlidingContact, n_t: int) -> NormalCycle:
+    """The normal contact of a case that has no closed form, at n_t instants."""
+    return normal_cycle(case.indenter, case.rheology, case.cycle, n_t)
+
+
+def force_of(case: SlidingContact, known: NormalCycle) -> Array:
+    """F_N [N] at its instants."""
+    motion, n_t = case.oscillation, known.F_N.size
+    if not isinstance(motion, LoadOscillation):
+        return case.material.E_star * known.F_N
+    load = motion.F_z0 + motion.dF_z * np.cos(2 * np.pi * np.arange(n_t) / n_t)
+    if not motion.m_z:
+        return load
+    cycle = case.cycle
+    n = np.arange(1.0, cycle.cos.size + 1)
+    return load + motion.m_z * motion.omega**2 * cycle.du_z * of_harmonics(n**2 * cycle.harmonics, n_t)
 
 
 def normal_force(case: SlidingContact, phase: Array) -> Array:
-    """F_N [N] in full slip at phases omega t in [0, 2 pi]."""
+    """F_N [N] in full slip at phases omega t in [0, 2 pi], of a case of the paper."""
     return _force(case, phase, contact_edge(phase, case.T))
 
 
 def _force(case: SlidingContact, phase: Array, edge: Array) -> Array:
-    oscillation, E_star = case.oscillation, case.material.E_star
-    g_c = oscillation.u_z0 + oscillation.du_z * edge
-    above = oscillation.du_z * (np.cos(phase) - edge - case.T * np.sin(phase))  # u_z - g_c + tau u_z'
+    cycle, E_star = case.cycle, case.material.E_star
+    g_c = cycle.u_z0 + cycle.du_z * edge
+    above = cycle.du_z * (np.cos(phase) - edge - case.T * np.sin(phase))  # u_z - g_c + tau u_z'
     elastic = np.asarray(case.indenter.force(g_c, E_star))
     return np.maximum(elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above, 0)
 
 
 def edge_marks(case: SlidingContact) -> tuple[float, ...]:
     """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth."""
-    shape, oscillation = case.indenter, case.oscillation
+    shape, cycle = case.indenter, case.cycle
     radii = [*shape.kinks, *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
     depths = {0.0, *(float(shape.profile_1d(r)) for r in radii)}
-    gaps = {(depth - oscillation.u_z0) / oscillation.du_z for depth in depths}
+    gaps = {(depth - cycle.u_z0) / cycle.du_z for depth in depths}
     return tuple(sorted(gap for gap in gaps if kept_gap(case.T) < gap < 1))
 
 
@@ -90,7 +119,9 @@ def mean_normal_force(case: SlidingContact) -> float:
 
     While springs slide, stick or fly their mean force is that of their mean compression: it is the same in any run.
     """
-    T, rule = require_case(case).T, double_exponential()
+    if not require_case(case).is_of_the_paper:
+        return float(force_of(case, followed(case, N_STEPS)).mean())
+    T, rule = case.T, double_exponential()
     turn, marks = turning_phase(T), edge_marks(case)
     ends = [0.0, *(float(leaving_phase(gap, T)) for gap in marks), turn, *(touching_phase(gap, T) for gap in marks)]
     total = 0.0
@@ -105,11 +136,22 @@ def static_cof(case: SlidingContact) -> float:
 
     Every spring presses least, or not at all, at the same phase pi - arctan T, when those shallower than
     u_z0 - du_z sqrt(1 + T²) are lost and the others press as elastic ones at that depth would. So min F_N is the
-    elastic force there: Eq. (7) for any shape.
+    elastic force there: Eq. (7) for any shape. Materials with arms and other motions have their least force found.
     """
-    oscillation = require_case(case).oscillation
-    least = case.indenter.force(oscillation.u_z0 + oscillation.du_z * kept_gap(case.T), case.material.E_star)
+    if not require_case(case).is_of_the_paper:
+        F_N = force_of(case, followed(case, N_STEPS))
+        return case.mu_0 * max(_least(F_N), 0.0) / float(F_N.mean())
+    cycle = case.cycle
+    least = case.indenter.force(cycle.u_z0 + cycle.du_z * kept_gap(case.T), case.material.E_star)
     return case.mu_0 * float(least) / mean_normal_force(case)
+
+
+def _least(values: Array) -> float:
+    """Least of equidistant values over a period, by the parabola through its neighbours."""
+    k = int(np.argmin(values))
+    before, least, after = values[k - 1], values[k], values[(k + 1) % values.size]
+    bend = before - 2 * least + after
+    return float(least - (after - before) ** 2 / (8 * bend) if bend > 0 else least)
 
 
 def normal_force_harmonics(case: SlidingContact, n_t: int = N_INSTANTS) -> NDArray[np.complex128]:

@@ -26,7 +26,9 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from mdr.contact import SlidingContact, require_case
-from mdr.full_slip import edge_marks, mean_normal_force, normal_force
+from mdr.cycle import peaks
+from mdr.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
+from mdr.normal_cycle import N_STEPS
 from mdr.pull import SpringPull
 from mdr.unilateral import kept_gap, leaving_phase, touching_phase, turning_phase
 
@@ -37,17 +39,23 @@ SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 =
 SMALLEST = 1e-11  #: panel beside a cut, of the stretch between cuts
 SMALLEST_RATE = 1e-5  #: the same where F_N is differentiated
 MOST_PANELS = 4000  #: to follow the free oscillation of a light body
+RESONANT_FOLLOWED = 1e-8  #: the same of a force followed spring by spring
 RESONANT = 1e-10  #: share of F_N that a harmonic on an undamped resonance may have and count as none
 
 
 def full_slip_critical_velocity(case: SlidingContact) -> float:
     """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape, with all harmonics of F_N.
 
+    To 1e-8 for a harmonic depth on an elastic or Kelvin material; to about 1e-6 for other materials and motions, whose
+    force is followed spring by spring (normal_cycle.py).
+
     Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite too for a body
     without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the
     tip is sharp): its velocity then has no bound at that instant, brief as it is.
     """
-    omega, unit = require_case(case).oscillation.omega, case.unit_velocity
+    if not require_case(case).is_of_the_paper:
+        return _by_harmonics(case)
+    omega, unit = case.oscillation.omega, case.unit_velocity
     on, off = contact_span(case)
     if not isinstance(case.pull, SpringPull):
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
@@ -66,9 +74,30 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
     return max(_peak(rates[k]) for k in np.argsort(rates.max(axis=1))[-3:])
 
 
+def _by_harmonics(case: SlidingContact) -> float:
+    """The same for any material and motion, harmonic by harmonic of a force that is known at N_STEPS instants."""
+    cycle, pull, omega = case.cycle, case.pull, case.oscillation.omega
+    known = followed(case, N_STEPS)
+    rates = np.zeros(N_STEPS // 2 - 1, dtype=complex)  # of mu_0 kappa u_z - y
+    n = np.arange(1, rates.size + 1)
+    rates[: cycle.cos.size] += case.unit_velocity * (1j * n * np.resize(cycle.harmonics, n.size))[: cycle.cos.size]
+    if isinstance(pull, SpringPull):
+        F_n = np.fft.rfft(force_of(case, known))[1:-1] / N_STEPS
+        resonant = _resonant_harmonic(pull, omega)
+        drives = resonant and abs(F_n[resonant - 1]) > RESONANT_FOLLOWED * known.F_N.mean() * case.material.E_star
+        if drives or _touches_with_a_jolt(case):
+            return np.inf
+        H = np.asarray(pull.receptance(n * omega))
+        if resonant:
+            H[resonant - 1] = 0
+        rates += 2 * case.mu_0 * 1j * n * omega * H * F_n
+    at_touch = (rates * np.exp(1j * np.outer(known.touches, n))).real.sum(axis=1)
+    return float(max(peaks(rates, within=known.in_contact).max(), at_touch.max(initial=-np.inf)))
+
+
 def contact_span(case: SlidingContact) -> tuple[float, float]:
     """Phases (touch, leave) of the centre: contact lasts from touch to leave + 2 pi; (0, 2 pi) where it is kept."""
-    gap = -case.oscillation.u_z0 / case.oscillation.du_z
+    gap = -case.cycle.u_z0 / case.cycle.du_z
     if gap <= kept_gap(case.T):
         return 0.0, 2 * np.pi
     return touching_phase(gap, case.T), float(leaving_phase(gap, case.T))

@@ -20,6 +20,11 @@ One spring in one step, with compression s and extension e at its start:
 
 T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
 
+Materials with Maxwell arms add a state for each arm and direction, x_j' = x' - x_j/theta_j, and go by the same rules
+with what the general operator L makes of a spring, or a lag, that is left alone: linear functionals of its state, from
+the table of rheology.py. Without dashpot, T = 0, the force L[e] itself tells when stick gives way to slip, as in the
+elastic loop, and only the end of slip is told by a rate.
+
 The body is a linear oscillator under the force of the springs, with its motion relative to the pull
 y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old), S = sum of w e; scaled.py derives the five
 numbers. S_new depends on y_new, monotonically and piecewise linearly, and is solved for together with it by
@@ -34,6 +39,24 @@ from numba import njit
 _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
 _jit = njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST)
 _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
+
+# rows of the table of a linear operator L over one step (rheology.py): a column for x itself and one for each arm
+L_ROWS = 9
+(
+    L_FREE,  # x at the end of a step without force, a functional of the state (x, x_1 ... x_J)
+    L_RATE,  # -x' at its start, another
+    L_END,  # -x' at its end
+    L_SHED,  # x that the arms would leave without static force at the end of the step
+    L_DECAY,  # exp(-h/theta_j); exp(-h/T) for x itself
+    L_GAIN,  # what a linear step of x leaves in the arm; 1 for x itself
+    L_RATIO,  # modulus over the long-time one; 1 for x itself
+    L_TIME,  # theta_j; T for x itself
+    L_STIFFNESS,  # of the static force over a step, over T (0 without dashpot); then zeros
+) = range(L_ROWS)
+
+MOST_PASSES = 400  #: over a period, for arms to find their periodic state
+N_LOOK = 8  #: what `foresee` fills
+S_FREE, S_RATE, S_END, S_SHED, LAG_FREE, LAG_RATE, LAG_END, LAG_SHED = range(N_LOOK)
 
 
 # --- one spring -----------------------------------------------------------------------------------
@@ -77,29 +100,47 @@ def elastic_spring(e, gap, z_1, du, surge, inverse_dz, bend, late):
 
 
 @_inline
-def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay):
-    """One Kelvin spring over one step: new extension, compression, share of the step in contact, trial extension.
+def viscous_spring(
+    e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
+    s_free, s_rate, s_end, s_shed, lag_free, lag_rate, lag_end, lag_shed,
+):  # fmt: skip
+    """One spring with memory over one step: new extension, compression, share of the step in contact, trial extension.
 
-    zd, ud: velocities of indenter and body at both ends of the step. rate = 1/T, decay = exp(-h/T).
+    zd, ud: velocities of indenter and body at both ends of the step. dashpot: whether the force of x' bounds its jumps;
+    then stiffness is that of the static force over T. damping: rate at which a lead is damped. What the compression s
+    and the lag s - e do if left alone over the step: their end, their rates at both ends, and what is shed.
     """
-    relaxed = s_0 * decay
     pressed = z_1 - gap
     ahead = s_0 - (z_0 - gap)  # height of the relaxed surface over the indenter at the start
-    leaving = after_change(-(zd_0 + s_0 * rate), -(zd_1 + pressed * rate), h, rate) if ahead <= 0.0 else 0.0
-    s = max(pressed + leaving, relaxed)
-    rise = s - relaxed
-    way = rise / (rise + ahead + 1e-300)
-    travelled = way * (1.0 - bend_of(zd_0 + s_0 * rate, zd_1 + relaxed * rate) * (1.0 - way))
-    trial = e * (travelled + (1.0 - travelled) * decay) + travelled * (du + (1.0 - travelled) * surge)
-    lag = s_0 - e
-    D_0 = zd_0 - ud_0 + lag * rate  # > 0: sticks at the start
+    leaves = dashpot and ahead <= 0.0
+    leaving = after_change(-(zd_0 + s_rate), -(zd_1 + stiffness * (pressed - s_shed)), h, damping) if leaves else 0.0
+    s = max(pressed + leaving, s_free)
+    rise = s - s_free
+    way = rise / (rise + max(ahead, 0.0) + 1e-300)
+    travelled = way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
+    flown = 1.0 - travelled
+    trial = e + flown * (s_free - lag_free - e) + travelled * (du + flown * surge)
+    D_0 = zd_0 - ud_0 + lag_rate  # > 0: sticks at the start
     sticks = D_0 > 0.0
-    D_1 = zd_1 - ud_1 + (max(s - trial, 0.0) if sticks else lag * decay) * rate
+    held = stiffness * (max(s - trial, 0.0) - lag_shed)
+    D_1 = zd_1 - ud_1 + (held if sticks else lag_end)
     turn = -1.0 if sticks else 1.0
-    change = after_change(turn * D_0, turn * D_1, h, rate)
-    forward = s - lag * decay
-    first = min((trial if sticks else forward) - travelled * change, forward)
-    return max(first, (s_0 + e) * decay - s), s, travelled, trial
+    change = after_change(turn * D_0, turn * D_1, h, damping) if (dashpot or not sticks) else 0.0
+    forward = s - lag_free
+    first = min((trial if (sticks and dashpot) else forward) - travelled * change, forward)
+    first = first if dashpot else min(first, trial)
+    return max(first, (s_free + s_free) - lag_free - s), s, travelled, trial
+
+
+@_inline
+def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay):
+    """The same for a Kelvin spring, whose free motion is one exponential. rate = 1/T, decay = exp(-h/T)."""
+    lag = s_0 - e
+    s_free, lag_free = s_0 * decay, lag * decay
+    return viscous_spring(
+        e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, True, rate, rate,
+        s_free, s_0 * rate, s_free * rate, 0.0, lag_free, lag * rate, lag_free * rate, 0.0,
+    )  # fmt: skip
 
 
 # --- one step -------------------------------------------------------------------------------------
@@ -144,68 +185,233 @@ def kelvin_step(e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1
     return total, stuck
 
 
+@_jit
+def foresee(e, s, table, look):
+    """What compression and lag of every spring do if left alone over the step: fills look (N_LOOK, n)."""
+    look[:] = 0.0
+    for k in range(e.shape[0]):
+        free, rate, end, shed = table[L_FREE, k], table[L_RATE, k], table[L_END, k], table[L_SHED, k]
+        for i in range(e.shape[1]):
+            x = s[k, i]
+            lag = x - e[k, i]
+            look[S_FREE, i] += free * x
+            look[S_RATE, i] += rate * x
+            look[S_END, i] += end * x
+            look[S_SHED, i] += shed * x
+            look[LAG_FREE, i] += free * lag
+            look[LAG_RATE, i] += rate * lag
+            look[LAG_END, i] += end * lag
+            look[LAG_SHED, i] += shed * lag
+
+
+@_jit
+def arms_step(e_0, s_0, e_1, s_1, look, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping):
+    """All springs of a material with arms over one step: fills e_1 and s_1 (n,), returns sum(w e) and what stuck."""
+    surge = surge_of(du, ud_0, ud_1, h)
+    dashpot = stiffness > 0.0
+    total = 0.0
+    stuck = 0.0
+    for i in range(e_0.size):
+        e, s, travelled, trial = viscous_spring(
+            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
+            look[S_FREE, i], look[S_RATE, i], look[S_END, i], look[S_SHED, i],
+            look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
+        )  # fmt: skip
+        e_1[i] = e
+        s_1[i] = s
+        total += w[i] * e
+        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    return total, stuck
+
+
+@_jit
+def stretch_arms(x_0, x_1, table):
+    """The arms (rows 1 to J) of all springs at the end of a step, from their start and from the path of row 0."""
+    for k in range(1, x_0.shape[0]):
+        decay, gain = table[L_DECAY, k], table[L_GAIN, k]
+        for i in range(x_0.shape[1]):
+            x_1[k, i] = decay * x_0[k, i] + gain * (x_1[0, i] - x_0[0, i])
+
+
+@_inline
+def damping_of(table):
+    """Rate at which the lead of one mode over another is damped by the lag it makes."""
+    if table[L_STIFFNESS, 0] > 0.0:
+        return table[L_STIFFNESS, 0]
+    total = 0.0
+    for k in range(1, table.shape[1]):
+        total -= table[L_RATE, k]
+    return total
+
+
 # --- one run --------------------------------------------------------------------------------------
 
 
 @_jit
-def settle_normal(s, gap, w, z, zd, T):
-    """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period.
+def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
+    """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
 
-    One period is the memory of a spring in the normal direction, so a second pass over the period is periodic.
+    force, touches (n_z,), or empty: its normal force at z[0] ... z[n_z - 1], and the share of the step before in which
+    it was in contact.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
-    decay = np.exp(-h / T) if T > 0.0 else 0.0
-    rate = 1.0 / T if decay > 0.0 else 0.0
+    stiffness, damping = table[L_STIFFNESS, 0], damping_of(table)
+    total = 0.0
+    for step in range(n_steps):
+        k = (k_0 + step) % n_z
+        free = rate = end = shed = 0.0
+        for j in range(x.size):
+            free += table[L_FREE, j] * x[j]
+            rate += table[L_RATE, j] * x[j]
+            end += table[L_END, j] * x[j]
+            shed += table[L_SHED, j] * x[j]
+        _, value, share, _ = viscous_spring(
+            0.0, x[0], gap, z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h,
+            stiffness > 0.0, stiffness, damping, free, rate, end, shed, 0.0, 0.0, 0.0, 0.0,
+        )  # fmt: skip
+        for j in range(1, x.size):
+            x[j] = table[L_DECAY, j] * x[j] + table[L_GAIN, j] * (value - x[0])
+        x[0] = value
+        total += value
+        if force.size > 0:
+            normal = value + table[L_TIME, 0] * zd[k + 1]
+            for j in range(1, x.size):
+                normal += table[L_RATIO, j] * x[j]
+            presses = value > 0.0 and value <= z[k + 1] - gap and normal > 0.0
+            force[(k + 1) % n_z] = normal if presses else 0.0
+            touches[(k + 1) % n_z] = share if presses else 0.0
+    return total
+
+
+@_jit
+def settle_spring(x, gap, z, zd, table, force, touches):
+    """One spring in its periodic normal motion, from rest: x (1 + J,) at z[0]; returns its sum of compressions.
+
+    Without arms one period is its memory. With arms the passes go on, from the greatest depth, where it presses: what
+    an arm changed in one, over the share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is
+    exact for a spring that keeps contact.
+    """
+    start = np.empty(x.size)
+    total = 0.0
+    n_z = z.size - 1
+    deepest = np.argmax(z[:n_z])
+    x[:] = 0.0
+    x[0] = max(z[deepest] - gap, 0.0)
+    for turn in range(MOST_PASSES):
+        start[:] = x
+        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches)
+        change, size = 0.0, 0.0
+        for j in range(x.size):
+            change = max(change, abs(x[j] - start[j]))
+            size = max(size, abs(x[j]))
+        if turn > 0 and change <= 1e-13 * size:
+            break
+        for j in range(1, x.size):
+            x[j] = start[j] - (x[j] - start[j]) / np.expm1(-2.0 * np.pi / table[L_TIME, j])
+    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0))
+    return total
+
+
+@_jit
+def normal_forces(gap, w, z, zd, table, F, outermost, at_edge, begins):
+    """All springs, from the centre outwards, in their periodic normal motion: adds to F (n_z,) their force.
+
+    Fills outermost (n_z,) with the last spring that presses (-1 for none), at_edge (n_z,) with its force over its
+    stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
+    """
+    x = np.empty(table.shape[1])
+    force, touches = np.empty(F.size), np.empty(F.size)
+    outermost[:] = -1
+    at_edge[:] = 0.0
+    for i in range(gap.size):
+        settle_spring(x, gap[i], z, zd, table, force, touches)
+        n_touches = 0
+        for k in range(F.size):
+            F[k] += w[i] * force[k]
+            if touches[k] > 0.0:
+                outermost[k], at_edge[k] = i, force[k]
+                if touches[k - 1] == 0.0:
+                    n_touches += 1
+                    begins[i] = k - touches[k]
+        if n_touches != 1:
+            begins[i] = np.nan
+
+
+@_jit
+def settle_normal(s, gap, w, z, zd, table):
+    """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period.
+
+    s: (1 + J, n). Without arms one period is the memory of a spring in the normal direction, so a second pass over the
+    period is periodic; springs with arms are settled one by one.
+    """
+    n_z = z.size - 1
+    h = 2.0 * np.pi / n_z
+    n_x = table.shape[1]
+    decay = table[L_DECAY, 0]
     mean = 0.0
-    for i in range(s.size):
-        s[i] = max(z[0] - gap[i], 0.0)
-    if decay == 0.0:
+    for i in range(gap.size):
+        s[:, i] = 0.0
+        s[0, i] = max(z[0] - gap[i], 0.0)
+    if decay == 0.0 and n_x == 1:
         for k in range(n_z):
             total = 0.0
-            for i in range(s.size):
+            for i in range(gap.size):
                 total += w[i] * max(z[k] - gap[i], 0.0)
             mean += total
         return mean / n_z
-    for turn in range(2):
-        for k in range(n_z):
-            total = 0.0
-            for i in range(s.size):
-                _, value, _, _ = kelvin_spring(
-                    0.0, s[i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
-                )
-                s[i] = value
-                total += w[i] * s[i]
-            mean += total if turn == 1 else 0.0
+    if n_x == 1:
+        rate = table[L_RATE, 0]
+        for turn in range(2):
+            for k in range(n_z):
+                total = 0.0
+                for i in range(gap.size):
+                    _, value, _, _ = kelvin_spring(
+                        0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
+                    )
+                    s[0, i] = value
+                    total += w[i] * value
+                mean += total if turn == 1 else 0.0
+        return mean / n_z
+    nothing = np.empty(0)
+    for i in range(gap.size):
+        mean += w[i] * settle_spring(s[:, i], gap[i], z, zd, table, nothing, nothing)
     return mean / n_z
 
 
 @_jit
-def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
+def march(e, s, history, body, gap, w, z, zd, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
     """March n_steps from step k_0 of the period; e, s and history are updated in place.
 
-    e, s: (n,) extension and compression. history: (5,) y, y_old, y_older, S, S_old. body: (5,) a_1, a_2, b_1, b_0, b_m,
-    all zero for a rigid pull. gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate.
-    v: pulling velocity. T: relaxation time.
+    e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. table: of the material
+    over a step (rheology.py). history: (5 + 2J,) y, y_old, y_older, S, S_old and the sums of w e over each arm, now and
+    one step before. body: (5 + 2J,) a_1, a_2, b_1, b_0, b_m and the weights of those sums, all zero for a rigid pull.
+    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity.
     lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative
-    switches the watch off. y_out, S_out: (n_steps,). e_out, s_out: (n_steps, n), or (0, n) to keep nothing.
+    switches the watch off. y_out, S_out: (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
     Returns whether the core moved as one all the way.
     """
     n_z = z.size - 1
+    n_arms = table.shape[1] - 1
     h = 2.0 * np.pi / n_z
     a_1, a_2, b_1, b_0, b_m = body[0], body[1], body[2], body[3], body[4]
     y_0, y_m, y_mm, S_0, S_m = history[0], history[1], history[2], history[3], history[4]
     e_0, e_1 = e, np.empty_like(e)
     s_0, s_1 = s, np.empty_like(s)
-    decay = np.exp(-h / T) if T > 0.0 else 0.0
-    elastic = decay == 0.0
-    rate = 0.0 if elastic else 1.0 / T
+    decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
+    stiffness, damping = table[L_STIFFNESS, 0], damping_of(table)
+    elastic = n_arms == 0 and decay == 0.0
+    look = np.empty((N_LOOK, gap.size if n_arms > 0 else 0))
     rigid = b_1 == 0.0
     as_one = True
     for j in range(n_steps):
         k = (k_0 + j) % n_z
         z_0, z_1 = z[k], z[k + 1]
         pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
+        for a in range(2 * n_arms):
+            pull -= body[5 + a] * history[5 + a]
+        if n_arms > 0:
+            foresee(e_0, s_0, table, look)
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
         ud_0 = v + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
@@ -213,11 +419,16 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
             du = v * h + (y_1 - y_0)
             ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
-                S_1, stuck = elastic_step(e_0, e_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid)
-            else:
+                S_1, stuck = elastic_step(e_0[0], e_1[0], gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid)
+            elif n_arms == 0:
                 S_1, stuck = kelvin_step(
-                    e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay
+                    e_0[0], s_0[0], e_1[0], s_1[0], gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay
                 )
+            else:
+                S_1, stuck = arms_step(
+                    e_0[0], s_0[0], e_1[0], s_1[0], look, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h,
+                    stiffness, damping,
+                )  # fmt: skip
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
             if abs(excess) <= rounding:
@@ -232,10 +443,19 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
             if abs(y_new - y_1) <= 0.1 * rounding:
                 break
             y_1 = y_new
+        for a in range(n_arms):
+            history[5 + n_arms + a] = history[5 + a]
+            history[5 + a] = table[L_DECAY, 1 + a] * history[5 + a] + table[L_GAIN, 1 + a] * (S_1 - S_0)
         if elastic:
-            core = e_1[0] + max(z_1 - gap[0], 0.0)
+            core = e_1[0, 0] + max(z_1 - gap[0], 0.0)
+        elif n_arms == 0:
+            core = (e_1[0, 0] + s_1[0, 0] - (e_0[0, 0] + s_0[0, 0]) * decay) / (1.0 - decay)
         else:
-            core = (e_1[0] + s_1[0] - (e_0[0] + s_0[0]) * decay) / (1.0 - decay)
+            stretch_arms(e_0, e_1, table)
+            stretch_arms(s_0, s_1, table)
+            core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
+            for a in range(n_arms + 1):
+                core += table[L_RATIO, a] * (e_1[a, 0] + s_1[a, 0])
         as_one = as_one and core >= lump_margin
         y_mm, y_m, y_0, S_m, S_0 = y_m, y_0, y_1, S_0, S_1
         e_0, e_1 = e_1, e_0
@@ -245,8 +465,8 @@ def march(e, s, history, body, gap, w, z, zd, v, T, lump_margin, n_steps, k_0, y
         if j < e_out.shape[0]:
             e_out[j] = e_0
             if elastic:
-                for i in range(e_0.size):
-                    s_out[j, i] = max(z_1 - gap[i], 0.0)
+                for i in range(gap.size):
+                    s_out[j, 0, i] = max(z_1 - gap[i], 0.0)
             else:
                 s_out[j] = s_0
     if n_steps % 2 == 1:
@@ -277,38 +497,48 @@ N_SUMS = 10
 
 
 @_inline
-def mode_and_forces(e, s, gap, z, z_dot, ux_dot, T):
-    """Mode of a spring at an instant, with its tangential and normal force L[e], L[s] over its stiffness."""
-    normal = s + T * z_dot
-    normal = normal if s <= z - gap and normal > 0.0 else 0.0
-    trial = e + T * ux_dot
-    limit = normal * (1.0 - 1e-12)
-    tangential = min(max(trial, -normal), normal)
-    slips = SLIP if trial >= limit else (SLIP_BACK if trial <= -limit else STICK)
-    return (slips if normal > 0.0 else FREE), tangential, normal
+def forces_of(e, s, gap, z, z_dot, ux_dot, table):
+    """Normal and trial tangential force of a spring at an instant, over its long-time stiffness; e, s: (1 + J,)."""
+    normal, trial = s[0] + table[L_TIME, 0] * z_dot, e[0] + table[L_TIME, 0] * ux_dot
+    for j in range(1, e.size):
+        normal += table[L_RATIO, j] * s[j]
+        trial += table[L_RATIO, j] * e[j]
+    return (normal if s[0] <= z - gap and normal > 0.0 else 0.0), trial
 
 
 @_inline
-def contact_share(s_0, s_1, gap, z_0, z_1, zd_0, zd_1, rate, decay):
+def mode_of(normal, trial, slip_rate, pace, dashpot):
+    """Mode of a spring at the end of a step. Where arms make the static force, what it did in the step tells."""
+    if normal <= 0.0:
+        return FREE
+    limit = normal * (1.0 - 1e-12)
+    forward = trial >= limit if dashpot else slip_rate > 1e-9 * pace
+    backward = trial <= -limit if dashpot else slip_rate < -1e-9 * pace
+    return SLIP if forward else (SLIP_BACK if backward else STICK)
+
+
+@_inline
+def contact_share(s_0, s_free, s_rate, s_end, s_1, gap, z_0, z_1, zd_0, zd_1):
     """Share of a step that a spring spends in contact, as the march has it: 1 in contact throughout, 0 in flight."""
-    relaxed = s_0 * decay
-    rise = max(s_1 - relaxed, 0.0)
+    rise = max(s_1 - s_free, 0.0)
     way = rise / (rise + max(s_0 - (z_0 - gap), 0.0) + 1e-300)
-    return way * (1.0 - bend_of(zd_0 + s_0 * rate, zd_1 + relaxed * rate) * (1.0 - way))
+    return way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
 
 
 @_jit
-def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mode):
+def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z):
     """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
 
-    e, s: (m + 1, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot: (m + 1,).
-    Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the least slip
-    velocity of a spring in contact through the step, or else at the touch of those that touched in it (infinite without
-    contact), and mode (m, n), or (0, n) for none.
+    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot:
+    (m + 1,). Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the
+    least slip velocity of a spring in contact through the step, or else at the touch of those that touched in it
+    (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over its stiffness, or (0, n)
+    for none.
     """
-    rate = 1.0 / T if T > 0.0 else 0.0
-    lost = 1.0 - decay
-    slips, first_slips = np.empty(e.shape[1]), np.empty(e.shape[1])
+    T, n_x, n = table[L_TIME, 0], table.shape[1], gap.size
+    dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
+    slips, first_slips = np.empty(n), np.empty(n)
+    e_end, s_end = np.empty(n_x), np.empty(n_x)
     for k in range(e.shape[0] - 1):
         du = v * h + (y[k + 3] - y[k + 2])
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
@@ -316,44 +546,62 @@ def observe(e, s, y, z, z_dot, gap, w, T, v, decay, h, sums, F_x, F_z, slip, mod
         z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
         surge = surge_of(du, ux_dot_0, ux_dot, h)
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
-        f_x = f_z = sum_e = sum_s = stick = friction = shear_viscous = normal_viscous = shear = press = 0.0
-        for i in range(e.shape[1]):
-            e_0, e_1, s_0, s_1 = e[k, i], e[k + 1, i], s[k, i], s[k + 1, i]
-            now, tangential, normal = mode_and_forces(e_1, s_1, gap[i], z_1, zd_1, ux_dot, T)
-            f_x += w[i] * tangential
-            f_z += w[i] * normal
+        sum_x = sum_z = sum_e = sum_s = stick = friction = shear_viscous = normal_viscous = shear = press = 0.0
+        for i in range(n):
+            e_0, e_1, s_0, s_1 = e[k, 0, i], e[k + 1, 0, i], s[k, 0, i], s[k + 1, 0, i]
+            free = rate = end = e_free = 0.0
+            arms_e = arms_s = 0.0  # mean forces of the arms in the step
+            for j in range(n_x):
+                free += table[L_FREE, j] * s[k, j, i]
+                e_free += table[L_FREE, j] * e[k, j, i]
+                rate += table[L_RATE, j] * s[k, j, i]
+                end += table[L_END, j] * s[k, j, i]
+                e_end[j], s_end[j] = e[k + 1, j, i], s[k + 1, j, i]
+            for j in range(1, n_x):
+                ratio, theta = table[L_RATIO, j], table[L_TIME, j]
+                p_0, p_1, q_0, q_1 = e[k, j, i], e_end[j], s[k, j, i], s_end[j]
+                arms_e += ratio * theta * ((e_1 - e_0) - (p_1 - p_0))
+                arms_s += ratio * theta * ((s_1 - s_0) - (q_1 - q_0))
+                shear_viscous += w[i] * ratio / theta * 0.5 * h * (p_0 * p_0 + p_1 * p_1)
+                normal_viscous += w[i] * ratio / theta * 0.5 * h * (q_0 * q_0 + q_1 * q_1)
+            # the step falls into a free part and a part in contact, as in the march
+            touched = contact_share(s_0, free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
+            per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+            stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
+            slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
+            normal, trial = forces_of(e_end, s_end, gap[i], z_1, zd_1, ux_dot, table)
+            now = mode_of(normal, trial, slip_rate, abs(du) / h, dashpot)
+            tangential = min(max(trial, -normal), normal)
+            tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
+            sum_x += w[i] * tangential
+            sum_z += w[i] * normal
             stick += w[i] * normal if now == STICK else 0.0
             sum_e += w[i] * (e_0 + e_1)
             sum_s += w[i] * (s_0 + s_1)
-            # the step falls into a free part and a part in contact, as in the march
-            touched = contact_share(s_0, s_1, gap[i], z_0, z_1, zd_0, zd_1, rate, decay)
-            per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
-            relaxed = 1.0 - (1.0 - touched) * lost
-            stretched, pressed = e_1 - e_0 * relaxed, s_1 - s_0 * relaxed
-            slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
-            normal_impulse = 0.5 * h * (s_0 + s_1) + T * (s_1 - s_0)
+            normal_impulse = 0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s
             friction += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
-            free = (1.0 - touched) * lost * lost / h
-            shear_viscous += w[i] * T * (stretched * stretched * per_time + e_0 * e_0 * free)
-            normal_viscous += w[i] * T * (pressed * pressed * per_time + s_0 * s_0 * free)
-            shear += w[i] * (0.5 * h * (e_0 + e_1) + T * (e_1 - e_0))
+            if T > 0.0:
+                squeezed = s_1 - s_0 - (1.0 - touched) * (free - s_0)
+                flight = (1.0 - touched) / h
+                shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flight)
+                normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (free - s_0) ** 2 * flight)
+            shear += w[i] * (0.5 * h * (e_0 + e_1) + T * (e_1 - e_0) + arms_e)
             press += w[i] * normal_impulse
             presses = s_1 > 0.0 and s_1 <= z_1 - gap[i]
             slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
             first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
+            if mode.shape[0] > 0:
+                mode[k, i], f_x[k, i], f_z[k, i] = now, tangential, normal
         least, first = np.inf, np.inf
-        for i in range(e.shape[1]):
+        for i in range(n):
             least = min(least, slips[i])
             first = min(first, first_slips[i])
         least = least if least < np.inf else first  # all that press slip alike, so only the first touch of all adds
-        if mode.shape[0] > 0:
-            for i in range(e.shape[1]):
-                mode[k, i] = mode_and_forces(e[k + 1, i], s[k + 1, i], gap[i], z_1, zd_1, ux_dot, T)[0]
-        F_x[k], F_z[k], slip[k] = f_x, f_z, least
+        F_x[k], F_z[k], slip[k] = sum_x, sum_z, least
         sums[SUM_E] += 0.5 * sum_e
         sums[SUM_S] += 0.5 * sum_s
         sums[STICK_TIME] += stick * h
-        sums[CONTACT_TIME] += f_z * h
+        sums[CONTACT_TIME] += sum_z * h
         sums[SHEAR_WORK] += shear * du / h
         sums[NORMAL_WORK] += press * (z_1 - z_0) / h
         sums[FRICTION_LOSS] += friction

@@ -76,7 +76,7 @@ class March:
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """An observed period in scaled form; F_x, F_z, slip, y per step, e and mode per step and spring (or empty)."""
+    """An observed period in scaled form; F_x, F_z, slip, y per step, the others per step and spring (or empty)."""
 
     sums: Array
     F_x: Array
@@ -84,15 +84,18 @@ class Seen:
     slip: Array
     y: Array
     e: Array
+    f_x: Array  # over the stiffness of the spring
+    f_z: Array
     mode: NDArray[np.uint8]
     stored: tuple[float, float]
 
 
 def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
     """March until settled, or exactly n_periods; the last ones observed."""
-    if case.oscillation.u_z0 > DEEPEST * case.oscillation.du_z:
+    cycle = case.cycle
+    if cycle.u_z0 > DEEPEST * cycle.du_z:
         raise ValueError(
-            f"du_z = {case.oscillation.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
+            f"du_z = {cycle.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
     if v_0 > FASTEST * case.unit_velocity:
@@ -107,7 +110,7 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     n_seen = max(1, knobs.record)
     settling = None
     if n_periods is None:
-        if scaled.K and knobs.start == "full_slip":
+        if (scaled.K or scaled.n_arms) and knobs.start == "full_slip":
             settling = line.solve()
         settling = settling or line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"])
     else:
@@ -140,9 +143,9 @@ class Line:
 
     def __init__(self, scaled: ScaledContact, v: float, start: str) -> None:
         self.scaled, self.v = scaled, v
-        n = scaled.gap.size
-        self.s, self.e = np.zeros(n), np.zeros(n)
-        self.mean_F_z = kernels.settle_normal(self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
+        shape = 1 + scaled.n_arms, scaled.gap.size
+        self.s, self.e = np.zeros(shape), np.zeros(shape)  # compression and extension, with their arms below
+        self.mean_F_z = kernels.settle_normal(self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
         self.driven: Array | None = None  # history of the body on an undamped resonance, if it is on one
         self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
         if start == "full_slip":
@@ -152,8 +155,8 @@ class Line:
             self.driven = scaled.resonant_history(force, v)
         else:
             self.history = scaled.rest_history(v)
-            load = float(scaled.w @ np.maximum(1 - scaled.gap, 0))
-            distance = 1 - float(scaled.gap.min()) + (load / scaled.K if scaled.K else 0.0)
+            load = float(scaled.w @ np.maximum(scaled.z.max() - scaled.gap, 0))
+            distance = float(scaled.z.max()) - float(scaled.gap.min()) + (load / scaled.K if scaled.K else 0.0)
             self.on_the_way = distance / (2 * np.pi * v)
         self.as_one = True
         self.cofs = np.empty(0)
@@ -169,18 +172,18 @@ class Line:
         scaled, s = self.scaled, self.s.copy()
         S = np.empty(scaled.steps)
         fast = 1e9  # sliding at any high velocity is full slip
-        nothing = np.empty((0, s.size))
+        nothing = np.empty((0, *s.shape))
         kernels.march(
             s.copy(),
             s,
-            np.zeros(5),
-            np.zeros(5),
+            np.zeros_like(scaled.body),
+            np.zeros_like(scaled.body),
             scaled.gap,
             scaled.w,
             scaled.z,
             scaled.z_dot,
             fast,
-            scaled.T,
+            scaled.table,
             -np.inf,
             scaled.steps,
             0,
@@ -204,7 +207,7 @@ class Line:
             scaled.z,
             scaled.z_dot,
             self.v,
-            scaled.T,
+            scaled.table,
             scaled.lump_margin,
             n_steps,
             k_0,
@@ -220,18 +223,23 @@ class Line:
         """March whole periods and append their COFs (over mu_0)."""
         if n_periods <= 0:
             return
-        nothing = np.empty((0, self.e.size))
+        nothing = np.empty((0, *self.e.shape))
         for part in _parts(n_periods, max(1, 4_000_000 // self.scaled.steps)):
-            S_start = self.history[3]
+            start = self.history[3:].copy()
             y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
-            self._append(S_start, y, S)
+            self._append(start, y, S)
 
-    def _append(self, S_start: float, y: Array, S: Array) -> None:
-        """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends; and swing of y."""
+    def _append(self, start: Array, y: Array, S: Array) -> None:
+        """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends; and swing of y.
+
+        start: S, S_old and the arms at the beginning.
+        """
         self.swings = np.concatenate([self.swings, np.ptp(y.reshape(-1, self.scaled.steps), axis=1)])
-        ends = np.concatenate([[S_start], S[self.scaled.steps - 1 :: self.scaled.steps]])
-        inner = S.reshape(-1, self.scaled.steps).mean(axis=1)
-        mean = inner - 0.5 * np.diff(ends) / self.scaled.steps + self.scaled.T * np.diff(ends) / (2 * np.pi)
+        scaled = self.scaled
+        ends = np.concatenate([start[:1], S[scaled.steps - 1 :: scaled.steps]])
+        inner = S.reshape(-1, scaled.steps).mean(axis=1) - 0.5 * np.diff(ends) / scaled.steps
+        arms = scaled.arms_at_ends(S, float(start[0]), start[2 : 2 + scaled.n_arms])
+        mean = scaled.mean_force(ends, inner, arms, 2 * np.pi)
         self.cofs = np.concatenate([self.cofs, mean / self.mean_F_z])
 
     def wait(self, most: int) -> Settling:
@@ -249,7 +257,7 @@ class Line:
         first = self._state()
         starts = [first]
         if self.driven is not None:
-            starts.insert(0, np.concatenate([self.e, self.driven]))
+            starts.insert(0, np.concatenate([self.e.ravel(), self.driven]))
         for start in starts:
             found = periodic.find(self._period_from, start, self._size, self._kicks())
             if found is not None:
@@ -263,15 +271,17 @@ class Line:
         return None
 
     def _state(self) -> Array:
-        return np.concatenate([self.e, self.history])
+        return np.concatenate([self.e.ravel(), self.history])
 
     def _put(self, x: Array) -> None:
         """Take over a state; a combination of states may leave the cone of friction, which it is clipped to."""
-        n = self.e.size
+        n, n_arms = self.e.size, self.scaled.n_arms
         s = self._compression(0)
-        self.e[:] = np.clip(x[:n], -s, s)
+        self.e[:] = x[:n].reshape(self.e.shape)
+        self.e[0] = np.clip(self.e[0], -s, s)
         self.history[:] = x[n:]
-        self.history[3] = float(self.scaled.w @ self.e)
+        self.history[3] = float(self.scaled.w @ self.e[0])
+        self.history[5 : 5 + n_arms] = self.e[1:] @ self.scaled.w
 
     def _period_from(self, x: Array) -> Array:
         self._put(x)
@@ -279,19 +289,30 @@ class Line:
         return self._state()
 
     def _size(self, x: Array) -> Array:
-        """States (..., n + 5) as vectors (..., n + 2) whose squares are energies of springs, system spring and mass."""
+        """States (..., n) as vectors (..., m) whose squares are energies of springs, arms, system spring and mass."""
         scaled, n = self.scaled, self.e.size
-        y, y_old = x[..., n], x[..., n + 1]
-        body = [np.sqrt(scaled.K) * y, np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h]
-        return np.concatenate([np.sqrt(scaled.w) * x[..., :n], np.stack(body, axis=-1)], axis=-1)
+        weights = np.sqrt(np.outer(scaled.table[kernels.L_RATIO], scaled.w)).ravel()
+        parts = [weights * x[..., :n]]
+        if scaled.K:
+            y, y_old = x[..., n], x[..., n + 1]
+            body = [np.sqrt(scaled.K) * y, np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h]
+            parts.append(np.stack(body, axis=-1))
+        return np.concatenate(parts, axis=-1)
 
     def _kicks(self) -> tuple[Array, ...]:
-        """Pushes of unit size to the body, in its position and in its velocity."""
+        """Pushes of unit size: to each arm of all springs, and to the body, in its position and in its velocity."""
         scaled, n = self.scaled, self.e.size
-        position, velocity = np.zeros(n + 5), np.zeros(n + 5)
-        position[n : n + 3] = 1 / np.sqrt(scaled.K)
-        velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
-        return position, velocity
+        kicks = []
+        for j, rho in enumerate(scaled.rheology.rho, start=1):
+            arm, history = np.zeros(self.e.shape), np.zeros(self.history.size)
+            arm[j] = 1 / np.sqrt(rho)
+            kicks.append(np.concatenate([arm.ravel(), history]))
+        if scaled.K:
+            position, velocity = np.zeros((2, n + self.history.size))
+            position[n : n + 3] = 1 / np.sqrt(scaled.K)
+            velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
+            kicks += [position, velocity]
+        return tuple(kicks)
 
     def judge(self) -> Settling:
         """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""
@@ -320,19 +341,21 @@ class Line:
 
     def observe(self, keep: bool) -> Seen:
         """March one more period with a close look; the march is the same with and without `keep`."""
-        scaled, n = self.scaled, self.e.size
+        scaled, (n_x, n) = self.scaled, self.e.shape
         n_steps = scaled.steps
         sums, F_x, F_z, slip = np.zeros(kernels.N_SUMS), np.empty(n_steps), np.empty(n_steps), np.empty(n_steps)
         sums[kernels.LEAST_SLIP] = np.inf
-        e_kept, mode = np.empty((n_steps if keep else 0, n)), np.zeros((n_steps if keep else 0, n), dtype=np.uint8)
-        y_all, S_all, S_start = [self.history[2::-1].copy()], [], self.history[3]
+        kept = (n_steps if keep else 0, n)
+        e_kept, f_x, f_z, mode = np.empty(kept), np.empty(kept), np.empty(kept), np.zeros(kept, dtype=np.uint8)
+        y_all, S_all, start = [self.history[2::-1].copy()], [], self.history[3:].copy()
         stored = self._stored()
         done = 0
-        at_once = min(n_steps, max(1, 50_000 // n))  # arrays that stay in cache
-        e_all, s_all = np.empty((at_once + 1, n)), np.empty((at_once + 1, n))
+        at_once = min(n_steps, max(1, 50_000 // self.e.size))  # arrays that stay in cache
+        e_all, s_all = np.empty((2, at_once + 1, n_x, n))
         for part in _parts(n_steps, at_once):
             e, s = e_all[: part + 1], s_all[: part + 1]
-            e[0], s[0] = self.e, self._compression(done)
+            e[0], s[0] = self.e, self.s
+            s[0, 0] = self._compression(done)
             history = self.history[2::-1].copy()
             y, S = self._call(part, done, e[1:], s[1:])
             k = (done + np.arange(part + 1)) % scaled.steps
@@ -346,28 +369,31 @@ class Line:
                 scaled.z_dot[k],
                 scaled.gap,
                 scaled.w,
-                scaled.T,
                 self.v,
-                np.exp(-scaled.h / scaled.T) if scaled.T else 0.0,
+                scaled.table,
                 scaled.h,
                 sums,
                 F_x[now],
                 F_z[now],
                 slip[now],
-                mode[now] if keep else mode,
+                mode[now],
+                f_x[now],
+                f_z[now],
             )
             if keep:
-                e_kept[now] = e[1:]
+                e_kept[now] = e[1:, 0]
             y_all.append(y)
             S_all.append(S)
             done += part
-        self._append(S_start, np.concatenate(y_all[1:]), np.concatenate(S_all))
-        return Seen(sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, mode, (stored, self._stored()))
+        self._append(start, np.concatenate(y_all[1:]), np.concatenate(S_all))
+        return Seen(sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, f_x, f_z, mode, (stored, self._stored()))
 
     def _compression(self, step: int) -> Array:
         """Compressions now; the elastic march does not keep them."""
         scaled = self.scaled
-        return self.s if scaled.T else np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0)
+        if scaled.rheology.remembers:
+            return np.asarray(self.s[0])
+        return np.asarray(np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0))
 
     def _stored(self) -> float:
         """Elastic and kinetic energy of springs, body and system spring, tangential unit of energy; u_z part
@@ -375,8 +401,9 @@ class Line:
         """
         scaled, (y, y_old, y_older) = self.scaled, self.history[:3]
         u_dot = self.v + (1.5 * y - 2 * y_old + 0.5 * y_older) / scaled.h
-        springs = 0.5 * float(scaled.w @ self.e**2)
-        normal = 0.5 * float(scaled.w @ self._compression(0) ** 2)
+        ratios = scaled.table[kernels.L_RATIO]
+        springs = 0.5 * float(ratios @ (self.e**2 @ scaled.w))
+        normal = 0.5 * float(scaled.w @ self._compression(0) ** 2 + ratios[1:] @ (self.s[1:] ** 2 @ scaled.w))
         ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)
         return float(springs + normal * ratio + 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2)
 

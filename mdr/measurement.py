@@ -26,7 +26,6 @@ from mdr.progress import Ticker
 from mdr.pull import SpringPull
 from mdr.runs import SlidingRun
 from mdr.sliding import N_SPRINGS, default_steps, slide
-from mdr.unilateral import kept_gap
 
 MARGIN = 2e-5  #: half width of the bracket, of v_c
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; at MARGIN below v_c it is above 1e-3
@@ -168,7 +167,7 @@ class _Search:
         first touch of a dashpot.
         """
         case, pull = self.case, self.case.pull
-        kept = case.oscillation.u_z0 + case.oscillation.du_z * kept_gap(case.T)
+        kept = case.cycle.u_z0 + case.cycle.du_z * case.kept_gap
         moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
         light = isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0
         return bool(light and case.T > 0 and moving_edge)

@@ -5,15 +5,17 @@ array. In this form Coulomb's law has no coefficient and everything is a functio
 
     depth ratio u_z0/du_z,  v = v_0/(mu_0 kappa omega du_z),  T = omega tau,  body/contact stiffness ratios,  shape.
 
-The body obeys M y'' + C y' + K y = -(S + T S') with S the sum of w e over the springs. Over a step h it is advanced
+The body obeys M y'' + C y' + K y = -(S + T S' + sum_j rho_j P_j), S the sum of w e over the springs and P_j that of
+its Maxwell arms. Over a step h it is advanced
 
-* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h, whose impulse is right
-  even when the force of a dashpot jumps: no dispersion of its own natural frequency, second order in the force;
+* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h and the means of the arms,
+  whose impulse is right even when the force of a dashpot jumps: no dispersion of its own natural frequency, second
+  order in the force;
 * without mass, or where the step cannot resolve the fast oscillation omega_1 = sqrt((k_x + k_xc)/m), by backward
   differences of second order, which damp what the step does not resolve.
 
-Either way it is one recursion with five numbers,
-y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old).
+As an arm follows S linearly within a step, either way it is one recursion with five numbers and two for each arm,
+y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old) - sum_j (b_j P_j + bm_j P_j,old).
 """
 
 from __future__ import annotations
@@ -23,8 +25,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr import kernels
 from mdr.contact import SlidingContact
 from mdr.pull import SpringPull
+from mdr.rheology import Rheology
 from mdr.springs import SpringArray
 
 Array = NDArray[np.float64]
@@ -40,13 +44,15 @@ class ScaledContact:
     w: Array  #: (n,) share of each spring in the stiffness
     z: Array  #: (n_steps + 1,) normal motion over one period
     z_dot: Array  #: (n_steps + 1,) its rate
-    T: float  #: omega tau
-    body: Array  #: (5,) recursion of the body; zero for a rigid pull
+    rheology: Rheology  #: operator of the material, its times in units of 1/omega
+    table: Array  #: (L_ROWS, 1 + J) the same over one step
+    body: Array  #: (5 + 2J,) recursion of the body; zero for a rigid pull
     M: float  #: mass
     C: float  #: damping
     K: float  #: system stiffness; zero stands for a rigid pull
     lump_margin: float  #: the first spring stands for the core while L[e + s] exceeds this
     n_lumped: int  #: how many springs of the array the first one stands for
+    n_core: int  #: how many of its own springs never lose contact
     length_x: float  #: tangential unit mu_0 kappa du_z [m]
     length_z: float  #: normal unit du_z [m]
     stiffness_x: float  #: tangential stiffness unit [N/m]
@@ -64,6 +70,16 @@ class ScaledContact:
         return 2 * np.pi / self.steps
 
     @property
+    def T(self) -> float:
+        """omega tau of the Kelvin branch."""
+        return self.rheology.T
+
+    @property
+    def n_arms(self) -> int:
+        """Maxwell arms of the material."""
+        return len(self.rheology.rho)
+
+    @property
     def first_look(self) -> int:
         """Periods after which it makes sense to ask whether a run has settled: four e-folds of a free oscillation."""
         if not self.M:
@@ -78,48 +94,55 @@ class ScaledContact:
     @classmethod
     def of(cls, case: SlidingContact, springs: SpringArray, steps: int, lump: bool) -> ScaledContact:
         """Scale a case, its springs and its motion; lump the core that never leaves into its first spring if asked."""
-        oscillation, kappa = case.oscillation, case.material.mindlin_ratio
+        cycle, kappa, rheology = case.cycle, case.material.mindlin_ratio, case.rheology
         width = float(springs.width.sum())
-        gap, w, margin, n_lumped = springs.gap / oscillation.du_z, springs.width / width, -np.inf, 1
+        gap, w, margin, n_lumped = springs.gap / cycle.du_z, springs.width / width, -np.inf, 1
         if lump and springs.n_core > 1:
             gap, w, margin, n_lumped = _lumped(gap, w, springs.n_core)
-        length_x = case.mu_0 * kappa * oscillation.du_z
-        phase = 2 * np.pi * np.arange(steps + 1) / steps
+        length_x = case.mu_0 * kappa * cycle.du_z
+        z, z_dot = cycle.over_a_period(steps)
         M, C, K = _body_groups(case, springs.G_star * width)
         return cls(
             gap=gap,
             w=w,
-            z=np.cos(phase),
-            z_dot=-np.sin(phase),
-            T=case.T,
-            body=_recursion(M, C, K, case.T, 2 * np.pi / steps),
+            z=z,
+            z_dot=z_dot,
+            rheology=rheology,
+            table=rheology.over_step(2 * np.pi / steps),
+            body=_recursion(M, C, K, rheology, 2 * np.pi / steps),
             M=M,
             C=C,
             K=K,
             lump_margin=margin,
             n_lumped=n_lumped,
+            n_core=springs.n_core - n_lumped + 1,
             length_x=length_x,
-            length_z=oscillation.du_z,
+            length_z=cycle.du_z,
             stiffness_x=springs.G_star * width,
             stiffness_z=springs.E_star * width,
-            omega=oscillation.omega,
+            omega=cycle.omega,
         )
 
     def full_slip_history(self, S: Array) -> Array:
-        """State (5,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
+        """State (5 + 2J,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
 
         Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
         free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it.
         """
-        if not self.K:
-            return np.array([0.0, 0.0, 0.0, S[0], S[-1]])
-        _, _, b_1, b_0, b_m = self.body
-        turn, inertia = self._inertia()
-        S_n = np.fft.rfft(S)
-        resonant = self._resonant(inertia)
-        y_n = np.where(resonant, 0, -(b_1 * turn + b_0 + b_m / turn) * S_n / np.where(resonant, 1, inertia))
-        y = np.fft.irfft(y_n, self.steps)
-        return np.array([y[0], y[-1], y[-2], S[0], S[-1]])
+        S_n, turn = np.fft.rfft(S), self._turn()
+        arms_n = [gain * (turn - 1) / (turn - decay) * S_n for decay, gain in self._arms()]
+        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in arms_n]
+        history = [0.0, 0.0, 0.0, S[0], S[-1], *(now for now, _ in arms), *(old for _, old in arms)]
+        if self.K:
+            _, _, b_1, b_0, b_m = self.body[:5]
+            inertia = self._inertia()
+            resonant = self._resonant(inertia)
+            force_n = (b_1 * turn + b_0 + b_m / turn) * S_n
+            for b, old, arm_n in zip(*self.body[5:].reshape(2, -1), arms_n, strict=True):
+                force_n += (b + old / turn) * arm_n
+            y = np.fft.irfft(np.where(resonant, 0, -force_n / np.where(resonant, 1, inertia)), self.steps)
+            history[:3] = y[0], y[-1], y[-2]
+        return np.array(history)
 
     def resonant_history(self, S: Array, v: float) -> Array | None:
         """The same on an undamped resonance, with the free oscillation that the n-th harmonic drives until stick
@@ -127,29 +150,57 @@ class ScaledContact:
         resonance, and where the force does not contain it.
         """
         history = self.full_slip_history(S)
-        if not self.K or not (resonant := self._resonant(self._inertia()[1])).any():
+        if not self.K or not (resonant := self._resonant(self._inertia())).any():
             return None
         n = int(np.flatnonzero(resonant)[0])
-        F_n = complex(np.fft.rfft(S)[n]) / self.steps * (1 + 1j * n * self.T)
+        F_n = complex(np.fft.rfft(S)[n]) / self.steps * complex(self.rheology.response(n))
         if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())):
             return None
         phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
         history[:3] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
         return history
 
-    def _inertia(self) -> tuple[Array, Array]:
-        """exp(i n h) of every harmonic, and what the recursion answers it with."""
-        a_1, a_2 = self.body[:2]
-        turn = np.exp(1j * self.h * np.arange(self.steps // 2 + 1))
-        return turn, turn - a_1 - a_2 / turn
+    def mean_force(self, ends: Array, inner: Array, arms: Array, time: float) -> Array:
+        """Mean of L[e] over times in which S runs from ends[:-1] to ends[1:], (n,), with the mean `inner` of S itself
+        and arms (n + 1, J) at the ends.
+        """
+        mean = inner + self.T * np.diff(ends) / time
+        for j, (rho, theta) in enumerate(zip(self.rheology.rho, self.rheology.theta, strict=True)):
+            mean = mean + rho * theta / time * (np.diff(ends) - np.diff(arms[:, j]))  # x_j' = x' - x_j/theta_j
+        return np.asarray(mean)
 
-    def _resonant(self, inertia: Array) -> NDArray[np.bool_]:
+    def arms_at_ends(self, S: Array, S_start: float, arms: Array) -> Array:
+        """Sums over the arms (n_periods + 1, J) at the ends of periods, from those at the start (J,) and S (n_t,)."""
+        out = np.empty((S.size // self.steps + 1, arms.size))
+        steps = np.diff(S, prepend=S_start).reshape(-1, self.steps)
+        for j, (decay, gain) in enumerate(self._arms()):
+            added = steps @ (gain * decay ** np.arange(self.steps - 1, -1, -1))
+            out[0, j] = arms[j]
+            for k, one in enumerate(added):
+                out[k + 1, j] = decay**self.steps * out[k, j] + one
+        return out
+
+    def _arms(self) -> list[tuple[float, float]]:
+        """Decay and gain of each arm over a step."""
+        return [(float(row[0]), float(row[1])) for row in self.table[[kernels.L_DECAY, kernels.L_GAIN], 1:].T]
+
+    def _turn(self) -> NDArray[np.complex128]:
+        """exp(i n h) of every harmonic."""
+        return np.asarray(np.exp(1j * self.h * np.arange(self.steps // 2 + 1)))
+
+    def _inertia(self) -> NDArray[np.complex128]:
+        """What the recursion answers every harmonic with."""
+        a_1, a_2 = self.body[:2]
+        turn = self._turn()
+        return np.asarray(turn - a_1 - a_2 / turn)
+
+    def _resonant(self, inertia: NDArray[np.complex128]) -> NDArray[np.bool_]:
         return np.asarray(np.abs(inertia) < max(1e-9 * self.h**2, 2e-15))
 
     def rest_history(self, v: float) -> Array:
-        """State (5,) of a body at rest with nothing stretched, from which the pull sets off at v."""
+        """State (5 + 2J,) of a body at rest with nothing stretched, from which the pull sets off at v."""
         y = np.array([0.0, 1.0, 2.0]) * v * self.h if self.K else np.zeros(3)
-        return np.array([*y, 0.0, 0.0])
+        return np.array([*y, *np.zeros(2 + 2 * self.n_arms)])
 
 
 def fast_ratio(case: SlidingContact) -> float:
@@ -176,26 +227,34 @@ def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int
     return np.r_[gap_core, gap[n_core:]], np.r_[w_core, w[n_core:]], margin, n_core
 
 
-def _recursion(M: float, C: float, K: float, T: float, h: float) -> Array:
-    """The five numbers of the body; see the module's docstring."""
+def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Array:
+    """The numbers of the body; see the module's docstring."""
+    T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
     if not K:
-        return np.zeros(5)
+        return np.zeros(5 + 2 * rho.size)
+    table = rheology.over_step(h)
+    decay, gain = table[kernels.L_DECAY, 1:], table[kernels.L_GAIN, 1:]
     if M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED:
         inertia = M / h**2 + 1.5 * C / h + K
-        return np.array(
-            [
-                (2 * M / h**2 + 2 * C / h) / inertia,
-                -(M / h**2 + 0.5 * C / h) / inertia,
-                (1 + 1.5 * T / h) / inertia,
-                -2 * T / h / inertia,
-                0.5 * T / h / inertia,
-            ]
-        )
+        # the end of an arm whose rate changes within the step, by the second difference of S
+        bend = rho * theta / h * (0.5 * (1 + decay) - theta / h * (1 - decay))
+        end, second = float(rho @ gain), float(bend.sum())
+        numbers = [
+            2 * M / h**2 + 2 * C / h,
+            -(M / h**2 + 0.5 * C / h),
+            1 + 1.5 * T / h + end + second,
+            -2 * T / h - end - 2 * second,
+            0.5 * T / h + second,
+            *(rho * decay),
+            *np.zeros(rho.size),
+        ]
+        return np.array(numbers) / inertia
     from scipy.linalg import expm
 
     A = expm(h * np.array([[0, 1, 0], [-K / M, -C / M, 1 / M], [0, 0, 0]]))  # last column: response to a unit force
     now, before = A[0, 2], A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2]
-    new, old = 0.5 + T / h, 0.5 - T / h  # weights of S_new and S in the mean force
+    change = T / h + float(np.sum(rho * theta / h * (1 - gain)))  # weight of S_new - S in the mean force of the step
+    new, old = 0.5 + change, 0.5 - change
     return np.array(
         [
             A[0, 0] + A[1, 1],
@@ -203,5 +262,7 @@ def _recursion(M: float, C: float, K: float, T: float, h: float) -> Array:
             now * new,
             now * old + before * new,
             before * old,
+            *(now * rho * gain),
+            *(before * rho * gain),
         ]
     )

@@ -17,7 +17,6 @@ from mdr.contact import SlidingContact, require_case
 from mdr.marching import Knobs, March, march
 from mdr.runs import SlidingRun, finish
 from mdr.scaled import RESOLVED, fast_ratio
-from mdr.unilateral import kept_gap
 
 BUDGET = 1e-5  #: of cof/mu_0, what the default knobs are to meet
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
@@ -144,7 +143,7 @@ def _of_fast_relaxation(main: March) -> float:
     T, h = main.scaled.T, main.scaled.h
     if T == 0:
         return 0.0
-    core = float(main.scaled.w[main.scaled.gap <= kept_gap(T)].sum())
+    core = float(main.scaled.w[: main.scaled.n_core].sum())
     return max(core, 0.25) * h**2 / 3 * h / (2 * T + h) / main.mean_F_z
 
 

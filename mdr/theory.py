@@ -18,9 +18,12 @@ from inspect import signature
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mdr.checks import finite_array
 from mdr.contact import SlidingContact, require_case
+from mdr.cycle import peak
+from mdr.motion import LoadOscillation, NormalOscillation
 from mdr.pull import SpringPull
 
 _P = ParamSpec("_P")
@@ -207,6 +210,29 @@ def eq_15(
     return float(mu_0 * du_z * omega * abs(viscous + elastic) / abs(inertia))
 
 
+def linear_critical_velocity(
+    mu_0: float, omega: float, u_n: ArrayLike, mindlin_ratio: float, K_n: ArrayLike, H_n: ArrayLike
+) -> float:
+    """Critical velocity [m/s] of a contact that answers linearly, of any rheology, to a periodic depth with the
+    harmonics u_z = u_z0 + Re of sum over n >= 1 of u_n exp(i n omega t) [m], arrays (N,):
+
+        v_c = max over t of mu_0 Re of sum i n omega [kappa + K_z(n omega) H(n omega)] u_n exp(i n omega t),
+
+    K_n = K_z(n omega) the dynamic contact stiffness [N/m], H_n = H(n omega) the receptance of the pull [m/N]. In full
+    slip every spring in contact slips at u_x' - mu_0 kappa u_z', and the body moves by -mu_0 H F_N. One harmonic
+    of a Kelvin contact is Eq. (15), v_c = mu_0 omega du_z |kappa + K_z H|. Holds under the conditions of Eq. (15). An
+    infinite H_n of a harmonic that is there makes it infinite.
+    """
+    u_n, K_n, H_n = (np.atleast_1d(np.asarray(values, dtype=complex)) for values in (u_n, K_n, H_n))
+    there = u_n != 0
+    if not np.all(np.isfinite(H_n[there])):
+        return float("inf")
+    n = np.arange(1, u_n.size + 1)
+    amplitudes = np.zeros_like(u_n)
+    amplitudes[there] = (1j * n * omega * mu_0 * u_n)[there] * (mindlin_ratio + K_n[there] * H_n[there])
+    return peak(amplitudes)
+
+
 def critical_velocity(case: SlidingContact) -> float:
     """Critical velocity [m/s], Eq. (15), with the contact stiffness k_zc, k_xc and damping gamma_zc at the mean depth:
 
@@ -220,22 +246,40 @@ def critical_velocity(case: SlidingContact) -> float:
     c_x is included here as k_x + i omega c_x in the place of k_x. A rigid pull is the limit k_x -> infinity, Eq. (1):
     v_c = mu_0 du_z omega kappa.
 
-    Infinite on the undamped resonance k_x = m omega². With u_z0 <= 0 (tapping) the contact has no stiffness at the
-    mean depth, and Eq. (1) is left.
+    Materials with arms enter by their dynamic stiffness, periodic motions by all their harmonics
+    (`linear_critical_velocity`), and an oscillating load by the depth it brings about at small amplitude, so that
+
+        v_c = mu_0 omega dF_z |kappa + K_z H|/|K_z - m_z omega²|,   K_z(omega) = 2 a E*(omega) at the depth of F_z0.
+
+    Infinite on the undamped resonance k_x = m omega², and k_zc = m_z omega². With u_z0 <= 0 (tapping) the contact has
+    no stiffness at the mean depth, and Eq. (1) is left.
     """
-    oscillation, kappa = require_case(case).oscillation, case.material.mindlin_ratio
-    if not isinstance(case.pull, SpringPull) or case.k_zc == 0:
-        return eq_1(case.mu_0, oscillation.du_z, oscillation.omega, kappa)
-    return eq_15(
-        case.mu_0,
-        oscillation.du_z,
-        oscillation.omega,
-        case.k_zc,
-        case.k_xc,
-        case.gamma_zc,
-        case.pull.k_x,
-        case.pull.m,
-        case.pull.c_x,
+    oscillation, kappa, pull = require_case(case).oscillation, case.material.mindlin_ratio, case.pull
+    if case.is_of_the_paper and isinstance(oscillation, NormalOscillation):
+        if not isinstance(pull, SpringPull) or case.k_zc == 0:
+            return eq_1(case.mu_0, oscillation.du_z, oscillation.omega, kappa)
+        return eq_15(
+            case.mu_0,
+            oscillation.du_z,
+            oscillation.omega,
+            case.k_zc,
+            case.k_xc,
+            case.gamma_zc,
+            pull.k_x,
+            pull.m,
+            pull.c_x,
+        )
+    omega = oscillation.omega
+    if isinstance(oscillation, LoadOscillation):
+        impedance = case.dynamic_stiffness(omega) - oscillation.m_z * omega**2
+        if impedance == 0:
+            return float("inf")
+        u_n = np.atleast_1d(oscillation.dF_z / impedance)
+    else:
+        u_n = case.cycle.du_z * case.cycle.harmonics
+    n_omega = omega * np.arange(1, u_n.size + 1)
+    return linear_critical_velocity(
+        case.mu_0, omega, u_n, kappa, case.dynamic_stiffness(n_omega), np.asarray(pull.receptance(n_omega))
     )
 
 

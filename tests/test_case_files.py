@@ -1,6 +1,7 @@
 """Case files: what is written reads back, and what is wrong is named, all of it at once."""
 
 import inspect
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -57,7 +58,7 @@ def test_a_key_left_out_takes_the_default_of_the_record():
 
 
 @dataclass(frozen=True)
-class Layered(materials._OneBody):
+class Layered(materials.base.OneBody):
     """A material of later: sequences, a word, a flag, a count and a value that may be absent."""
 
     arms: tuple[tuple[float, float], ...]
@@ -73,9 +74,39 @@ class Layered(materials._OneBody):
 
 def test_a_new_record_needs_no_line_here(monkeypatch):
     monkeypatch.setattr(materials, "Layered", Layered, raising=False)
+    monkeypatch.setattr(materials, "__all__", [*materials.__all__, "Layered"])
     monkeypatch.setitem(contact._KINDS, "material", (mdr.Material,))
     layered = case(material=Layered(((1.0, 2.0), (3.0, 1e-5)), 'R²: "a\\b"\n\x7f😀', fitted=True, n_arms=2))
     assert parse_case(write_case(layered)) == layered
+
+
+MOTIONS = {
+    "load": mdr.LoadOscillation(0.1, 0.02, 300.0, 0.1),
+    "load without mass": mdr.LoadOscillation(0.1, 0.02, 300.0),
+    "series": mdr.PeriodicMotion(300.0, 2e-5, (1e-6, 2e-6), (0.0, 1e-6)),
+    "Eq. (3)": mdr.NormalOscillation(2e-5, 1e-6, 300.0),
+}
+
+
+@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
+@pytest.mark.parametrize(
+    "material",
+    [mdr.Prony(3e6, [(1e6, 1e-3), (2e6, 0.1)], 0.5, 1e-4), mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.5)],
+    ids=["Prony", "StandardLinearSolid"],
+)
+def test_arms_and_motions_come_back(motion, material):
+    whole = case(material=material, oscillation=motion)
+    assert parse_case(write_case(whole)) == whole
+
+
+def test_the_keys_of_the_oscillation_tell_what_it_is():
+    table = "[oscillation]\nF_z0 = 0.1\ndFz = 0.01\nomega = 300.0\n"
+    with pytest.raises(mdr.CaseFileError) as caught:
+        parse_case(re.sub(r"\[oscillation\][^[]*", table, GOOD))
+    assert [fault.split(": ", 1)[1] for fault in caught.value.faults] == [
+        "[oscillation] dFz is no key of LoadOscillation; did you mean dF_z?",
+        "[oscillation] dF_z is missing",
+    ]
 
 
 def test_every_public_shape_and_material_is_known():
@@ -96,7 +127,7 @@ def test_what_a_file_cannot_carry_is_refused_with_the_reason():
     class Mine(mdr.Paraboloid):
         pass
 
-    with pytest.raises(CaseFileError, match="Mine is none of the records a file can name: Cone"):
+    with pytest.raises(CaseFileError, match="Mine is none of the records a file can name: CappedCone"):
         write_case(case(indenter=Mine(R=1.0)))
 
 
@@ -166,10 +197,10 @@ SINGLE = {
     "mu_0 below a table": (R, f"{R}\nmu_0 = 1", "[indenter] mu_0 is no key of Paraboloid; write it at the top"),
     "key with strange letters": (R, rf'{R}{chr(10)}"\u001b\n" = 1', r'[indenter] "\u001b\n" is no key of Paraboloid'),
     "missing key": (R, "", "[indenter] R is missing"),
-    "missing shape": (SHAPE, "", "[indenter] shape is missing; choose one of Cone, FlatPunch,"),
+    "missing shape": (SHAPE, "", "[indenter] shape is missing; choose one of CappedCone, "),
     "shape in capitals": (SHAPE, 'Shape = "Cone"', "[indenter] shape is missing, and Shape unknown; choose one of"),
     "unknown shape": (SHAPE, 'shape = "Kone"', '[indenter] shape "Kone" is unknown; did you mean Cone?'),
-    "shape without likeness": (SHAPE, 'shape = "Q"', '[indenter] shape "Q" is unknown; there are Cone, '),
+    "shape without likeness": (SHAPE, 'shape = "Q"', '[indenter] shape "Q" is unknown; there are CappedCone, '),
     "abstract shape": (SHAPE, 'shape = "Indenter"', '[indenter] shape "Indenter" is unknown; '),
     "function": (SHAPE, 'shape = "Profile"', '[indenter] shape "Profile": its shape is a Python function, which'),
     "shape no string": (SHAPE, "shape = 3", "[indenter] shape must be a name in quotes, got 3; choose one of"),

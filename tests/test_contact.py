@@ -73,8 +73,8 @@ def test_the_pull_is_rigid_unless_said_otherwise():
     [
         ({"indenter": mdr.Elastic(1e6, 0.3)}, "indenter must be of kind Indenter"),
         ({"indenter": 5e-3}, "indenter must be .* got 0.005"),
-        ({"material": 3e6}, "material must be of kind Elastic or KelvinVoigt or ElasticPair, got 3000000.0"),
-        ({"oscillation": mdr.RigidPull()}, r"oscillation must be of kind NormalOscillation, got RigidPull\(\)"),
+        ({"material": 3e6}, "material must be of kind Elastic or .*KelvinVoigt or .*, got 3000000.0"),
+        ({"oscillation": mdr.RigidPull()}, r"oscillation must be of kind NormalOscillation or .*, got RigidPull\(\)"),
         ({"pull": None}, "pull must be of kind RigidPull or SpringPull, got None"),
         ({"pull": mdr.RigidPull}, r"pull must be of kind RigidPull or SpringPull, .*; write RigidPull\(...\)"),
         ({"indenter": mdr.Paraboloid}, r"; write Paraboloid\(...\)"),

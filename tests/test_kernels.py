@@ -14,6 +14,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr import kernels
+from mdr.rheology import Rheology
 from mdr.scaled import ScaledContact
 
 N = 200
@@ -242,13 +243,12 @@ def test_a_kelvin_step_tends_to_the_elastic_one(share):
 def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1):
     """March from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
     if s is None:
-        s = np.zeros(scaled.gap.size)
-        kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
-    e, s = (s if e is None else e).copy(), s.copy()
+        s = settled(scaled)
+    e, s = (s if e is None else e)[None].copy(), s[None].copy()
     z, zd = (scaled.z, scaled.z_dot) if z is None else (z, zd)
     history = np.zeros(5) if history is None else history.copy()
-    y, S, n = np.empty(n_steps), np.empty(n_steps), e.size
-    e_out, s_out = np.empty((n_steps if keep else 0, n)), np.empty((n_steps if keep else 0, n))
+    y, S, shape = np.empty(n_steps), np.empty(n_steps), (n_steps if keep else 0, *e.shape)
+    e_out, s_out = np.empty(shape), np.empty(shape)
     cuts = np.linspace(0, n_steps, parts + 1).astype(int)
     for low, high in pairwise(cuts):
         kernels.march(
@@ -261,7 +261,7 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, his
             z,
             zd,
             v,
-            scaled.T,
+            scaled.table,
             -np.inf,
             high - low,
             low % (z.size - 1),
@@ -270,7 +270,15 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, his
             e_out[low:high],
             s_out[low:high],
         )
-    return {"y": y, "S": S, "e_out": e_out, "s_out": s_out, "e": e, "history": history} | ({"s": s} if scaled.T else {})
+    out = {"y": y, "S": S, "e_out": e_out[:, 0], "s_out": s_out[:, 0], "e": e[0], "history": history}
+    return out | ({"s": s[0]} if scaled.T else {})
+
+
+def settled(scaled):
+    """Compressions at phase 0 of the periodic normal motion."""
+    s = np.zeros((1, scaled.gap.size))
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
+    return s[0]
 
 
 def scaled_of(*groups, steps=256, n_springs=32, lump=False, **knobs):
@@ -328,13 +336,13 @@ def test_a_kelvin_march_under_a_rigid_pull_has_the_lag_of_the_twin(depth_ratio, 
 @pytest.mark.parametrize("depth_ratio", [3.0, 0.6, -0.3])
 def test_settled_normal_motion_is_that_of_the_twin(depth_ratio, T):
     scaled = scaled_of("paraboloid", depth_ratio, T, steps=512)
-    s = np.zeros(32)
-    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, T)
+    s = np.zeros((1, 32))
+    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
     # kinks at touch and release between two steps
     assert_allclose(mean, scaled.w @ reference.mean_compression(-scaled.gap, T), rtol=0, atol=0.25 * scaled.h**2)
     on, off = reference.contact_times(-scaled.gap, T)
     in_contact = reference.always_touches(-scaled.gap, T) | ((-on) % (2 * np.pi) <= off - on)
-    assert_allclose(s[in_contact], (1 - scaled.gap)[in_contact], rtol=0, atol=1e-14)
+    assert_allclose(s[0, in_contact], (1 - scaled.gap)[in_contact], rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -346,11 +354,12 @@ def test_above_v_c_full_slip_stays_full_slip(shape):
 
 def test_a_march_of_no_relaxation_time_to_speak_of_is_elastic():
     elastic = scaled_of("paraboloid", 0.6)
-    kelvin = ScaledContact(**{**vars(elastic), "T": 1e-8})
+    slow = Rheology(1e-8)
+    kelvin = ScaledContact(**{**vars(elastic), "rheology": slow, "table": slow.over_step(elastic.h)})
     ours, theirs = march(elastic, 0.4, 512), march(kelvin, 0.4, 512)
     # T s' = 1e-8, and the two loops treat an event within a step in their own ways
     assert_allclose(ours["e_out"], theirs["e_out"], rtol=0, atol=elastic.h**2)
-    vanishing = ScaledContact(**{**vars(elastic), "T": 1e-5 * elastic.h})  # exp(-h/T) is 0
+    vanishing = ScaledContact(**{**vars(elastic), "table": Rheology(1e-5 * elastic.h).over_step(elastic.h)})  # exp(-h/T) is 0
     for name, value in march(vanishing, 0.4, 512).items():
         assert name == "s" or np.array_equal(value, ours[name])
 
@@ -443,9 +452,8 @@ def test_a_stronger_law_would_be_noticed():
 def test_full_slip_as_it_is_observed(T):
     scaled, v, steps = scaled_of("flat", 3.0, T, n_springs=16), 1.5, 256
     out = march(scaled, v, steps)
-    s = np.zeros(16)
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, T)
-    e, s = np.vstack([s, out["e_out"]]), np.vstack([s, out["s_out"]])
+    s = settled(scaled)
+    e, s = np.vstack([s, out["e_out"]])[:, None], np.vstack([s, out["s_out"]])[:, None]
     sums, mode = np.zeros(kernels.N_SUMS), np.zeros((steps, 16), dtype=np.uint8)
     sums[kernels.LEAST_SLIP] = np.inf
     F_x, F_z, slip = np.empty((3, steps))
@@ -457,15 +465,16 @@ def test_full_slip_as_it_is_observed(T):
         scaled.z_dot,
         scaled.gap,
         scaled.w,
-        T,
         v,
-        math.exp(-scaled.h / T) if T else 0.0,
+        scaled.table,
         scaled.h,
         sums,
         F_x,
         F_z,
         slip,
         mode,
+        np.empty((steps, 16)),
+        np.empty((steps, 16)),
     )
     assert np.all(mode == kernels.SLIP)
     force = 3 + scaled.z[1:] + T * scaled.z_dot[1:]  # Eq. (4)

@@ -37,9 +37,9 @@ def advance(scaled, y, S):
 
 def periodic_springs(scaled):
     """Springs in full slip at phase 0 and their force over the period, from a march at a velocity above any other."""
-    s = np.zeros(scaled.gap.size)
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
-    e, S, keep = s.copy(), np.empty(scaled.steps), np.empty((0, s.size))
+    s = np.zeros((1, scaled.gap.size))
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
+    e, S, keep = s.copy(), np.empty(scaled.steps), np.empty((0, *s.shape))
     kernels.march(
         e,
         s.copy(),
@@ -50,7 +50,7 @@ def periodic_springs(scaled):
         scaled.z,
         scaled.z_dot,
         1e9,
-        scaled.T,
+        scaled.table,
         -np.inf,
         scaled.steps,
         0,
@@ -59,7 +59,7 @@ def periodic_springs(scaled):
         keep,
         keep,
     )
-    return s, np.roll(S, 1)
+    return s[0], np.roll(S, 1)
 
 
 # --- what the groups are ---
@@ -235,11 +235,11 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     scaled = scaled_of(shape, 4.0, T, **body)
     s, S = periodic_springs(scaled)
     start = scaled.full_slip_history(S)
-    e, history, keep = s.copy(), start.copy(), np.empty((0, s.size))
+    e, history, keep = s[None].copy(), start.copy(), np.empty((0, 1, s.size))
     y, force = np.empty(3 * STEPS), np.empty(3 * STEPS)
     kernels.march(
         e,
-        s.copy(),
+        s[None].copy(),
         history,
         scaled.body,
         scaled.gap,
@@ -247,7 +247,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
         scaled.z,
         scaled.z_dot,
         1e3,
-        scaled.T,
+        scaled.table,
         -np.inf,
         3 * STEPS,
         0,
@@ -258,7 +258,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     )
     # 768 steps of a two-step recursion: a rounding of 1e-16 in its second difference grows like (t/h)**2
     assert_allclose(history, start, rtol=0, atol=1e-16 * (3 * STEPS) ** 2 * np.abs(y).max())
-    assert_allclose(e, s, rtol=0, atol=1e-12 * (1 + s.max()))
+    assert_allclose(e[0], s, rtol=0, atol=1e-12 * (1 + s.max()))
     assert_allclose(force[:STEPS], force[-STEPS:], rtol=0, atol=1e-11 * np.abs(force).max())
 
 

@@ -74,8 +74,8 @@ def numpy_march(scaled: ScaledContact, e: Any, s: Any, v: float, n_steps: int) -
 
 def compiled_march(scaled: ScaledContact, e: Any, s: Any, v: float, n_steps: int) -> tuple[Any, float]:
     """The same through the kernel that slide() calls."""
-    e, s, S = e.copy(), s.copy(), np.empty(n_steps)
-    nothing = np.empty((0, e.size))
+    e, s, S = e[None].copy(), s[None].copy(), np.empty(n_steps)
+    nothing = np.empty((0, *e.shape))
     kernels.march(
         e,
         s,
@@ -86,7 +86,7 @@ def compiled_march(scaled: ScaledContact, e: Any, s: Any, v: float, n_steps: int
         scaled.z,
         scaled.z_dot,
         v,
-        scaled.T,
+        scaled.table,
         -np.inf,
         n_steps,
         0,
@@ -95,14 +95,15 @@ def compiled_march(scaled: ScaledContact, e: Any, s: Any, v: float, n_steps: int
         nothing,
         nothing,
     )
-    return e, float(S.sum())
+    return e[0], float(S.sum())
 
 
 def ratio(case: SlidingContact, v_hat: float = 0.4, repeats: int = 7) -> dict[str, float]:
     """Spring-steps per second of slide(), of its kernel and of the NumPy loop; medians of runs taken in turn."""
     scaled = ScaledContact.of(case, SpringArray.of(case, N_SPRINGS), STEPS, lump=False)
-    s = np.zeros(scaled.gap.size)
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.T)
+    s = np.zeros((1, scaled.gap.size))
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
+    s = s[0]
     short, n_periods = STEPS, 40
     one, two = (march(scaled, s, s, v_hat, short) for march in (numpy_march, compiled_march))
     if not np.allclose(one[0], two[0], rtol=1e-9, atol=1e-9):

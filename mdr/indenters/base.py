@@ -27,6 +27,7 @@ from mdr.indenters.quadrature import double_exponential, in_chunks
 
 EPS = float(np.finfo(float).eps)
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
+COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 
 
 class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_subclass__)
@@ -53,6 +54,11 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
     def max_radius(self) -> float:
         """Largest contact radius the shape can have [m]; inf for a shape without end."""
         return np.inf
+
+    @property
+    def least_depth(self) -> float:
+        """Depth [m] from which the contact is a full disc: 0 but for a hollow shape, which begins as a ring."""
+        return 0.0
 
     def profile_3d(self, r: ArrayLike) -> FloatArray:
         """Height f(r) of the shape above its tip [m], at the distance r from the axis."""
@@ -115,14 +121,31 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         return plain(p)
 
     def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
-        """p/E* where the shape touches, 0 <= r < a = a(d), for a closed form to override. Arrays (n,)."""
-        if self._gives_g:
-            p = in_chunks(lambda r, a: transform.pressure_from_g(self.profile_1d, self._edges, r, a), r, a)
-        else:
-            p = in_chunks(lambda r, a: transform.pressure_from_f(self._f, self._edges, r, a), r, a)
-        rim = a >= self.max_radius
-        p[rim] += rim_pressure(r[rim], a[rim], d[rim] - self.profile_1d(a[rim]))
+        """p/E* where the shape touches, 0 <= r < a = a(d), for a closed form to override. Arrays (n,).
+
+        Just outside a flat face g rises to d within a rounding of a: the step left to d presses like a rim.
+        """
+        step = d - np.asarray(self.profile_1d(a))
+        for _ in range(4):  # roundings that the search may be off
+            if not np.any(step < -COARSE * d):
+                break
+            a = np.where(step < -COARSE * d, np.nextafter(a, 0), a)
+            step = d - np.asarray(self.profile_1d(a))
+        r = np.minimum(r, np.nextafter(a, 0))
+        p = in_chunks(self._pressure_of_slope, r, a)
+        rim = (a >= self.max_radius) | (step > COARSE * d)
+        p[rim] += rim_pressure(r[rim], a[rim], step[rim])
         return p
+
+    def _pressure_of_slope(self, r: FloatArray, a: FloatArray) -> FloatArray:
+        """p/E* without that of a rim. Arrays (n,)."""
+        if self._gives_g:
+            return transform.pressure_from_slope(self._slope, self._edges, r, a)
+        return transform.pressure_from_f(self._f, self._edges, r, a)
+
+    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+        """dg/ds at x² = low² + s² between the kinks ``low`` and ``high``, for a closed form to override."""
+        return transform.slope_behind(self.profile_1d, s, low, high)
 
     @property
     def _edges(self) -> tuple[float, ...]:
@@ -193,22 +216,27 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
             "more of it touches: press less, or give r_max"
         )
 
+    def _why_too_deep(self, reach: float) -> str:
+        """How a message goes on about a depth beyond ``reach``, where the whole face touches."""
+        return (
+            f"reaches: its whole face, r <= {self.max_radius:.6g} m, touches at {reach:.6g} m; "
+            "press less or describe more of it"
+        )
+
     def _refuse_beyond(self, d: FloatArray) -> None:
         if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:
             return
         with np.errstate(all="ignore"):
             reach = self._g(np.array([self.max_radius]))[0]
         if d.max() > reach * (1 + 64 * EPS):
-            raise ValueError(
-                f"d = {d.max():.6g} m is deeper than {type(self).__name__} reaches: its whole face, r <= "
-                f"{self.max_radius:.6g} m, touches at {reach:.6g} m; press less or describe more of it"
-            )
+            raise ValueError(f"d = {d.max():.6g} m is deeper than {type(self).__name__} {self._why_too_deep(reach)}")
 
     def _refuse_annular(self, a: float) -> None:
         """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
         x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
         self._check_map(x[::10])
-        refuse_falling(self, x, in_chunks(self._g, x))
+        further = self._g(np.array([min(1.01 * a, self.max_radius)]))  # at a flat face g is rounding up to a
+        refuse_falling(self, x, in_chunks(self._g, x), float(np.nan_to_num(further[0], posinf=0.0)))
 
     def _check_map(self, x: FloatArray) -> None:
         """Refuse a mapping that is not finite, warn of one that another rule does not confirm."""
@@ -238,10 +266,10 @@ def rim_pressure(r: FloatArray, a: FloatArray, step: FloatArray) -> FloatArray:
     return answer
 
 
-def refuse_falling(shape: Indenter, x: FloatArray, g: FloatArray) -> None:
-    """ValueError if g falls anywhere along ascending x."""
+def refuse_falling(shape: Indenter, x: FloatArray, g: FloatArray, further: float = 0.0) -> None:
+    """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
     highest = np.maximum.accumulate(np.maximum(g, 0))
-    fall = highest - g > 1e-9 * np.max(np.abs(g), initial=0.0)
+    fall = highest - g > 1e-9 * np.max(np.abs(g), initial=further)
     if np.any(fall):
         raise ValueError(
             f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "

@@ -12,14 +12,18 @@ by exchanging the order of integration. A jump of f' at a kink is a jump of s f'
 Arrays are one-dimensional here, radii positive; ``edges`` are 0, the kinks and the profile's end (or inf).
 """
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
 
 from mdr.checks import FloatArray
+from mdr.indenters.elementary import arcosh, leg
 from mdr.indenters.quadrature import WINDOW, Function, Rule, derivatives, double_exponential
 
 EPS = float(np.finfo(float).eps)
+
+Slope = Callable[[FloatArray, float, float], FloatArray]  #: dg/ds from s and the kinks before and after
 
 
 def profile_1d(f: Function, edges: tuple[float, ...], x: FloatArray, rule: Rule | None = None) -> FloatArray:
@@ -98,7 +102,7 @@ def _smooth_pressure(f: Function, low: float, high: float, r: FloatArray, a: Flo
 
     width = (cut - low)[:, None]
     inner = integral(low + width * rule.from_low, width * rule.weight)
-    far = _arcosh(stop, cut)[:, None]  # s = cut cosh u: any ratio of radii is a short way in u
+    far = arcosh(stop, cut)[:, None]  # s = cut cosh u: any ratio of radii is a short way in u
     u = far * rule.from_low
     return inner + integral(cut[:, None] * np.cosh(u), cut[:, None] * np.sinh(u) * far * rule.weight)
 
@@ -118,8 +122,8 @@ def _kernel(r: FloatArray, s: FloatArray, a: FloatArray) -> FloatArray:
     return answer
 
 
-def pressure_from_g(g: Function, edges: tuple[float, ...], r: FloatArray, a: FloatArray) -> FloatArray:
-    """p(r)/E* for 0 <= r < a, without the edge term.
+def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: FloatArray, a: FloatArray) -> FloatArray:
+    """p(r)/E* for 0 <= r < a, without the edge term, from dg/ds = slope(s, low, high) behind each kink ``low``.
 
     Behind a kink b g begins like √(x² − b²); in s = √(x² − b²) it is smooth. What is left of the root,
     √(x² − r²) = √(s² + b² − r²), goes into du: s = √(r² − b²) cosh u, or √(b² − r²) sinh u where r < b.
@@ -131,44 +135,32 @@ def pressure_from_g(g: Function, edges: tuple[float, ...], r: FloatArray, a: Flo
         on = (a > low) & (r < high)
         inside = r[on, None]
         behind = inside > low
-        gap = _leg(np.maximum(inside, low), np.minimum(inside, low))
+        gap = leg(np.maximum(inside, low), np.minimum(inside, low))
         gap = np.maximum(gap, np.sqrt(2 * EPS) * low)
-        stop = _leg(np.minimum(high, a[on, None]), low)
-        far = np.where(behind, _arcosh(stop, gap), np.arcsinh(stop / gap))
+        stop = leg(np.minimum(high, a[on, None]), low)
+        far = np.where(behind, arcosh(stop, gap), np.arcsinh(stop / gap))
         bend = np.where(low > gap, np.arcsinh(low / gap), 0.0)  # g changes its course at s ~ b: cut there
         bend = np.minimum(bend, far)
         for start, way in ((0.0, bend), (bend, far - bend)):
             u = start + way * rule.from_low
             s = np.minimum(gap * np.where(behind, np.cosh(u), np.sinh(u)), stop)
-            total[on] += np.sum(way * rule.weight * _slope_behind(g, s, low, high), axis=1)
+            total[on] += np.sum(way * rule.weight * slope(s, low, high), axis=1)
     return total / np.pi
 
 
-def _slope_behind(g: Function, s: FloatArray, low: float, high: float) -> FloatArray:
-    """dg/ds behind the kink ``low``, at x² = low² + s²."""
+def slope_behind(g: Function, s: FloatArray, low: float, high: float) -> FloatArray:
+    """dg/ds behind the kink ``low``, at x² = low² + s², from values of g."""
 
     def image(s: FloatArray) -> FloatArray:
         return g(np.hypot(s, low))
 
-    return derivatives(image, s, WINDOW * np.hypot(s, low), 0.0, float(_leg(high, low)))[0]
-
-
-def _arcosh(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Arcosh(x/y), exact also for x close to y; 0 for x < y."""
-    over = np.maximum(x - y, 0) / y
-    answer: FloatArray = np.log1p(over + np.sqrt(over) * np.sqrt(over + 2))
-    return answer
-
-
-def _leg(x: FloatArray | float, b: FloatArray | float) -> FloatArray:
-    """√(x² − b²), without overflow or underflow."""
-    return np.asarray(np.sqrt(np.subtract(x, b)) * np.sqrt(np.add(x, b)), dtype=np.float64)
+    return derivatives(image, s, WINDOW * np.hypot(s, low), 0.0, float(leg(high, low)))[0]
 
 
 def _arc(x: FloatArray, low: float, high: float, rule: Rule) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Nodes r = x sin t over the part of [0, x] within [low, high]: r, sin t, dt, each (n_x, n_nodes)."""
-    start = np.arctan2(low, _leg(x, np.minimum(low, x)))
-    stop = np.arctan2(np.minimum(high, x), _leg(x, np.minimum(high, x)))
+    start = np.arctan2(low, leg(x, np.minimum(low, x)))
+    stop = np.arctan2(np.minimum(high, x), leg(x, np.minimum(high, x)))
     width = (stop - start)[:, None]
     sine = np.sin(start[:, None] + width * rule.from_low)
     r = np.clip(x[:, None] * sine, low, np.minimum(high, x)[:, None])

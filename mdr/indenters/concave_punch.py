@@ -1,0 +1,76 @@
+"""Concave punch: a cylinder of radius a whose face is hollow, f(r) = −r²/2R, mapped to g(x) = −x²/R.
+
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019). The depth counts from the middle of the face, the rim is
+a²/2R further down. The pressure is
+
+    p(r) = E* [d − a²/R + 2r²/R] / (π √(a² − r²)),
+
+so that the whole face touches, and the formulas hold, from d = a²/R on. Less deep only a ring touches, which has no
+image in one dimension; above d = −a²/2R nothing does.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import EPS, Indenter
+from mdr.indenters.elementary import leg
+
+
+@dataclass(frozen=True)
+class ConcavePunch(Indenter):
+    """Punch with a hollow face, in complete contact: a given, F_N = 2E* [a d + a³/(3R)], k_zc = 2E*a for d >= a²/R.
+
+    Sliding to one side it acts as a flat punch does, all of it sticking and slipping at once. Where it slips back
+    before, slip begins in the middle, where p is least, and not at the rim: that the springs do not know.
+    """
+
+    a: float  #: radius of the rim [m]
+    R: float  #: radius of curvature of the hollow face [m]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "a", positive("a", self.a, "radius of the rim in m"))
+        object.__setattr__(self, "R", positive("R", self.R, "radius of curvature of the hollow in m"))
+
+    @property
+    def max_radius(self) -> float:
+        """The radius of the rim [m]."""
+        return self.a
+
+    @property
+    def least_depth(self) -> float:
+        """a²/R [m], from which on the middle of the face is pressed too."""
+        return self.a / self.R * self.a
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """Height f = −r²/2R, below the middle of the face."""
+        r = self._within(finite_array("r", r, "m"))
+        return plain(-r / self.R * r / 2)
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """Height g = −x²/R."""
+        x = self._within(finite_array("x", x, "m"))
+        return plain(-x / self.R * x)
+
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """The radius of the rim for d >= a²/R, 0 for d <= −a²/2R; a ValueError between."""
+        d = finite_array("d", d, "m")
+        ring = (d < self.least_depth * (1 - 4 * EPS)) & (d > -self.least_depth / 2)
+        if np.any(ring):
+            raise ValueError(
+                f"annular contact: at the depth d = {d[ring].flat[0]:.6g} m only a ring of ConcavePunch touches, its "
+                f"middle from d = a²/R = {self.least_depth:.6g} m on; press deeper, the method needs a full disc"
+            )
+        return plain(np.where(d > 0, self.a, 0.0))
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = −a³/3R."""
+        a = self._within(finite_array("a", a, "m"))
+        return plain(-a / self.R * a * a / 3)
+
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = [(d − a²/R) + 2r²/R] / (π √(a² − r²))."""
+        spare = np.maximum(d - self.least_depth, 0)
+        return plain((spare + 2 * (r / self.R) * r) / (np.pi * leg(a, r)))

@@ -1,0 +1,68 @@
+"""Shape of constant pressure: pressed to the depth d_0 it touches the disc of radius a_0 with p = E*d_0/(2a_0).
+
+f(r) = d_0 [1 − (2/π) E(r/a_0)], E the complete elliptic integral of modulus r/a_0; g(x) = d_0 [1 − √(1 − x²/a_0²)].
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter
+from mdr.indenters.elementary import angle_less_sine, leg
+
+N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06**24 for r² < a_0²/2
+
+
+@dataclass(frozen=True)
+class ConstantPressure(Indenter):
+    """Shape of constant pressure at the depth d_0, where its whole face touches; F_N = (π/2) E* a_0 d_0 there."""
+
+    a_0: float  #: radius of the face [m]
+    d_0: float  #: depth at which it touches with its whole face [m]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "a_0", positive("a_0", self.a_0, "radius of the face in m"))
+        object.__setattr__(self, "d_0", positive("d_0", self.d_0, "depth in m"))
+
+    @property
+    def max_radius(self) -> float:
+        """The radius of the face [m]."""
+        return self.a_0
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = d_0 [1 − (2/π) E(r/a_0)]."""
+        from scipy.special import ellipe
+
+        u = self._within(finite_array("r", r, "m")) / self.a_0
+        m = np.minimum(u, 0.75)[..., None] ** 2
+        sine = np.sin(np.pi / 2 * (np.arange(N_MEAN) + 0.5) / N_MEAN) ** 2  # the integral as a mean of positive terms
+        near_tip = u * u * np.mean(sine / (1 + np.sqrt(1 - m * sine)), axis=-1)
+        return plain(self.d_0 * np.where(u < 0.7, near_tip, 1 - 2 / np.pi * ellipe(u * u)))
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = d_0 [1 − √(1 − x²/a_0²)]."""
+        u = self._within(finite_array("x", x, "m")) / self.a_0
+        return plain(self.d_0 * u * (u / (1 + np.sqrt((1 - u) * (1 + u)))))
+
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a = a_0 √(1 − (1 − d/d_0)²), for d <= d_0."""
+        d = finite_array("d", d, "m")
+        self._refuse_beyond(d)
+        share = np.clip(d / self.d_0, 0, 1)
+        return plain(self.a_0 * np.sqrt(share * (2 - share)))
+
+    def _why_too_deep(self, reach: float) -> str:
+        return f"goes: at d_0 = {reach:.6g} m its whole face touches, and p is constant; press less"
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = a_0 d_0 [sin ψ − (sin ψ cos ψ + ψ)/2] with sin ψ = a/a_0."""
+        a = self._within(finite_array("a", a, "m"))
+        psi = np.arctan2(a, leg(self.a_0, a))
+        return plain(self.d_0 * self.a_0 * (angle_less_sine(2 * psi) / 4 - angle_less_sine(psi)))
+
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = (d_0/(π a_0)) arcsin √((a² − r²)/(a_0² − r²))."""
+        return plain(self.d_0 / (np.pi * self.a_0) * np.arctan2(leg(a, r), leg(self.a_0, a)))

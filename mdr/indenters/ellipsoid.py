@@ -1,0 +1,98 @@
+"""Ellipsoid of revolution: f(r) = R (1 − √(1 − k²r²)), mapped to g(x) = x k R artanh(k|x|).
+
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019). k = 1/R is the sphere; the radius of curvature at the
+tip is 1/(k²R). In the functions below R is the half-axis along the axis of revolution and c = 1/k the one across.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter
+from mdr.indenters.elementary import artanh, conic_area
+
+
+@dataclass(frozen=True)
+class Ellipsoid(Indenter):
+    """Ellipsoid of half-axes R and 1/k: d = g(a), F_N = E* (R/k) [(1 + k²a²) artanh(ka) − ka].
+
+    Its contact grows to the equator, a = 1/k, at infinite depth only: g is finite for |x| < 1/k.
+    """
+
+    R: float  #: half-axis along the axis of revolution [m]
+    k: float  #: inverse of the half-axis across [1/m]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "R", positive("R", self.R, "half-axis in m"))
+        object.__setattr__(self, "k", positive("k", self.k, "inverse half-axis in 1/m"))
+        if not 0 < 1 / self.k < np.inf:
+            raise ValueError(f"k = {self.k!r} 1/m: its inverse, the half-axis across, is beyond the range of floats")
+
+    @property
+    def max_radius(self) -> float:
+        """The last number below 1/k [m]."""
+        return float(np.nextafter(1 / self.k, 0))
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = R (1 − √(1 − k²r²)), up to the equator."""
+        return height(self, finite_array("r", r, "m"), self.R, 1 / self.k)
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = x k R artanh(kx), |x| < 1/k."""
+        return image(self, finite_array("x", x, "m"), self.R, 1 / self.k)
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = (R/2k) [ka − (1 − k²a²) artanh(ka)]."""
+        return area(self, finite_array("a", a, "m"), self.R, 1 / self.k)
+
+    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+        return slope(s, self.R, 1 / self.k)
+
+    def _why_too_deep(self, reach: float) -> str:
+        return past_equator(1 / self.k, reach)
+
+
+def height(shape: Indenter, r: FloatArray, R: float, c: float) -> FloatArray:
+    """f(r) for |r| <= c."""
+    if np.any(np.abs(r) > c):
+        raise ValueError(
+            f"{type(shape).__name__} ends at its equator r = {c:.6g} m, got {np.max(np.abs(r)):.6g} m: stay within it"
+        )
+    u = np.abs(r) / c
+    return plain(R * u / (1 + np.sqrt((1 - u) * (1 + u))) * u)
+
+
+def image(shape: Indenter, x: FloatArray, R: float, c: float) -> FloatArray:
+    """g(x) for |x| < c."""
+    x = _inside(shape, x, c)
+    return plain(R * (x / c) * artanh(x, c))
+
+
+def area(shape: Indenter, a: FloatArray, R: float, c: float) -> FloatArray:
+    """∫₀^a g dx."""
+    a = _inside(shape, a, c)
+    u = a / c
+    return plain(R / 2 * c * conic_area(u, u * u, artanh(a, c)))
+
+
+def slope(x: FloatArray, R: float, c: float) -> FloatArray:
+    """dg/dx."""
+    return np.asarray(R / c * (artanh(x, c) + x / (c - x) * (c / (c + x))))
+
+
+def past_equator(c: float, reach: float) -> str:
+    """How a message goes on about too great a depth."""
+    return f"can be pressed: at {reach:.6g} m its contact is the equator, {c:.6g} m, but for a rounding; press less"
+
+
+def _inside(shape: Indenter, x: FloatArray, c: float) -> FloatArray:
+    """|x|, refused from the equator on."""
+    x = np.abs(x)
+    if np.any(x > shape.max_radius):
+        raise ValueError(
+            f"{type(shape).__name__} is touched within its equator only, x < {c:.6g} m, where g becomes infinite; "
+            f"got {np.max(x):.6g} m: stay within it"
+        )
+    return x

@@ -1,0 +1,208 @@
+"""A shape from a measured or computed force–indentation curve F(d): a = F'(d)/(2E*), g(a(d)) = d, and f from g.
+
+k_zc = dF_N/dd = 2E*a holds for any shape, so that F(d) tells the shape (Popov & Heß 2015).
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, not_negative, plain, positive, positive_array
+from mdr.indenters import roots
+from mdr.indenters.base import EPS, Indenter
+from mdr.indenters.quadrature import double_exponential, in_chunks
+from mdr.indenters.sampled_profile import column, require_ascent, require_pairs
+from mdr.indenters.splines import fit
+
+N_POINTS = 7  #: fewer make no spline
+TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
+SLACK = 1e-9  #: of an exponent or a radius: rounding
+FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
+
+
+@dataclass(frozen=True, repr=False)
+class FromForce(Indenter):
+    """The shape whose force is F at the depths d on a body of modulus E_star: ascending from d = 0, F = 0.
+
+    Of "any" tip, ln F is a quintic spline in ln d, and below the first depth F goes on as a power of d: powers, as of
+    cone, paraboloid and punch, come out to rounding, 1e-12, and 100 even points of a sphere up to a = R/2 give g to
+    1e-6 of the greatest depth and F to 4e-4 at a thousandth of it. Where the tip is known to be "round", "sharp" or
+    "flat" (F ~ d^3/2, d², d) ln F less that power is a spline in d, and the same points give a and F to 1e-11. The
+    pressure is good to 2e-7.
+
+    F' may not fall, as the contact does not shrink while it is pressed deeper: for noisy forces ``smoothing`` is
+    their standard deviation, and the spline keeps that far from them on the average. E_star belongs to the
+    measurement; the shape itself has none.
+    """
+
+    d: tuple[float, ...]  #: depths, ascending from 0 [m]
+    F: tuple[float, ...]  #: normal forces there [N]
+    E_star: float  #: contact modulus of the body on which F was measured [Pa]
+    tip: str = field(default="any", kw_only=True)  #: "any", "round", "sharp" or "flat"
+    smoothing: float = field(default=0.0, kw_only=True)  #: standard deviation of the noise of F [N]
+
+    def __post_init__(self) -> None:
+        d, F = column("d", self.d, "m"), column("F", self.F, "N")
+        require_pairs("d", d, "F", F, N_POINTS)
+        require_ascent("d", d)
+        if d[0] != 0 or F[0] != 0:
+            raise ValueError(
+                f"d and F must begin with 0, got {d[0]:.6g} m and {F[0]:.6g} N: give depth and force less those of "
+                "the first touch"
+            )
+        if self.tip not in TIPS:
+            raise ValueError(f"tip must be one of {', '.join(TIPS)}, got {self.tip!r}")
+        object.__setattr__(self, "smoothing", not_negative("smoothing", self.smoothing, "standard deviation in N"))
+        if self.smoothing == 0:
+            require_ascent("F", F)
+        elif F[1:].min() <= 0:
+            raise ValueError(f"F must be positive for d > 0, got {F[1:].min():.6g} N: leave such depths out")
+        object.__setattr__(self, "d", tuple(float(value) for value in d))
+        object.__setattr__(self, "F", tuple(float(value) for value in F))
+        object.__setattr__(self, "E_star", positive("E_star", self.E_star, "modulus in Pa"))
+        self._refuse_shrinking()
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """The edge of a flat face [m]."""
+        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - SLACK) else ()
+
+    @property
+    def max_radius(self) -> float:
+        """Contact radius at the last depth [m]."""
+        return float(self._radius(np.array([self.d[-1]]))[0])
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x), the depth at which a = x."""
+        return in_chunks(self._depth, self._within(finite_array("x", x, "m")))
+
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a = F'(d)/(2E*), up to the last depth."""
+        d = finite_array("d", d, "m")
+        self._refuse_beyond(d)
+        a = np.zeros(d.shape)
+        a[d > 0] = self._radius(d[d > 0])
+        return plain(a)
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = a d − F/(2E*) at the depth d = g(a)."""
+        a = self._within(finite_array("a", a, "m"))
+        d = np.asarray(self.profile_1d(a))
+        return plain(a * d - self._force(d) / (2 * self.E_star))
+
+    def force(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+        """Normal force F_N [N] at the depth d, 0 where d <= 0: the measured one in proportion to E_star."""
+        d, E_star = finite_array("d", d, "m"), positive_array("E_star", E_star, "Pa")
+        self._refuse_beyond(d)
+        return plain(self._in_range("F_N", E_star / self.E_star * self._force(d), d))
+
+    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+        """p/E* = (1/π) ∫ dδ/√(a(δ)² − r²) over the depths δ from g(r) to d."""
+        return in_chunks(self._pressure, r, d)
+
+    def _pressure(self, r: FloatArray, d: FloatArray) -> FloatArray:
+        rule = double_exponential()
+        low = self._depth(r)
+        depth = low[:, None] + (d - low)[:, None] * rule.from_low
+        inner = np.maximum(r, EPS * self._radius(d))[:, None]
+        a = np.maximum(self._radius(depth), inner * (1 + EPS))
+        return np.asarray((d - low) / np.pi * ((1 / np.sqrt((a - inner) * (a + inner))) @ rule.weight))
+
+    def __repr__(self) -> str:
+        smoothed = f", smoothing={self.smoothing!r}" if self.smoothing else ""
+        known = f"{len(self.d)} points to d = {self.d[-1]:.6g} m, E_star={self.E_star!r}, tip={self.tip!r}"
+        return f"FromForce({known}{smoothed})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name not in ("_spline", "_least_radius")}
+
+    @cached_property
+    def _spline(self) -> tuple[FloatArray, FloatArray]:
+        """Ends and polynomials of ln(F/F_1) less its power over `_place`, from the first depth d_1 > 0 to the last."""
+        d, F = np.array(self.d[1:]), np.array(self.F[1:])
+        y = np.log(F / F[0]) - TIPS[self.tip] * np.log(d / d[0])
+        return fit(self._place(d), y, self.smoothing / F, even=False)
+
+    def _place(self, d: FloatArray) -> FloatArray:
+        return np.asarray(np.log(d / self.d[1]) if self.tip == "any" else d / self.d[1] - 1)
+
+    @property
+    def _power(self) -> float:
+        """Exponent of F ~ d^n at the tip."""
+        ends, pieces = self._spline
+        return TIPS[self.tip] or max(float(pieces[0, 1] / (ends[1] - ends[0])), 1.0)
+
+    @cached_property
+    def _least_radius(self) -> float:
+        """a at d → 0 [m]: of a flat tip that of its face, else 0."""
+        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < SLACK else 0.0
+
+    def _log_force(self, d: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """ln(F/F_1) and its slope over ln d, at depths d > 0."""
+        ends, pieces = self._spline
+        z, known = self._place(d), TIPS[self.tip]
+        i = np.clip(np.searchsorted(ends, z, side="right") - 1, 0, len(pieces) - 1)
+        u = (z - ends[i]) / np.diff(ends)[i]
+        if not known:  # as a power of d below the first depth
+            u = np.maximum(u, 0)
+        y, slope = np.zeros_like(z), np.zeros_like(z)
+        for j in range(pieces.shape[1] - 1, -1, -1):
+            y, slope = y * u + pieces[i, j], slope * u + y
+        slope = slope / np.diff(ends)[i]
+        if known:
+            return y + known * np.log(d / self.d[1]), known + slope * (1 + z)
+        below = z < 0
+        return np.where(below, y + self._power * z, y), np.where(below, self._power, slope)
+
+    def _force(self, d: FloatArray) -> FloatArray:
+        F = np.zeros(np.shape(d))
+        F[d > 0] = self.F[1] * np.exp(self._log_force(d[d > 0])[0])
+        return F
+
+    def _radius(self, d: FloatArray) -> FloatArray:
+        """a at depths d > 0, and its limit at d = 0."""
+        d = np.maximum(d, np.finfo(float).tiny)
+        y, slope = self._log_force(d)
+        with np.errstate(under="ignore"):
+            F_over_d = self.F[1] / self.d[1] * np.exp(y - np.log(d / self.d[1]))
+        return np.asarray(F_over_d * slope / (2 * self.E_star))
+
+    def _depth(self, x: FloatArray) -> FloatArray:
+        """d with a(d) = x; 0 up to the least radius."""
+        d = np.zeros_like(x)
+        todo = x > self._least_radius * (1 + SLACK)
+        a_1, rise = float(self._radius(np.array([self.d[1]]))[0]), self._power - 1
+        if self.tip == "any" and rise > SLACK:
+            power = todo & (x <= a_1)
+            with np.errstate(under="ignore"):
+                d[power] = self.d[1] * (x[power] / a_1) ** (1 / rise)
+            todo &= ~power
+        if todo.any():
+            start = np.full(int(np.sum(todo)), self.d[1])
+            d[todo] = roots.invert(self._radius, x[todo], start, self.d[-1])[0]
+        return d
+
+    def _refuse_beyond(self, d: FloatArray) -> None:
+        if d.size and d.max() > self.d[-1] * (1 + 64 * EPS):
+            raise ValueError(
+                f"d = {d.max():.6g} m is deeper than the force is known, d = {self.d[-1]:.6g} m: "
+                "press less or measure deeper"
+            )
+
+    def _refuse_shrinking(self) -> None:
+        """F' must not fall: the contact would shrink."""
+        ends, pieces = self._spline
+        shares = np.linspace(0, 1, 9)[:-1]
+        z = np.append((ends[:-1, None] + np.diff(ends)[:, None] * shares).ravel(), ends[-1])
+        d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
+        a = self._radius(d)
+        falls = np.maximum.accumulate(a) - a > FALL * np.max(a)
+        falls[0] |= self.tip == "any" and pieces[0, 1] / (ends[1] - ends[0]) < 1 - SLACK
+        if falls.any():
+            raise ValueError(
+                f"F must rise more and more steeply, but its slope falls at d = {d[falls][0]:.6g} m: the contact "
+                "would shrink there; if it is noise, give its standard deviation as smoothing="
+            )

@@ -1,0 +1,45 @@
+"""Hyperboloid: f(r) = h (√(1 + r²/c²) − 1), mapped to g(x) = (h x/c) arctan(x/c).
+
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019). A rounded cone: its tip has the radius of curvature c²/h,
+its flank the slope h/c.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter
+from mdr.indenters.elementary import conic_area
+
+
+@dataclass(frozen=True)
+class Hyperboloid(Indenter):
+    """Hyperboloid of revolution: d = g(a), F_N = E* (h/c) [(a² − c²) arctan(a/c) + ac]."""
+
+    h: float  #: half-axis along the axis of revolution [m]
+    c: float  #: half-axis across [m]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "h", positive("h", self.h, "half-axis in m"))
+        object.__setattr__(self, "c", positive("c", self.c, "half-axis in m"))
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = h (√(1 + r²/c²) − 1)."""
+        u = np.abs(finite_array("r", r, "m")) / self.c
+        return plain(self.h * u * (u / (1 + np.hypot(1, u))))
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = (h x/c) arctan(x/c)."""
+        u = np.abs(finite_array("x", x, "m")) / self.c
+        return plain(self.h * u * np.arctan(u))
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = (h c/2) [(1 + u²) arctan u − u] with u = a/c."""
+        u = np.abs(finite_array("a", a, "m")) / self.c
+        return plain(-self.h / 2 * self.c * conic_area(u, -u * u, np.arctan(u)))
+
+    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+        u = s / self.c
+        return np.asarray(self.h / self.c * (np.arctan(u) + u / (1 + u * u)))

@@ -1,0 +1,144 @@
+"""A shape known at measured points: a spline through them, whose image g follows exactly (`mdr.indenters.splines`)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, not_negative, positive
+from mdr.indenters.base import Indenter, refuse_falling
+from mdr.indenters.quadrature import in_chunks
+from mdr.indenters.splines import SplineImage, fit
+
+N_POINTS = 6  #: fewer make no spline
+TIPS = ("round", "sharp")
+
+
+@dataclass(frozen=True, repr=False)
+class SampledProfile(Indenter):
+    """A shape through the points (r, f): a quintic spline in r, four times continuously differentiable.
+
+    r ascends from 0; heights count from f at r = 0, wherever the instrument's zero is. A "round" tip has no corner:
+    the spline is even in r, as f ~ r² needs; a "sharp" one may begin with any slope, like a cone. Where the slope
+    jumps, name that r in ``kinks``. The spline of noisy heights would follow the noise, until g falls and is refused:
+    with ``smoothing``, their standard deviation, the spline keeps that far from the points on the average.
+
+    200 even points of a sphere up to a = R/2 give g and F_N to 1e-11, 50 to 1e-8, 20 to 1e-6. What lies beyond r[-1]
+    is unknown, so that a contact which would reach further is refused.
+    """
+
+    r: tuple[float, ...]  #: radii, ascending from 0 [m]
+    f: tuple[float, ...]  #: heights there [m]
+    tip: str = field(default="round", kw_only=True)  #: "round" or "sharp"
+    kinks: tuple[float, ...] = field(default=(), kw_only=True)  #: those r where the slope jumps [m]
+    smoothing: float = field(default=0.0, kw_only=True)  #: standard deviation of the noise of f [m]
+
+    def __post_init__(self) -> None:
+        r, f = column("r", self.r, "m"), column("f", self.f, "m")
+        require_pairs("r", r, "f", f, N_POINTS)
+        if r[0] != 0:
+            raise ValueError(
+                f"r must begin at 0, the tip from which the depth counts, got {r[0]:.6g} m: "
+                + ("give one side of a mirrored profile" if r[0] < 0 else "sort the points by r and add f at the tip")
+            )
+        require_ascent("r", r)
+        if self.tip not in TIPS:
+            raise ValueError(f'tip must be "round" or "sharp", got {self.tip!r}')
+        for name, values in (("r", r), ("f", f), ("kinks", self._inner(self.kinks, r))):
+            object.__setattr__(self, name, tuple(float(value) for value in values))
+        object.__setattr__(self, "smoothing", not_negative("smoothing", self.smoothing, "standard deviation in m"))
+        try:
+            refuse_falling(self, self._image.ends, self._image.image_at_ends())
+        except ValueError as ring:
+            raise ValueError(f"{ring}; if it is noise that makes it fall, give its size as smoothing=") from None
+
+    @property
+    def max_radius(self) -> float:
+        """r[-1] [m]."""
+        return self.r[-1]
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) − f(0) of the spline."""
+        return in_chunks(self._image.height, self._within(finite_array("r", r, "m")))
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) of the spline."""
+        return in_chunks(self._image.image, self._within(finite_array("x", x, "m")))
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx of the spline."""
+        return in_chunks(self._image.area, self._within(finite_array("a", a, "m")))
+
+    def _pressure_of_slope(self, r: FloatArray, a: FloatArray) -> FloatArray:
+        return self._image.pressure(r, a)
+
+    def __repr__(self) -> str:
+        known = [f"{len(self.r)} points to r = {self.r[-1]:.6g} m", f"tip={self.tip!r}"]
+        known += [f"kinks={self.kinks!r}"] if self.kinks else []
+        known += [f"smoothing={self.smoothing!r}"] if self.smoothing else []
+        return f"SampledProfile({', '.join(known)})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_image"}
+
+    @cached_property
+    def _image(self) -> SplineImage:
+        r, f = np.array(self.r), np.array(self.f)
+        cuts = [0, *np.searchsorted(r, self.kinks), r.size - 1]
+        ends, pieces, height = [np.zeros(1)], [], 0.0
+        for first, last in pairwise(cuts):
+            even = first == 0 and self.tip == "round"
+            some, c = fit(r[first : last + 1] - (0 if even else r[first]), f[first : last + 1], self.smoothing, even)
+            c[:, 0] += height - c[0, 0]  # begins where the one before ended, at 0 in the first place
+            height = float(c[-1].sum())
+            ends.append(some[1:] + (0 if even else r[first]))
+            pieces.append(np.pad(c, ((0, 0), (0, 6 - c.shape[1]))))
+        radii = np.concatenate(ends)
+        radii[-1] = r[-1]
+        radii[np.cumsum([0, *map(len, pieces)])] = r[cuts]
+        return SplineImage(radii, np.concatenate(pieces), self.kinks)
+
+    def _inner(self, kinks: Iterable[float], r: FloatArray) -> list[float]:
+        """Kinks in ascending order, each one of the points between the first and the last."""
+        try:
+            radii = sorted({positive("kinks", b, "radius in m") for b in kinks})
+        except TypeError as not_radii:
+            raise TypeError(f"kinks must be a sequence of radii in m, got {kinks!r}") from not_radii
+        strange = [b for b in radii if b not in r[1:-1]]
+        if strange:
+            raise ValueError(
+                f"kinks must be among the r between the first and the last, got {strange[0]!r} m: "
+                f"the nearest is {float(r[np.argmin(np.abs(r - strange[0]))])!r} m; add a point there"
+            )
+        return radii
+
+
+def column(name: str, values: ArrayLike, unit: str) -> FloatArray:
+    """Measured numbers in a row (n,)."""
+    array = finite_array(name, values, unit)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must be one row of numbers in {unit}, got an array of shape {array.shape}")
+    return array
+
+
+def require_pairs(name: str, x: FloatArray, other: str, y: FloatArray, least: int) -> None:
+    """ValueError unless there are as many of the one as of the other, and enough."""
+    if x.size != y.size:
+        raise ValueError(f"{other} must have as many numbers as {name}, got {y.size} and {x.size}")
+    if x.size < least:
+        raise ValueError(f"{name} must have at least {least} numbers, got {x.size}")
+
+
+def require_ascent(name: str, x: FloatArray) -> None:
+    """ValueError unless each number is above the one before."""
+    falls = np.flatnonzero(np.diff(x) <= 0)
+    if falls.size:
+        i = int(falls[0])
+        raise ValueError(
+            f"{name} must ascend, got {x[i]:.6g} and then {x[i + 1]:.6g} (numbers {i + 1} and {i + 2}): "
+            f"sort the points by {name} and take the mean of those at the same {name}"
+        )

@@ -1,0 +1,49 @@
+"""Sphere: f(r) = R − √(R² − r²), mapped to g(x) = (x/2) ln((R + x)/(R − x)) (Segedin 1957).
+
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019). The paraboloid is its limit a ≪ R.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, positive
+from mdr.indenters import ellipsoid
+from mdr.indenters.base import Indenter
+
+
+@dataclass(frozen=True)
+class Sphere(Indenter):
+    """Ball of radius R: d = g(a), F_N = (E*/2) [(R² + a²) ln((R + a)/(R − a)) − 2aR].
+
+    Its contact grows to the equator, a = R, at infinite depth only: g is finite for |x| < R.
+    """
+
+    R: float  #: radius [m]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "R", positive("R", self.R, "radius in m"))
+
+    @property
+    def max_radius(self) -> float:
+        """The last number below R [m]."""
+        return float(np.nextafter(self.R, 0))
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = R − √(R² − r²), up to the equator."""
+        return ellipsoid.height(self, finite_array("r", r, "m"), self.R, self.R)
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = x artanh(x/R), |x| < R."""
+        return ellipsoid.image(self, finite_array("x", x, "m"), self.R, self.R)
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = ½ [aR − (R² − a²) artanh(a/R)]."""
+        return ellipsoid.area(self, finite_array("a", a, "m"), self.R, self.R)
+
+    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+        return ellipsoid.slope(s, self.R, self.R)
+
+    def _why_too_deep(self, reach: float) -> str:
+        return ellipsoid.past_equator(self.R, reach)

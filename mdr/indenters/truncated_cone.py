@@ -1,0 +1,55 @@
+"""Truncated cone: a flat face of radius b with the flank f(r) = (r − b) tan θ, g(x) = x tan θ arccos(b/x) for x > b.
+
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, between, finite_array, plain, positive
+from mdr.indenters.base import Indenter
+from mdr.indenters.elementary import angle, angle_less_sine
+
+
+@dataclass(frozen=True)
+class TruncatedCone(Indenter):
+    """Worn cone: d = g(a), F_N = E* a² tan θ (φ + cos φ sin φ) with cos φ = b/a.
+
+    Hardly pressed it is a flat punch, a → b and k_zc → 2E*b; at the edge of its face p is infinite, and answered
+    as one rounding away.
+    """
+
+    b: float  #: radius of the flat face [m]
+    theta: float  #: angle between flank and plane [rad]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "b", positive("b", self.b, "radius of the face in m; a Cone has none"))
+        theta = between("theta", self.theta, 0, np.pi / 2, "angle between flank and plane in rad")
+        object.__setattr__(self, "theta", theta)
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """The edge of the face [m]."""
+        return (self.b,)
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = (r − b) tan θ outside the face."""
+        return plain(np.maximum(np.abs(finite_array("r", r, "m")) - self.b, 0) * np.tan(self.theta))
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = x tan θ arccos(b/x) outside the face."""
+        x = np.abs(finite_array("x", x, "m"))
+        return plain(x * np.tan(self.theta) * angle(x, self.b))
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = (a²/2) tan θ (φ − cos φ sin φ)."""
+        a = np.abs(finite_array("a", a, "m"))
+        return plain(a * a / 4 * np.tan(self.theta) * angle_less_sine(2 * angle(a, self.b)))
+
+    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+        if low < self.b:
+            return np.zeros_like(s)
+        x = np.hypot(s, self.b)
+        return np.asarray(np.tan(self.theta) * (s / x * np.arctan2(s, self.b) + self.b / x))

@@ -1,0 +1,64 @@
+"""Truncated paraboloid: a flat face of radius b with f(r) = (r² − b²)/2R around it, g(x) = (x/R) √(x² − b²) for x > b.
+
+Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.base import Indenter
+from mdr.indenters.elementary import leg
+
+
+@dataclass(frozen=True)
+class TruncatedParaboloid(Indenter):
+    """Worn ball: d = g(a), F_N = (2E*/3R) (2a² + b²) √(a² − b²).
+
+    Hardly pressed it is a flat punch, a → b and k_zc → 2E*b; at the edge of its face p is infinite, and answered
+    as one rounding away.
+    """
+
+    b: float  #: radius of the flat face [m]
+    R: float  #: radius of curvature of the paraboloid [m]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "b", positive("b", self.b, "radius of the face in m; a Paraboloid has none"))
+        object.__setattr__(self, "R", positive("R", self.R, "radius of curvature in m"))
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """The edge of the face [m]."""
+        return (self.b,)
+
+    def profile_3d(self, r: ArrayLike) -> FloatArray:
+        """f(r) = (r² − b²)/2R outside the face."""
+        r = np.abs(finite_array("r", r, "m"))
+        return plain(np.maximum(r - self.b, 0) / self.R * ((r + self.b) / 2))
+
+    def profile_1d(self, x: ArrayLike) -> FloatArray:
+        """g(x) = (x/R) √(x² − b²) outside the face."""
+        x = np.abs(finite_array("x", x, "m"))
+        return plain(x / self.R * leg(x, self.b))
+
+    def contact_radius(self, d: ArrayLike) -> FloatArray:
+        """Radius a² = b²/2 + √(b⁴/4 + R²d²) for d > 0."""
+        d = finite_array("d", d, "m")
+        sphere = np.sqrt(self.R) * np.sqrt(np.maximum(d, 0))
+        unit = np.maximum(sphere, self.b)
+        face = (self.b / unit) ** 2 / 2
+        a = np.maximum(unit * np.sqrt(face + np.hypot(face, (sphere / unit) ** 2)), self.b)
+        return plain(np.where(d > 0, a, 0.0))
+
+    def profile_area(self, a: ArrayLike) -> FloatArray:
+        """∫₀^a g dx = (a² − b²)^{3/2} / 3R."""
+        s = leg(np.abs(finite_array("a", a, "m")), self.b)
+        return plain(s / self.R * s * s / 3)
+
+    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+        if low < self.b:
+            return np.zeros_like(s)
+        x = np.hypot(s, self.b)
+        return np.asarray((x + s / x * s) / self.R)

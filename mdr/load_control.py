@@ -1,0 +1,185 @@
+"""The depth that an oscillating load brings about: m_z u_z'' = F_z0 + dF_z cos(omega t) - F_N, periodic.
+
+F_N follows from the history of depth by the contact law, viscoelastic and unilateral (normal_cycle.py); friction has no
+part in it. Without mass an elastic contact is at each instant at the depth that carries the load, and this is solved
+exactly. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
+divided by the dynamic stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's
+method (1965) combines the last of them. A small amplitude arrives in one step: there
+
+    du_z = dF_z/(K_z(omega) - m_z omega²),    K_z(omega) = 2 a E*(omega),
+
+which is where the critical velocity of a load-controlled contact comes from. The mean depth is that of the long-time
+modulus, however slow the material: the search is for the periodic state, not for the way to it. With mass and great
+amplitude several periodic motions may exist; found is the one that continues that of small amplitude.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.cycle import Cycle
+from mdr.indenters.base import Indenter
+from mdr.materials.base import Material
+from mdr.motion import LoadOscillation
+from mdr.normal_cycle import normal_cycle
+from mdr.rheology import Rheology
+
+Array = NDArray[np.float64]
+
+N_HARMONICS = 256  #: of the depth; its instants are eight times as many
+CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
+ENOUGH = 1e-4  #: the same with which it may end when it gets no further
+MOST, MEMORY = 300, 10  #: iterations, and how many of them are combined
+
+
+def static_depth(shape: Indenter, material: Material, F_z: float) -> float:
+    """Depth [m] at which a constant load F_z [N] rests in the end, on the long-time modulus.
+
+    Raises ValueError where the whole shape does not carry it.
+    """
+    return float(static_depths(shape, material, np.array([F_z]))[0])
+
+
+def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
+    """The same for loads (n,) > 0. Newton's method from above, on a force whose slope 2E*a never falls with depth."""
+    E_star, most = material.E_star, float(np.max(F_z))
+    deep = _scale(shape)
+    while float(shape.force(deep, E_star)) > most:
+        deep *= 0.25
+    while float(shape.force(deep, E_star)) < most:
+        deep = _deeper(shape, deep, most)
+    d = np.full(F_z.shape, deep)
+    for _ in range(200):
+        step = (np.asarray(shape.force(d, E_star)) - F_z) / np.asarray(shape.stiffness(d, E_star))
+        d = np.maximum(d - step, 1e-3 * d)
+        if np.all(np.abs(step) <= 4e-16 * d):
+            break
+    return d
+
+
+def _deeper(shape: Indenter, d: float, F_z: float) -> float:
+    """A greater depth, of what the shape has."""
+    for factor in (4.0, 1.5, 1.05, 1.001):
+        try:
+            shape.contact_radius(factor * d)
+        except ValueError:
+            continue
+        return factor * d
+    raise ValueError(
+        f"F_z = {F_z:.6g} N is more than {shape!r} carries on this material: lower it, or use a larger shape"
+    )
+
+
+def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
+    """The cycle of depth under an oscillating load.
+
+    Raises ValueError where no periodic depth is found: beside a resonance of the mass on the contact, or where it
+    bounces in another rhythm.
+    """
+    if motion.m_z == 0 and not Rheology.of(material, motion.omega).remembers:
+        return _quasi_static(shape, material, motion)
+    return _balanced(shape, material, motion)
+
+
+def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
+    """Elastic, without mass: F(u_z) = F_z(t), as many harmonics as its smoothness asks for."""
+    n = 64
+    while True:
+        load = motion.F_z0 + motion.dF_z * np.cos(2 * np.pi * np.arange(n) / n)
+        half = static_depths(shape, material, load[: n // 2 + 1])  # even in time
+        depth = np.concatenate([half, half[-2:0:-1]])
+        spectrum = np.fft.rfft(depth).real / n
+        tail = np.abs(spectrum[-n // 8 :]).max()
+        if tail <= 1e-14 * abs(spectrum[0]) or n >= 4096:
+            break
+        n *= 2
+    keep = 1 + int(np.flatnonzero(np.abs(spectrum[1:]) > 1e-16 * np.abs(spectrum[1:]).max()).max())
+    cos = 2 * spectrum[1 : keep + 1]
+    return Cycle.series(float(spectrum[0]), motion.omega, cos, np.zeros_like(cos))
+
+
+def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
+    rheology, E_star, omega = Rheology.of(material, motion.omega), material.E_star, motion.omega
+    d_0 = static_depth(shape, material, motion.F_z0)
+    k_zc = float(shape.stiffness(d_0, E_star))
+    n = np.arange(N_HARMONICS + 1)
+    impedance = k_zc * rheology.response(n) - motion.m_z * (n * omega) ** 2
+    if np.abs(impedance[1]) < 1e-6 * k_zc:
+        raise ValueError(
+            "omega is the natural frequency of m_z on the contact, undamped: there the depth swings without bound; "
+            "move omega or m_z, or give the material a damping"
+        )
+    weight = np.where(np.abs(impedance) < 0.1 * k_zc, 0.1 * k_zc * np.exp(1j * np.angle(impedance)), impedance)
+    load = np.zeros(N_HARMONICS + 1, dtype=complex)
+    load[:2] = motion.F_z0, motion.dF_z / 2
+    start = np.zeros(N_HARMONICS + 1, dtype=complex)
+    start[:2] = d_0, motion.dF_z / 2 / impedance[1]
+
+    def missing(u: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """Force balance that is missing, harmonics 0 ... N of exp(i n phase)."""
+        cycle = _cycle_of(u, omega)
+        if cycle.u_z0 + cycle.du_z * cycle.greatest <= 0:
+            return load
+        F_N = E_star * normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, 256).F_N
+        F_n = np.fft.rfft(F_N)[: N_HARMONICS + 1] / F_N.size
+        return np.asarray(load - F_n + motion.m_z * (n * omega) ** 2 * u)
+
+    u = _anderson(missing, weight, start, motion.F_z0)
+    if u is None:
+        raise ValueError(
+            "no depth of the period of the load was found: the mass m_z bounces in another rhythm, or is near its "
+            "resonance on the contact; lower dF_z, move omega, or prescribe the depth with PeriodicMotion"
+        )
+    return _cycle_of(u, omega)
+
+
+def _cycle_of(u: NDArray[np.complex128], omega: float) -> Cycle:
+    used = np.flatnonzero(np.abs(u[1:]) > 1e-15 * np.abs(u[1:]).max()).max() + 1
+    return Cycle.series(float(u[0].real), omega, 2 * u[1 : used + 1].real, -2 * u[1 : used + 1].imag)
+
+
+def _anderson(
+    missing: Callable[[NDArray[np.complex128]], NDArray[np.complex128]],
+    weight: NDArray[np.complex128],
+    u: NDArray[np.complex128],
+    F_z0: float,
+) -> NDArray[np.complex128] | None:
+    """Zero of `missing`, by corrections missing/weight of which the last are combined; None where there is none."""
+    tried: list[NDArray[np.complex128]] = []
+    moves: list[NDArray[np.complex128]] = []
+    best, least, since = u, np.inf, 0
+    for _ in range(MOST):
+        rest = missing(u)
+        off = float(np.abs(rest).max()) / F_z0
+        if off < 0.5 * least:
+            since = 0
+        since += 1
+        if off < least:
+            best, least = u, off
+        if least <= CLOSE or (since > 40 and least <= ENOUGH):
+            break
+        if off > 1e3 * least or not np.isfinite(off):
+            tried, moves, u = [], [], best
+            continue
+        tried, moves = [*tried, u][-MEMORY:], [*moves, rest / weight][-MEMORY:]
+        if len(moves) == 1:
+            u = u + 0.5 * moves[-1]
+            continue
+        dm = np.diff(np.array(moves), axis=0)
+        flat = np.concatenate([dm.real, dm.imag], axis=1)
+        share = np.linalg.lstsq(flat.T, np.concatenate([moves[-1].real, moves[-1].imag]), rcond=1e-8)[0]
+        u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + dm)
+    return best if least <= ENOUGH else None
+
+
+def _scale(shape: Indenter) -> float:
+    """A depth that the shape can have, to begin a search with."""
+    if shape.least_depth > 0:
+        return shape.least_depth
+    if np.isfinite(shape.max_radius):
+        reach = float(shape.profile_1d(shape.max_radius))
+        return 1e-3 * reach if reach > 0 else shape.max_radius
+    return 1.0

@@ -1,0 +1,221 @@
+"""The closed forms of the catalogue against integrals of f', in which nothing cancels, and against each other."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from catalogue import A_0, CURVED, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, name
+from numpy.testing import assert_allclose
+
+from mdr.indenters import (
+    CappedCone,
+    CappedParaboloid,
+    ConcavePunch,
+    Cone,
+    ConstantPressure,
+    Ellipsoid,
+    FlatPunch,
+    Hyperboloid,
+    Paraboloid,
+    RoundedPunch,
+    Sphere,
+    TruncatedCone,
+    TruncatedParaboloid,
+)
+from mdr.indenters.quadrature import double_exponential
+
+EXACT = 1e-12  # promised for closed forms
+DISC = 1e-9  # promised for the integral of the pressure
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
+
+
+def sneddon(shape, a):
+    """g(a) = a ∫ f'(a cos t) dt and F_N/E* = 2a² ∫ cos²t f'(a cos t) dt over a quarter turn (Sneddon 1965)."""
+    outside, inside = SLOPES[shape]
+    turns = [0.0, math.pi / 2]
+    slopes = [outside]
+    if inside and a > B:
+        turns.insert(1, math.atan2(math.sqrt((a - B) * (a + B)), B))
+        slopes = [outside, inside]
+    elif inside:
+        slopes = [inside]
+    g = F = 0.0
+    for low, high, slope in zip(turns[:-1], turns[1:], slopes, strict=True):
+        s = np.pi / 4 * (NODES + 1)  # sin² s crowds nodes at both ends: f' may be a root there
+        t, dt = low + (high - low) * np.sin(s) ** 2, (high - low) * np.sin(2 * s) * np.pi / 4
+        g += a * np.sum(WEIGHTS * dt * slope(a, t))
+        F += 2 * a * a * np.sum(WEIGHTS * dt * slope(a, t) * np.cos(t) ** 2)
+    return g, F
+
+
+def radii(shape):
+    """Many decades, beside a kink as close as roundings allow; a hyperboloid to where 60 nodes still resolve it."""
+    beside = B * (1 + np.geomspace(1e-15, 0.5, 30))
+    if shape in WORN:
+        return np.concatenate([beside, B * np.geomspace(2, 1e9, 20)])
+    low, high = 1e-15, min(end(shape), 0.02 if isinstance(shape, Hyperboloid) else 1e6)
+    return np.concatenate([np.geomspace(low, high, 60), [0.98 * high], beside if shape in KINKED else []])
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=name)
+def test_depth_force_and_stiffness_of_the_radius(shape):
+    a = radii(shape)
+    g, F = np.transpose([sneddon(shape, one) for one in a])
+    assert_allclose(shape.profile_1d(a), g, rtol=EXACT)
+    assert_allclose(shape.contact_radius(g), a, rtol=EXACT)
+    assert_allclose(shape.force(g, 1.0), F, rtol=EXACT)
+    assert_allclose(shape.stiffness(g, 3.0), 6 * a, rtol=EXACT)
+    # the area d a - F/2 is itself a difference: compared where it is not the smaller part of it
+    area = a * g - F / 2
+    some = area > 0.05 * a * g
+    assert_allclose(shape.profile_area(a)[some], area[some], rtol=20 * EXACT)
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=name)
+def test_the_pressure_carries_the_force_at_any_depth(shape):
+    rule = double_exponential(0.06)
+    beside = [1.0001, 1.01, 1.5, 30] if shape in KINKED else []
+    for a in [*np.array(beside) * B, *([] if shape in WORN else end(shape) * np.array([1e-9, 0.3, 1]))]:
+        d = float(shape.profile_1d(a))
+        turns = [0, *[math.asin(b / a) for b in shape.kinks if b < a], math.pi / 2]
+        total = 0.0
+        for low, high in pairwise(turns):
+            t = low + (high - low) * rule.from_low
+            p = shape.pressure(a * np.sin(t), d, 1.0)
+            total += (high - low) * np.sum(rule.weight * 2 * np.pi * a * a * np.sin(t) * np.cos(t) * p)
+        assert_allclose(total, shape.force(d, 1.0), rtol=DISC)
+
+
+@pytest.mark.parametrize("shape", WORN, ids=name)
+@pytest.mark.parametrize("d", [1e-300, 1e-20, 1e-16, 1e-12, 1e-11, 1e-9])
+def test_a_worn_tip_begins_as_a_punch(shape, d):
+    """The edge of contact passes the corner within roundings of b: the force and the pressure must not."""
+    a = float(shape.contact_radius(d))
+    wider = 1e-3 if isinstance(shape, RoundedPunch) else 1e-9  # than b: as d^(2/3), the others as d²
+    assert B <= a < B * (1 + wider)
+    assert_allclose(shape.force(d, 1.0), 2 * B * d, rtol=wider)
+    assert_allclose(shape.stiffness(d, 1.0), 2 * B, rtol=wider)
+    r = B * np.array([0, 0.5, 0.9])
+    punch = FlatPunch(B).pressure(r, d, 1.0)
+    assert_allclose(shape.pressure(r, d, 1.0), punch, rtol=20 * wider)  # (a - b)/(b - r)
+    assert shape.contact_radius(0.0) == shape.force(0.0, 1.0) == shape.stiffness(-d, 1.0) == 0
+
+
+@pytest.mark.parametrize(("shape", "limit", "tolerance"), [
+    (TruncatedCone(1e-12, THETA), Cone(THETA), 1e-8),  # linear in b/a in d, and b/a < 1e-8
+    (CappedCone(1e-12, THETA), Cone(THETA), 1e-8),
+    (TruncatedParaboloid(1e-9, R), Paraboloid(R), 1e-8),  # quadratic
+    (RoundedPunch(1e-12, R), Paraboloid(R), 1e-7),
+    (CappedParaboloid(1.0, R, 1e-9), Paraboloid(R), 1e-8),
+    (CappedParaboloid(R, R, B), Paraboloid(R), EXACT),
+    (CappedParaboloid(1e6 * R, R, B), TruncatedParaboloid(B, R), 1e-4),  # R2/R1, over √(a² - b²)
+    (CappedCone(1.0, math.atan(1 / R)), Paraboloid(R), EXACT),  # within its cap
+    (Sphere(1e6), Paraboloid(1e6), 1e-8),  # d/3R
+    (Ellipsoid(1e6, 1e-4), Paraboloid(100.0), 1e-8),  # radius of curvature 1/(k²R)
+    (Ellipsoid(R, 1 / R), Sphere(R), 1e-10),  # 1/(1/R) is a rounding off, of R - a
+    (Hyperboloid(1e6, 1e4), Paraboloid(100.0), 1e-8),  # c²/h
+    (Hyperboloid(1e-12 * math.tan(THETA), 1e-12), Cone(THETA), 1e-7),
+    (ConstantPressure(1e3, 1e3), Paraboloid(2e3), 1e-6),  # near its tip: x²/R = d_0 x²/2a_0²
+], ids=lambda one: name(one) if not isinstance(one, float) else "")  # fmt: skip
+def test_limits(shape, limit, tolerance):
+    d, r = np.array([2e-5, 5e-5, 1.5e-4]), 2e-4
+    assert_allclose(shape.contact_radius(d), limit.contact_radius(d), rtol=tolerance)
+    assert_allclose(shape.force(d, 1.0), limit.force(d, 1.0), rtol=tolerance)
+    assert_allclose(shape.pressure(r, d, 1.0), limit.pressure(r, d, 1.0), rtol=20 * tolerance)
+
+
+def test_a_constant_pressure():
+    shape = ConstantPressure(A_0, D_0)
+    assert shape.contact_radius(D_0) == A_0
+    r = A_0 * np.array([0, 0.3, 0.9, 0.999999])
+    assert_allclose(shape.pressure(r, D_0, 2e6), 2e6 * D_0 / (2 * A_0), rtol=EXACT)
+    assert_allclose(shape.force(D_0, 2e6), np.pi / 2 * 2e6 * A_0 * D_0, rtol=EXACT)
+    u = np.array([0.69, 0.71])  # on both sides of where its f changes from a mean to the elliptic integral
+    sine = np.sin(np.pi * (np.arange(99) + 0.5) / 99)
+    direct = 1 - np.mean(np.sqrt(1 - (u[:, None] * sine) ** 2), axis=1)
+    assert_allclose(shape.profile_3d(u * A_0), D_0 * direct, rtol=EXACT)
+
+
+def test_a_concave_punch():
+    a, hollow, E_star = 2e-3, 1.0, 2e6
+    shape = ConcavePunch(a, hollow)
+    d = shape.least_depth * np.array([1, 1.5, 100])
+    assert shape.least_depth == pytest.approx(a**2 / hollow, rel=1e-15)
+    assert_allclose(shape.force(d, E_star), 2 * E_star * (a * d + a**3 / (3 * hollow)), rtol=EXACT)
+    assert_allclose(shape.stiffness(d, E_star), 2 * E_star * a, rtol=EXACT)
+    assert shape.pressure(0.0, d[0], E_star) == 0
+    assert np.all(shape.pressure(a * np.linspace(0, 0.999, 9)[:, None], d, E_star) >= 0)
+    flat = ConcavePunch(a, 1e12)
+    assert_allclose(flat.force(1e-5, 1), FlatPunch(a).force(1e-5, 1), rtol=1e-12)  # a²/(3R d) = 1e-13
+
+
+@pytest.mark.parametrize("share", [-0.49, 0.0, 0.5, 1 - 1e-9])
+def test_a_concave_punch_that_touches_with_a_ring(share):
+    shape = ConcavePunch(2e-3, 1.0)
+    for ask in (shape.contact_radius, lambda d: shape.force(d, 1), lambda d: shape.pressure(0, d, 1)):
+        with pytest.raises(ValueError, match=r"annular contact: at the depth d = .* a²/R = 4e-06 m on; press deeper"):
+            ask(np.array([1e-5, share * shape.least_depth]))
+    assert shape.contact_radius(-0.51 * shape.least_depth) == 0
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e3])
+@pytest.mark.parametrize("make", [
+    lambda s: Sphere(R * s),
+    lambda s: Ellipsoid(2 * R * s, 1 / (R * s)),
+    lambda s: Hyperboloid(1e-3 * s, 2e-3 * s),
+    lambda s: TruncatedCone(B * s, THETA),
+    lambda s: TruncatedParaboloid(B * s, R * s),
+    lambda s: RoundedPunch(B * s, R * s),
+    lambda s: CappedCone(B * s, THETA),
+    lambda s: CappedParaboloid(2 * R * s, R * s, B * s),
+    lambda s: ConstantPressure(A_0 * s, D_0 * s),
+    lambda s: ConcavePunch(A_0 * s, s),
+])  # fmt: skip
+def test_any_unit_of_length_will_do(make, scale):
+    one, other = make(1.0), make(scale)
+    d, r = np.array([2e-5, 1.5e-4]), np.array([[1e-5], [6e-4], [1.1e-3]])
+    assert_allclose(other.profile_3d(scale * r), scale * one.profile_3d(r), rtol=EXACT, atol=0)
+    assert_allclose(other.profile_1d(scale * r), scale * one.profile_1d(r), rtol=EXACT, atol=0)
+    assert_allclose(other.contact_radius(scale * d), scale * one.contact_radius(d), rtol=EXACT)
+    assert_allclose(other.force(scale * d, 1), scale**2 * one.force(d, 1), rtol=EXACT)
+    assert_allclose(other.pressure(scale * r, scale * d, 1), one.pressure(r, d, 1), rtol=EXACT)
+
+
+@pytest.mark.parametrize(("ask", "words"), [
+    (lambda: Sphere(R).profile_1d(R), "Sphere is touched within its equator only, x < 0.005 m.*infinite"),
+    (lambda: Sphere(R).profile_3d([0, 1.1 * R]), "Sphere ends at its equator r = 0.005 m, got 0.0055 m"),
+    (lambda: Sphere(R).force(1.0, 1), "d = 1 m is deeper than Sphere can be pressed.*equator"),
+    (lambda: Ellipsoid(R, 100).profile_area(0.02), "Ellipsoid is touched within its equator only, x < 0.01 m"),
+    (lambda: Ellipsoid(R, 100).contact_radius(1.0), "Ellipsoid can be pressed.*equator, 0.01 m"),
+    (lambda: ConstantPressure(1e-3, 1e-5).stiffness(2e-5, 1), "d_0 = 1e-05 m its whole face touches.*press less"),
+    (lambda: ConstantPressure(1e-3, 1e-5).profile_3d(2e-3), "ConstantPressure ends at r = 0.001 m, got 0.002 m"),
+    (lambda: ConcavePunch(1e-3, 1).profile_1d(2e-3), "ConcavePunch ends at r = 0.001 m, got 0.002 m"),
+    (lambda: CappedParaboloid(1.0, 2.0, B), "R2 must not exceed R1 = 1 m, got 2 m.*annular contact"),
+    (lambda: TruncatedCone(0, THETA), "b must be positive, got 0.0 .*a Cone has none"),
+    (lambda: TruncatedCone(B, 2), "theta must lie between"),
+    (lambda: TruncatedParaboloid(-B, R), "b must be positive"),
+    (lambda: RoundedPunch(B, 0), "R must be positive"),
+    (lambda: CappedCone(B, 0), "theta must lie between"),
+    (lambda: Ellipsoid(1, 1e-320), "k = .* beyond the range of floats"),
+    (lambda: Hyperboloid(1, np.inf), "c must be a finite number"),
+])  # fmt: skip
+def test_limits_are_told_by_their_physical_name(ask, words):
+    with pytest.raises(ValueError, match=words):
+        ask()
+
+
+def test_the_equator_is_the_end_of_a_sphere():
+    assert Sphere(R).profile_3d(R) == R
+    assert Ellipsoid(R, 100).profile_3d(-0.01) == pytest.approx(R, rel=1e-15)
+    assert Sphere(R).max_radius < R
+    assert Sphere(R).contact_radius(5 * R) < R
+    assert np.isfinite(Sphere(R).force(10 * R, 1))
+
+
+def test_the_cap_of_a_cone():
+    assert pytest.approx(B / math.tan(THETA), rel=1e-15) == CappedCone(B, THETA).R
+    for shape in KINKED:
+        assert shape.kinks == (B,)
+        below, above = shape.profile_1d(B * np.array([1 - 1e-15, 1 + 1e-15]))
+        assert_allclose(above, below, rtol=1e-6, atol=1e-10)  # a root of 1e-15 at a corner

@@ -1,0 +1,286 @@
+"""Shapes from measured points and from a force curve: as good as their splines say, or refused with the reason."""
+
+import pickle
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from catalogue import THETA, B, R
+from numpy.testing import assert_allclose
+from scipy.integrate import quad
+
+import mdr
+from mdr.indenters import (
+    CappedCone,
+    CappedParaboloid,
+    Cone,
+    FlatPunch,
+    FromForce,
+    Hyperboloid,
+    Paraboloid,
+    SampledProfile,
+    Sphere,
+    TruncatedCone,
+)
+from mdr.indenters.base import Indenter
+
+E_STAR = 2e6
+GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
+MEASURED = [
+    SampledProfile(GRID, Sphere(R).profile_3d(GRID)),
+    SampledProfile(GRID, TruncatedCone(B, THETA).profile_3d(GRID), kinks=[B]),
+    FromForce(1e-6 * np.arange(40), Paraboloid(R).force(1e-6 * np.arange(40), E_STAR), E_STAR),
+    FromForce(1e-6 * np.arange(40), Cone(THETA).force(1e-6 * np.arange(40), E_STAR), E_STAR, tip="sharp"),
+]
+
+
+def sampled(shape, n=201, reach=2e-3, **how):
+    r = np.linspace(0, reach, n)
+    return SampledProfile(r, shape.profile_3d(r), **how)
+
+
+def from_force(shape, reach, n=100, **how):
+    d = np.linspace(0, float(shape.profile_1d(reach)) or 1e-5, n)
+    return FromForce(d, shape.force(d, E_STAR), E_STAR, **how)
+
+
+def worst(got, expected):
+    return float(np.max(np.abs(np.asarray(got) / expected - 1)))
+
+
+# --- points of a profile ---
+
+
+@pytest.mark.parametrize(("n", "tolerance"), [(20, 1e-6), (50, 1e-8), (200, 1e-11)])
+@pytest.mark.parametrize("R", [5e-12, 5e-3, 5e3])
+def test_points_of_a_sphere(n, tolerance, R):
+    """As the docstring promises; near the tip too, where f ~ r², and in any unit."""
+    sphere = Sphere(R)
+    shape = sampled(sphere, n, R / 2)
+    x = R / 2 * np.geomspace(1e-9, 1, 99)
+    d = sphere.profile_1d(x[:-1])
+    assert worst(shape.profile_3d(x), sphere.profile_3d(x)) < tolerance
+    assert worst(shape.profile_1d(x), sphere.profile_1d(x)) < tolerance
+    assert worst(shape.contact_radius(d), x[:-1]) < tolerance
+    assert worst(shape.force(d, 1), sphere.force(d, 1)) < tolerance
+    r, deep = R * np.array([0, 1e-6, 0.1, 0.3, 0.39]), sphere.profile_1d(0.4 * R)
+    assert worst(shape.pressure(r, deep, 1), sphere.pressure(r, deep, 1)) < 10 * tolerance
+
+
+@pytest.mark.parametrize(("shape", "how"), [
+    (Cone(THETA), {"tip": "sharp"}),
+    (Paraboloid(R), {}),
+    (TruncatedCone(B, THETA), {"kinks": [B]}),
+    (CappedCone(B, THETA), {"kinks": [B]}),
+    (CappedParaboloid(2 * R, R, B), {"kinks": [B]}),
+], ids=lambda one: repr(one)[:20])  # fmt: skip
+def test_what_a_spline_can_be_is_exact(shape, how):
+    """Polynomials between the kinks: what is left is the rounding of 200 points."""
+    spline = sampled(shape, **how)
+    x = np.concatenate([np.geomspace(1e-8, 0.99 * B, 30), np.linspace(1.01 * B, 2e-3, 50)])
+    scale = float(shape.profile_1d(2e-3))
+    for ask in ("profile_3d", "profile_1d"):
+        assert_allclose(getattr(spline, ask)(x), getattr(shape, ask)(x), rtol=1e-11, atol=1e-15 * scale)
+    assert_allclose(spline.profile_area(x), shape.profile_area(x), rtol=1e-11, atol=1e-15 * scale * B)
+    d, r = scale * np.array([0.02, 0.5, 0.9]), np.array([[1e-5], [0.5 * B], [0.99 * B]])
+    assert_allclose(spline.contact_radius(d), shape.contact_radius(d), rtol=1e-11)
+    assert_allclose(spline.pressure(r, d, 1), shape.pressure(r, d, 1), rtol=1e-10)
+
+
+def test_the_image_is_that_of_the_spline():
+    """Whatever the spline: one through rough points, against quad over each of its pieces."""
+    rng = np.random.default_rng(3)
+    r = 1e-3 * np.linspace(0, 1, 30) ** 1.3
+    shape = SampledProfile(r, r**2 / 1e-2 * (1 + 1e-3 * rng.normal(size=r.size)), tip="sharp")
+    image = shape._image
+    for x in (0.3e-3, 0.9e-3):
+        turns = np.arcsin(np.append(r[r < x], x) / x)
+        area = sum(
+            quad(lambda t, x=x: float(shape.profile_3d(x * np.sin(t)) * np.sin(t)), *two, epsabs=0)[0]
+            for two in pairwise(turns)
+        )
+        assert_allclose(shape.profile_area(x), x * area, rtol=1e-11)
+        h = 1e-4 * x  # g is the slope of that area
+        slope = (shape.profile_area(x + h) - shape.profile_area(x - h)) / (2 * h)
+        assert_allclose(shape.profile_1d(x), slope, rtol=1e-5)  # h²/6 g''/g, and g'' is rough
+        steps = np.array([x - h, x + h])
+        rise = np.diff(shape.profile_1d(steps))[0] / (2 * h)
+        assert_allclose(image._outer(1, np.array([x]), image._piece(np.array([x]))), rise, rtol=1e-3)
+    assert_allclose(
+        Indenter.profile_3d(shape, 0.7e-3), shape.profile_3d(0.7e-3), rtol=3e-4
+    )  # a rule that knows no knots
+
+
+def test_the_zero_of_the_instrument_does_not_matter():
+    f = Sphere(R).profile_3d(GRID)
+    raised = SampledProfile(GRID, f + 3e-6)
+    assert raised.profile_3d(0.0) == raised.profile_1d(0.0) == 0
+    assert worst(raised.force(1e-5, 1), Sphere(R).force(1e-5, 1)) < 1e-8
+
+
+def test_noise_is_smoothed_or_refused():
+    rng, noise = np.random.default_rng(1), 1e-7
+    f = Sphere(R).profile_3d(GRID) + rng.normal(0, noise, GRID.size)
+    with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing="):
+        SampledProfile(GRID, f)
+    shape = SampledProfile(GRID, f, smoothing=noise)
+    residual = shape.profile_3d(GRID) - (f - f[0])
+    assert np.std(residual) == pytest.approx(noise, rel=0.3)
+    assert worst(shape.force(np.array([1e-5, 1e-4]), 1), Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
+
+
+def test_a_slope_that_jumps_and_is_not_named_is_off():
+    rough, named = sampled(CappedParaboloid(2 * R, R, B)), sampled(CappedParaboloid(2 * R, R, B), kinks=[B])
+    d = 2e-4
+    F = CappedParaboloid(2 * R, R, B).force(d, 1)
+    assert worst(named.force(d, 1), F) < 1e-11 < 1e-6 < worst(rough.force(d, 1), F) < 1e-2
+
+
+@pytest.mark.parametrize(("r", "f", "how", "error", "words"), [
+    (GRID[1:], GRID[1:], {}, ValueError, "r must begin at 0, the tip from which the depth counts, got 1e-05 m"),
+    (GRID - 1e-3, GRID, {}, ValueError, "got -0.001 m: give one side of a mirrored profile"),
+    (GRID[::-1], GRID, {}, ValueError, "sort the points by r"),
+    (np.repeat(GRID, 2), np.repeat(GRID, 2), {}, ValueError, "r must ascend, got 0 and then 0 .*take the mean"),
+    (GRID, GRID[1:], {}, ValueError, "f must have as many numbers as r, got 200 and 201"),
+    (GRID[:5], GRID[:5], {}, ValueError, "at least 6 numbers, got 5"),
+    (GRID.reshape(3, 67), GRID, {}, ValueError, "r must be one row of numbers in m"),
+    (GRID, GRID * np.nan, {}, ValueError, "f must be finite in m"),
+    (GRID, ["a"] * 201, {}, TypeError, "f must be real numbers in m"),
+    (GRID, GRID**2, {"tip": "flat"}, ValueError, 'tip must be "round" or "sharp"'),
+    (GRID, GRID**2, {"kinks": [1.001e-3]}, ValueError, "among the r.*got 0.001001 m: the nearest is 0.001 m"),
+    (GRID, GRID**2, {"kinks": 3}, TypeError, "kinks must be a sequence of radii"),
+    (GRID, GRID**2, {"smoothing": -1}, ValueError, "smoothing must not be negative"),
+    (GRID, -(GRID**2), {}, ValueError, "annular contact"),
+])  # fmt: skip
+def test_points_that_are_no_profile(r, f, how, error, words):
+    with pytest.raises(error, match=words):
+        SampledProfile(r, f, **how)
+
+
+def test_what_lies_beyond_the_points_is_unknown():
+    shape = MEASURED[0]
+    deepest = float(shape.profile_1d(2e-3))
+    assert shape.contact_radius(deepest) == pytest.approx(2e-3, rel=1e-14)
+    with pytest.raises(ValueError, match=r"deeper than SampledProfile reaches.*r <= 0.002 m.*describe more of it"):
+        shape.force(1.01 * deepest, 1)
+    with pytest.raises(ValueError, match=r"SampledProfile ends at r = 0.002 m, got 0.0021 m"):
+        shape.profile_1d(2.1e-3)
+
+
+# --- a curve of force ---
+
+
+@pytest.mark.parametrize(("shape", "reach", "tip", "tolerance"), [
+    (Paraboloid(R), 1e-3, "any", 1e-11),
+    (Cone(THETA), 1e-3, "any", 1e-11),
+    (FlatPunch(B), B, "any", 1e-11),
+    (Paraboloid(R), 1e-3, "round", 1e-11),
+    (Sphere(R), R / 2, "round", 1e-11),
+    (Sphere(R), R / 2, "any", 1e-3),  # below the first depth
+    (Cone(THETA), 1e-3, "sharp", 1e-11),
+    (TruncatedCone(B, THETA), 2 * B, "flat", 1e-8),
+    (Hyperboloid(1e-4, 1e-4), 2e-3, "round", 1e-5),
+])  # fmt: skip
+def test_the_shape_of_a_force(shape, reach, tip, tolerance):
+    found = from_force(shape, reach, tip=tip)
+    d = found.d[-1] * np.linspace(0.001, 1, 200)
+    assert worst(found.contact_radius(d), shape.contact_radius(d)) < tolerance
+    assert worst(found.force(d, 3.0), shape.force(d, 3.0)) < 2 * tolerance
+    assert worst(found.stiffness(d, 3.0), shape.stiffness(d, 3.0)) < tolerance
+    x = reach * np.linspace(0.001, 0.999, 99)
+    # over the greatest depth; at the edge of a face g has a vertical tangent
+    near = {"any": 0.02 * tolerance, "flat": tolerance**0.5}.get(tip, tolerance)
+    off = np.asarray(found.profile_1d(x)) - shape.profile_1d(x)
+    assert np.max(np.abs(off)) < max(near, 1e-11) * found.d[-1]
+    r = reach * np.array([0.05, 0.3, 0.7, 0.95])
+    off = np.asarray(found.profile_3d(r)) - shape.profile_3d(r)
+    assert np.max(np.abs(off)) < max(near, 1e-10) * found.d[-1]
+    p = shape.pressure(r, 0.99 * found.d[-1], E_STAR)
+    assert worst(found.pressure(r, 0.99 * found.d[-1], E_STAR), p) < max(2e-7, tolerance)
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e3])
+def test_a_force_in_any_unit(scale):
+    d = 1e-5 * np.linspace(0, 1, 30)
+    one = FromForce(d, Sphere(R).force(d, E_STAR), E_STAR)
+    other = FromForce(scale * d, scale**2 * np.asarray(Sphere(R).force(d, E_STAR)), E_STAR)
+    assert_allclose(other.contact_radius(scale * d), scale * one.contact_radius(d), rtol=1e-12)
+    x = 1e-4 * np.array([0.001, 1, 2])
+    assert_allclose(other.profile_1d(scale * x), scale * one.profile_1d(x), rtol=1e-11)
+
+
+def test_the_area_under_the_image_is_what_the_force_leaves():
+    shape = from_force(Sphere(R), R / 2, tip="round")
+    a = R * np.array([0.1, 0.4])
+    assert_allclose(shape.profile_area(a), Sphere(R).profile_area(a), rtol=1e-10)
+    assert_allclose(Indenter.force(shape, 1e-4, 3.0), shape.force(1e-4, 3.0), rtol=1e-12)
+
+
+def test_a_noisy_force_is_smoothed():
+    rng = np.random.default_rng(2)
+    d = np.linspace(0, 1e-4, 100)
+    F = np.asarray(Sphere(R).force(d, E_STAR))
+    noise = 1e-3 * F[-1]
+    noisy = F + np.concatenate([[0], rng.normal(0, noise, 99)])
+    keep = (noisy > 3 * noise) | (d == 0)
+    with pytest.raises(ValueError, match=r"F must|slope falls"):
+        FromForce(d[keep], noisy[keep], E_STAR)
+    shape = FromForce(d[keep], noisy[keep], E_STAR, smoothing=noise)
+    some = np.array([2e-5, 5e-5, 9e-5])
+    assert worst(shape.contact_radius(some), Sphere(R).contact_radius(some)) < 0.01  # a few tenths of a percent
+
+
+@pytest.mark.parametrize(("d", "F", "how", "words"), [
+    (GRID, GRID**0.9, {}, "F must rise more and more steeply.*falls at d = 1e-05 m"),
+    (GRID, np.minimum(GRID, 1e-3 + (GRID - 1e-3) / 2), {}, "F must rise more and more steeply"),
+    (GRID, -GRID, {}, "F must ascend"),
+    (GRID, GRID * 0, {"smoothing": 1.0}, "F must be positive for d > 0"),
+    (GRID + 1e-9, GRID, {}, "d and F must begin with 0, got 1e-09 m and 0 N"),
+    (GRID[:6], GRID[:6], {}, "at least 7 numbers"),
+    (GRID, GRID, {"tip": "blunt"}, "tip must be one of any, round, sharp, flat"),
+    (GRID, GRID, {"E_star": 0}, "E_star must be positive"),
+])  # fmt: skip
+def test_curves_that_no_shape_has(d, F, how, words):
+    with pytest.raises(ValueError, match=words):
+        FromForce(d, F, **{"E_star": E_STAR, **how})
+
+
+def test_deeper_than_it_was_measured():
+    with pytest.raises(ValueError, match=r"d = 0.0001 m is deeper than the force is known, d = 3.9e-05 m"):
+        MEASURED[2].stiffness([1e-6, 1e-4], 1)
+    assert np.array_equal(MEASURED[2].force([-1, 0], 1), [0, 0])
+    assert MEASURED[2].contact_radius(1e-300) > 0
+
+
+# --- both ---
+
+
+@pytest.mark.parametrize("shape", MEASURED, ids=lambda one: repr(one)[:40])
+def test_records_compare_print_and_pickle(shape):
+    twin = pickle.loads(pickle.dumps(shape))
+    assert twin == shape
+    assert hash(twin) == hash(shape)
+    assert twin.force(1e-5, 1) == shape.force(1e-5, 1)
+    assert len(repr(shape)) < 120
+    assert "points" in repr(shape)
+    assert all(isinstance(value, float) for value in vars(shape)[next(iter(vars(shape)))])
+    assert sum(shape == other for other in MEASURED) == 1
+
+
+@pytest.mark.parametrize("shape", MEASURED, ids=lambda one: repr(one)[:40])
+def test_arrays_floats_and_mirror_images(shape):
+    x, d = np.array([[1e-4], [2e-4]]), np.array([1e-5, 2e-5, 3e-5])
+    assert np.array_equal(shape.profile_1d(-x), shape.profile_1d(x))
+    assert shape.pressure(x, d, E_STAR).shape == (2, 3)
+    assert isinstance(shape.pressure(1e-4, 1e-5, 1), float)
+    for ask in (shape.profile_3d, shape.profile_1d, shape.profile_area, shape.contact_radius):
+        assert isinstance(ask(1e-5), float)
+    assert shape.contact_radius(-1.0) == shape.force(0.0, 1) == 0
+
+
+@pytest.mark.parametrize("shape", MEASURED, ids=lambda one: repr(one)[:40])
+def test_a_measured_shape_slides(shape):
+    oscillation = mdr.NormalOscillation(u_z0=2e-5, du_z=2e-6, omega=300.0)
+    case = mdr.SlidingContact(shape, mdr.Elastic(E=3e6, nu=0.5), 0.5, oscillation)
+    springs = mdr.SpringArray.of(case, 64)
+    assert_allclose(springs.normal_force(2.2e-5, 2e-5), shape.force(2.2e-5, case.material.E_star), rtol=1e-9)
