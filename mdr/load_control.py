@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 N_HARMONICS = 256  #: of the depth; its instants are eight times as many
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
 ENOUGH = 1e-4  #: the same with which it may end when it gets no further
-MOST, MEMORY = 300, 10  #: iterations, and how many of them are combined
+MOST, MEMORY = 150, 10  #: iterations, and how many of them are combined
 
 
 def static_depth(shape: Indenter, material: Material, F_z: float) -> float:

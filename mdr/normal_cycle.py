@@ -84,7 +84,7 @@ class _Band:
             grows = some & (ahead > last) & (since < way) & (way < n_t / 2)
             edge = np.where(grows, self.x[last] + since / way * (self.x[ahead] - self.x[last]), ends[last])
         F = F + 2 * (edge - ends[last]) * at_edge
-        first = np.flatnonzero((last == 0) & some & (np.roll(outermost, 1) < 0)) if np.isnan(begins[0]) else begins[:1]
+        first = np.flatnonzero(some & ~np.roll(some, 1)) if np.isnan(begins[0]) else begins[:1]
         return F, np.where(some, edge, radius), np.asarray(2 * np.pi / n_t * (first % n_t))
 
 

@@ -1,0 +1,80 @@
+"""One period of depth: extremes, rates, sums at nodes, and which springs keep contact."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from mdr.cycle import Cycle, peak, peaks
+from mdr.rheology import Rheology
+
+RNG = np.random.default_rng(3)
+SERIES = {
+    "one": (np.array([2e-6]), np.array([0.0])),
+    "two": (np.array([1e-6, 3e-7]), np.array([2e-7, -8e-7])),
+    "many": (1e-6 / np.arange(1, 41) ** 2, 1e-6 * RNG.normal(size=40) / np.arange(1, 41) ** 2),
+}
+
+
+def dense(cycle, n=200_001):
+    return cycle.z(np.linspace(0, 2 * np.pi, n))
+
+
+@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
+def test_extremes_and_scale(series):
+    cycle = Cycle.series(5e-6, 300.0, *series)
+    z = dense(cycle)
+    assert_allclose([cycle.least, cycle.greatest], [z.min(), z.max()], rtol=0, atol=1e-6)  # bend 40²/2 (pi/2e5)²
+    assert cycle.greatest >= z.max() - 1e-14
+    assert_allclose(cycle.greatest - cycle.least, 2, rtol=1e-14)
+    phase = np.array([0.3, 4.0])
+    n = np.arange(1, series[0].size + 1)[:, None]
+    expected = (series[0][:, None] * np.cos(n * phase) + series[1][:, None] * np.sin(n * phase)).sum(axis=0)
+    assert_allclose(cycle.du_z * cycle.z(phase), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
+def test_rate_is_the_derivative(series):
+    cycle, phase, d = Cycle.series(5e-6, 300.0, *series), np.linspace(0, 6, 13), 1e-5
+    # a central difference misses n³ d²/6 of each term
+    assert_allclose(cycle.rate(phase), (cycle.z(phase + d) - cycle.z(phase - d)) / (2 * d), rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
+def test_nodes_are_those_of_the_sum(series):
+    cycle = Cycle.series(5e-6, 300.0, *series)
+    phase = 2 * np.pi * np.arange(257) / 256
+    z, rate = cycle.over_a_period(256)
+    assert_allclose(z, cycle.z(phase), rtol=0, atol=1e-12)
+    assert_allclose(rate, cycle.rate(phase), rtol=0, atol=1e-11)
+
+
+def test_a_harmonic_cycle_is_bitwise_a_cosine():
+    z, rate = Cycle.harmonic(1.0, 2.0, 3.0).over_a_period(64)
+    phase = 2 * np.pi * np.arange(65) / 64
+    assert np.array_equal(z, np.cos(phase))
+    assert np.array_equal(rate, -np.sin(phase))
+
+
+@pytest.mark.parametrize("T", [0.0, 0.7, 5.0])
+def test_kept_gap_is_eq_5(T):
+    cycle = Cycle.harmonic(3.0, 1.0, 1.0)
+    assert_allclose(cycle.kept_gap(Rheology(T).response), -math.hypot(1, T), rtol=1e-14)
+
+
+@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
+def test_kept_gap_is_where_the_least_force_vanishes(series):
+    cycle, rheology = Cycle.series(5e-6, 300.0, *series), Rheology(0.2, (1.5,), (0.8,))
+    n = np.arange(1, series[0].size + 1)
+    phase = np.linspace(0, 2 * np.pi, 100_001)
+    force = (cycle.harmonics * rheology.response(n) * np.exp(1j * np.outer(phase, n))).real.sum(axis=1)
+    assert_allclose(cycle.kept_gap(rheology.response), force.min(), rtol=1e-6)
+
+
+def test_peaks_heed_where_they_may_lie():
+    harmonics = np.array([1.0 + 0j])  # cos: greatest at 0
+    within = np.zeros(64, dtype=bool)
+    within[16:32] = True  # pi/2 to pi
+    assert_allclose(peaks(harmonics, within=within).max(), 0, atol=1e-12)
+    assert_allclose(peak(harmonics), 1)

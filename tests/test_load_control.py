@@ -1,0 +1,130 @@
+"""Depth under an oscillating load: against the contact law inverted, an oscillator integrated, and the linear limit."""
+
+import numpy as np
+import pytest
+from conftest import SHAPES, bowl
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.full_slip import followed
+from mdr.load_control import static_depth
+
+OMEGA = 300.0
+ELASTIC = mdr.Elastic(3e6, 0.4)
+KELVIN = mdr.KelvinVoigt(3e6, 0.4, 1e-3)
+SOLID = mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.4)
+PRONY = mdr.Prony(3e6, [(2e6, 1e-4), (4e6, 3e-3), (1e6, 0.1)], 0.4, 2e-4)
+
+
+def under_load(shape, material, share, m_z=0.0, pull=None, depth=6e-6):
+    indenter = SHAPES[shape][0]
+    F_z0 = float(indenter.force(depth, material.E_star))
+    motion = mdr.LoadOscillation(F_z0, share * F_z0, OMEGA, m_z)
+    return mdr.SlidingContact(indenter, material, 0.4, motion, pull or mdr.RigidPull())
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_static_depth_inverts_the_force(shape):
+    indenter = SHAPES[shape][0]
+    for d in (1e-12, 3e-6, 1e-3):
+        F_z = float(indenter.force(d, ELASTIC.E_star))
+        assert_allclose(static_depth(indenter, ELASTIC, F_z), d, rtol=1e-13)
+
+
+def test_a_load_beyond_the_shape_is_refused():
+    with pytest.raises(ValueError, match="is more than Sphere.* carries"):
+        static_depth(mdr.Sphere(1e-3), ELASTIC, 1e9)
+    assert static_depth(mdr.Profile(bowl), ELASTIC, 1e-3) > 0
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("share", [0.01, 0.6])
+def test_elastic_depth_carries_the_load_at_each_instant(shape, share):
+    case = under_load(shape, ELASTIC, share)
+    cycle, phase = case.cycle, np.linspace(0, 6, 25)
+    u_z = cycle.u_z0 + cycle.du_z * cycle.z(phase)
+    F_z = np.asarray(case.indenter.force(u_z, ELASTIC.E_star))
+    assert_allclose(F_z, case.oscillation.F_z(phase / OMEGA), rtol=1e-12)
+
+
+@pytest.mark.parametrize("material", [KELVIN, SOLID, PRONY], ids=["Kelvin", "solid", "Prony"])
+@pytest.mark.parametrize("m_z", [0.0, 0.03])
+@pytest.mark.parametrize("shape", ["paraboloid", "cone", "flat"])
+def test_forces_balance(shape, material, m_z):
+    case = under_load(shape, material, 0.4, m_z)
+    known = followed(case, 4096)
+    force = material.E_star * known.F_N
+    phase, cycle = 2 * np.pi * np.arange(4096) / 4096, case.cycle
+    n = np.arange(1, cycle.cos.size + 1)
+    inertia = -m_z * OMEGA**2 * cycle.du_z * (n**2 * cycle.harmonics * np.exp(1j * np.outer(phase, n))).real.sum(axis=1)
+    # springs and instants other than those of the search, both of second order; 256 harmonics of a force with kinks
+    limit = 1e-10 if shape == "flat" else 5e-5
+    assert_allclose(inertia + force, case.oscillation.F_z(phase / OMEGA), rtol=0, atol=limit * case.oscillation.F_z0)
+
+
+def test_a_mass_on_a_punch_is_the_linear_oscillator():
+    case = under_load("flat", KELVIN, 0.3, 0.4)
+    motion = case.oscillation
+    u = motion.dF_z / (case.k_zc * (1 + 1j * case.T) - motion.m_z * OMEGA**2)
+    assert_allclose(case.cycle.u_z0, motion.F_z0 / case.k_zc, rtol=1e-12)
+    assert_allclose(case.cycle.du_z * case.cycle.harmonics[0], u, rtol=1e-9)
+    assert case.cycle.du_z == pytest.approx(abs(u), rel=1e-9)
+
+
+def test_a_mass_that_lets_go_is_the_oscillator_marched():
+    case = under_load("flat", mdr.KelvinVoigt(3e6, 0.4, 3e-3), 1.3, 0.02)
+    motion, k, tau = case.oscillation, case.k_zc, case.material.tau
+    n, n_periods = 4000, 40  # of damping: the contact's own
+    dt = 2 * np.pi / OMEGA / n
+    u, w, s, out = case.cycle.u_z0, 0.0, case.cycle.u_z0, np.empty(n)
+    for i in range(n * n_periods):
+        relaxed = s * np.exp(-dt / tau)
+        F_N = k * max(u + tau * w, 0.0) if u >= relaxed else 0.0
+        w += dt * (motion.F_z(i * dt) - F_N) / motion.m_z
+        u += dt * w
+        s = max(u, relaxed)
+        out[i % n] = u
+    u_z = case.cycle.u_z0 + case.cycle.du_z * case.cycle.z(2 * np.pi * np.arange(1, n + 1) / n)
+    assert_allclose(u_z, out, rtol=0, atol=3e-3 * case.cycle.du_z)  # first order in a period/4000
+    assert not case.keeps_contact
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN, SOLID, PRONY], ids=["elastic", "Kelvin", "solid", "Prony"])
+@pytest.mark.parametrize("m_z", [0.0, 0.03])
+def test_a_small_load_is_the_small_depth_that_belongs_to_it(material, m_z):
+    pull = mdr.SpringPull(2e3, 0.02, 0.5)
+    case = under_load("paraboloid", material, 1e-3, m_z, pull)
+    impedance = complex(case.dynamic_stiffness(OMEGA)) - m_z * OMEGA**2
+    u = case.oscillation.dF_z / impedance
+    first = case.cycle.du_z * case.cycle.harmonics[0]
+    assert_allclose(first, u, rtol=1e-3)  # amplitude over depth is 1e-3 or less
+    harmonic = mdr.NormalOscillation(case.working_depth, abs(u), OMEGA)
+    same = mdr.SlidingContact(case.indenter, material, 0.4, harmonic, pull)
+    assert_allclose(mdr.critical_velocity(case), mdr.critical_velocity(same), rtol=1e-12)
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.full_slip_critical_velocity(same), rtol=1e-3)
+    v_0 = 0.5 * mdr.critical_velocity(case)
+    loaded, pressed = (mdr.slide(each, v_0, n_springs=128, steps_per_period=256) for each in (case, same))
+    assert_allclose(1 - loaded.cof / 0.4, 1 - pressed.cof / 0.4, rtol=3e-3)
+    assert_allclose(loaded.mean_F_z, case.oscillation.F_z0, rtol=1e-5)
+
+
+def test_static_cof_of_a_load_is_its_least_value():
+    for material in (ELASTIC, SOLID):
+        assert_allclose(mdr.static_cof(under_load("cone", material, 0.3)), 0.4 * 0.7, rtol=1e-9)
+
+
+def test_the_undamped_natural_frequency_of_the_mass_is_refused_by_name():
+    case = under_load("paraboloid", ELASTIC, 0.01)
+    resonant = mdr.LoadOscillation(case.oscillation.F_z0, case.oscillation.dF_z, OMEGA, case.k_zc / OMEGA**2)
+    at_pole = mdr.SlidingContact(case.indenter, ELASTIC, 0.4, resonant)
+    assert mdr.critical_velocity(at_pole) > 1e6 * mdr.critical_velocity(case)
+    with pytest.raises(ValueError, match="natural frequency of m_z on the contact"):
+        _ = at_pole.cycle
+
+
+def test_units_drop_out():
+    one = under_load("cone", SOLID, 0.5)
+    nano = mdr.LoadOscillation(one.oscillation.F_z0 * 1e-18, one.oscillation.dF_z * 1e-18, OMEGA)
+    small = mdr.SlidingContact(one.indenter, SOLID, 0.4, nano)  # a cone has no length: depth scales with 1e-9
+    assert_allclose(small.cycle.z(np.arange(6.0)), one.cycle.z(np.arange(6.0)), rtol=0, atol=1e-7)
+    assert_allclose(small.cycle.du_z, 1e-9 * one.cycle.du_z, rtol=1e-7)

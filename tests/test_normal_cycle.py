@@ -1,0 +1,64 @@
+"""The normal force followed spring by spring: against the closed form where there is one, and harmonic by harmonic."""
+
+import numpy as np
+import pytest
+from conftest import SHAPES, contact
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.full_slip import full_slip
+from mdr.normal_cycle import normal_cycle
+from mdr.rheology import Rheology
+
+
+@pytest.mark.parametrize("T", [0.0, 0.3, 3.0])
+@pytest.mark.parametrize("depth_ratio", [5.0, 0.6, -0.3])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_force_is_that_of_the_closed_form(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    known, exact = normal_cycle(case.indenter, case.rheology, case.cycle), full_slip(case, 4096)
+    off = np.abs(case.material.E_star * known.F_N - exact.F_N)
+    # but for the instants next to the first touch, of a punch with a jump or of a tip within the first cell; with T = 3
+    # springs at the edge press with 3 times their depth from the first touch on
+    assert np.quantile(off, 0.99) < (1e-4 if T == 3 else 3e-5) * exact.F_N.max()
+    assert_allclose(case.material.E_star * known.F_N.mean(), exact.F_N.mean(), rtol=3e-4 if shape == "flat" else 2e-5)
+    radius = np.abs(known.contact_radius - exact.contact_radius)
+    assert np.quantile(radius, 0.99) < 0.01 * exact.contact_radius.max()
+    assert np.mean(known.in_contact != exact.in_contact) < 2 / 4096 + 1e-12
+
+
+@pytest.mark.parametrize("arms", [((2.0,), (0.7,)), ((5.0, 1.0), (0.01, 40.0))])
+def test_a_punch_that_keeps_contact_answers_by_its_dynamic_modulus(arms):
+    case = contact("flat", 40.0)
+    rheology = Rheology(0.2, *arms)
+    F = normal_cycle(case.indenter, rheology, case.cycle, 64).F_N
+    phase = 2 * np.pi * np.arange(64) / 64
+    expected = 40 + (rheology.response(1) * np.exp(1j * phase)).real
+    assert_allclose(F, 2 * case.indenter.a * case.cycle.du_z * expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("theta", [0.3, 30.0, 3000.0])
+@pytest.mark.parametrize("depth_ratio", [1.0, -0.2])
+def test_arms_are_in_their_periodic_state_however_slow(theta, depth_ratio):
+    # the mean of every arm over a period is zero, so the mean force is that of the mean compression, E_inf alone
+    case = contact("paraboloid", depth_ratio)
+    rheology = Rheology(0.0, (3.0,), (theta,))
+    coarse, fine = (normal_cycle(case.indenter, rheology, case.cycle, n, 128) for n in (1024, 4096))
+    assert_allclose(coarse.F_N.mean(), fine.F_N.mean(), rtol=1e-4)
+    # an arm far slower than the period gives a mean support: the surface stands lower where the indenter leaves it
+    assert fine.F_N.min() >= -1e-18
+    assert fine.F_N.max() > 0
+
+
+def test_touch_is_between_two_instants():
+    case = contact("paraboloid", -0.3)
+    touch = 2 * np.pi - np.arccos(0.3)
+    found = normal_cycle(case.indenter, case.rheology, case.cycle, 256, 64).touches
+    assert_allclose(found, [touch], rtol=0, atol=5e-3)  # of the first spring, whose foot lies a little deeper than the tip
+
+
+def test_two_touches_a_period_are_seen():
+    motion = mdr.PeriodicMotion(300.0, 0.0, cos=(0.0, 2e-6))
+    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.4), 0.4, motion)
+    found = normal_cycle(case.indenter, case.rheology, case.cycle, 512, 64).touches
+    assert_allclose(np.sort(found), [0.75 * np.pi, 1.75 * np.pi], rtol=0, atol=1.01 * 2 * np.pi / 512)
