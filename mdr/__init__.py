@@ -31,6 +31,8 @@ from mdr.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotio
 from mdr.pull import Pull, RigidPull, SpringPull
 from mdr.contact import SlidingContact
 from mdr.springs import SpringArray
+from mdr.indentation import Indentation, indent
+from mdr.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
 from mdr.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.theory import critical_velocity
@@ -38,6 +40,7 @@ from mdr.full_slip import static_cof
 from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.runs import EnergyBalance, SlidingRun, State
 from mdr.sliding import slide
+from mdr.fields import SurfaceFields, surface_fields
 from mdr.friction import CofCurve, cof_curve
 from mdr.measurement import MeasuredVelocity, measure_critical_velocity
 from mdr.judgement import Verdict, verdict
@@ -62,6 +65,7 @@ __all__ = [
     "FlatPunch",
     "FromForce",
     "Hyperboloid",
+    "Indentation",
     "Indenter",
     "KelvinVoigt",
     "LoadOscillation",
@@ -70,6 +74,7 @@ __all__ = [
     "Motion",
     "NormalOscillation",
     "Paraboloid",
+    "PartialSlip",
     "PeriodicMotion",
     "PowerLaw",
     "Profile",
@@ -85,17 +90,23 @@ __all__ = [
     "SpringPull",
     "StandardLinearSolid",
     "State",
+    "SurfaceFields",
+    "TangentialLoop",
     "TruncatedCone",
     "TruncatedParaboloid",
     "Verdict",
     "cof_curve",
     "critical_velocity",
     "full_slip_critical_velocity",
+    "indent",
     "measure_critical_velocity",
     "parse_case",
+    "partial_slip",
     "read_case",
     "slide",
     "static_cof",
+    "surface_fields",
+    "tangential_loop",
     "verdict",
     "write_case",
 ]

@@ -125,17 +125,19 @@ def _velocity(args: argparse.Namespace, case: SlidingContact) -> int:
 
     v_c, full_slip, static = critical_velocity(case), full_slip_critical_velocity(case), static_cof(case)
     equation, kappa = _equation(case), case.material.mindlin_ratio
+    loss = float(case.material.loss_tangent(case.oscillation.omega))
     if args.json:
         return _print_json(args, case, {
             "equation": equation, "v_c": v_c, "full_slip": full_slip, "static_cof": static, "mu_0": case.mu_0,
-            "alpha": case.alpha, "T": case.T, "mindlin_ratio": kappa, "keeps_contact": case.keeps_contact,
+            "alpha": case.alpha, "T": case.T, "loss_tangent": loss, "mindlin_ratio": kappa,
+            "keeps_contact": case.keeps_contact,
         })  # fmt: skip
     _print_rows([
         (equation, _velocity_text(v_c), "critical velocity, contact stiffness at the mean depth"),
         ("full slip", _velocity_text(full_slip), "critical velocity, any amplitude, all harmonics of the force"),
         ("static COF", f"{static:.6g}", f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}"),
-        ("alpha", f"{case.alpha:.6g}", "du_z/u_z0, relative amplitude"),
-        ("T", f"{case.T:.6g}", "omega tau, loss tangent"),
+        ("alpha", f"{case.alpha:.6g}", "half the swing of the depth over its mean, du_z/u_z0"),
+        ("loss", f"{loss:.6g}", "loss tangent of the material at omega; omega tau of a Kelvin body"),
         ("kappa", f"{kappa:.6g}", "E*/G*, Mindlin ratio"),
         ("contact", "kept" if case.keeps_contact else "lost in part of the period", "at its centre, Eq. (5)"),
     ])  # fmt: skip

@@ -68,8 +68,8 @@ class SlidingContact:
         if least < needed:
             raise ValueError(
                 f"u_z0 = {cycle.u_z0:.6g} m is too shallow for {type(self.indenter).__name__}: with this oscillation "
-                f"and material its middle presses only from {needed + cycle.u_z0 - least:.6g} m on; short of that a ring "
-                "would touch, which the method leaves out"
+                f"and material its middle presses only from {needed + cycle.u_z0 - least:.6g} m on; short of that a "
+                "ring would touch, which the method leaves out"
             )
 
     @property

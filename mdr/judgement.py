@@ -10,6 +10,7 @@ import numpy as np
 from mdr.contact import SlidingContact, require_case
 from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.measurement import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
+from mdr.motion import DepthMotion, LoadOscillation
 from mdr.pull import RigidPull, SpringPull
 from mdr.theory import critical_velocity
 
@@ -69,7 +70,12 @@ def verdict(case: SlidingContact) -> Verdict:
         reasons = [found.why]
     if found.v_c is None or not reasons:
         reasons.append(found.why)
-    formula = "Eq. (1)" if isinstance(case.pull, RigidPull) else "Eq. (15)"
+    rigid = isinstance(case.pull, RigidPull) and isinstance(case.oscillation, DepthMotion)
+    formula = "Eq. (1)" if rigid else "Eq. (15)"
+    if isinstance(case.oscillation, LoadOscillation):
+        formula += " at the depth that the load brings about"
+    elif not rigid and case.material.contact_arms:
+        formula += " with the dynamic stiffness of the material"
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula)
 
@@ -85,12 +91,13 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
         )
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"
-    if isinstance(case.pull, RigidPull):
+    if isinstance(case.pull, RigidPull) and isinstance(case.oscillation, DepthMotion):
         if full < eq_15 * (1 - SAME):
             yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
     elif np.isfinite(eq_15) and found.contains(full):
+        what = "depth" if isinstance(case.oscillation, LoadOscillation) else "normal force"
         yield (
-            "at this amplitude the contact stiffness changes within the period and the normal force has harmonics; "
+            f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
             "with them the full-slip condition gives the measured value"
         )
     if found.kind == "hysteresis":

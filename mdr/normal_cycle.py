@@ -49,10 +49,9 @@ def normal_cycle(
         F += 2 * radius[0] * of_harmonics(harmonics, n_t) - float(width[:n_core] @ gap[:n_core])
     in_contact, touches = np.ones(n_t, dtype=bool), np.empty(0)
     if n_core < gap.size:
-        band = _Band(x[n_core:], gap[n_core:], width[n_core:])
-        F, radius, deepest = band.press(F, radius, rheology, cycle)
+        F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, radius, rheology, cycle)
         if not n_core:
-            in_contact, touches = radius > 0, deepest
+            in_contact, touches = _tip(rheology, cycle, n_t)
     return NormalCycle(F * cycle.du_z, radius, in_contact, touches)
 
 
@@ -64,8 +63,8 @@ class _Band:
     gap: Array
     width: Array
 
-    def press(self, F: Array, radius: Array, rheology: Rheology, cycle: Cycle) -> tuple[Array, Array, Array]:
-        """Force (n_t,) and radius of contact with the band; phases at which its first spring touches.
+    def press(self, F: Array, radius: Array, rheology: Rheology, cycle: Cycle) -> tuple[Array, Array]:
+        """Force and radius of contact with the band, (n_t,).
 
         A spring stands for its whole cell. Where contact grows the edge has come part of the way to the next spring,
         and that part of the cells between them presses like the last one: dashpots would jump without it.
@@ -84,8 +83,17 @@ class _Band:
             grows = some & (ahead > last) & (since < way) & (way < n_t / 2)
             edge = np.where(grows, self.x[last] + since / way * (self.x[ahead] - self.x[last]), ends[last])
         F = F + 2 * (edge - ends[last]) * at_edge
-        first = np.flatnonzero(some & ~np.roll(some, 1)) if np.isnan(begins[0]) else begins[:1]
-        return F, np.where(some, edge, radius), np.asarray(2 * np.pi / n_t * (first % n_t))
+        return F, np.where(some, edge, radius)
+
+
+def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array]:
+    """When the tip itself presses (n_t,), a little longer than the first spring; phases of its touches."""
+    z, rate = cycle.over_a_period(n_t)
+    force, shares = np.empty((2, n_t))
+    table = rheology.over_step(2 * np.pi / n_t)
+    kernels.settle_spring(np.empty(table.shape[1]), -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares)
+    begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) == 0))
+    return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
 
 
 def of_harmonics(harmonics: NDArray[np.complex128], n_t: int) -> Array:

@@ -32,7 +32,7 @@ def test_static_depth_inverts_the_force(shape):
 
 
 def test_a_load_beyond_the_shape_is_refused():
-    with pytest.raises(ValueError, match="is more than Sphere.* carries"):
+    with pytest.raises(ValueError, match=r"is more than Sphere.* carries"):
         static_depth(mdr.Sphere(1e-3), ELASTIC, 1e9)
     assert static_depth(mdr.Profile(bowl), ELASTIC, 1e-3) > 0
 

@@ -65,7 +65,7 @@ def test_velocity(capsys):
     out = capsys.readouterr().out
     assert f"Eq. (15)   {mdr.critical_velocity(read_case(EXAMPLE)):.6g} m/s" in out
     assert "alpha      0.1 " in out
-    assert "T          0.314159 " in out
+    assert "loss       0.314159 " in out
 
 
 def test_velocity_for_machines(capsys, punch):

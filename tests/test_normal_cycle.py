@@ -54,7 +54,7 @@ def test_touch_is_between_two_instants():
     case = contact("paraboloid", -0.3)
     touch = 2 * np.pi - np.arccos(0.3)
     found = normal_cycle(case.indenter, case.rheology, case.cycle, 256, 64).touches
-    assert_allclose(found, [touch], rtol=0, atol=5e-3)  # of the first spring, whose foot lies a little deeper than the tip
+    assert_allclose(found, [touch], rtol=0, atol=5e-3)  # the first spring's foot lies a little deeper than the tip
 
 
 def test_two_touches_a_period_are_seen():

@@ -20,14 +20,29 @@ SIGNATURES = {
     "Cone": "theta",
     "Paraboloid": "R",
     "PowerLaw": "n, c",
+    "Sphere": "R",
+    "Ellipsoid": "R, k",
+    "Hyperboloid": "h, c",
+    "TruncatedCone": "b, theta",
+    "TruncatedParaboloid": "b, R",
+    "RoundedPunch": "b, R",
+    "CappedCone": "b, theta",
+    "CappedParaboloid": "R1, R2, b",
+    "ConstantPressure": "a_0, d_0",
+    "ConcavePunch": "a, R",
     "Profile": "f, *, kinks=(), r_max=None, name=None",
     "Elastic": "E, nu",
     "KelvinVoigt": "E, nu, tau",
     "ElasticPair": "E_1, nu_1, E_2, nu_2",
+    "StandardLinearSolid": "E_inf, E_1, tau_1, nu",
+    "Prony": "E_inf, arms, nu, tau=0.0",
     "NormalOscillation": "u_z0, du_z, omega",
+    "PeriodicMotion": "omega, u_z0, cos=(), sin=()",
+    "LoadOscillation": "F_z0, dF_z, omega, m_z=0.0",
     "RigidPull": "",
     "SpringPull": "k_x, m=0.0, c_x=0.0",
     "SlidingContact": "indenter, material, mu_0, oscillation, pull=RigidPull()",
+    "partial_slip": "indenter, material, mu_0, u_z0, u_x",
     "critical_velocity": "case",
     "static_cof": "case",
     "slide": "case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, "
@@ -38,6 +53,8 @@ SIGNATURES = {
 }
 RECORDS = {
     "SlidingRun": "cof cof_error settled kind why stick_share mean_F_x mean_F_z energy_balance t u_x F_x F_z x state",
+    "Indentation": "t u_z F_z contact_radius",
+    "PartialSlip": "F_x F_z stick_radius",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "MeasuredVelocity": "v_c low high kind why",
     "Verdict": "eq_15 full_slip measured deviation holds why",
@@ -55,6 +72,18 @@ def bare(signature):
         p.replace(annotation=inspect.Parameter.empty) for p in signature.parameters.values() if p.name != "self"
     ]
     return str(inspect.Signature(parameters)).replace("'", '"').replace("<factory>", "RigidPull()")
+
+
+@pytest.mark.parametrize(
+    ("name", "begins"),
+    [
+        ("SampledProfile", "(r, f, "),
+        ("FromForce", "(d, F, E_star, "),
+        ("indent", "(indenter, material, t, u_z=None, *, F_z=None, "),
+    ],
+)
+def test_promised_arguments_come_first(name, begins):
+    assert bare(inspect.signature(getattr(mdr, name))).startswith(begins)
 
 
 @pytest.mark.parametrize("name", SIGNATURES)

@@ -1,4 +1,4 @@
-"""The operator over one step: against the differential equations it stands for, and a spring of arms against its twin."""
+"""The operator over one step against its differential equations, and springs of arms against their twin."""
 
 import math
 
@@ -130,7 +130,8 @@ def test_a_fast_arm_is_a_dashpot(v):
     T = 0.4
     kelvin, fast = case(T, [], []), case(0.0, [T / 1e-4], [1e-4])
     # what a dashpot is to an arm of time theta: its force lags by theta
-    assert_allclose(mdr.slide(fast, v * fast.unit_velocity).cof, mdr.slide(kelvin, v * kelvin.unit_velocity).cof, rtol=1e-4)
+    one, two = (mdr.slide(each, v * each.unit_velocity).cof for each in (fast, kelvin))
+    assert_allclose(one, two, rtol=1e-4)
 
 
 def test_a_slow_arm_is_a_spring():

@@ -19,6 +19,8 @@ from validation.report import Claim
 
 CLAIMS = (
     "mapping",
+    "normal_contact",
+    "fields",
     "full_slip_motion",
     "static_cof",
     "rigid_pull",
@@ -26,6 +28,9 @@ CLAIMS = (
     "spring_pull",
     "indentation",
     "generalisation",
+    "catalogue",
+    "rheology",
+    "motions",
     "finite_amplitude",
     "lost_contact",
     "resonances",

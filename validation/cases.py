@@ -9,6 +9,8 @@ contact stiffness at u_z0, omega_0² = k_x/m.
 
 import math
 
+import numpy as np
+
 import mdr
 from mdr.plots import COLOURS
 
@@ -24,8 +26,32 @@ SHAPES: dict[str, mdr.Indenter] = {
     "r^4": mdr.PowerLaw(n=4, c=3 * DEPTH / (8 * RADIUS**4)),  # g = (8/3) c x⁴
 }
 
+SHARES = np.arange(50) / 40  # of the depth, at which the force is known
+GRID = RADIUS * np.linspace(0, 1.2, 49)  # where the sampled shape is known
+CATALOGUE: dict[str, mdr.Indenter] = {  # each touches over the disc of 1 mm at the depth of `depth_of`
+    "sphere": mdr.Sphere(R=1.1 * RADIUS),
+    "ellipsoid": mdr.Ellipsoid(R=0.5 * RADIUS, k=1 / (1.5 * RADIUS)),
+    "hyperboloid": mdr.Hyperboloid(h=0.02 * RADIUS, c=0.2 * RADIUS),
+    "truncated cone": mdr.TruncatedCone(b=0.5 * RADIUS, theta=0.05),
+    "truncated paraboloid": mdr.TruncatedParaboloid(b=0.7 * RADIUS, R=50 * RADIUS),
+    "rounded punch": mdr.RoundedPunch(b=0.6 * RADIUS, R=5 * RADIUS),
+    "capped cone": mdr.CappedCone(b=0.5 * RADIUS, theta=0.05),
+    "capped paraboloid": mdr.CappedParaboloid(R1=200 * RADIUS, R2=25 * RADIUS, b=0.6 * RADIUS),
+    "constant pressure": mdr.ConstantPressure(a_0=RADIUS, d_0=DEPTH),
+    "concave punch": mdr.ConcavePunch(a=RADIUS, R=RADIUS**2 / (0.7 * DEPTH)),
+    "49 points of r^4": mdr.SampledProfile(GRID, 0.01 * RADIUS * (GRID / RADIUS) ** 4),
+    "force ~ d^1.7": mdr.FromForce(DEPTH * SHARES, 2 * E * RADIUS * DEPTH / 1.7 * SHARES**1.7, E_star=E),  # a = F'/2E*
+}
+
 LOOKS = dict(zip(SHAPES, zip(COLOURS, "sv^o", strict=False), strict=False))  #: colour and marker
 POWERS = dict(zip(SHAPES, (math.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n, of which k_zc ~ d^(1/n)
+
+
+def depth_of(indenter: mdr.Indenter) -> float:
+    """Depth at which a shape of the CATALOGUE touches over the disc of 1 mm."""
+    if isinstance(indenter, mdr.ConcavePunch):
+        return DEPTH
+    return float(indenter.profile_1d(RADIUS))
 
 
 def shape_label(shape: str) -> str:

@@ -21,30 +21,12 @@ from numpy.typing import NDArray
 
 import mdr
 import mdr.indenters as shapes
-from validation.cases import DEPTH, OMEGA, RADIUS, SHAPES, E, contact, shape_label
+from validation.cases import CATALOGUE, DEPTH, OMEGA, RADIUS, SHAPES, E, contact, depth_of, shape_label
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
 
 E_STAR = E / (1 - 0.5**2)  # of the rubber
-SHARES = np.arange(50) / 40  # of the depth, at which the force is known
-GRID = RADIUS * np.linspace(0, 1.2, 49)  # where the sampled shape is known
-CATALOGUE: dict[str, mdr.Indenter] = {  # each touches over the disc of 1 mm at the depth of `_depth`
-    "sphere": shapes.Sphere(R=1.1 * RADIUS),
-    "ellipsoid": shapes.Ellipsoid(R=0.5 * RADIUS, k=1 / (1.5 * RADIUS)),
-    "hyperboloid": shapes.Hyperboloid(h=0.02 * RADIUS, c=0.2 * RADIUS),
-    "truncated cone": shapes.TruncatedCone(b=0.5 * RADIUS, theta=0.05),
-    "truncated paraboloid": shapes.TruncatedParaboloid(b=0.7 * RADIUS, R=50 * RADIUS),
-    "rounded punch": shapes.RoundedPunch(b=0.6 * RADIUS, R=5 * RADIUS),
-    "capped cone": shapes.CappedCone(b=0.5 * RADIUS, theta=0.05),
-    "capped paraboloid": shapes.CappedParaboloid(R1=200 * RADIUS, R2=25 * RADIUS, b=0.6 * RADIUS),
-    "constant pressure": shapes.ConstantPressure(a_0=RADIUS, d_0=DEPTH),
-    "concave punch": shapes.ConcavePunch(a=RADIUS, R=RADIUS**2 / (0.7 * DEPTH)),
-    "49 points of r^4": shapes.SampledProfile(GRID, 0.01 * RADIUS * (GRID / RADIUS) ** 4),
-    "force ~ d^1.7": shapes.FromForce(
-        DEPTH * SHARES, 2 * E * RADIUS * DEPTH / 1.7 * SHARES**1.7, E_star=E
-    ),  # a = F'/2E*
-}
 ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim
 PLACES = RADIUS * np.array([0.05, 0.4, 0.7, 0.95])  # within the contact, where the half-space is looked at
 AMPLITUDES = {
@@ -58,7 +40,7 @@ def claim(effort: str) -> Claim:
     amplitudes = AMPLITUDES["quick" if effort == "quick" else "full"]
     counts = (32, 64, 128, 256, 512) if effort == "quick" else (32, 64, 128, 256, 512, 1024, 2048)
     orders = {shape: _errors(shape, 0.3, counts) for shape in SHAPES if shape != "flat punch"}
-    sunk = {shape: _sunk(indenter, _depth(indenter)) for shape, indenter in CATALOGUE.items()}
+    sunk = {shape: _sunk(indenter, depth_of(indenter)) for shape, indenter in CATALOGUE.items()}
     checks = [*_shape_checks(), *_profile_checks(), *_catalogue_checks(sunk), *_sum_checks(amplitudes)]
     checks += [*_catalogue_sum_checks(), *_order_checks(orders, counts)]
     formulas = [check for check in checks if "as a function" not in check.name]
@@ -188,7 +170,7 @@ def _catalogue_checks(sunk: dict[str, Array]) -> list[Check]:
     """Put every shape of the catalogue on the half-space."""
     checks = []
     for shape, indenter in CATALOGUE.items():
-        checks += _half_space_checks(shape, indenter, _depth(indenter), sunk[shape])
+        checks += _half_space_checks(shape, indenter, depth_of(indenter), sunk[shape])
     return checks
 
 
@@ -209,13 +191,6 @@ def _half_space_checks(shape: str, indenter: mdr.Indenter, d: float, sunk: Array
         ),
         Check.at_least(f"{shape}: least p inside the contact [Pa]", pull, 0, "a contact without adhesion never pulls"),
     ]
-
-
-def _depth(indenter: mdr.Indenter) -> float:
-    """Depth at which a shape touches over the disc of 1 mm."""
-    if isinstance(indenter, shapes.ConcavePunch):
-        return DEPTH
-    return float(indenter.profile_1d(RADIUS))
 
 
 def _sunk(indenter: mdr.Indenter, d: float) -> Array:
@@ -295,7 +270,7 @@ def _catalogue_sum_checks() -> list[Check]:
     for shape, indenter in CATALOGUE.items():
         if isinstance(indenter, shapes.ConcavePunch):  # never leaves in complete contact: F_N is linear in the depth
             continue
-        u_z0 = _depth(indenter) / 1.3 * (1 - 1e-9)
+        u_z0 = depth_of(indenter) / 1.3 * (1 - 1e-9)
         motion = mdr.NormalOscillation(u_z0=u_z0, du_z=0.3 * u_z0, omega=OMEGA)
         case = mdr.SlidingContact(indenter, mdr.Elastic(E=E, nu=0.5), 0.5, motion)
         springs, a = mdr.SpringArray.of(case, 100), float(indenter.contact_radius(u_z0))
@@ -421,7 +396,7 @@ def _catalogue_figure(sunk: dict[str, Array]) -> Figure:
     with style():
         fig, axes = plt.subplots(3, 4, figsize=(8.2, 6.2), sharex=True, sharey=True)
         for ax, (shape, indenter) in zip(axes.flat, CATALOGUE.items(), strict=True):
-            d = _depth(indenter)
+            d = depth_of(indenter)
             a = float(indenter.contact_radius(d))
             f = np.asarray(indenter.profile_3d(r * a)) / d
             p = np.asarray(indenter.pressure(np.minimum(r, 0.9995) * a, d, E_STAR))

@@ -1,0 +1,294 @@
+"""Normal contact alone: closed forms of Lee and Radok, Ting's equations solved by quadrature, limits, invariances."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.indentation import Indentation, indent
+from tests.ting import Press
+
+E_1, TAU = 9e6, 1e-2
+MATERIALS = {
+    "elastic": mdr.Elastic(E=3e6, nu=0.3),
+    "pair": mdr.ElasticPair(E_1=3e6, nu_1=0.3, E_2=5e6, nu_2=0.4),
+    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=TAU),
+    "standard": mdr.StandardLinearSolid(E_inf=1e6, E_1=E_1, tau_1=TAU, nu=0.5),
+    "Maxwell": mdr.StandardLinearSolid(E_inf=0, E_1=E_1, tau_1=TAU, nu=0.5),
+    "arms": mdr.Prony(E_inf=1e6, arms=((5e6, 1e-4), (3e6, 1e-2), (2e6, 1.0)), nu=0.4),
+    "arms and dashpot": mdr.Prony(E_inf=1e6, arms=((5e6, 1e-4), (3e6, 1e-2)), nu=0.4, tau=1e-3),
+}
+SHAPES = {"flat": mdr.FlatPunch(a=1e-3), "cone": mdr.Cone(theta=0.05), "paraboloid": mdr.Paraboloid(R=5e-3)}
+DEPTH = 2e-5
+
+
+def depth_of(shape, V):
+    """The depth at which F_N/E* = V, from Boussinesq, Sneddon and Hertz."""
+    return {
+        "flat": V / 2e-3,
+        "cone": np.sqrt(np.pi * math.tan(0.05) * V / 2),
+        "paraboloid": (0.75 * V / math.sqrt(5e-3)) ** (2 / 3),
+    }[shape]
+
+
+# --- closed forms ---
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("material", MATERIALS)
+def test_creep_under_a_step_of_load_is_that_of_lee_and_radok(shape, material):
+    body, F = MATERIALS[material], 0.1
+    t = np.concatenate([[0.0], np.geomspace(1e-8, 1e4, 61)])
+    run = indent(SHAPES[shape], body, t, F_z=np.full(t.size, F))
+    expected = depth_of(shape, F * body.creep_compliance(t))
+    assert_allclose(run.u_z, expected, rtol=1e-12)  # both are sums of exponentials
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("material", MATERIALS)
+def test_a_step_of_depth_relaxes_with_the_modulus(shape, material):
+    body = MATERIALS[material]
+    t = np.concatenate([[1.0], 1 + np.geomspace(1e-6, 1e3, 31)])  # the clock of the body begins with the step
+    run = indent(SHAPES[shape], body, t, np.full(t.size, DEPTH))
+    expected = SHAPES[shape].force(DEPTH, 1.0) * body.relaxation_modulus(t - 1)
+    assert_allclose(run.F_z, expected, rtol=1e-9, atol=1e-12 * expected.max())  # t - 1 loses ten digits of 1e-6 s
+    assert_allclose(run.contact_radius, SHAPES[shape].contact_radius(DEPTH), rtol=1e-12)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_springs_carry_the_load_that_lee_and_radok_creep_under(shape):
+    """The depth comes from a closed form, the force from springs each with its own arm and its own first touch."""
+    body, F = MATERIALS["standard"], 0.1
+    t = np.concatenate([[0.0], np.geomspace(1e-6, 10, 4001)])
+    run = indent(SHAPES[shape], body, t, depth_of(shape, F * body.creep_compliance(t)))
+    # at an edge that creeps loads fall off within 3 % of the depth, over six springs, from E_1 = 9 E_inf: (3 %/6)² 9/12
+    assert_allclose(run.F_z, F, rtol=5e-5)
+    assert np.median(np.abs(run.F_z / F - 1)) < 2e-6
+
+
+def test_an_elastic_contact_has_no_memory():
+    t = np.linspace(0, 1, 301)
+    u_z = DEPTH * np.sin(7 * t) * np.cos(23 * t)
+    for shape in SHAPES.values():
+        run = indent(shape, MATERIALS["elastic"], t, u_z)
+        F_N = shape.force(u_z, MATERIALS["elastic"].E_star)
+        assert_allclose(run.F_z, F_N, atol=1e-12 * F_N.max())
+        assert_allclose(run.contact_radius, shape.contact_radius(u_z), atol=1e-12 * run.contact_radius.max())
+        back = indent(shape, MATERIALS["elastic"], t, F_z=F_N)
+        assert_allclose(back.u_z[F_N > 0], u_z[F_N > 0], atol=1e-9 * DEPTH)  # the force is met to 1e-12 of its peak
+
+
+# --- Ting ---
+
+
+def press(shape, kind, T):
+    """A material of relaxation time T P, and Ting's solution for it, without the library's moduli."""
+    P, E_star = 0.02, 1e6 / (1 - 0.25)
+    c, power = (4 / 3 * math.sqrt(5e-3), 1.5) if shape == "paraboloid" else (2 / np.pi / math.tan(0.05), 2)
+    if kind == "Kelvin":
+        return mdr.KelvinVoigt(E=1e6, nu=0.5, tau=T * P), Press(DEPTH, P, E_star, tau=T * P, c=c, power=power)
+    body = mdr.StandardLinearSolid(E_inf=1e6, E_1=9e6, tau_1=T * P, nu=0.5)
+    return body, Press(DEPTH, P, E_star, 9 * E_star, T * P, c=c, power=power)
+
+
+@pytest.mark.parametrize("shape", ["cone", "paraboloid"])
+@pytest.mark.parametrize("kind", ["Kelvin", "standard"])
+@pytest.mark.parametrize("T", [0.05, 0.5, 5.0])
+def test_press_and_release_is_tings(shape, kind, T):
+    body, ting = press(shape, kind, T)
+    t = np.linspace(0, ting.P, 2001)
+    run = indent(SHAPES[shape], body, t, ting.u(t))
+    some = np.arange(0, 2001, 40)
+    F = np.array([ting.force(at) for at in t[some]])
+    assert_allclose(run.F_z[some], F, atol=5e-5 * F.max())  # 512 springs and 2000 straight pieces of the sine
+    lost = t[np.flatnonzero(run.contact_radius)[-1] + 1]
+    assert lost == pytest.approx(ting.end(), abs=1.5 * ting.P / 2000)  # one sample, and half of one for its velocity
+    before = some[t[some] < min(ting.end(), 0.97 * lost)]
+    a = SHAPES[shape].contact_radius(np.array([ting.depth_of_contact(at) for at in t[before]]))
+    # an edge that retreats by the whole radius within a few samples, T = 5, is known to a share of a sample
+    assert_allclose(
+        run.contact_radius[before], a, atol=2e-3 * a.max() if kind == "standard" or T < 1 else 0.02 * a.max()
+    )
+
+
+def test_contact_is_lost_while_still_compressed():
+    body, ting = press("paraboloid", "standard", 0.5)
+    t = np.linspace(0, ting.P, 2001)
+    run = indent(SHAPES["paraboloid"], body, t, ting.u(t), record=True)
+    last = np.flatnonzero(run.contact_radius)[-1]
+    assert run.u_z[last + 1] > 0.5 * DEPTH
+    assert run.F_z[last + 1] == 0
+    assert run.s[last + 1, 0] == pytest.approx(run.u_z[last + 1], rel=2e-3)  # the spring in the centre left there
+    after = run.s[last + 1 :, 0] / run.s[last + 1, 0]
+    theta = TAU * 10  # free, a spring of moduli 1 and 9 relaxes with tau_1 (1 + 9)/1, here of tau_1 = P/2
+    assert_allclose(after, np.exp(-(t[last + 1 :] - t[last + 1]) / theta), rtol=1e-3)
+
+
+def test_a_second_press_meets_the_relaxed_surface():
+    body = MATERIALS["Kelvin"]
+    t = np.array([0, 1e-4, 1e-4, 5e-3, 5e-3 + 1e-6])
+    u_z = DEPTH * np.array([1, 1, 0, 0, 1.0])
+    still = u_z[1] * np.exp(-(t[3] - t[2]) / TAU)  # of the released spring in the centre
+    t, u_z = (
+        np.append(t[:4], t[3] + np.array([1e-5, 2e-5, 3e-5])),
+        np.append(u_z[:4], still * np.array([0.9, 0.99, 1.01])),
+    )
+    run = indent(SHAPES["paraboloid"], body, t, u_z)
+    assert np.all(run.F_z[2:6] == 0)
+    assert run.F_z[6] > 0
+    flat = indent(SHAPES["flat"], body, t, u_z)
+    assert np.all(flat.F_z[2:6] == 0)
+    assert flat.F_z[6] > 0
+
+
+@pytest.mark.parametrize("material", ["Kelvin", "standard", "arms", "arms and dashpot"])
+def test_after_any_tapping_contact_is_a_disc_and_force_settles_with_the_samples(material):
+    """Loss and late return many times over; a spring that misses its return would leave a ring, or a wrong force."""
+    forces = []
+    for n_t in (501, 4001):
+        t = np.linspace(0, 0.1, n_t)
+        u_z = DEPTH * (0.5 + np.sin(np.pi * t / 0.01) * np.sin(np.pi * t / 0.037))
+        run = indent(SHAPES["paraboloid"], MATERIALS[material], t, u_z, n_springs=256, record=True)
+        pressed = run.q_z > 0
+        assert np.all(pressed[:, :-1] >= pressed[:, 1:])
+        forces.append(run.F_z[:: (n_t - 1) // 500])
+    # straight pieces of 1/50 of the stroke miss (pi/50)²/12 of the glassy force; a dashpot feels their kinks, most of
+    # all where contact begins or ends between two samples, and at both ends of the history, which have one side
+    off = 5e-3 if MATERIALS[material].tau else 1e-3
+    assert_allclose(forces[0][1:-1], forces[1][1:-1], atol=off * forces[1].max())
+
+
+# --- limits and invariances ---
+
+
+def test_force_and_depth_are_each_others_inverse():
+    t = np.linspace(0, 0.03, 401)
+    F = 0.1 * np.maximum(np.sin(np.pi * t / 0.02), 0)
+    F[t > 0.01999] = 0
+    for name in ("standard", "arms", "Maxwell"):
+        for shape in SHAPES.values():
+            there = indent(shape, MATERIALS[name], t, F_z=F)
+            back = indent(shape, MATERIALS[name], t, there.u_z)
+            # a depth is straight between samples where a force is not: (dt/tau)²/12, dt = 7.5e-5 s, in the fastest arm
+            assert_allclose(back.F_z, F, atol=(5e-3 if name == "arms" else 1e-4) * F.max())
+
+
+def test_under_no_force_the_indenter_lies_on_the_surface():
+    body, t = MATERIALS["standard"], np.array([0, 0.01, 0.01, 0.02, 0.2, 2.0])
+    for shape in SHAPES.values():
+        run = indent(shape, body, t, F_z=[0.1, 0.1, 0, 0, 0, 0], record=True)
+        assert np.all(run.contact_radius[2:] == 0)
+        assert np.all(run.q_z[2:] == 0)
+        g = shape.profile_1d(run.x)
+        # the depth is extrapolated in the step of time, which the springs on record are not
+        assert_allclose(run.u_z[2:], np.min(run.s[2:] + g, axis=1), atol=1e-4 * run.u_z[2])
+        assert np.all(np.diff(run.u_z[2:]) < 0)
+        assert run.u_z[-1] < 1e-7 * run.u_z[1]
+    # the elastic part springs back at once, the flat punch by F/(2 a E_0); the steps of time before leave 2e-6
+    flat = indent(SHAPES["flat"], body, t, F_z=[0.1, 0.1, 0, 0, 0, 0])
+    assert flat.u_z[1] - flat.u_z[2] == pytest.approx(0.1 / 2e-3 / body.instantaneous_modulus, rel=1e-5)
+
+
+def test_a_dashpot_takes_no_jump():
+    body, t = MATERIALS["Kelvin"], [0, 0.01, 0.01, 0.02]
+    run = indent(SHAPES["paraboloid"], body, t, F_z=[0.1, 0.1, 0.2, 0.2])
+    assert run.u_z[0] == 0
+    assert run.u_z[1] == run.u_z[2] < run.u_z[3]
+    jump = indent(SHAPES["flat"], body, [0, 0, 1], [0, DEPTH, DEPTH])
+    assert_allclose(jump.F_z, [0, *2 * [2e-3 * body.E_star * DEPTH]], rtol=1e-12)  # its impulse is left out
+
+
+def test_superposed_jumps_are_one():
+    body = MATERIALS["arms"]
+    once = indent(SHAPES["cone"], body, [0, 1e-3], [DEPTH, DEPTH])
+    twice = indent(SHAPES["cone"], body, [0, 0, 0, 1e-3], np.array([0.2, 0.7, 1, 1]) * DEPTH)
+    assert_allclose(twice.F_z[-2:], once.F_z, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("length", "force", "time"), [(1e-9 / 1e-3, 1e-9, 1e-6), (1e3, 1e6, 1e5)])
+def test_units_do_not_matter(length, force, time):
+    """A nanometre tip and a railway wheel: the same digits in scaled form."""
+    t, tau = np.linspace(0, 0.03, 201), 0.01
+    u_z = DEPTH * np.sin(np.pi * t / 0.02)
+    F_z = 0.1 * np.abs(np.sin(np.pi * t / 0.02))
+    bodies = [
+        mdr.StandardLinearSolid(E_inf=1e6 * p, E_1=9e6 * p, tau_1=tau * q, nu=0.5)
+        for p, q in ((1.0, 1.0), (force / length**2, time))
+    ]
+    shapes = [mdr.Paraboloid(R=5e-3), mdr.Paraboloid(R=5e-3 * length)]
+    one, other = (
+        indent(shape, body, t * T, u_z * L)
+        for shape, body, T, L in zip(shapes, bodies, (1, time), (1, length), strict=True)
+    )
+    assert_allclose(other.F_z / force, one.F_z, atol=1e-11 * one.F_z.max())
+    one, other = (
+        indent(shape, body, t * T, F_z=F_z * F)
+        for shape, body, T, F in zip(shapes, bodies, (1, time), (1, force), strict=True)
+    )
+    assert_allclose(other.u_z / length, one.u_z, atol=1e-9 * one.u_z.max())  # solved for, to 1e-12 of the force
+
+
+def test_the_force_is_proportional_to_the_modulus_and_more_springs_change_little():
+    t = np.linspace(0, 0.1, 1001)
+    u_z = DEPTH * np.sin(np.pi * t / 0.02)
+    coarse, fine = (indent(SHAPES["cone"], MATERIALS["standard"], t, u_z, n_springs=n) for n in (128, 1024))
+    assert_allclose(coarse.F_z, fine.F_z, atol=2e-4 * fine.F_z.max())  # 3/128², five releases and returns
+    double = mdr.StandardLinearSolid(E_inf=2e6, E_1=2 * E_1, tau_1=TAU, nu=0.5)
+    twice = indent(SHAPES["cone"], double, t, u_z, n_springs=128)
+    assert_allclose(twice.F_z, 2 * coarse.F_z, atol=1e-12 * coarse.F_z.max())
+
+
+def test_a_depth_history_may_never_touch_or_be_one_sample():
+    run = indent(SHAPES["cone"], MATERIALS["arms"], [0, 1], [-1e-6, 0])
+    assert not run.F_z.any()
+    assert not run.contact_radius.any()
+    assert not indent(SHAPES["cone"], MATERIALS["arms"], [0, 1], F_z=[0, 0]).u_z.any()
+    assert indent(SHAPES["flat"], MATERIALS["elastic"], [0], [DEPTH]).F_z[0] > 0
+
+
+def test_an_outcome_is_a_record():
+    one, two = (indent(SHAPES["cone"], MATERIALS["standard"], [0, 1e-3], [0, DEPTH], record=True) for _ in range(2))
+    assert isinstance(one, Indentation)
+    assert one == two
+    assert hash(one) == hash(two)
+    with pytest.raises(ValueError, match="read-only"):
+        one.F_z[0] = 1
+    assert indent(SHAPES["cone"], MATERIALS["standard"], [0, 1e-3], [0, DEPTH]).x is None
+
+
+# --- refusals ---
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "match"),
+    [
+        ({"t": [0, 2, 1]}, ValueError, "must not descend"),
+        ({"t": [0, math.nan, 1]}, ValueError, "finite"),
+        ({"t": 1.0}, ValueError, "list of instants"),
+        ({"t": []}, ValueError, "list of instants"),
+        ({"t": ["a"]}, TypeError, "real numbers"),
+        ({"u_z": [0, 1e-6]}, ValueError, "3 instants"),
+        ({"u_z": [0, 1e-6, math.inf]}, ValueError, "finite"),
+        ({"u_z": None}, ValueError, "either u_z"),
+        ({"F_z": [0, 1, 1]}, ValueError, "either u_z"),
+        ({"u_z": None, "F_z": [0, -1, 1]}, ValueError, "adhesion"),
+        ({"indenter": mdr.Cone}, TypeError, "indenter must be of kind"),
+        ({"material": 3e6}, TypeError, "material must be of kind"),
+        ({"record": 1}, TypeError, "record"),
+        ({"n_springs": 8}, ValueError, "n_springs"),
+        ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-3)}, ValueError, "deeper"),
+    ],
+)
+def test_what_is_refused(change, error, match):
+    given = {"indenter": SHAPES["cone"], "material": MATERIALS["elastic"], "t": [0, 1, 2], "u_z": [0, DEPTH, DEPTH]}
+    with pytest.raises(error, match=match):
+        indent(**{**given, **change})
+
+
+def test_a_shape_that_ends_before_the_depth_under_a_force_says_so():
+    lens = mdr.Profile(lambda r: r**2 / 1e-2, r_max=1e-3)
+    with pytest.raises(ValueError, match="deeper than Profile reaches"):
+        indent(lens, MATERIALS["elastic"], [0, 1], F_z=[0, 100.0])
+    assert indent(lens, MATERIALS["elastic"], [0, 1], F_z=[0, 0.1]).u_z[1] > 0

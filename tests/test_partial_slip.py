@@ -1,0 +1,159 @@
+"""A pull at fixed depth: Cattaneo-Mindlin, Mindlin-Deresiewicz, and springs that stick and slip one by one."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr import kernels
+from mdr.partial_slip import partial_slip, tangential_loop
+from tests.conftest import SHAPES
+
+BODY = mdr.Elastic(E=3e6, nu=0.3)
+MU_0, DEPTH = 0.4, 2e-5
+ALL = {name: shape for name, (shape, _) in SHAPES.items()}
+ALL["kinked"] = mdr.Profile(lambda r: 0.02 * r + 0.05 * np.maximum(r - 3e-4, 0), kinks=(3e-4,))
+FULL_SLIP = MU_0 * BODY.mindlin_ratio * DEPTH  #: displacement from which every spring slips
+
+
+def spring_by_spring(indenter, path, n=4000):
+    """Tangential force along a path of u_x, by the return mapping of n elastic springs in cells of equal depth.
+
+    A cell between two depths g carries int (d - g) dx = [F_N(d - g_0) - F_N(d - g_1)]/2 E* plus what is stiff there, so
+    that no quadrature comes in: springs of stiffness k_i = G* dx stand at the mean depth of their cells.
+    """
+    a = float(indenter.contact_radius(DEPTH))
+    x = a * np.linspace(0, 1, n + 1)
+    area = np.asarray(indenter.profile_area(x))
+    dx = np.diff(x)
+    limit = MU_0 * BODY.E_star * 2 * dx * np.maximum(DEPTH - np.diff(area) / dx, 0)
+    k = BODY.G_star * 2 * dx
+    f, u, forces = np.zeros(n), 0.0, []
+    for u_new in path:
+        f = np.clip(f + k * (u_new - u), -limit, limit)
+        u = u_new
+        forces.append(f.sum())
+    return np.array(forces)
+
+
+@pytest.mark.parametrize("shape", ALL)
+def test_a_pull_is_that_of_springs_that_slip_one_by_one(shape):
+    u_x = FULL_SLIP * np.linspace(0, 1.1, 12)
+    pulled = partial_slip(ALL[shape], BODY, MU_0, DEPTH, u_x)
+    # a cell in which g rises by dg slips at once instead of one part after the other: (dg/d)²/8 of its share
+    assert_allclose(spring_by_spring(ALL[shape], u_x), pulled.F_x, atol=2e-7 * MU_0 * pulled.F_z)
+
+
+def test_hertz_is_cattaneo_and_mindlin():
+    R = 5e-3
+    a, F_N = math.sqrt(R * DEPTH), 4 / 3 * BODY.E_star * math.sqrt(R) * DEPTH**1.5
+    share = np.array([0.0, 0.3, 0.9, 1.0])
+    u_x = (
+        3 * MU_0 * F_N / (4 * BODY.G_star * a) * (1 - (1 - share) ** (2 / 3))
+    )  # 1/G* = (2 - nu)/(4 G): 3/16 (2 - nu)/G
+    pulled = partial_slip(mdr.Paraboloid(R=R), BODY, MU_0, DEPTH, u_x)
+    assert_allclose(pulled.F_z, F_N, rtol=1e-13)
+    assert_allclose(pulled.F_x, share * MU_0 * F_N, rtol=1e-12, atol=1e-13 * F_N)
+    assert_allclose(pulled.stick_radius, a * (1 - share) ** (1 / 3), rtol=1e-9, atol=1e-5 * a)  # a root at full slip
+
+
+def test_the_punch_sticks_as_a_whole():
+    pulled = partial_slip(mdr.FlatPunch(a=1e-3), BODY, MU_0, DEPTH, FULL_SLIP * np.array([0.5, 0.999, 1.001]))
+    assert_allclose(pulled.stick_radius, [1e-3, 1e-3, 0])
+    assert_allclose(pulled.F_x / (MU_0 * pulled.F_z), [0.5, 0.999, 1], rtol=1e-12)
+
+
+@pytest.mark.parametrize("shape", ALL)
+@pytest.mark.parametrize("share", [0.3, 0.8, 1.4])
+def test_masings_rule_holds_for_springs_of_any_shape(shape, share):
+    """A stretch back of 2 u_x loses twice the force that a first pull of u_x met: the springs are never told so."""
+    U = share * FULL_SLIP
+    w = np.linspace(0, 1, 8) * U
+    first = spring_by_spring(ALL[shape], w, n=500)
+    back = spring_by_spring(ALL[shape], np.concatenate([[U], U - 2 * w]), n=500)
+    assert_allclose(back[0] - back[1:], 2 * first, atol=1e-10 * first.max())  # rounding of 500 springs
+    again = spring_by_spring(ALL[shape], np.concatenate([[U, -U], -U + 2 * w]), n=500)
+    assert_allclose(again[2:] - again[1], 2 * first, atol=1e-10 * first.max())
+
+
+@pytest.mark.parametrize("shape", ALL)
+@pytest.mark.parametrize("share", [0.3, 1.2])
+def test_a_loop_closes_and_costs_its_area(shape, share):
+    loop = tangential_loop(ALL[shape], BODY, MU_0, DEPTH, share * FULL_SLIP, n=2001)
+    assert loop.u_x[0] == loop.u_x[-1]
+    assert loop.F_x[0] == pytest.approx(loop.F_x[-1])
+    area = -float(np.sum(np.diff(loop.u_x) * (loop.F_x[1:] + loop.F_x[:-1]) / 2))
+    # trapezoids on 2000 steps: (pi/4000)²/3 of the rectangle 4 U F around the loop
+    rectangle = 4 * loop.u_x[0] * loop.F_x[0]
+    assert abs(loop.loss) == pytest.approx(abs(area), abs=5e-7 * rectangle)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.4, 0.95])
+def test_the_loop_of_a_sphere_is_that_of_mindlin_and_deresiewicz(share):
+    """Loss in one turn under the force T, 1953, in the form of Johnson (1985): 18/5 (mu N)²/(G* a) [...]."""
+    R = 5e-3
+    a, N = math.sqrt(R * DEPTH), 4 / 3 * BODY.E_star * math.sqrt(R) * DEPTH**1.5
+    theta = 1 - share
+    T = MU_0 * N * (1 - theta**1.5)
+    W = 18 / 5 * (MU_0 * N) ** 2 / (BODY.G_star * a) * (1 - theta**2.5 - 5 * T / (6 * MU_0 * N) * (1 + theta))
+    loop = tangential_loop(mdr.Paraboloid(R=R), BODY, MU_0, DEPTH, share * FULL_SLIP)
+    assert loop.F_x[0] == pytest.approx(T, rel=1e-12)
+    # the bracket is of third order in share: 1e-14 over 0.05³
+    assert loop.loss == pytest.approx(W, rel=1e-9)
+
+
+def test_depth_alone_moves_no_tangential_force_of_a_spring_in_stick():
+    """The compiled step of sliding runs: u_x at rest, depth up and down, extensions below the limit throughout."""
+    gap, w = np.array([-3.0, -1.0, -0.5]), np.full(3, 1 / 3)
+    e = np.array([0.4, -0.2, 0.1])
+    for z_0, z_1 in ((1.0, 2.0), (2.0, 1.0)):
+        new, s = np.empty(3), np.empty(3)
+        kernels.elastic_step(e, new, gap, w, z_0, z_1, z_1 - z_0, z_1 - z_0, 0.0, 0.0, 0.0, 1.0, True)
+        assert_allclose(new, e, rtol=0, atol=0)
+        kernels.kelvin_step(
+            e, z_0 - gap, new, s, gap, w, z_0, z_1, z_1 - z_0, z_1 - z_0, 0.0, 0.0, 0.0, 1.0, 2.0, math.exp(-2)
+        )
+        assert_allclose(new, e, rtol=1e-15)
+
+
+def test_the_slow_pull_knows_the_long_time_modulus_only():
+    body = mdr.StandardLinearSolid(E_inf=3e6, E_1=9e6, tau_1=1.0, nu=0.3)
+    one, two = (partial_slip(mdr.Cone(theta=0.02), m, MU_0, DEPTH, FULL_SLIP / 3) for m in (BODY, body))
+    assert one.F_x == pytest.approx(two.F_x, rel=1e-14)
+
+
+@pytest.mark.parametrize(("length", "force"), [(1e-6, 1e-9), (1e3, 1e6)])
+def test_units_do_not_matter(length, force):
+    one = tangential_loop(mdr.Paraboloid(R=5e-3), BODY, MU_0, DEPTH, FULL_SLIP / 2)
+    body = mdr.Elastic(E=3e6 * force / length**2, nu=0.3)
+    other = tangential_loop(mdr.Paraboloid(R=5e-3 * length), body, MU_0, DEPTH * length, FULL_SLIP / 2 * length)
+    assert_allclose(other.F_x / force, one.F_x, rtol=1e-9, atol=1e-12 * one.F_z)
+    assert other.loss / (force * length) == pytest.approx(one.loss, rel=1e-9)
+
+
+def test_answers_come_in_the_shape_of_the_question():
+    pulled = partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, np.zeros((2, 3)))
+    assert pulled.F_x.shape == pulled.stick_radius.shape == (2, 3)
+    assert isinstance(pulled.F_z, float)
+    assert isinstance(partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, 1e-6).F_x, float)
+    assert pulled == partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, np.zeros((2, 3)))
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "match"),
+    [
+        ({"u_x": [-1e-6]}, ValueError, "monotonic"),
+        ({"u_x": math.nan}, ValueError, "finite"),
+        ({"mu_0": 0.0}, ValueError, "mu_0"),
+        ({"u_z0": -1e-6}, ValueError, "u_z0"),
+        ({"indenter": 3}, TypeError, "indenter"),
+        ({"material": mdr.Elastic}, TypeError, "write Elastic"),
+        ({"material": mdr.StandardLinearSolid(E_inf=0, E_1=1e6, tau_1=1, nu=0.5)}, ValueError, "flows"),
+    ],
+)
+def test_what_is_refused(change, error, match):
+    given = {"indenter": mdr.Cone(theta=0.02), "material": BODY, "mu_0": MU_0, "u_z0": DEPTH, "u_x": 1e-6}
+    with pytest.raises(error, match=match):
+        partial_slip(**{**given, **change})

@@ -1,0 +1,197 @@
+"""Eq. (15) for every shape of the handbook, and for materials with arms.
+
+The four shapes of generalisation.py are powers, g ~ x^n, whose stiffness goes as d^(1/n) at any depth. What counts at
+small amplitude is only how the stiffness changes about the mean depth: with
+
+    s = d ln k_zc/d ln d = g(a)/(a g'(a))   at u_z0
+
+in the place of 1/n, the normal force to second order in du_z is F(u_z0) + k_zc du_z [p + alpha s q], with p and q of
+generalisation.py, and so the deviation of v_c from Eq. (15) is C alpha s with the same C for every shape. A flat punch,
+hollow or not, has s = 0, a worn tip little, a capped one that of its cap or of its flank.
+
+For a material with arms q is another function of the phase, but it is still the same for all shapes.
+
+Symbols: alpha = du_z/u_z0, T = omega tau.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+import mdr
+from mdr.plots import style
+from mdr.progress import progress
+from validation.cases import CATALOGUE, OMEGA, POWERS, SHAPES, E, depth_of
+from validation.generalisation import first_order
+from validation.measured import TOLERANCE, Measured
+from validation.report import Check, Claim, Figure
+
+NU = 0.5
+ALL: dict[str, mdr.Indenter] = {**SHAPES, **CATALOGUE}
+SHARE = 0.6  # of the depth at which the disc of 1 mm is touched: no shape ends there, none is at a corner
+MATERIALS: dict[str, mdr.Material] = {
+    "elastic": mdr.Elastic(E, NU),
+    "ωτ = 1": mdr.KelvinVoigt(E, NU, 1 / OMEGA),
+    "standard solid": mdr.StandardLinearSolid(E, 0.5 * E, 0.7 / OMEGA, NU),
+}
+RATIOS = {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05}
+
+
+def contact(shape: str, material: str, alpha: float, body: bool) -> mdr.SlidingContact:
+    """A shape of the catalogue at its own depth, pulled rigidly or by a body of the same groups."""
+    indenter, made, depth = ALL[shape], MATERIALS[material], mean_depth(shape)
+    pull: mdr.Pull = mdr.RigidPull()
+    if body:
+        k_x = RATIOS["k_ratio"] * float(indenter.stiffness(depth, made.G_star))
+        m = k_x / (RATIOS["omega_0_ratio"] * OMEGA) ** 2
+        pull = mdr.SpringPull(k_x, m, 2 * RATIOS["damping_ratio"] * np.sqrt(k_x * m))
+    return mdr.SlidingContact(indenter, made, 0.5, mdr.NormalOscillation(depth, alpha * depth, OMEGA), pull)
+
+
+def mean_depth(shape: str) -> float:
+    """Mean depth u_z0 [m]; a hollow face needs all of it to press through the period."""
+    indenter = ALL[shape]
+    if indenter.least_depth > 0:
+        return 3 * indenter.least_depth
+    return SHARE * (depth_of(indenter) if shape in CATALOGUE else 20e-6)
+
+
+def slope(shape: str) -> float:
+    """d ln k_zc/d ln d at the mean depth, from the closed form of powers or a central difference."""
+    if shape in POWERS:
+        return 1 / POWERS[shape]
+    d, step = mean_depth(shape), 1e-4
+    low, high = (float(ALL[shape].contact_radius(d * (1 + side * step))) for side in (-1, 1))
+    return float(np.log(high / low) / np.log((1 + step) / (1 - step)))
+
+
+def claim(effort: str) -> Claim:
+    """Every shape: measured, and by the first order of its deviation."""
+    quick = effort == "quick"
+    points = [_measured(*which) for which in progress(_grid(quick), "catalogue")]
+    checks = [*(check for p in points for check in p.checks()), *_order_checks(quick)]
+    return Claim(
+        name="catalogue",
+        title="Eq. (15) for every shape of the handbook",
+        quote=(
+            "… the obtained result in Eq. (15) is valid not only for the simple considered model with a single"
+            " spring-damper combination, but also for quite general contacts (so long as the amplitude of oscillation"
+            " remains small). — Section 2"
+        ),
+        range=(
+            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range; elastic, Kelvin (ωτ = 1) and"
+            f" standard solid; rigid pull and body; {len(points)} measured velocities at α = 0.1, and the full-slip"
+            " value at α → 0 for all shapes."
+        ),
+        measured=(
+            "Rigid pull: Eq. (1) for every shape. Body: what a shape does to v_c at small amplitude is one number, the"
+            " exponent s with which its stiffness changes about the mean depth. The deviation from Eq. (15) is C α s,"
+            " with one C for all shapes, closed forms, sampled points and measured forces alike; a flat or hollow punch"
+            " has none. For a standard solid C is another number, again the same for all shapes."
+        ),
+        verdict="holds if the amplitude is small, or the pull rigid",
+        sentence=(
+            "Every axisymmetric shape obeys Eq. (15) at small amplitude, with an error of C α d ln k_zc/d ln d in which"
+            " C does not know the shape."
+        ),
+        checks=tuple(checks),
+        figures=() if quick else (_figure(),),
+    )
+
+
+# --- measured ---
+
+
+def _grid(quick: bool) -> list[tuple[str, str, bool]]:
+    """shape, material, body."""
+    if quick:
+        return [("capped cone", "elastic", True), ("concave punch", "ωτ = 1", False)]
+    rigid = [(shape, "ωτ = 1", False) for shape in CATALOGUE]
+    return [*rigid, *((shape, "elastic", True) for shape in CATALOGUE)]
+
+
+@dataclass(frozen=True)
+class Point(Measured):
+    """One contact measured from runs alone."""
+
+    where: str
+    rigid: bool
+
+    def checks(self) -> list[Check]:
+        """Against Eq. (1), or the full-slip value."""
+        why = "bracket of the measurement and second order in its step"
+        if self.rigid:
+            return [Check(f"{self.where}: measured v_c over Eq. (1)", self.over_rigid, 1.0, TOLERANCE, why)]
+        return [Check(f"{self.where}: measured v_c over the full-slip value", 1 + self.miss, 1.0, TOLERANCE, why)]
+
+
+@cache
+def _measured(shape: str, material: str, body: bool) -> Point:
+    case = contact(shape, material, 0.1, body)
+    where = f"{shape}, {material}, {'body' if body else 'rigid pull'}"
+    return Point(case, mdr.measure_critical_velocity(case), where, not body)
+
+
+# --- first order in the amplitude ---
+
+
+@cache
+def limit(shape: str, material: str, alpha: float) -> float:
+    """Deviation of the full-slip value from Eq. (15) over alpha, for alpha -> 0: the next power taken out."""
+    cases = (contact(shape, material, share * alpha, True) for share in (1, 2))
+    one, two = ((mdr.full_slip_critical_velocity(c) / mdr.critical_velocity(c) - 1) / c.alpha for c in cases)
+    return 2 * one - two
+
+
+def _order_checks(quick: bool) -> list[Check]:
+    checks = []
+    for material in ("elastic", "ωτ = 1"):
+        for shape in ALL:
+            expected = first_order(contact(shape, material, 0.1, True)) * slope(shape)
+            why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
+            name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
+            checks.append(Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why))
+    shapes = ("cone", "sphere", "capped cone", "force ~ d^1.7") if quick else [s for s in ALL if slope(s) > 0.02]
+    first = limit("paraboloid", "standard solid", 0.01) / slope("paraboloid")
+    for shape in shapes:
+        name = f"{shape}, standard solid: C of its deviation over that of the paraboloid"
+        ratio = limit(shape, "standard solid", 0.01) / slope(shape) / first
+        why = "the third power of α = 0.01, with factors of some units; more where the stiffness changes within it"
+        checks.append(Check(name, ratio, 1.0, 0.02, why))
+    return checks
+
+
+# --- figure ---
+
+
+def _figure() -> Figure:
+    import matplotlib.pyplot as plt
+
+    with style():
+        fig, ax = plt.subplots(figsize=(8.4, 4.4))
+        slopes = np.array([slope(shape) for shape in ALL])
+        for material, colour in zip(MATERIALS, ("C0", "C1", "C2"), strict=True):
+            alpha = 0.01 if material == "standard solid" else 1e-3
+            C = np.array([limit(shape, material, alpha) for shape in ALL])
+            ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
+            ax.plot(slopes, C, "o", ms=5, mfc="white", color=colour, label=material)
+        ax.set(
+            xlabel=r"$s = d\ln k_{zc}/d\ln d$ at the mean depth", ylabel=r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$"
+        )
+        ax.legend(loc="lower left")
+        rows = [f"{abs(slope(shape)):.2f}  {_set(shape)}" for shape in sorted(ALL, key=slope)]
+        ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
+    return Figure(
+        "slopes",
+        "Sixteen shapes under the same body: how fast v_c leaves Eq. (15) with amplitude, over the exponent with which"
+        " the stiffness of the contact changes about its mean depth. All shapes of one material lie on one straight"
+        " line through zero: this exponent is all that v_c knows of a shape at small amplitude.",
+        fig,
+        "Points of sixteen shapes on three straight lines, one for each material.",
+    )
+
+
+def _set(shape: str) -> str:
+    """A shape's name as matplotlib sets it."""
+    return shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$")

@@ -1,0 +1,320 @@
+"""Any linear rheology: Eq. (15) with the dynamic stiffness of the material in the place of k + i gamma omega.
+
+The paper takes one spring and dashpot and names more general rheology as the next step. In full slip the argument does
+not ask what the operator L of the material is: dk_x L[e] = mu_0 dk_z L[s] for every spring makes e = mu_0 kappa s, so
+all springs slip alike, the force on the body is mu_0 F_N, and with the receptance H of the pull
+
+    v_c = mu_0 omega du_z |kappa + K_z(omega) H(omega)|,    K_z(omega) = 2 a E*(omega),
+
+for a constant Poisson's ratio and as long as F_N has a single harmonic: a flat punch that keeps contact at any
+amplitude, every other shape in the limit of small amplitude. With H = 0 the material drops out: Eq. (1).
+
+Below v_c the material shows. An arm that relaxes within a period carries part of the load that oscillates and none of
+the mean, so it lowers the COF; what its dashpot adds is greatest where omega tau_1 is about one.
+
+Symbols: E_inf, E_1, tau_1 long-time modulus, modulus and relaxation time of the arm of a standard solid, T = omega tau
+of the Kelvin branch, alpha = du_z/u_z0, v_hat = v_0 over Eq. (1).
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from mdr.plots import style
+from mdr.progress import progress
+from validation.cases import DEPTH, OMEGA, SHAPES, E, shape_label
+from validation.measured import TOLERANCE, Measured
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+NU = 0.5
+RATIO = 3.0  # E_1/E_inf of the standard solid
+MATERIALS: dict[str, mdr.Material] = {
+    "standard solid, ωτ_1 = 0.5": mdr.StandardLinearSolid(E, RATIO * E, 0.5 / OMEGA, NU),
+    "standard solid, ωτ_1 = 5": mdr.StandardLinearSolid(E, RATIO * E, 5 / OMEGA, NU),
+    "three arms and a dashpot": mdr.Prony(
+        E, ((0.7 * E, 0.03 / OMEGA), (1.3 * E, 1 / OMEGA), (0.4 * E, 30 / OMEGA)), NU, 0.1 / OMEGA
+    ),
+    "power law ω^0.3": mdr.Prony.power_law(modulus=E, exponent=0.3, omega=(OMEGA / 30, 30 * OMEGA), nu=NU, error=1e-2),
+}
+BODY = {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05}
+SEED = 20
+
+
+def contact(
+    shape: str, material: mdr.Material, alpha: float, body: dict[str, float] | None = None, u_z0: float = DEPTH
+) -> mdr.SlidingContact:
+    """A shape on a material, pulled rigidly or by a body whose groups refer to the long-time stiffness."""
+    pull: mdr.Pull = mdr.RigidPull()
+    if body:
+        k_x = body["k_ratio"] * float(SHAPES[shape].stiffness(u_z0, material.G_star))
+        m = k_x / (body["omega_0_ratio"] * OMEGA) ** 2
+        pull = mdr.SpringPull(k_x, m, 2 * body["damping_ratio"] * np.sqrt(k_x * m))
+    return mdr.SlidingContact(SHAPES[shape], material, 0.5, mdr.NormalOscillation(u_z0, alpha * u_z0, OMEGA), pull)
+
+
+def claim(effort: str) -> Claim:
+    """The closed form against runs: random materials, chosen ones measured, the motion in full slip."""
+    quick = effort == "quick"
+    n = 6 if quick else 50
+    chosen = dict(list(MATERIALS.items())[1:3]) if quick else MATERIALS
+    shapes = ("flat punch",) if quick else ("flat punch", "cone", "paraboloid")
+    sides = [_sides(index) for index in progress(range(n), "rheology")]
+    pairs = [(shape, name) for shape in shapes for name in chosen if shape == "flat punch" or "power" not in name]
+    points = [_measured(*pair) for pair in progress(pairs, "rheology, measured")]
+    checks = [*_side_checks(sides), *(check for p in points for check in p.checks()), *_motion_checks(chosen)]
+    checks += [*_limit_checks(), *([] if quick else _amplitude_checks())]
+    figures = () if quick else (_figure_of_curves(), _figure_of_velocities())
+    return Claim(
+        name="rheology",
+        title="Any linear rheology",
+        quote=(
+            "The rheology of a viscoelastic contact has been modelled by a Kelvin body: an extension to more general"
+            " linear rheology is the next step which the paper names; here Eq. (15) is taken with the dynamic stiffness"
+            " of any linear material."
+        ),
+        range=(
+            f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
+            " and without a dashpot) under random bodies; "
+            f"{len(chosen)} chosen materials ({', '.join(chosen)}) measured for {', '.join(shapes)} at 1 % amplitude."
+        ),
+        measured=(
+            "With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is for a"
+            " Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the limit"
+            " of small amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that relaxes"
+            " within a period stiffens the contact against the oscillation but not against the mean load, so that the"
+            " static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one."
+        ),
+        verdict="holds if …",
+        sentence=(
+            "v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)| holds for any linear rheology with constant Poisson's ratio, as Eq."
+            " (15) does: exactly for a punch that keeps contact and for a rigid pull, else for small amplitude."
+        ),
+        checks=tuple(checks),
+        figures=figures,
+    )
+
+
+# --- stick on one side of v_c, none on the other ---
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Runs a little below and above the formula, on a random material."""
+
+    words: str
+    below: mdr.SlidingRun
+    above: mdr.SlidingRun
+
+
+@cache
+def _sides(index: int) -> Sides:
+    rng = np.random.default_rng((SEED, index))
+    n_arms = int(rng.integers(1, 5))
+    arms = tuple((E * 10 ** rng.uniform(-1, 1), 10 ** rng.uniform(-2, 2) / OMEGA) for _ in range(n_arms))
+    T = 10 ** rng.uniform(-1, 0.5) if rng.uniform() < 0.4 else 0.0
+    material = mdr.Prony(E, arms, NU, T / OMEGA)
+    body = {"k_ratio": 10 ** rng.uniform(-0.5, 1), "omega_0_ratio": rng.uniform(0.3, 3), "damping_ratio": 0.1}
+    alpha = 0.5 * E / (abs(complex(material.dynamic_modulus(OMEGA))) * (1 - NU**2))  # half of what would lose contact
+    case = contact("flat punch", material, alpha, body if index % 5 else None)
+    v_c = mdr.critical_velocity(case)
+    runs = [mdr.slide(case, share * v_c, n_springs=32, steps_per_period=1024) for share in (0.98, 1.02)]
+    return Sides(f"{n_arms} arms, ωτ = {T:.2g}", *runs)
+
+
+def _side_checks(sides: list[Sides]) -> list[Check]:
+    why = "at 0.98 v_c a few per cent of the period still stick; above v_c slip never stops"
+    settled = sum(s.below.settled and s.above.settled for s in sides)
+    least = min(s.below.stick_share for s in sides)
+    most = max(s.above.stick_share for s in sides)
+    slip = min(s.above.least_slip / s.above.v_0 for s in sides)
+    full = max(abs(1 - s.above.cof / s.above.mu_0) for s in sides)
+    return [
+        Check("random materials whose runs settle", settled, len(sides), 0, "all of them"),
+        Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why),
+        Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why),
+        Check.at_least("least slip velocity at 1.02 v_c, over v_0", slip, 0.01, "v_0 − v_c is 0.0196 v_0"),
+        Check("greatest 1 − COF/μ_0 at 1.02 v_c", full, 0.0, 1e-11, "full slip but for rounding"),
+    ]
+
+
+# --- measured from runs alone ---
+
+
+@dataclass(frozen=True)
+class Point(Measured):
+    """One contact measured from runs alone."""
+
+    where: str
+    exact: bool  # whether the formula is no limit of small amplitude
+
+    def checks(self) -> list[Check]:
+        """Against the full-slip value, and against the closed form where it is exact."""
+        name = f"measured v_c over the full-slip value: {self.where}"
+        why = "bracket of the measurement and second order in its step"
+        out = [Check(name, 1 + self.miss, 1.0, TOLERANCE, why)]
+        if self.exact:
+            out.append(
+                Check(f"measured v_c over the closed form: {self.where}", 1 + self.deviation, 1.0, TOLERANCE, why)
+            )
+        return out
+
+
+@cache
+def _measured(shape: str, name: str) -> Point:
+    case = contact(shape, MATERIALS[name], 0.01, BODY)
+    return Point(case, mdr.measure_critical_velocity(case), f"{shape}, {name}", shape == "flat punch")
+
+
+# --- motion in full slip ---
+
+
+def _motion_checks(chosen: dict[str, mdr.Material]) -> list[Check]:
+    """The marched motion of the body, and its force, against the harmonic that they must be."""
+    checks = []
+    for name, material in chosen.items():
+        case = contact("flat punch", material, 0.05, BODY)
+        run = mdr.slide(case, 3 * mdr.critical_velocity(case), record=1)
+        assert run.t is not None
+        assert run.u_x is not None
+        assert run.F_z is not None
+        turn = np.exp(1j * OMEGA * run.t)
+        F_1 = complex(case.dynamic_stiffness(OMEGA)) * case.cycle.du_z
+        y_1 = -case.mu_0 * F_1 * complex(case.pull.receptance(OMEGA))
+        y_0 = -case.mu_0 * case.k_zc * DEPTH / complex(case.pull.receptance(0.0) ** -1)
+        off_x = np.abs(run.u_x - run.v_0 * run.t - (y_0 + y_1 * turn).real).max() / abs(y_1)
+        off_z = np.abs(run.F_z - case.k_zc * DEPTH - (F_1 * turn).real).max() / abs(F_1)
+        why = "second order of 1024 steps, h² = 4e-5, of which the harmonic of the recursion keeps a fraction"
+        checks += [
+            Check(f"body in full slip off −μ_0 H F_N, over its swing: {name}", off_x, 0.0, 2e-5, why),
+            Check(f"normal force off K_z(ω) Δu_z, over its swing: {name}", off_z, 0.0, 2e-5, why),
+        ]
+    return checks
+
+
+# --- limits ---
+
+
+def _limit_checks() -> list[Check]:
+    """Fast and slow arms are dashpots and springs."""
+    T, v_hat = 0.7, 0.4
+    kelvin = mdr.KelvinVoigt(E, NU, T / OMEGA)
+    fast = mdr.StandardLinearSolid(E, E * T / 1e-4, 1e-4 / OMEGA, NU)
+    slow = mdr.StandardLinearSolid(E, RATIO * E, 1e5 / OMEGA, NU)
+    one, two = (
+        1 - mdr.slide(c, v_hat * c.unit_velocity).cof / c.mu_0
+        for c in (contact("paraboloid", m, 0.2) for m in (fast, kelvin))
+    )
+    punch = contact("flat punch", slow, 0.1)
+    deficit = 1 - mdr.slide(punch, v_hat * punch.unit_velocity).cof / punch.mu_0
+    return [
+        Check(
+            "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to",
+            one / two, 1.0, 1e-3, "what the force of the arm lags, 1e-4, and the error of the runs",
+        ),
+        Check(
+            "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)",
+            deficit / (0.1 * (1 + RATIO) * mdr.theory.deficit(v_hat)), 1.0, 2e-4, "1e-5 of the arm relaxes in a period",
+        ),
+    ]  # fmt: skip
+
+
+def _amplitude_checks() -> list[Check]:
+    """With small amplitude the closed form is approached in proportion to it, as for a Kelvin material."""
+    checks = []
+    for name in ("standard solid, ωτ_1 = 0.5", "three arms and a dashpot"):
+        for shape in ("cone", "paraboloid"):
+            cases = [contact(shape, MATERIALS[name], alpha, BODY) for alpha in (0.005, 0.01)]
+            one, two = (mdr.full_slip_critical_velocity(c) / mdr.critical_velocity(c) - 1 for c in cases)
+            why = "the next power of α, 1 %, with a factor of some units"
+            checks.append(Check(f"power of α in full slip over closed form − 1: {shape}, {name}",
+                                float(np.log2(two / one)), 1.0, 0.06, why))  # fmt: skip
+    return checks
+
+
+# --- figures ---
+
+
+def _figure_of_curves() -> Figure:
+    import matplotlib.pyplot as plt
+
+    times = (0.1, 0.5, 2.0, 10.0, 100.0)
+    v_hat = np.array([0.02, 0.06, 0.12, 0.2, 0.3, 0.42, 0.55, 0.7, 0.85, 0.95, 1.05])
+    with style():
+        fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.7), sharey=True)
+        for ax, shape in zip(axes, ("flat punch", "paraboloid"), strict=True):
+            for colour, time in zip(plt.get_cmap("viridis")(np.linspace(0, 0.9, len(times))), times, strict=True):
+                case = contact(shape, mdr.StandardLinearSolid(E, RATIO * E, time / OMEGA, NU), 0.15)
+                cof = [mdr.slide(case, v * case.unit_velocity, n_springs=96, steps_per_period=512).cof for v in v_hat]
+                curve = np.array([mdr.static_cof(case), *cof]) / case.mu_0
+                ax.plot([0, *v_hat], curve, "-o", ms=3, color=colour, label=rf"$\omega\tau_1={time:g}$")
+            for modulus, ls, label in ((E, "--", "$E_\\infty$ alone"), (E * (1 + RATIO), ":", "glassy")):
+                case = contact(shape, mdr.Elastic(modulus, NU), 0.15)
+                known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
+                if label == "glassy":  # stiff against the oscillation, soft under the mean load
+                    known_cof = 1 - (1 + RATIO) * (1 - known.cof / case.mu_0)
+                    if shape != "flat punch":
+                        continue
+                else:
+                    known_cof = known.cof / case.mu_0
+                ax.plot(known.v_0 / case.unit_velocity, known_cof, ls, color="0.4", lw=1, label=label)
+            ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
+        axes[0].set_ylabel(r"$\mu/\mu_0$")
+        axes[0].legend(loc="lower right")
+    return Figure(
+        "curves",
+        "COF of a standard solid (E_1 = 3 E_inf, Δu_z/u_z0 = 0.15) under a rigid pull, for relaxation times from a"
+        " tenth of 1/ω to a hundred times it. All curves end at Eq. (1), whatever the rheology. Slow arms (bright)"
+        " never relax within the period and multiply what the oscillation takes from friction: for the punch they end"
+        " on the dotted curve, four times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed.",
+        fig,
+        "Two panels of COF curves, one for each relaxation time, that meet at velocity one.",
+    )
+
+
+def _figure_of_velocities() -> Figure:
+    import matplotlib.pyplot as plt
+
+    times = np.geomspace(1e-2, 1e2, 121)
+    solid: list[Any] = [mdr.StandardLinearSolid(E, RATIO * E, t / OMEGA, NU) for t in times]
+    kelvin: list[Any] = [mdr.KelvinVoigt(E, NU, RATIO * t / OMEGA) for t in times]
+    with style():
+        fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
+        bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
+        for ax, (title, body) in zip(axes, bodies, strict=True):
+            for materials, colour, label in (
+                (solid, "C0", "standard solid"),
+                (kelvin, "C1", "Kelvin, same first loss"),
+            ):
+                cases = [contact("flat punch", material, 0.01, body) for material in materials]
+                ax.semilogx(
+                    times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], color=colour, label=label
+                )
+            for material, ls, label in (
+                (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
+                (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
+            ):
+                soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, body)
+                case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
+                ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
+            for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
+                if body is BODY:
+                    found = _measured("flat punch", name)
+                    label = "measured from runs" if name.endswith("5") and "0.5" in name else None
+                    ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)
+            ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
+        axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
+        axes[0].legend(loc="upper left")
+    return Figure(
+        "velocities",
+        "Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that"
+        " of the long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the"
+        " same loss at low frequency (orange) has no such end and rises without bound.",
+        fig,
+        "Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body.",
+    )
