@@ -5,13 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
 from mdr.fields import from_displacement, from_line_load, surface_fields
 from mdr.indentation import indent
 from mdr.partial_slip import partial_slip
-from tests.conftest import SHAPES
 
 BODY = mdr.Elastic(E=3e6, nu=0.3)
 SOFT = mdr.StandardLinearSolid(E_inf=1e6, E_1=9e6, tau_1=1e-2, nu=0.5)

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from ting import Press
 
 import mdr
 from mdr.indentation import Indentation, indent
-from tests.ting import Press
 
 E_1, TAU = 9e6, 1e-2
 MATERIALS = {

@@ -4,16 +4,29 @@ import math
 
 import numpy as np
 import pytest
+from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
 from mdr import kernels
 from mdr.partial_slip import partial_slip, tangential_loop
-from tests.conftest import SHAPES
 
 BODY = mdr.Elastic(E=3e6, nu=0.3)
 MU_0, DEPTH = 0.4, 2e-5
 ALL = {name: shape for name, (shape, _) in SHAPES.items()}
+ALL |= {
+    "sphere": mdr.Sphere(5e-3),
+    "ellipsoid": mdr.Ellipsoid(2e-3, 300.0),
+    "hyperboloid": mdr.Hyperboloid(1e-5, 2e-4),
+    "truncated cone": mdr.TruncatedCone(3e-4, 0.05),
+    "truncated paraboloid": mdr.TruncatedParaboloid(3e-4, 5e-3),
+    "rounded punch": mdr.RoundedPunch(3e-4, 5e-3),
+    "capped cone": mdr.CappedCone(2e-4, 0.05),
+    "capped paraboloid": mdr.CappedParaboloid(1e-2, 5e-3, 1e-4),
+    "constant pressure": mdr.ConstantPressure(1e-3, 3e-5),
+    "sampled": mdr.SampledProfile(np.linspace(0, 1e-3, 30), 100 * np.linspace(0, 1e-3, 30) ** 2),
+    "from force": mdr.FromForce(np.linspace(0, 3e-5, 40), 4e7 * np.linspace(0, 3e-5, 40) ** 1.5, 4e6),
+}
 ALL["kinked"] = mdr.Profile(lambda r: 0.02 * r + 0.05 * np.maximum(r - 3e-4, 0), kinks=(3e-4,))
 FULL_SLIP = MU_0 * BODY.mindlin_ratio * DEPTH  #: displacement from which every spring slips
 
