@@ -20,8 +20,7 @@ from typing import TYPE_CHECKING, Any
 import mdr
 from mdr.case_files import CaseFileError, read_case, write_case
 from mdr.contact import SlidingContact
-from mdr.pull import SpringPull
-from mdr.theory import critical_velocity
+from mdr.theory import critical_velocity, formula_of
 
 if TYPE_CHECKING:
     from mdr.friction import CofCurve
@@ -124,7 +123,7 @@ def _velocity(args: argparse.Namespace, case: SlidingContact) -> int:
     from mdr.full_slip_body import full_slip_critical_velocity
 
     v_c, full_slip, static = critical_velocity(case), full_slip_critical_velocity(case), static_cof(case)
-    equation, kappa = _equation(case), case.material.mindlin_ratio
+    (equation, how), kappa = _equation(case), case.material.mindlin_ratio
     loss = float(case.material.loss_tangent(case.oscillation.omega))
     if args.json:
         return _print_json(args, case, {
@@ -133,7 +132,7 @@ def _velocity(args: argparse.Namespace, case: SlidingContact) -> int:
             "keeps_contact": case.keeps_contact,
         })  # fmt: skip
     _print_rows([
-        (equation, _velocity_text(v_c), "critical velocity, contact stiffness at the mean depth"),
+        (equation, _velocity_text(v_c), f"critical velocity, {how}"),
         ("full slip", _velocity_text(full_slip), "critical velocity, any amplitude, all harmonics of the force"),
         ("static COF", f"{static:.6g}", f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}"),
         ("alpha", f"{case.alpha:.6g}", "half the swing of the depth over its mean, du_z/u_z0"),
@@ -144,9 +143,10 @@ def _velocity(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE
 
 
-def _equation(case: SlidingContact) -> str:
-    """Which closed form critical_velocity(case) is: without stiffness at the mean depth Eq. (1) is left."""
-    return "Eq. (15)" if isinstance(case.pull, SpringPull) and case.k_zc > 0 else "Eq. (1)"
+def _equation(case: SlidingContact) -> tuple[str, str]:
+    """Number and circumstances of the closed form."""
+    number, closing, rest = formula_of(case).partition(")")
+    return number + closing, rest.strip() or "contact stiffness at the mean depth"
 
 
 def _velocity_text(v: float | None) -> str:
@@ -265,7 +265,7 @@ def _bracket(found: Any) -> list[tuple[str, str, str]]:
 def _verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     from mdr.judgement import verdict
 
-    found = verdict(case)
+    found, (equation, how) = verdict(case), _equation(case)
     names = ("eq_15", "full_slip", "measured", "deviation", "holds", "why")
     if args.json:
         _print_json(args, case, {name: getattr(found, name) for name in names} | {"sentence": str(found)})
@@ -273,10 +273,10 @@ def _verdict(args: argparse.Namespace, case: SlidingContact) -> int:
         print(found)
         off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
         _print_rows([
-            (_equation(case), _velocity_text(found.eq_15), "contact stiffness at the mean depth"),
+            (equation, _velocity_text(found.eq_15), how),
             ("full slip", _velocity_text(found.full_slip), "any amplitude, all harmonics of the force"),
             ("measured", _velocity_text(found.measured), "from simulation alone"),
-            ("deviation", off, f"measured over {_equation(case)}, less 1"),
+            ("deviation", off, f"measured over {equation}, less 1"),
             ("holds", {True: "yes", False: "no", None: "cannot be judged"}[found.holds], ""),
         ])  # fmt: skip
     return DONE if found.holds or found.measured is not None else FAILED  # no v_c on a resonance is an answer

@@ -152,7 +152,8 @@ class SlidingContact:
     @property
     def is_of_the_paper(self) -> bool:
         """Whether depth is harmonic and material without arms: as in the paper, where more is in closed form."""
-        return isinstance(self.oscillation, NormalOscillation) and not self.material.contact_arms
+        harmonic = isinstance(self.oscillation, DepthMotion) and self.cycle.is_harmonic
+        return harmonic and not self.material.contact_arms
 
 
 @lru_cache(maxsize=256)

@@ -104,8 +104,8 @@ def peak(harmonics: NDArray[np.complex128]) -> float:
     return float(peaks(harmonics).max(initial=-np.inf))
 
 
-def peaks(harmonics: NDArray[np.complex128], some: int = 4, within: NDArray[np.bool_] | None = None) -> Array:
-    """Its greatest local maxima, Newton from the highest of equidistant instants; `within` marks those that count."""
+def peaks(harmonics: NDArray[np.complex128], some: int = 24, within: NDArray[np.bool_] | None = None) -> Array:
+    """Its greatest local maxima, Newton from those among equidistant instants; `within` marks those that count."""
     harmonics = np.asarray(harmonics)
     if harmonics.size == 1 and within is None:
         return np.abs(harmonics)
@@ -116,7 +116,9 @@ def peaks(harmonics: NDArray[np.complex128], some: int = 4, within: NDArray[np.b
     values = np.fft.irfft(spectrum, count)
     if within is not None:
         values = np.where(within, values, -np.inf)
-    first = np.argsort(values)[-some:]
+    higher = (values >= np.roll(values, 1)) & (values >= np.roll(values, -1))
+    tops = np.flatnonzero(higher & np.isfinite(values))
+    first = tops[np.argsort(values[tops])[-some:]]
     phase = 2 * np.pi * first / count
     best = values[first]
     for _ in range(20):

@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite_array, plain
-from mdr.contact import SlidingContact, require_case
 from mdr.indentation import Indentation
 from mdr.indenters.quadrature import in_chunks
 from mdr.partial_slip import PartialSlip
@@ -44,7 +43,7 @@ class SurfaceFields(ArrayRecord):
     r: Array  #: distances from the axis [m]
     pressure: Array  #: p [Pa], > 0 presses
     traction: Array  #: on the surface, along the pull [Pa]; > 0 holds the indenter back
-    u_z: Array | None  #: displacement of the surface into the half-space [m]; None where the run does not keep it
+    u_z: Array  #: displacement of the surface into the half-space [m]
     u_x: Array | None  #: displacement of the surface along the pull [m]; None without one
     contact_radius: float  #: a [m]
     stick_radius: float  #: c, outermost radius that sticks [m]
@@ -57,12 +56,11 @@ def surface_fields(
     r: ArrayLike | None = None,
     *,
     i: int = -1,
-    case: SlidingContact | None = None,
 ) -> SurfaceFields:
     """What happens at the surface, at distances r [m] from the axis (None: 0 to 1.5 contact radii), at sample i.
 
     source: an Indentation made with record=True; a PartialSlip, with i counting its u_x; or a SlidingRun made with
-    record (with its case, if elastic, u_z is known too). A rim where p is infinite answers with 0, a sharp tip with
+    record. A rim where p is infinite answers with 0, a sharp tip with
     the value one rounding away.
 
     Raises TypeError for another source, ValueError for one that was not recorded, IndexError for an i that it does
@@ -73,7 +71,7 @@ def surface_fields(
     if isinstance(source, PartialSlip):
         return _of_partial_slip(source, r, i)
     if isinstance(source, SlidingRun):
-        return _of_run(source, case, r, i)
+        return _of_run(source, r, i)
     raise TypeError(f"source must be of kind Indentation, PartialSlip or SlidingRun, got {source!r}")
 
 
@@ -167,10 +165,15 @@ def _of_partial_slip(source: PartialSlip, r: ArrayLike | None, i: int) -> Surfac
     return SurfaceFields(plain(r), plain(p), plain(tau), plain(u_z), plain(u_x_of_r), a, c, source.F_z, F_x)
 
 
-def _of_run(run: SlidingRun, case: SlidingContact | None, r: ArrayLike | None, i: int) -> SurfaceFields:
-    if run.x is None or run.width is None or run.e is None or run.state is None or run.f_z is None or run.f_x is None:
+def _of_run(run: SlidingRun, r: ArrayLike | None, i: int) -> SurfaceFields:
+    kept = (run.x, run.width, run.e, run.s, run.state, run.f_z, run.f_x)
+    if any(values is None for values in kept):
         raise ValueError("the springs of this SlidingRun were not kept: call slide(..., record=1) or more")
-    x, width, f_z, f_x, e = run.x, run.width, run.f_z[i], run.f_x[i], run.e[i]
+    assert run.x is not None
+    assert run.width is not None
+    assert run.state is not None
+    x, width = run.x, run.width
+    e, s, f_z, f_x = (np.asarray(values)[i] for values in (run.e, run.s, run.f_z, run.f_x))
     faces = x + width / 4
     pressed = f_z > 0
     sticks = np.flatnonzero((run.state[i] == State.STICK) & pressed)
@@ -181,9 +184,7 @@ def _of_run(run: SlidingRun, case: SlidingContact | None, r: ArrayLike | None, i
     p, tau = (
         _scaled(*_ended(x[pressed], (f / width)[pressed], a), F, r) if a else 0 * r for f, F in ((f_z, F_z), (f_x, F_x))
     )
-    u_z = None
-    if case is not None and require_case(case).material.tau == 0 and not case.material.contact_arms:
-        u_z = plain(from_displacement(*_from_axis(x, f_z / (case.material.E_star * width)), r))
+    u_z = plain(from_displacement(*_from_axis(x, s), r))
     u_x = plain(from_displacement(*_from_axis(x, e), r))
     return SurfaceFields(plain(r), plain(p), plain(tau), u_z, u_x, a, c, F_z, F_x)
 

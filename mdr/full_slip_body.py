@@ -46,8 +46,10 @@ RESONANT = 1e-10  #: share of F_N that a harmonic on an undamped resonance may h
 def full_slip_critical_velocity(case: SlidingContact) -> float:
     """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape, with all harmonics of F_N.
 
-    To 1e-8 for a harmonic depth on an elastic or Kelvin material; to about 1e-6 for other materials and motions, whose
-    force is followed spring by spring (normal_cycle.py).
+    To 1e-8 for a harmonic depth on an elastic or Kelvin material. Other materials and motions have their force followed
+    spring by spring (normal_cycle.py): to 1e-6 under a rigid pull or a body that keeps contact, to 1e-3 where contact
+    is lost and springs touch again on slow dashpots. The velocity of a body with neither mass nor damper follows the
+    rate of that force: to 1e-3 while contact is kept, and no better than some per cent where it is lost.
 
     Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite too for a body
     without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the

@@ -88,10 +88,15 @@ def indent(
     n_springs: nodes at x >= 0 (None: 512). record keeps the springs' compressions and loads at every sample.
 
     Raises TypeError for a wrong kind of input, ValueError for NaN, infinity, lists of different lengths, instants that
-    descend, a negative force, both or neither of u_z and F_z, or a shape that ends before the depth.
+    descend, a negative force, both or neither of u_z and F_z, a shape that ends before the depth, or a hollow one.
     """
     _require("indenter", indenter, Indenter)
     _require("material", material, Material)
+    if indenter.least_depth > 0:
+        raise ValueError(
+            f"annular contact: pressed from rest, {indenter!r} touches by its rim first, and only from the depth "
+            f"{indenter.least_depth:.6g} m on by its whole face; indent() takes shapes whose contact is always a disc"
+        )
     n_springs = N_SPRINGS if n_springs is None else count("n_springs", n_springs, 16)
     if not isinstance(record, bool):
         raise TypeError(f"record must be True or False, got {record!r}")

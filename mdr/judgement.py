@@ -12,7 +12,7 @@ from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.measurement import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.motion import DepthMotion, LoadOscillation
 from mdr.pull import RigidPull, SpringPull
-from mdr.theory import critical_velocity
+from mdr.theory import critical_velocity, formula_of
 
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
 
@@ -70,12 +70,7 @@ def verdict(case: SlidingContact) -> Verdict:
         reasons = [found.why]
     if found.v_c is None or not reasons:
         reasons.append(found.why)
-    rigid = isinstance(case.pull, RigidPull) and isinstance(case.oscillation, DepthMotion)
-    formula = "Eq. (1)" if rigid else "Eq. (15)"
-    if isinstance(case.oscillation, LoadOscillation):
-        formula += " at the depth that the load brings about"
-    elif not rigid and case.material.contact_arms:
-        formula += " with the dynamic stiffness of the material"
+    formula = formula_of(case)
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula)
 

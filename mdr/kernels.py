@@ -285,18 +285,19 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
 
 
 @_jit
-def settle_spring(x, gap, z, zd, table, force, touches):
-    """One spring in its periodic normal motion, from rest: x (1 + J,) at z[0]; returns its sum of compressions.
+def settle_spring(x, guess, gap, z, zd, table, force, touches):
+    """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions.
 
     Without arms one period is its memory. With arms the passes go on, from the greatest depth, where it presses: what
     an arm changed in one, over the share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is
-    exact for a spring that keeps contact.
+    exact for a spring that keeps contact. Every second time, where the last two changes are alike, what they tend to is
+    added at once. guess (1 + J,): arms to begin with, zero or those of a neighbour; becomes this spring's.
     """
-    start = np.empty(x.size)
+    start, move, last = np.empty(x.size), np.zeros(x.size), np.zeros(x.size)
     total = 0.0
     n_z = z.size - 1
     deepest = np.argmax(z[:n_z])
-    x[:] = 0.0
+    x[:] = guess
     x[0] = max(z[deepest] - gap, 0.0)
     for turn in range(MOST_PASSES):
         start[:] = x
@@ -307,8 +308,16 @@ def settle_spring(x, gap, z, zd, table, force, touches):
             size = max(size, abs(x[j]))
         if turn > 0 and change <= 1e-13 * size:
             break
+        along = length = 0.0
         for j in range(1, x.size):
-            x[j] = start[j] - (x[j] - start[j]) / np.expm1(-2.0 * np.pi / table[L_TIME, j])
+            last[j], move[j] = move[j], -(x[j] - start[j]) / np.expm1(-2.0 * np.pi / table[L_TIME, j])
+            along += table[L_RATIO, j] * last[j] * move[j]
+            length += table[L_RATIO, j] * last[j] * last[j]
+        rate = along / length if turn % 3 == 2 and length > 0.0 else 0.0
+        more = 1.0 / (1.0 - rate) if 0.0 < rate < 0.98 else 1.0
+        for j in range(1, x.size):
+            x[j] = start[j] + more * move[j]
+    guess[:] = x
     press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0))
     return total
 
@@ -320,12 +329,12 @@ def normal_forces(gap, w, z, zd, table, F, outermost, at_edge, begins):
     Fills outermost (n_z,) with the last spring that presses (-1 for none), at_edge (n_z,) with its force over its
     stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
     """
-    x = np.empty(table.shape[1])
+    x, guess = np.empty(table.shape[1]), np.zeros(table.shape[1])
     force, touches = np.empty(F.size), np.empty(F.size)
     outermost[:] = -1
     at_edge[:] = 0.0
     for i in range(gap.size):
-        settle_spring(x, gap[i], z, zd, table, force, touches)
+        settle_spring(x, guess, gap[i], z, zd, table, force, touches)
         n_touches = 0
         for k in range(F.size):
             F[k] += w[i] * force[k]
@@ -373,9 +382,9 @@ def settle_normal(s, gap, w, z, zd, table):
                     total += w[i] * value
                 mean += total if turn == 1 else 0.0
         return mean / n_z
-    nothing = np.empty(0)
+    nothing, guess = np.empty(0), np.zeros(n_x)
     for i in range(gap.size):
-        mean += w[i] * settle_spring(s[:, i], gap[i], z, zd, table, nothing, nothing)
+        mean += w[i] * settle_spring(s[:, i], guess, gap[i], z, zd, table, nothing, nothing)
     return mean / n_z
 
 

@@ -10,7 +10,7 @@ method (1965) combines the last of them. A small amplitude arrives in one step: 
 
 which is where the critical velocity of a load-controlled contact comes from. The mean depth is that of the long-time
 modulus, however slow the material: the search is for the periodic state, not for the way to it. With mass and great
-amplitude several periodic motions may exist; found is the one that continues that of small amplitude.
+amplitude, or near its resonance on the contact, several periodic motions may exist, some unstable; found is one.
 """
 
 from __future__ import annotations

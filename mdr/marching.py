@@ -84,6 +84,7 @@ class Seen:
     slip: Array
     y: Array
     e: Array
+    s: Array
     f_x: Array  # over the stiffness of the spring
     f_z: Array
     mode: NDArray[np.uint8]
@@ -95,7 +96,7 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     cycle = case.cycle
     if cycle.u_z0 > DEEPEST * cycle.du_z:
         raise ValueError(
-            f"du_z = {cycle.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
+            f"the amplitude du_z = {cycle.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
     if v_0 > FASTEST * case.unit_velocity:
@@ -256,10 +257,21 @@ class Line:
         """Put the line into the periodic state that a march would end in, if there is one; else leave it as it was."""
         first = self._state()
         starts = [first]
+        scaled = self.scaled
+        slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
+        if slow and scaled.C:
+            slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
         if self.driven is not None:
             starts.insert(0, np.concatenate([self.e.ravel(), self.driven]))
         for start in starts:
-            found = periodic.find(self._period_from, start, self._size, self._kicks())
+            found = periodic.find(
+                self._period_from,
+                start,
+                self._size,
+                self._kicks(),
+                slow,
+                sure=bool(slow) and (not scaled.K or scaled.C > 0),
+            )
             if found is not None:
                 self._put(found.x)
                 self.advance(1)
@@ -346,7 +358,7 @@ class Line:
         sums, F_x, F_z, slip = np.zeros(kernels.N_SUMS), np.empty(n_steps), np.empty(n_steps), np.empty(n_steps)
         sums[kernels.LEAST_SLIP] = np.inf
         kept = (n_steps if keep else 0, n)
-        e_kept, f_x, f_z, mode = np.empty(kept), np.empty(kept), np.empty(kept), np.zeros(kept, dtype=np.uint8)
+        (e_kept, s_kept, f_x, f_z), mode = np.empty((4, *kept)), np.zeros(kept, dtype=np.uint8)
         y_all, S_all, start = [self.history[2::-1].copy()], [], self.history[3:].copy()
         stored = self._stored()
         done = 0
@@ -381,12 +393,14 @@ class Line:
                 f_z[now],
             )
             if keep:
-                e_kept[now] = e[1:, 0]
+                e_kept[now], s_kept[now] = e[1:, 0], s[1:, 0]
             y_all.append(y)
             S_all.append(S)
             done += part
         self._append(start, np.concatenate(y_all[1:]), np.concatenate(S_all))
-        return Seen(sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, f_x, f_z, mode, (stored, self._stored()))
+        return Seen(
+            sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, s_kept, f_x, f_z, mode, (stored, self._stored())
+        )
 
     def _compression(self, step: int) -> Array:
         """Compressions now; the elastic march does not keep them."""

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import finite, finite_array, not_negative, positive
+from mdr.checks import count, finite, finite_array, not_negative, positive
 from mdr.cycle import Cycle
 
 
@@ -85,7 +85,7 @@ class PeriodicMotion(DepthMotion):
         u_z(t) = u_z0 + sum over n >= 1 of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t).
 
     Several frequencies are harmonics of a common omega; a square-like tapping is a series of many. Amplitudes in m; a
-    list left out, or shorter than the other, is filled with zeros.
+    list left out, or shorter than the other, is filled with zeros, and zeros at the end of both are dropped.
     """
 
     omega: float  #: angular frequency of the period [rad/s]
@@ -97,10 +97,10 @@ class PeriodicMotion(DepthMotion):
         object.__setattr__(self, "omega", positive("omega", self.omega, "angular frequency in rad/s"))
         object.__setattr__(self, "u_z0", finite("u_z0", self.u_z0))
         lists = [_amplitudes("cos", self.cos), _amplitudes("sin", self.sin)]
-        length = max(map(len, lists))
+        length = max((n for values in lists for n, value in enumerate(values, start=1) if value), default=0)
         for name, values in zip(("cos", "sin"), lists, strict=True):
-            object.__setattr__(self, name, values + (0.0,) * (length - len(values)))
-        if not any(self.cos) and not any(self.sin):
+            object.__setattr__(self, name, (values + (0.0,) * length)[:length])
+        if not length:
             raise ValueError("cos and sin are all zero: nothing oscillates; give an amplitude in m")
         deepest = self.u_z0 + self.cycle.du_z * self.cycle.greatest
         if deepest <= 0:
@@ -121,7 +121,7 @@ class PeriodicMotion(DepthMotion):
         if u_z.ndim != 1 or u_z.size < 3:
             raise ValueError(f"u_z must be a list of at least 3 depths over one period, got shape {u_z.shape}")
         most = (u_z.size - 1) // 2
-        keep = most if n_harmonics is None else min(int(n_harmonics), most)
+        keep = most if n_harmonics is None else min(count("n_harmonics", n_harmonics, 1), most)
         spectrum = np.fft.rfft(u_z)[1 : keep + 1] * 2 / u_z.size
         return cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag))
 

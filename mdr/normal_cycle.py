@@ -91,7 +91,8 @@ def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_],
     z, rate = cycle.over_a_period(n_t)
     force, shares = np.empty((2, n_t))
     table = rheology.over_step(2 * np.pi / n_t)
-    kernels.settle_spring(np.empty(table.shape[1]), -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares)
+    state, guess = np.zeros((2, table.shape[1]))
+    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares)
     begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) == 0))
     return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
 

@@ -28,12 +28,15 @@ Measure = Callable[[Array], Array]
 MEMORY = 8  #: periods that are combined
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
 MOST = 80  #: periods after which the search gives up
+A_TIME = (3, 20)  #: how much more memory, and how many more periods, each slow time of a material gets
 CLOSE = 1e-10  #: change over a period, over the size of the state, at which it has arrived
+AWAY = 1e-6  #: distance, over the size of the state, to which a slow time lets a change over a period add up
 GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
 KICK = 1e-4  #: of the body, over the size of the state
 AFTER = 2  #: periods between kick and measurement, in which springs fall in with the body
 FORGOTTEN = 1e-5  #: of a kick: what is left of it is not told from the change over a period
 STABLE = 0.9999  #: largest multiplier that is told from one
+CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,33 +53,50 @@ class FixedPoint:
         return (self.change + 1e-15) / (1 - self.multiplier)  # 1e-15: rounding
 
 
-def find(step: Step, start: Array, measure: Measure, kicks: tuple[Array, ...]) -> FixedPoint | None:
+def find(
+    step: Step,
+    start: Array,
+    measure: Measure,
+    kicks: tuple[Array, ...],
+    slow: tuple[float, ...] = (),
+    sure: bool = False,
+) -> FixedPoint | None:
     """The stable fixed point of `step` near `start`, shape (n,), or None.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. kicks: pushes of unit length.
+    slow: times of the material, in periods, that the springs remember. sure: that with them the motion cannot be
+    unstable, and forgets with these times.
     """
-    found = _anderson(step, start, measure)
+    found = _anderson(step, start, measure, slow)
     if found is None:
         return None
     x, change = found
-    multiplier = _multiplier(step, x, measure, kicks)
-    return FixedPoint(x, change, multiplier) if multiplier < STABLE else None
+    multiplier, missed = _multiplier(step, x, measure, kicks)
+    if not slow:  # few arms are told apart from one another in so short a time
+        multiplier += missed
+    if multiplier >= STABLE and sure:
+        multiplier = float(np.exp(-1 / (CREEP * max(slow))))
+    return FixedPoint(x, change, multiplier) if sure or multiplier < STABLE else None
 
 
-def _anderson(step: Step, x: Array, measure: Measure) -> tuple[Array, float] | None:
+def _anderson(step: Step, x: Array, measure: Measure, slow: tuple[float, ...] = ()) -> tuple[Array, float] | None:
+    memory, most = (n + more * len(slow) for n, more in zip((MEMORY, MOST), A_TIME, strict=True))
+    close = min(CLOSE, AWAY / max(slow)) if slow else CLOSE
     images: list[Array] = []
     changes: list[Array] = []
     least = np.inf
-    for turn in range(MOST):
+    for turn in range(most):
         image = step(x)
         size = float(np.linalg.norm(measure(image))) + 1e-300
+        if not np.isfinite(size):
+            return None
         change = float(np.linalg.norm(measure(image - x))) / size
-        if change <= CLOSE:
+        if change <= close:
             return image, change
         if change > GROWTH * least:
             images, changes, least = [], [], np.inf
         least = min(least, change)
-        images, changes = [*images, image][-MEMORY:], [*changes, image - x][-MEMORY:]
+        images, changes = [*images, image][-memory:], [*changes, image - x][-memory:]
         x = image if turn < PLAIN or len(images) < 2 else _combined(images, changes, measure)
     return None
 
@@ -88,7 +108,8 @@ def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Ar
     return np.asarray(images[-1] - share @ np.diff(np.array(images), axis=0))
 
 
-def _multiplier(step: Step, x: Array, measure: Measure, kicks: tuple[Array, ...]) -> float:
+def _multiplier(step: Step, x: Array, measure: Measure, kicks: tuple[Array, ...]) -> tuple[float, float]:
+    """Largest multiplier of the pushed motions, and what their combinations do not explain."""
     size = KICK * float(np.linalg.norm(measure(x)))
     before, after = [], []
     for kick in kicks:
@@ -100,8 +121,8 @@ def _multiplier(step: Step, x: Array, measure: Measure, kicks: tuple[Array, ...]
     left, lengths, right = np.linalg.svd(np.array(before).T, full_matrices=False)
     lasts = lengths > FORGOTTEN
     if not lasts.any():
-        return float(lengths[0] ** (1 / AFTER))
+        return float(lengths[0] ** (1 / AFTER)), 0.0
     images = np.array(after).T @ right[lasts].T / lengths[lasts]
     onto = left[:, lasts].T @ images
-    missed = np.linalg.norm(images - left[:, lasts] @ onto, axis=0).max()  # what their combinations do not explain
-    return float(np.abs(np.linalg.eigvals(onto)).max() + missed)
+    missed = np.linalg.norm(images - left[:, lasts] @ onto, axis=0).max()
+    return float(np.abs(np.linalg.eigvals(onto)).max()), float(missed)

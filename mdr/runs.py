@@ -65,7 +65,7 @@ class SlidingRun(ArrayRecord):
     is steady, and which: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"; why: what to change
     if it is not. stick_share: force-weighted share of contact time spent sticking. least_slip [m/s]: smallest slip
     velocity of a spring in contact. mean_F_x, mean_F_z [N]. energy_balance [J] of one period. With record: t [s],
-    u_x, u_z [m], F_x, F_z [N] of shape (n_t,), x, width [m] (n_springs,), e [m], f_x, f_z [N] and state
+    u_x, u_z [m], F_x, F_z [N] of shape (n_t,), x, width [m] (n_springs,), e, s [m], f_x, f_z [N] and state
     (n_t, n_springs), modes as in State; otherwise None.
     """
 
@@ -93,6 +93,7 @@ class SlidingRun(ArrayRecord):
     x: Array | None = None  #: (n_springs,) positions [m]
     width: Array | None = None  #: (n_springs,) 2 dx, both sides of the contact [m]
     e: Array | None = None  #: (n_t, n_springs) tangential extensions [m]
+    s: Array | None = None  #: (n_t, n_springs) normal compressions [m]
     f_x: Array | None = None  #: (n_t, n_springs) tangential forces of the springs, pairs at +x and -x [N]
     f_z: Array | None = None  #: (n_t, n_springs) normal forces [N]
     state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
@@ -167,9 +168,9 @@ def _energy_balance(march: March) -> EnergyBalance:
 def _recorded(march: March) -> dict[str, Any]:
     """The last periods in SI, the lumped core spread over the springs it stands for."""
     scaled, springs = march.scaled, march.springs
-    F_x, F_z, y, e, f_x, f_z, mode = (
+    F_x, F_z, y, e, s, f_x, f_z, mode = (
         np.concatenate([getattr(seen, name)[3 if name == "y" else 0 :] for seen in march.record])
-        for name in ("F_x", "F_z", "y", "e", "f_x", "f_z", "mode")
+        for name in ("F_x", "F_z", "y", "e", "s", "f_x", "f_z", "mode")
     )
     n_steps = F_x.size
     t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
@@ -178,7 +179,7 @@ def _recorded(march: March) -> dict[str, Any]:
     n = scaled.n_lumped
     if n > 1:
         core = springs.gap[:n] / scaled.length_z - scaled.gap[0]
-        e, f_x, f_z = (np.concatenate([one[:, :1] - core, one[:, 1:]], axis=1) for one in (e, f_x, f_z))
+        e, s, f_x, f_z = (np.concatenate([one[:, :1] - core, one[:, 1:]], axis=1) for one in (e, s, f_x, f_z))
         mode = np.concatenate([np.repeat(mode[:, :1], n, axis=1), mode[:, 1:]], axis=1)
     phase = np.arange(1, n_steps + 1) % scaled.steps
     share = springs.width / springs.width.sum()
@@ -191,6 +192,7 @@ def _recorded(march: March) -> dict[str, Any]:
         "x": springs.x,
         "width": springs.width,
         "e": e * scaled.length_x,
+        "s": s * scaled.length_z,
         "f_x": f_x * share * scaled.stiffness_x * scaled.length_x,
         "f_z": f_z * share * scaled.stiffness_z * scaled.length_z,
         "state": mode,

@@ -130,7 +130,7 @@ class ScaledContact:
         free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it.
         """
         S_n, turn = np.fft.rfft(S), self._turn()
-        arms_n = [gain * (turn - 1) / (turn - decay) * S_n for decay, gain in self._arms()]
+        arms_n = [self._of_arm(decay, gain, turn) * S_n for decay, gain in self._arms()]
         arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in arms_n]
         history = [0.0, 0.0, 0.0, S[0], S[-1], *(now for now, _ in arms), *(old for _, old in arms)]
         if self.K:
@@ -183,6 +183,12 @@ class ScaledContact:
     def _arms(self) -> list[tuple[float, float]]:
         """Decay and gain of each arm over a step."""
         return [(float(row[0]), float(row[1])) for row in self.table[[kernels.L_DECAY, kernels.L_GAIN], 1:].T]
+
+    def _of_arm(self, decay: float, gain: float, turn: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """What an arm makes of every harmonic of S: nothing of its mean, however slow it is."""
+        below = turn - decay
+        below[0] = 1.0
+        return np.asarray(gain * (turn - 1) / below)
 
     def _turn(self) -> NDArray[np.complex128]:
         """exp(i n h) of every harmonic."""

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from mdr.checks import finite_array
 from mdr.contact import SlidingContact, require_case
 from mdr.cycle import peak
-from mdr.motion import LoadOscillation, NormalOscillation
+from mdr.motion import LoadOscillation
 from mdr.pull import SpringPull
 
 _P = ParamSpec("_P")
@@ -255,12 +255,13 @@ def critical_velocity(case: SlidingContact) -> float:
     no stiffness at the mean depth, and Eq. (1) is left.
     """
     oscillation, kappa, pull = require_case(case).oscillation, case.material.mindlin_ratio, case.pull
-    if case.is_of_the_paper and isinstance(oscillation, NormalOscillation):
+    if case.is_of_the_paper:
+        du_z = case.cycle.du_z
         if not isinstance(pull, SpringPull) or case.k_zc == 0:
-            return eq_1(case.mu_0, oscillation.du_z, oscillation.omega, kappa)
+            return eq_1(case.mu_0, du_z, oscillation.omega, kappa)
         return eq_15(
             case.mu_0,
-            oscillation.du_z,
+            du_z,
             oscillation.omega,
             case.k_zc,
             case.k_xc,
@@ -281,6 +282,15 @@ def critical_velocity(case: SlidingContact) -> float:
     return linear_critical_velocity(
         case.mu_0, omega, u_n, kappa, case.dynamic_stiffness(n_omega), np.asarray(pull.receptance(n_omega))
     )
+
+
+def formula_of(case: SlidingContact) -> str:
+    """Which closed form critical_velocity(case) is, in words; without stiffness at the mean depth Eq. (1) is left."""
+    if isinstance(require_case(case).oscillation, LoadOscillation):
+        return "Eq. (15) at the depth that the load brings about"
+    if not isinstance(case.pull, SpringPull) or case.k_zc == 0:
+        return "Eq. (1)"
+    return "Eq. (15)" + (" with the dynamic stiffness of the material" if case.material.contact_arms else "")
 
 
 # --- the deficit of the flat punch ---

@@ -72,6 +72,15 @@ def test_kept_gap_is_where_the_least_force_vanishes(series):
     assert_allclose(cycle.kept_gap(rheology.response), force.min(), rtol=1e-6)
 
 
+def test_a_spike_beside_a_broad_crest_is_found():
+    n = np.arange(1, 65)
+    spike = 0.02 * np.exp(-1j * n * (4.0 + 0.5 * 2 * np.pi / 1024)) / 1.3
+    harmonics = spike + np.where(n == 1, np.exp(-1j * 1.0) * 0.4, 0)
+    phase = np.linspace(0, 2 * np.pi, 400_001)
+    values = sum((harmonics[k - 1] * np.exp(1j * k * phase)).real for k in n)
+    assert_allclose(peak(harmonics), values.max(), rtol=1e-7)
+
+
 def test_peaks_heed_where_they_may_lie():
     harmonics = np.array([1.0 + 0j])  # cos: greatest at 0
     within = np.zeros(64, dtype=bool)

@@ -129,3 +129,94 @@ BAD = [
 def test_bad_input_stops_at_construction(make, kind, message):
     with pytest.raises(kind, match=re.escape(message)):
         make()
+
+
+# --- memory ---
+
+ARMS = {
+    "one": [(2e6, 1e-2)],
+    "three": [(2e6, 1e-2), (3e6, 1.0), (1e6, 50.0)],
+    "twenty decades": [(1e6, float(tau)) for tau in np.logspace(-10, 10, 21)],
+    "stiff and slow": [(3e12, 1.0), (1e6, 1e6)],
+}
+
+
+@pytest.mark.parametrize("tau", [0.0, 1e-3])
+@pytest.mark.parametrize("arms", ARMS.values(), ids=ARMS)
+def test_creep_is_the_inverse_of_relaxation(arms, tau):
+    body = mdr.Prony(1e6, arms, 0.3, tau)
+    t = np.concatenate([[0.0], np.logspace(-13, 16, 117)])
+    J = body.creep_compliance(t)
+    assert np.all(np.diff(J) >= -1e-13 / body.E_star)
+    assert_allclose(J[-1] * body.E_star, 1, rtol=1e-12)
+    assert_allclose(J[0], 0 if tau else 1 / body.instantaneous_modulus, rtol=1e-12)
+    start, rates, times = body._retardation()
+    assert np.all(times > 0)
+    for omega in np.logspace(-9, 9, 7):  # J*(omega) E*(omega) = 1
+        J_omega = start + np.sum(rates * times / (1 + 1j * omega * times))
+        assert_allclose(J_omega * body.dynamic_modulus(omega), 1, rtol=1e-9)
+
+
+def test_a_maxwell_body_flows():
+    body = mdr.Prony(0.0, [(2e6, 1e-2), (3e6, 1.0)], 0.3)
+    viscosity = (2e6 * 1e-2 + 3e6 * 1.0) / (1 - 0.09)
+    J = body.creep_compliance([0.0, 1e5, 2e5])
+    assert_allclose(J[0], 0.91 / 5e6, rtol=1e-13)
+    assert_allclose((J[2] - J[1]) / 1e5, 1 / viscosity, rtol=1e-9)
+
+
+def test_moduli_in_time_and_frequency_are_those_of_the_arms():
+    body = mdr.Prony(1e6, ARMS["three"], 0.3, 0.2)
+    t, omega = 0.7, 3.0
+    share = 1 / (1 - 0.09)
+    relaxed = 1e6 + sum(E * math.exp(-t / tau) for E, tau in ARMS["three"])
+    assert_allclose(body.relaxation_modulus(t), share * relaxed, rtol=1e-14)
+    dynamic = 1e6 * (1 + 0.2j * omega) + sum(E * 1j * omega * tau / (1 + 1j * omega * tau) for E, tau in ARMS["three"])
+    assert_allclose(body.dynamic_modulus(omega), share * dynamic, rtol=1e-14)
+    assert body.instantaneous_modulus == math.inf
+    assert_allclose(body.G_star * body.mindlin_ratio, body.E_star, rtol=1e-14)
+    assert body.mindlin_ratio == mdr.Elastic(1e6, 0.3).mindlin_ratio
+
+
+def test_arms_are_found_in_dynamic_data():
+    true = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3)
+    omega = np.geomspace(1e-2, 1e4, 61)
+    modulus = np.asarray(true.dynamic_modulus(omega)) * (1 - 0.09)
+    found = mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3)
+    assert found.misfit(omega, modulus.real, modulus.imag) < 1e-9  # two of its times are those of the data
+    assert len(found.arms) == 2
+    rng = np.random.default_rng(5)
+    noisy = modulus * (1 + 0.02 * rng.normal(size=61))
+    assert mdr.Prony.fit(omega, noisy.real, noisy.imag, nu=0.3).misfit(omega, modulus.real, modulus.imag) < 0.03
+
+
+@pytest.mark.parametrize("exponent", [0.1, 0.5, 0.9])
+@pytest.mark.parametrize("error", [1e-2, 1e-4])
+def test_a_power_law_is_followed_within_its_error(exponent, error):
+    body = mdr.Prony.power_law(modulus=3e6, exponent=exponent, omega=(2.0, 2e4), nu=0.5, error=error)
+    omega = np.geomspace(2.0, 2e4, 997)
+    wanted = 3e6 * (1j * omega / 2.0) ** exponent / 0.75
+    assert np.max(np.abs(body.dynamic_modulus(omega) / wanted - 1)) < 1.02 * error
+    assert body.E_star > 0
+
+
+def test_tables_of_arms(tmp_path):
+    body = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3)
+    table, case = tmp_path / "arms.csv", tmp_path / "arms.toml"
+    table.write_text("E_j [Pa],tau_j [s]\n1e6,inf\n2e6,0.01\n3e6,1\n", encoding="utf-8")
+    assert mdr.Prony.read(table, nu=0.3) == body
+    text = '[material]\nmodel = "Prony"\nE_inf = 1e6\narms = [[2e6, 0.01], [3e6, 1.0]]\nnu = 0.3\n'
+    case.write_text(text, encoding="utf-8")
+    assert mdr.Prony.read(case) == body
+    for text, words in (
+        ("tau,E\n1,2\n", "must name the columns E_j and tau_j"),
+        ("E_j,tau_j\n1e6,soft\n", "row 2 is no pair of numbers"),
+        ("E_j,tau_j\n1e6,nan\n", "row 2 must have"),
+    ):
+        table.write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match=words):
+            mdr.Prony.read(table, nu=0.3)
+    for text, words in (("material = 3\n", "must be a table"), ("E_inf = 1.0\n", "arms is missing")):
+        case.write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match=words):
+            mdr.Prony.read(case)

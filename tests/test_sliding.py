@@ -17,7 +17,7 @@ MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
 #: light body on a soft damped spring: it swings so widely that it comes back over the surface
 BACKWARD = {"shape": "paraboloid", "depth_ratio": 10 / 3, "k_ratio": 0.02, "omega_0_ratio": 2.0, "c_ratio": 0.001}
 COARSE = {"n_springs": 96, "steps_per_period": 256}
-RECORDS = ("t", "u_x", "u_z", "F_x", "F_z", "x", "width", "e", "f_x", "f_z", "state")
+RECORDS = ("t", "u_x", "u_z", "F_x", "F_z", "x", "width", "e", "s", "f_x", "f_z", "state")
 SCALARS = [field.name for field in fields(mdr.SlidingRun) if field.name not in RECORDS]
 
 
@@ -54,7 +54,7 @@ def test_recording_changes_no_bit(case, lump):
     longer = coarse(case, 0.43, record=3, lump=lump)
     for name in SCALARS:
         assert getattr(blind, name) == getattr(longer, name), name
-    for name in ("F_x", "F_z", "u_z", "e", "f_x", "f_z", "state"):
+    for name in ("F_x", "F_z", "u_z", "e", "s", "f_x", "f_z", "state"):
         assert_array_equal(getattr(longer, name)[-256:], getattr(seeing, name), err_msg=name)
     assert_allclose(longer.t[-256:], seeing.t, rtol=4e-16)  # worked out from the first instant kept, afresh
 

@@ -96,7 +96,7 @@ def claim(effort: str) -> Claim:
             " C does not know the shape."
         ),
         checks=tuple(checks),
-        figures=() if quick else (_figure(),),
+        figures=(_figure(quick),),
     )
 
 
@@ -106,7 +106,7 @@ def claim(effort: str) -> Claim:
 def _grid(quick: bool) -> list[tuple[str, str, bool]]:
     """shape, material, body."""
     if quick:
-        return [("capped cone", "elastic", True), ("concave punch", "ωτ = 1", False)]
+        return [("capped cone", "elastic", True)]
     rigid = [(shape, "ωτ = 1", False) for shape in CATALOGUE]
     return [*rigid, *((shape, "elastic", True) for shape in CATALOGUE)]
 
@@ -146,13 +146,13 @@ def limit(shape: str, material: str, alpha: float) -> float:
 
 def _order_checks(quick: bool) -> list[Check]:
     checks = []
-    for material in ("elastic", "ωτ = 1"):
+    for material in ("elastic",) if quick else ("elastic", "ωτ = 1"):
         for shape in ALL:
             expected = first_order(contact(shape, material, 0.1, True)) * slope(shape)
             why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
             name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
             checks.append(Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why))
-    shapes = ("cone", "sphere", "capped cone", "force ~ d^1.7") if quick else [s for s in ALL if slope(s) > 0.02]
+    shapes = ("cone", "capped cone") if quick else [s for s in ALL if slope(s) > 0.02]
     first = limit("paraboloid", "standard solid", 0.01) / slope("paraboloid")
     for shape in shapes:
         name = f"{shape}, standard solid: C of its deviation over that of the paraboloid"
@@ -165,13 +165,13 @@ def _order_checks(quick: bool) -> list[Check]:
 # --- figure ---
 
 
-def _figure() -> Figure:
+def _figure(quick: bool) -> Figure:
     import matplotlib.pyplot as plt
 
     with style():
         fig, ax = plt.subplots(figsize=(8.4, 4.4))
         slopes = np.array([slope(shape) for shape in ALL])
-        for material, colour in zip(MATERIALS, ("C0", "C1", "C2"), strict=True):
+        for material, colour in zip(list(MATERIALS)[: 1 if quick else 3], ("C0", "C1", "C2"), strict=False):
             alpha = 0.01 if material == "standard solid" else 1e-3
             C = np.array([limit(shape, material, alpha) for shape in ALL])
             ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
@@ -188,7 +188,7 @@ def _figure() -> Figure:
         " the stiffness of the contact changes about its mean depth. All shapes of one material lie on one straight"
         " line through zero: this exponent is all that v_c knows of a shape at small amplitude.",
         fig,
-        "Points of sixteen shapes on three straight lines, one for each material.",
+        "Points of sixteen shapes on straight lines through zero, one for each material.",
     )
 
 

@@ -157,7 +157,7 @@ def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
     d_c = float(run.u_z[-1]) - float(run.u_x[-1]) / (MU_0 * BODY.mindlin_ratio)
     c = float(SHAPES["paraboloid"].contact_radius(d_c))
     r, _ = disc(c)
-    return surface_fields(run, r, case=case), r, c
+    return surface_fields(run, r), r, c
 
 
 def _run_checks(effort: str) -> list[Check]:

@@ -62,14 +62,14 @@ def claim(effort: str) -> Claim:
     """The closed form against runs: random materials, chosen ones measured, the motion in full slip."""
     quick = effort == "quick"
     n = 6 if quick else 50
-    chosen = dict(list(MATERIALS.items())[1:3]) if quick else MATERIALS
+    chosen = dict(list(MATERIALS.items())[1:2]) if quick else MATERIALS
     shapes = ("flat punch",) if quick else ("flat punch", "cone", "paraboloid")
     sides = [_sides(index) for index in progress(range(n), "rheology")]
     pairs = [(shape, name) for shape in shapes for name in chosen if shape == "flat punch" or "power" not in name]
     points = [_measured(*pair) for pair in progress(pairs, "rheology, measured")]
     checks = [*_side_checks(sides), *(check for p in points for check in p.checks()), *_motion_checks(chosen)]
     checks += [*_limit_checks(), *([] if quick else _amplitude_checks())]
-    figures = () if quick else (_figure_of_curves(), _figure_of_velocities())
+    figures = (_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),)))
     return Claim(
         name="rheology",
         title="Any linear rheology",
@@ -277,7 +277,7 @@ def _figure_of_curves() -> Figure:
     )
 
 
-def _figure_of_velocities() -> Figure:
+def _figure_of_velocities(quick: bool) -> Figure:
     import matplotlib.pyplot as plt
 
     times = np.geomspace(1e-2, 1e2, 121)
@@ -303,7 +303,7 @@ def _figure_of_velocities() -> Figure:
                 case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
                 ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
             for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
-                if body is BODY:
+                if body is BODY and not quick:
                     found = _measured("flat punch", name)
                     label = "measured from runs" if name.endswith("5") and "0.5" in name else None
                     ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)

@@ -104,17 +104,17 @@ class System:
 
 def scatter(line: Line, rng: np.random.Generator) -> None:
     """Stretch every spring at random within its cone of friction, and push the body by some units both ways."""
-    line.e[:] = rng.uniform(-1, 1, line.e.size) * line.s
+    line.e[0] = rng.uniform(-1, 1, line.e.size) * line.s[0]
     y, y_dot = line.history[0] + rng.normal(), line.v * rng.normal()
     line.history[:3] = y - np.arange(3) * line.scaled.h * y_dot
-    line.history[3:] = line.scaled.w @ line.e
+    line.history[3:] = line.scaled.w @ line.e[0]
 
 
 def distance(one: Line, two: Line) -> float:
     """D of the module, in scaled form."""
     scaled, y = one.scaled, one.history[:3] - two.history[:3]
     y_dot = (1.5 * y[0] - 2 * y[1] + 0.5 * y[2]) / scaled.h
-    return float(0.5 * (scaled.M * y_dot**2 + scaled.K * y[0] ** 2 + scaled.w @ (one.e - two.e) ** 2))
+    return float(0.5 * (scaled.M * y_dot**2 + scaled.K * y[0] ** 2 + scaled.w @ (one.e[0] - two.e[0]) ** 2))
 
 
 @cache

@@ -19,6 +19,7 @@ eta shear viscosity [Pa s], omega angular frequency [rad/s], t time [s].
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -107,27 +108,27 @@ class Material(ABC):
     def _retardation(self) -> tuple[float, FloatArray, FloatArray]:
         """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): its start, the rates and the times of retardation.
 
-        Written with the roots of the energies, sqrt(E_j) q_j, the free motion under constant load is a symmetric
-        matrix, whose eigenvalues are -1/theta.
+        They are the zeros -1/theta of E*(p), p in the place of i omega, one between any two poles -1/tau_j, one between
+        the slowest and zero (at zero for a body that flows), and one beyond the fastest where there is a dashpot. Each
+        is found for itself, so that times of many decades stand beside one another.
         """
-        arms = np.array(self.contact_arms).reshape(-1, 2)
-        E_j, tau_j = arms[:, 0], arms[:, 1]
-        if self.tau > 0:  # the dashpot carries what springs and arms leave of the load
-            roots = np.sqrt(np.concatenate([[self.E_star], E_j]))
-            relax = np.concatenate([[0.0], 1 / tau_j])
-            eta = self.E_star * self.tau
-            values, vectors = np.linalg.eigh(-np.outer(roots, roots) / eta - np.diag(relax))
-            start, push, read = 0.0, vectors.T @ roots / eta, vectors[0] / roots[0]
-        else:
-            glassy = self.E_star + E_j.sum()
-            roots = np.sqrt(E_j / tau_j)
-            values, vectors = np.linalg.eigh(np.outer(roots, roots) / glassy - np.diag(1 / tau_j))
-            start, push, read = 1 / glassy, vectors.T @ roots / glassy, roots @ vectors / glassy
-        flows = values > -1e-14 * np.abs(values).max(initial=0.0)
-        if self.E_star > 0:
-            flows[:] = False
+        times = sorted({tau_j for _, tau_j in self.contact_arms}, reverse=True)
+        E_j = np.array([sum(E for E, tau_j in self.contact_arms if tau_j == time) for time in times])
+        poles = 1 / np.array(times)  # ascending; x = -p
+        start = 0.0 if self.tau > 0 else 1 / self.instantaneous_modulus
+
+        def modulus(log_x: float) -> float:
+            x = np.exp(log_x)
+            return float(self.E_star * (1 - x * self.tau) + np.sum(E_j * x / (x - poles)))
+
+        ends = [-np.inf, *np.log(poles), np.inf]
+        first = 1 if self.E_star == 0 else 0
+        last = len(ends) - 1 if self.tau > 0 else len(ends) - 2
+        roots = [0.0] * first + [float(np.exp(_falls(modulus, *ends[k : k + 2]))) for k in range(first, last)]
+        x = np.array(roots)
+        slope = self.E_star * self.tau + np.sum(E_j * poles / (poles - x[:, None]) ** 2, axis=1)  # dE*/dp
         with np.errstate(divide="ignore"):
-            return float(start), push * read, np.where(flows, np.inf, -1 / values)
+            return float(start), 1 / slope, np.where(x > 0, 1 / x, np.inf)
 
     def loss_tangent(self, omega: ArrayLike) -> NDArray[np.float64] | float:
         """Loss over storage modulus at omega [rad/s]; omega tau for a Kelvin body."""
@@ -168,3 +169,24 @@ def _elapsed(t: ArrayLike) -> FloatArray:
     if np.any(t < 0):
         raise ValueError(f"t must not be negative, got {float(t.min())!r} s: before the step there is no answer to it")
     return t
+
+
+def _falls(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where a function that falls from above to below zero between its poles `low` and `high`, or infinity, is zero."""
+    from scipy.optimize import brentq
+
+    inner = [
+        end if np.isfinite(end) else (0.0 if not np.isfinite(other) else other) + side
+        for end, other, side in ((low, high, -1.0), (high, low, 1.0))
+    ]
+    width = inner[1] - inner[0]
+    for k, (end, side) in enumerate(((low, 1.0), (high, -1.0))):
+        step = 1e-3 * width
+        for _ in range(200):
+            inner[k] = end + side * step if np.isfinite(end) else inner[k] - side * step
+            if side * function(inner[k]) > 0 or (np.isfinite(end) and inner[k] == end):
+                break
+            step = 0.1 * step if np.isfinite(end) else 2 * step
+    if not function(inner[0]) > 0 > function(inner[1]):  # closer to a pole than numbers tell: its arm is nothing
+        return inner[0] if not function(inner[0]) > 0 else inner[1]
+    return float(brentq(function, inner[0], inner[1], xtol=1e-15, rtol=1e-15, maxiter=500))

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Pairs = tuple[tuple[float, float], ...]
 
+USELESS = 1e-9  #: of the greatest modulus, below which one is rounding
 A_DECADE = 3.0  #: arms per decade of frequency, where none were asked for
 MOST_ARMS = 60
 MARGINS = (3.0, 10.0, 100.0, 1000.0)  #: reach of the arms beyond the range, for the rest of a power law
@@ -98,6 +99,7 @@ def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, 
         np.concatenate([target.real, target.imag]),
         maxiter=100 * times.size,
     )
+    found[found < USELESS * found.max()] = 0.0
     return float(found[0]), found[1:]
 
 
@@ -141,7 +143,9 @@ def _from_csv(text: str, name: str) -> dict[str, Any]:
             E_j, tau_j = float(cells["E_j"]), float(cells.get("tau_j") or "inf")
         except (KeyError, ValueError):
             raise ValueError(f"{name}: row {number} is no pair of numbers: {', '.join(row)}") from None
-        if np.isinf(tau_j) and tau_j > 0:
+        if not E_j >= 0 or not tau_j > 0:
+            raise ValueError(f"{name}: row {number} must have E_j >= 0 Pa and tau_j > 0 s, got {', '.join(row)}")
+        if np.isinf(tau_j):
             E_inf += E_j
         else:
             arms.append((E_j, tau_j))
@@ -153,7 +157,10 @@ def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
         content = tomllib.loads(text)
     except ValueError as fault:
         raise ValueError(f"{name}: {fault}") from None
-    table = dict(content.get("material", content))
+    table = content.get("material", content)
+    if not isinstance(table, dict):
+        raise ValueError(f"{name}: material must be a table of keys, got {table!r}")
+    table = dict(table)
     model = table.pop("model", "Prony")
     known = ("E_inf", "arms", "nu", "tau")
     unknown = [key for key in table if key not in known]
