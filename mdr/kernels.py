@@ -506,24 +506,10 @@ N_SUMS = 10
 
 
 @_inline
-def forces_of(e, s, gap, z, z_dot, ux_dot, table):
-    """Normal and trial tangential force of a spring at an instant, over its long-time stiffness; e, s: (1 + J,)."""
-    normal, trial = s[0] + table[L_TIME, 0] * z_dot, e[0] + table[L_TIME, 0] * ux_dot
-    for j in range(1, e.size):
-        normal += table[L_RATIO, j] * s[j]
-        trial += table[L_RATIO, j] * e[j]
-    return (normal if s[0] <= z - gap and normal > 0.0 else 0.0), trial
-
-
-@_inline
-def mode_of(normal, trial, slip_rate, pace, dashpot):
-    """Mode of a spring at the end of a step. Where arms make the static force, what it did in the step tells."""
-    if normal <= 0.0:
-        return FREE
-    limit = normal * (1.0 - 1e-12)
-    forward = trial >= limit if dashpot else slip_rate > 1e-9 * pace
-    backward = trial <= -limit if dashpot else slip_rate < -1e-9 * pace
-    return SLIP if forward else (SLIP_BACK if backward else STICK)
+def mode_of(normal, excess, limit):
+    """Mode of a spring whose `excess` beyond +-limit says that it slips."""
+    slips = SLIP if excess >= limit else (SLIP_BACK if excess <= -limit else STICK)
+    return slips if normal > 0.0 else FREE
 
 
 @_inline
@@ -532,6 +518,31 @@ def contact_share(s_0, s_free, s_rate, s_end, s_1, gap, z_0, z_1, zd_0, zd_1):
     rise = max(s_1 - s_free, 0.0)
     way = rise / (rise + max(s_0 - (z_0 - gap), 0.0) + 1e-300)
     return way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
+
+
+@_jit
+def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
+    """What the arms add to a step, out (8, n): to the free motion of s and e, the rates of s at both ends, the forces
+    at the end and the impulses in the step; returns their losses in shear and pressure. e, s: (1 + J, n) at both ends.
+    """
+    out[:] = 0.0
+    shear = press = 0.0
+    for j in range(1, e_0.shape[0]):
+        ratio, theta = table[L_RATIO, j], table[L_TIME, j]
+        free, rate, end = table[L_FREE, j], table[L_RATE, j], table[L_END, j]
+        for i in range(e_0.shape[1]):
+            p_0, p_1, q_0, q_1 = e_0[j, i], e_1[j, i], s_0[j, i], s_1[j, i]
+            out[0, i] += free * q_0
+            out[1, i] += free * p_0
+            out[2, i] += rate * q_0
+            out[3, i] += end * q_0
+            out[4, i] += ratio * q_1
+            out[5, i] += ratio * p_1
+            out[6, i] += ratio * theta * ((e_1[0, i] - e_0[0, i]) - (p_1 - p_0))
+            out[7, i] += ratio * theta * ((s_1[0, i] - s_0[0, i]) - (q_1 - q_0))
+            shear += w[i] * ratio / theta * 0.5 * h * (p_0 * p_0 + p_1 * p_1)
+            press += w[i] * ratio / theta * 0.5 * h * (q_0 * q_0 + q_1 * q_1)
+    return shear, press
 
 
 @_jit
@@ -546,8 +557,10 @@ def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, 
     """
     T, n_x, n = table[L_TIME, 0], table.shape[1], gap.size
     dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
-    slips, first_slips = np.empty(n), np.empty(n)
-    e_end, s_end = np.empty(n_x), np.empty(n_x)
+    slips, first_slips, tangentials, normals = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    modes = np.empty(n, dtype=np.uint8)
+    arms = np.zeros((8, n))
+    free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
     for k in range(e.shape[0] - 1):
         du = v * h + (y[k + 3] - y[k + 2])
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
@@ -555,31 +568,26 @@ def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, 
         z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
         surge = surge_of(du, ux_dot_0, ux_dot, h)
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
+        pace = 1e-9 * abs(du) / h
         sum_x = sum_z = sum_e = sum_s = stick = friction = shear_viscous = normal_viscous = shear = press = 0.0
+        if n_x > 1:
+            shear_viscous, normal_viscous = add_arms(e[k], e[k + 1], s[k], s[k + 1], w, table, h, arms)
+        e_here, e_next, s_here, s_next = e[k, 0], e[k + 1, 0], s[k, 0], s[k + 1, 0]
         for i in range(n):
-            e_0, e_1, s_0, s_1 = e[k, 0, i], e[k + 1, 0, i], s[k, 0, i], s[k + 1, 0, i]
-            free = rate = end = e_free = 0.0
-            arms_e = arms_s = 0.0  # mean forces of the arms in the step
-            for j in range(n_x):
-                free += table[L_FREE, j] * s[k, j, i]
-                e_free += table[L_FREE, j] * e[k, j, i]
-                rate += table[L_RATE, j] * s[k, j, i]
-                end += table[L_END, j] * s[k, j, i]
-                e_end[j], s_end[j] = e[k + 1, j, i], s[k + 1, j, i]
-            for j in range(1, n_x):
-                ratio, theta = table[L_RATIO, j], table[L_TIME, j]
-                p_0, p_1, q_0, q_1 = e[k, j, i], e_end[j], s[k, j, i], s_end[j]
-                arms_e += ratio * theta * ((e_1 - e_0) - (p_1 - p_0))
-                arms_s += ratio * theta * ((s_1 - s_0) - (q_1 - q_0))
-                shear_viscous += w[i] * ratio / theta * 0.5 * h * (p_0 * p_0 + p_1 * p_1)
-                normal_viscous += w[i] * ratio / theta * 0.5 * h * (q_0 * q_0 + q_1 * q_1)
+            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+            free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
+            rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
+            force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]  # over the long-time stiffness
+            arms_e, arms_s = arms[6, i], arms[7, i]
+            normal = force if s_1 <= z_1 - gap[i] and force > 0.0 else 0.0
             # the step falls into a free part and a part in contact, as in the march
             touched = contact_share(s_0, free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
             per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
             stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
             slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
-            normal, trial = forces_of(e_end, s_end, gap[i], z_1, zd_1, ux_dot, table)
-            now = mode_of(normal, trial, slip_rate, abs(du) / h, dashpot)
+            # where arms make the static force, what a spring did in the step tells its mode, else its trial force
+            by_force = normal * (1.0 - 1e-12)
+            now = mode_of(normal, trial if dashpot else slip_rate, by_force if dashpot else pace)
             tangential = min(max(trial, -normal), normal)
             tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
             sum_x += w[i] * tangential
@@ -589,23 +597,23 @@ def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, 
             sum_s += w[i] * (s_0 + s_1)
             normal_impulse = 0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s
             friction += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
-            if T > 0.0:
-                squeezed = s_1 - s_0 - (1.0 - touched) * (free - s_0)
-                flight = (1.0 - touched) / h
-                shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flight)
-                normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (free - s_0) ** 2 * flight)
+            squeezed = s_1 - s_0 - (1.0 - touched) * (free - s_0)
+            flight = (1.0 - touched) / h
+            shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flight)
+            normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (free - s_0) ** 2 * flight)
             shear += w[i] * (0.5 * h * (e_0 + e_1) + T * (e_1 - e_0) + arms_e)
             press += w[i] * normal_impulse
             presses = s_1 > 0.0 and s_1 <= z_1 - gap[i]
             slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
             first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
-            if mode.shape[0] > 0:
-                mode[k, i], f_x[k, i], f_z[k, i] = now, tangential, normal
+            modes[i], tangentials[i], normals[i] = now, tangential, normal
         least, first = np.inf, np.inf
         for i in range(n):
             least = min(least, slips[i])
             first = min(first, first_slips[i])
         least = least if least < np.inf else first  # all that press slip alike, so only the first touch of all adds
+        if mode.shape[0] > 0:
+            mode[k], f_x[k], f_z[k] = modes, tangentials, normals
         F_x[k], F_z[k], slip[k] = sum_x, sum_z, least
         sums[SUM_E] += 0.5 * sum_e
         sums[SUM_S] += 0.5 * sum_s

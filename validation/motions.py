@@ -163,7 +163,7 @@ def _measured(shape: str, material: str, drive: str, eps: float, mass_ratio: flo
 
 def _equivalence_checks(quick: bool) -> list[Check]:
     checks = []
-    for shape, material in (("paraboloid", "standard solid"),) if quick else EQUIVALENT:
+    for shape, material in EQUIVALENT[:1] if quick else EQUIVALENT:
         loaded = contact(shape, material, load(shape, material, SMALL), BODY)
         K_z = complex(loaded.dynamic_stiffness(OMEGA))
         motion = loaded.oscillation
