@@ -85,9 +85,21 @@ def contact(
     oscillation = mdr.NormalOscillation(u_z0=u_z0, du_z=alpha * u_z0, omega=OMEGA)
     pull: mdr.Pull = mdr.RigidPull()
     if k_ratio is not None:
-        k_x = k_ratio * float(SHAPES[shape].stiffness(u_z0, material.G_star))
-        m = k_x / (omega_0_ratio * OMEGA) ** 2 if omega_0_ratio else 0.0
-        if damping_ratio and not m:
-            raise ValueError("damping_ratio refers to a mass; give omega_0_ratio > 0 too")
-        pull = mdr.SpringPull(k_x=k_x, m=m, c_x=2 * damping_ratio * math.sqrt(k_x * m))
+        pull = body(SHAPES[shape], material, u_z0, k_ratio, omega_0_ratio, damping_ratio)
     return mdr.SlidingContact(SHAPES[shape], material, mu_0, oscillation, pull)
+
+
+def body(
+    indenter: mdr.Indenter,
+    material: mdr.Material,
+    u_z0: float,
+    k_ratio: float,
+    omega_0_ratio: float = 0.0,
+    damping_ratio: float = 0.0,
+) -> mdr.SpringPull:
+    """The pull of these groups on a contact at the depth u_z0 [m], by its long-time stiffness k_xc."""
+    k_x = k_ratio * float(indenter.stiffness(u_z0, material.G_star))
+    m = k_x / (omega_0_ratio * OMEGA) ** 2 if omega_0_ratio else 0.0
+    if damping_ratio and not m:
+        raise ValueError("damping_ratio refers to a mass; give omega_0_ratio > 0 too")
+    return mdr.SpringPull(k_x=k_x, m=m, c_x=2 * damping_ratio * math.sqrt(k_x * m))

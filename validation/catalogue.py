@@ -22,7 +22,7 @@ import numpy as np
 import mdr
 from mdr.plots import style
 from mdr.progress import progress
-from validation.cases import CATALOGUE, OMEGA, POWERS, SHAPES, E, depth_of
+from validation.cases import CATALOGUE, OMEGA, POWERS, SHAPES, E, body, depth_of
 from validation.generalisation import first_order
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
@@ -38,14 +38,10 @@ MATERIALS: dict[str, mdr.Material] = {
 RATIOS = {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05}
 
 
-def contact(shape: str, material: str, alpha: float, body: bool) -> mdr.SlidingContact:
+def contact(shape: str, material: str, alpha: float, pulled: bool) -> mdr.SlidingContact:
     """A shape of the catalogue at its own depth, pulled rigidly or by a body of the same groups."""
     indenter, made, depth = ALL[shape], MATERIALS[material], mean_depth(shape)
-    pull: mdr.Pull = mdr.RigidPull()
-    if body:
-        k_x = RATIOS["k_ratio"] * float(indenter.stiffness(depth, made.G_star))
-        m = k_x / (RATIOS["omega_0_ratio"] * OMEGA) ** 2
-        pull = mdr.SpringPull(k_x, m, 2 * RATIOS["damping_ratio"] * np.sqrt(k_x * m))
+    pull = body(indenter, made, depth, **RATIOS) if pulled else mdr.RigidPull()
     return mdr.SlidingContact(indenter, made, 0.5, mdr.NormalOscillation(depth, alpha * depth, OMEGA), pull)
 
 
@@ -127,10 +123,10 @@ class Point(Measured):
 
 
 @cache
-def _measured(shape: str, material: str, body: bool) -> Point:
-    case = contact(shape, material, 0.1, body)
-    where = f"{shape}, {material}, {'body' if body else 'rigid pull'}"
-    return Point(case, mdr.measure_critical_velocity(case), where, not body)
+def _measured(shape: str, material: str, pulled: bool) -> Point:
+    case = contact(shape, material, 0.1, pulled)
+    where = f"{shape}, {material}, {'body' if pulled else 'rigid pull'}"
+    return Point(case, mdr.measure_critical_velocity(case), where, not pulled)
 
 
 # --- first order in the amplitude ---

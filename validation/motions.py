@@ -32,7 +32,7 @@ import numpy as np
 import mdr
 from mdr.plots import style
 from mdr.progress import progress
-from validation.cases import DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, shape_label
+from validation.cases import DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
 from validation.rheology import BODY
@@ -59,14 +59,12 @@ PERIODIC = {
 }
 
 
-def contact(shape: str, material: str, motion: mdr.Motion, body: dict[str, float] | None = None) -> mdr.SlidingContact:
+def contact(
+    shape: str, material: str, motion: mdr.Motion, groups: dict[str, float] | None = None
+) -> mdr.SlidingContact:
     """A shape on a material under any drive, pulled rigidly or by a body."""
-    pull: mdr.Pull = mdr.RigidPull()
     made = MATERIALS[material]
-    if body:
-        k_x = body["k_ratio"] * float(SHAPES[shape].stiffness(DEPTH, made.G_star))
-        m = k_x / (body["omega_0_ratio"] * OMEGA) ** 2
-        pull = mdr.SpringPull(k_x, m, 2 * body["damping_ratio"] * np.sqrt(k_x * m))
+    pull = body(SHAPES[shape], made, DEPTH, **groups) if groups else mdr.RigidPull()
     return mdr.SlidingContact(SHAPES[shape], made, 0.5, motion, pull)
 
 
@@ -87,8 +85,8 @@ def claim(effort: str) -> Claim:
         name="motions",
         title="Load-controlled and periodic drives",
         quote=(
-            "The indentation depth is prescribed as u_z0 + Δu_z cos ωt, Eq. (3): forced oscillation of the depth. Most"
-            " experiments prescribe the load; and a drive may have more than one frequency."
+            "[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact geometries"
+            " and loading histories. — Section 4; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3)."
         ),
         range=(
             f"{len(points)} contacts measured from runs: oscillating load of {SMALL:g} and {GREAT:g} of the mean, with"
@@ -150,11 +148,11 @@ class Point(Measured):
 
 
 @cache
-def _measured(shape: str, material: str, drive: str, eps: float, mass_ratio: float, body: bool) -> Point:
+def _measured(shape: str, material: str, drive: str, eps: float, mass_ratio: float, pulled: bool) -> Point:
     motion = load(shape, material, eps, mass_ratio) if drive == "load" else PERIODIC[drive]
-    case = contact(shape, material, motion, BODY if body else None)
+    case = contact(shape, material, motion, BODY if pulled else None)
     words = f"ΔF_z/F_z0 = {eps:g}" + (f", m_z ω² = {mass_ratio:g} k_zc" if mass_ratio else "")
-    where = f"{shape}, {material}, {words if drive == 'load' else drive}{', body' if body else ', rigid pull'}"
+    where = f"{shape}, {material}, {words if drive == 'load' else drive}{', body' if pulled else ', rigid pull'}"
     return Point(case, mdr.measure_critical_velocity(case), where, drive == "load" and eps == SMALL)
 
 
@@ -189,9 +187,9 @@ def _equivalence_checks(quick: bool) -> list[Check]:
 
 
 @cache
-def deviation(shape: str, material: str, eps: float, body: bool, mass_ratio: float = 0.0) -> float:
+def deviation(shape: str, material: str, eps: float, pulled: bool, mass_ratio: float = 0.0) -> float:
     """Full-slip value over the formula, less 1."""
-    case = contact(shape, material, load(shape, material, eps, mass_ratio), BODY if body else None)
+    case = contact(shape, material, load(shape, material, eps, mass_ratio), BODY if pulled else None)
     return mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1
 
 
@@ -240,11 +238,11 @@ def _figure_of_loads(quick: bool) -> Figure:
             ("body, elastic", "elastic", True),
         )[:: 2 if quick else 1]
         fig, axes = plt.subplots(1, len(panels), figsize=(3.4 * len(panels), 3.6))
-        for ax, (title, material, body) in zip(axes, panels, strict=True):
+        for ax, (title, material, pulled) in zip(axes, panels, strict=True):
             for shape, (colour, marker) in LOOKS.items():
-                values = [0.0, *(deviation(shape, material, float(eps), body) for eps in shares[1:])]
+                values = [0.0, *(deviation(shape, material, float(eps), pulled) for eps in shares[1:])]
                 ax.plot(shares, 100 * np.array(values), color=colour, label=shape_label(shape))
-                if not body and not quick:
+                if not pulled and not quick:
                     point = _measured(shape, material, "load", GREAT, 0.0, False)
                     ax.plot(GREAT, 100 * point.deviation, marker, color=colour, mfc="white")
             ax.set(xlabel=r"$\Delta F_z/F_{z0}$", title=title)

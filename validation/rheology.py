@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 import mdr
 from mdr.plots import style
 from mdr.progress import progress
-from validation.cases import DEPTH, OMEGA, SHAPES, E, shape_label
+from validation.cases import DEPTH, OMEGA, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
 
@@ -47,14 +47,10 @@ SEED = 20
 
 
 def contact(
-    shape: str, material: mdr.Material, alpha: float, body: dict[str, float] | None = None, u_z0: float = DEPTH
+    shape: str, material: mdr.Material, alpha: float, groups: dict[str, float] | None = None, u_z0: float = DEPTH
 ) -> mdr.SlidingContact:
     """A shape on a material, pulled rigidly or by a body whose groups refer to the long-time stiffness."""
-    pull: mdr.Pull = mdr.RigidPull()
-    if body:
-        k_x = body["k_ratio"] * float(SHAPES[shape].stiffness(u_z0, material.G_star))
-        m = k_x / (body["omega_0_ratio"] * OMEGA) ** 2
-        pull = mdr.SpringPull(k_x, m, 2 * body["damping_ratio"] * np.sqrt(k_x * m))
+    pull = body(SHAPES[shape], material, u_z0, **groups) if groups else mdr.RigidPull()
     return mdr.SlidingContact(SHAPES[shape], material, 0.5, mdr.NormalOscillation(u_z0, alpha * u_z0, OMEGA), pull)
 
 
@@ -74,9 +70,8 @@ def claim(effort: str) -> Claim:
         name="rheology",
         title="Any linear rheology",
         quote=(
-            "The rheology of a viscoelastic contact has been modelled by a Kelvin body: an extension to more general"
-            " linear rheology is the next step which the paper names; here Eq. (15) is taken with the dynamic stiffness"
-            " of any linear material."
+            "In the future, the critical velocity could also be considered for materials with more general rheology."
+            " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 4"
         ),
         range=(
             f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
@@ -119,9 +114,9 @@ def _sides(index: int) -> Sides:
     arms = tuple((E * 10 ** rng.uniform(-1, 1), 10 ** rng.uniform(-2, 2) / OMEGA) for _ in range(n_arms))
     T = 10 ** rng.uniform(-1, 0.5) if rng.uniform() < 0.4 else 0.0
     material = mdr.Prony(E, arms, NU, T / OMEGA)
-    body = {"k_ratio": 10 ** rng.uniform(-0.5, 1), "omega_0_ratio": rng.uniform(0.3, 3), "damping_ratio": 0.1}
+    groups = {"k_ratio": 10 ** rng.uniform(-0.5, 1), "omega_0_ratio": rng.uniform(0.3, 3), "damping_ratio": 0.1}
     alpha = 0.5 * E / (abs(complex(material.dynamic_modulus(OMEGA))) * (1 - NU**2))  # half of what would lose contact
-    case = contact("flat punch", material, alpha, body if index % 5 else None)
+    case = contact("flat punch", material, alpha, groups if index % 5 else None)
     v_c = mdr.critical_velocity(case)
     runs = [mdr.slide(case, share * v_c, n_springs=32, steps_per_period=1024) for share in (0.98, 1.02)]
     return Sides(f"{n_arms} arms, ωτ = {T:.2g}", *runs)
@@ -286,12 +281,12 @@ def _figure_of_velocities(quick: bool) -> Figure:
     with style():
         fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
         bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
-        for ax, (title, body) in zip(axes, bodies, strict=True):
+        for ax, (title, groups) in zip(axes, bodies, strict=True):
             for materials, colour, label in (
                 (solid, "C0", "standard solid"),
                 (kelvin, "C1", "Kelvin, same first loss"),
             ):
-                cases = [contact("flat punch", material, 0.01, body) for material in materials]
+                cases = [contact("flat punch", material, 0.01, groups) for material in materials]
                 ax.semilogx(
                     times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], color=colour, label=label
                 )
@@ -299,11 +294,11 @@ def _figure_of_velocities(quick: bool) -> Figure:
                 (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
                 (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
             ):
-                soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, body)
+                soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, groups)
                 case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
                 ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
             for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
-                if body is BODY and not quick:
+                if groups is BODY and not quick:
                     found = _measured("flat punch", name)
                     label = "measured from runs" if name.endswith("5") and "0.5" in name else None
                     ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)
