@@ -86,7 +86,7 @@ def claim(effort: str) -> Claim:
         title="Load-controlled and periodic drives",
         quote=(
             "[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact geometries"
-            " and loading histories. — Section 4; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3)."
+            " and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3)."
         ),
         range=(
             f"{len(points)} contacts measured from runs: oscillating load of {SMALL:g} and {GREAT:g} of the mean, with"

@@ -71,7 +71,7 @@ def claim(effort: str) -> Claim:
         title="Any linear rheology",
         quote=(
             "In the future, the critical velocity could also be considered for materials with more general rheology."
-            " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 4"
+            " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3"
         ),
         range=(
             f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
