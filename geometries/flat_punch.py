@@ -28,7 +28,7 @@ def foot(T, du_z=tapping.du_z):
 loss_tangents = (0.0, 0.3, 1.0, 3.0)
 v_c = [mdr.critical_velocity(foot(T)) for T in loss_tangents]  # Eq. (15)
 lost_above = [tapping.u_z0 / np.hypot(1, T) for T in loss_tangents]  # amplitude at which Eq. (5) ends
-shares = np.r_[0, np.geomspace(5e-3, 0.08, 4), np.linspace(0.16, 0.94, 10), 1.15]  # of v_c; steep near 0
+shares = np.r_[0, np.geomspace(0.02, 0.08, 3), np.linspace(0.16, 0.94, 8), 1.15]  # of v_c; steep near 0
 curves = [mdr.cof_curve(foot(T), v * shares) for T, v in zip(loss_tangents, v_c, strict=True)]
 static = [curve.static_cof for curve in curves]  # Eq. (7)
 beyond = 1.2 * np.array(lost_above)

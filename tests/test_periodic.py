@@ -91,7 +91,7 @@ def body(shape, depth_ratio, T, k, omega_0, zeta, share):
 @pytest.mark.parametrize("name", BODIES)
 def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
     case, v_0 = body(*BODIES[name])
-    knobs = Knobs(n_springs=96, steps=512, start="full_slip", lump=True)
+    knobs = Knobs(n_springs=48, steps=256, start="full_slip", lump=True)
     solved = march(case, v_0, knobs)
     monkeypatch.setattr(Line, "solve", lambda self: None)
     awaited = march(case, v_0, knobs)

@@ -146,7 +146,7 @@ def mapped(ratio: float, T: float, alpha: float = 0.1, shape: str = "paraboloid"
 
 def first_order_map(effort: str) -> tuple[Array, Array, Array]:
     """C over omega_0/omega (n,) and T (m,), shape (m, n)."""
-    n, m = (101, 25) if effort == "quick" else (241, 65)
+    n, m = (61, 13) if effort == "quick" else (241, 65)
     ratios, losses = np.linspace(*SPAN, n), np.geomspace(*LOSSES, m)
     return ratios, losses, np.array([[first_order(mapped(float(r), float(T)), 512) for r in ratios] for T in losses])
 
