@@ -55,7 +55,7 @@ class SlidingContact:
                 "state whose friction could be averaged; give the material a long-time modulus, or use indent()"
             )
         if isinstance(self.oscillation, LoadOscillation):
-            static_depth(self.indenter, self.material, self.oscillation.F_z0)
+            _rests_at(self.indenter, self.material, self.oscillation.F_z0)  # a shape that does not carry it says so
         else:
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
         if self.indenter.least_depth > 0:
@@ -95,7 +95,7 @@ class SlidingContact:
     def working_depth(self) -> float:
         """Depth [m] that stiffnesses belong to: the mean depth u_z0, or that at which the mean load rests."""
         if isinstance(self.oscillation, LoadOscillation):
-            return static_depth(self.indenter, self.material, self.oscillation.F_z0)
+            return _rests_at(self.indenter, self.material, self.oscillation.F_z0)
         return self.cycle.u_z0
 
     @property
@@ -159,6 +159,9 @@ class SlidingContact:
 @lru_cache(maxsize=256)
 def _prescribed(oscillation: DepthMotion) -> Cycle:
     return oscillation.cycle
+
+
+_rests_at = lru_cache(maxsize=256)(static_depth)
 
 
 @lru_cache(maxsize=64)

@@ -260,28 +260,28 @@ def _depth_under(indenter: Indenter, V: float, end: float) -> float:
 def _body(material: Material) -> tuple[Any, ...]:
     """The material as the kernels read it: E, E tau, E_j, tau_j and the modes in which a free spring relaxes.
 
-    With the roots of the energies as unknowns the free motion is a symmetric matrix.
+    They relax with the times of retardation. With the roots of the energies as unknowns the free motion is a symmetric
+    matrix, a diagonal less a product of one vector with itself, whose own vectors are known from these times.
     """
     E, tau = material.E_star, material.tau
     arms = np.array(material.contact_arms).reshape(-1, 2)
     E_j, tau_j = np.ascontiguousarray(arms[:, 0]), np.ascontiguousarray(arms[:, 1])
-    m = E_j.size
+    relax, m = 1 / material._retardation()[2], E_j.size
     modes, inverse = np.zeros((m + 1, m + 1)), np.zeros((m + 1, m + 1))
     if tau > 0:
         roots = np.sqrt(np.concatenate([[E], E_j]))
-        decay = np.diag(np.concatenate([[0.0], 1 / tau_j]))
-        rates, vectors = np.linalg.eigh(-np.outer(roots, roots) / (E * tau) - decay)
-        to_own = np.concatenate([1 / roots[:1], roots[1:]])  # z_0 = sqrt(E) s, z_j = q_j/sqrt(E_j)
+        vectors = _own_vectors(roots, np.concatenate([[0.0], 1 / tau_j]), relax)
+        rates, to_own = -relax, np.concatenate([1 / roots[:1], roots[1:]])  # z_0 = sqrt(E) s, z_j = q_j/sqrt(E_j)
         modes, inverse = to_own[:, None] * vectors, vectors.T / to_own
     else:  # E s + sum q_j = 0 all the time
         glassy = E + E_j.sum()
         roots, to_own = np.sqrt(E_j / tau_j), np.sqrt(E_j * tau_j)
-        values, vectors = np.linalg.eigh(np.outer(roots, roots) / glassy - np.diag(1 / tau_j))
-        rates = np.concatenate([[0.0], np.minimum(values, 0)])
-        still = np.abs(values) <= 1e-13 * np.max(np.abs(values), initial=0.0)  # of a fluid: never in motion when free
+        vectors = _own_vectors(roots, 1 / tau_j, relax)
+        rates = np.concatenate([[0.0], -relax])
+        still = relax == 0  # of a fluid: never in motion when free
         modes[0, 0] = 1.0
         modes[1:, 1:] = to_own[:, None] * vectors
-        modes[0, 1:] = np.where(still, 0.0, roots @ vectors / glassy / np.where(still, 1.0, values))
+        modes[0, 1:] = np.where(still, 0.0, -(roots @ vectors) / glassy / np.where(still, 1.0, relax))
         inverse[1:, 1:] = vectors.T / to_own
         inverse[0, 0] = 1.0
         inverse[0, 1:] = -modes[0, 1:] @ inverse[1:, 1:]
@@ -346,3 +346,14 @@ def _untouched(indenter: Indenter, material: Material, t: Array, u_z: Array, n: 
     zero = np.zeros(t.size)
     kept = {"x": np.zeros(1), "s": np.zeros((t.size, 1)), "q_z": np.zeros((t.size, 1))} if record else {}
     return Indentation(indenter, material, t, u_z, zero, zero, **kept)
+
+
+def _own_vectors(roots: Array, relax: Array, own: Array) -> Array:
+    """Unit vectors (n, n) that a diagonal matrix `relax` (n,) with a multiple of roots rootsᵀ added leaves in their
+    direction; own (n,): their factors.
+    """
+    away = relax[:, None] - own
+    away[away == 0] = np.finfo(float).tiny ** 0.25  # an arm next to nothing relaxes for itself
+    vectors = roots[:, None] / away
+    vectors /= np.abs(vectors).max(axis=0, initial=1e-300)
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=0))

@@ -290,7 +290,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches):
 
     Without arms one period is its memory. With arms the passes go on, from the greatest depth, where it presses: what
     an arm changed in one, over the share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is
-    exact for a spring that keeps contact. Every second time, where the last two changes are alike, what they tend to is
+    exact for a spring that keeps contact. Every third time, where the last two changes are alike, what they tend to is
     added at once. guess (1 + J,): arms to begin with, zero or those of a neighbour; becomes this spring's.
     """
     start, move, last = np.empty(x.size), np.zeros(x.size), np.zeros(x.size)

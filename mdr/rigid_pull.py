@@ -144,6 +144,11 @@ def small_velocity(case: SlidingContact) -> Asymptote:
 def _rigid(case: SlidingContact) -> SlidingContact:
     if not isinstance(require_case(case).pull, RigidPull):
         raise TypeError(f"the closed form is that of a rigid pull, got {case.pull!r}")
+    if not case.is_of_the_paper:
+        raise ValueError(
+            "the closed form is that of a harmonic depth on an elastic or Kelvin material, got "
+            f"{case.oscillation!r} on {case.material!r}: use cof_curve or slide, which march it"
+        )
     return case
 
 

@@ -46,6 +46,20 @@ def test_creep_under_a_step_of_load_is_that_of_lee_and_radok(shape, material):
     assert_allclose(run.u_z, expected, rtol=1e-12)  # both are sums of exponentials
 
 
+@pytest.mark.parametrize("tau", [0.0, 1e-3])
+def test_creep_over_many_decades_ends_on_the_long_time_modulus(tau):
+    body = mdr.Prony(3e6, [(1e5, float(time)) for time in np.logspace(-9, 9, 30)], 0.5, tau)
+    ball, t = mdr.Paraboloid(5e-3), np.concatenate([[0.0], np.geomspace(1e-10, 1e14, 200)])
+    F_z = float(ball.force(2e-5, body.E_star))
+    crept = mdr.indent(ball, body, t, F_z=np.full(t.size, F_z)).u_z
+    assert_allclose(crept, 2e-5 * (body.E_star * body.creep_compliance(t)) ** (2 / 3), rtol=1e-9)
+    assert_allclose(crept[-1], 2e-5, rtol=1e-9)
+    # pressed, held and let go: the surface relaxes through every decade, and is met again where it stands
+    held = mdr.indent(ball, body, [0.0, 1e-3, 1e3, 1e3, 1e6, 1e6], [0.0, 2e-5, 2e-5, -1e-5, -1e-5, 2e-5]).F_z
+    assert np.all(held[[1, 2, 5]] > 0)
+    assert held[3] == held[4] == 0
+
+
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("material", MATERIALS)
 def test_a_step_of_depth_relaxes_with_the_modulus(shape, material):

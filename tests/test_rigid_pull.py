@@ -1,6 +1,7 @@
 """The closed form of a rigid pull against the twin, the march, its own asymptotics, and the definition of friction."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -199,3 +200,12 @@ def test_it_shares_no_code_with_the_march():
 def test_wrong_input(call, error, match):
     with pytest.raises(error, match=match):
         call()
+
+
+def test_cases_without_a_closed_form_are_refused():
+    case = contact("paraboloid", 3.0)
+    solid = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4)
+    load = mdr.LoadOscillation(1e-3, 1e-4, 300.0)
+    for other in (replace(case, material=solid), replace(case, oscillation=load)):
+        with pytest.raises(ValueError, match="the closed form is that of a harmonic depth"):
+            average_friction(other, 1e-4)

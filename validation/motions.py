@@ -101,7 +101,7 @@ def claim(effort: str) -> Claim:
             " (ΔF_z/F_z0)^2/2(n+1)^2. For periodic depths v_c is the greatest slip velocity over the cycle, with every"
             " harmonic; a square-like drive has a v_c far above that of its first harmonic."
         ),
-        verdict="holds if …",
+        verdict="holds if the load swings little; for a given depth, as Eq. (15) does",
         sentence=(
             "Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2|, as the limit of small ΔF_z; for"
             " periodic depths v_c is the maximum over the cycle of the same expression."

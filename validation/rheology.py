@@ -85,7 +85,7 @@ def claim(effort: str) -> Claim:
             " within a period stiffens the contact against the oscillation but not against the mean load, so that the"
             " static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one."
         ),
-        verdict="holds if …",
+        verdict="holds if the pull is rigid, or the contact a flat punch that is kept, or the amplitude small",
         sentence=(
             "v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)| holds for any linear rheology with constant Poisson's ratio, as Eq."
             " (15) does: exactly for a punch that keeps contact and for a rigid pull, else for small amplitude."

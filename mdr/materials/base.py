@@ -112,9 +112,8 @@ class Material(ABC):
         the slowest and zero (at zero for a body that flows), and one beyond the fastest where there is a dashpot. Each
         is found for itself, so that times of many decades stand beside one another.
         """
-        times = sorted({tau_j for _, tau_j in self.contact_arms}, reverse=True)
-        E_j = np.array([sum(E for E, tau_j in self.contact_arms if tau_j == time) for time in times])
-        poles = 1 / np.array(times)  # ascending; x = -p
+        E_j, tau_j = np.array(self.contact_arms).reshape(-1, 2).T
+        poles = 1 / tau_j  # ascending; x = -p
         start = 0.0 if self.tau > 0 else 1 / self.instantaneous_modulus
 
         def modulus(log_x: float) -> float:
@@ -123,9 +122,8 @@ class Material(ABC):
 
         ends = [-np.inf, *np.log(poles), np.inf]
         first = 1 if self.E_star == 0 else 0
-        last = len(ends) - 1 if self.tau > 0 else len(ends) - 2
-        roots = [0.0] * first + [float(np.exp(_falls(modulus, *ends[k : k + 2]))) for k in range(first, last)]
-        x = np.array(roots)
+        last = len(ends) - (1 if self.tau > 0 else 2)
+        x = np.array([0.0] * first + [np.exp(_fall(modulus, *ends[k : k + 2])) for k in range(first, last)])
         slope = self.E_star * self.tau + np.sum(E_j * poles / (poles - x[:, None]) ** 2, axis=1)  # dE*/dp
         with np.errstate(divide="ignore"):
             return float(start), 1 / slope, np.where(x > 0, 1 / x, np.inf)
@@ -171,22 +169,24 @@ def _elapsed(t: ArrayLike) -> FloatArray:
     return t
 
 
-def _falls(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function that falls from above to below zero between its poles `low` and `high`, or infinity, is zero."""
+def _fall(function: Callable[[float], float], low: float, high: float) -> float:
+    """Zero of a function that falls from +infinity at `low` to -infinity at `high`; ends may be infinite."""
     from scipy.optimize import brentq
 
-    inner = [
-        end if np.isfinite(end) else (0.0 if not np.isfinite(other) else other) + side
-        for end, other, side in ((low, high, -1.0), (high, low, 1.0))
-    ]
-    width = inner[1] - inner[0]
-    for k, (end, side) in enumerate(((low, 1.0), (high, -1.0))):
-        step = 1e-3 * width
-        for _ in range(200):
-            inner[k] = end + side * step if np.isfinite(end) else inner[k] - side * step
-            if side * function(inner[k]) > 0 or (np.isfinite(end) and inner[k] == end):
-                break
-            step = 0.1 * step if np.isfinite(end) else 2 * step
-    if not function(inner[0]) > 0 > function(inner[1]):  # closer to a pole than numbers tell: its arm is nothing
-        return inner[0] if not function(inner[0]) > 0 else inner[1]
-    return float(brentq(function, inner[0], inner[1], xtol=1e-15, rtol=1e-15, maxiter=500))
+    above, below = _beside(function, low, high, 1.0), _beside(function, high, low, -1.0)
+    if not function(above) > 0 > function(below):  # closer to a pole than numbers tell: its arm is next to nothing
+        return below if function(above) > 0 else above
+    return float(brentq(function, above, below, xtol=1e-15, rtol=1e-15, maxiter=500))
+
+
+def _beside(function: Callable[[float], float], end: float, other: float, sign: float) -> float:
+    """A place between two ends, close enough to the first one for the function to have the sign that it has there."""
+    finite = np.isfinite(end)
+    anchor = end if finite else (other if np.isfinite(other) else 0.0)
+    step = 1e-3 * (abs(other - end) if np.isfinite(other) else 1.0) if finite else 1.0
+    for _ in range(200):
+        place = anchor + sign * step if finite else anchor - sign * step
+        if sign * function(place) > 0 or place == end:
+            break
+        step *= 0.1 if finite else 2.0
+    return place

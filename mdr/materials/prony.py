@@ -41,7 +41,9 @@ class _WithArms(OneBody):
         return self.E_star / self.mindlin_ratio
 
     def _contact_arms(self, arms: Arms) -> Arms:
-        return tuple((E_j / (1 - self.nu**2), tau_j) for E_j, tau_j in arms if E_j > 0)
+        """In terms of contact moduli, slowest first; arms of one time are one, those of zero modulus none."""
+        times = sorted({tau_j for E_j, tau_j in arms if E_j > 0}, reverse=True)
+        return tuple((sum(E_j for E_j, tau_j in arms if tau_j == time) / (1 - self.nu**2), time) for time in times)
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ class Prony(_WithArms):
 
     @property
     def contact_arms(self) -> Arms:
-        """The arms as (E*_j [Pa], tau_j [s]), those of zero modulus left out."""
+        """The arms as (E*_j [Pa], tau_j [s]), slowest first; arms of one time are one, those of zero modulus none."""
         return self._contact_arms(self.arms)
 
     @classmethod

@@ -8,21 +8,7 @@ import pytest
 from catalogue import A_0, CURVED, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, name
 from numpy.testing import assert_allclose
 
-from mdr.indenters import (
-    CappedCone,
-    CappedParaboloid,
-    ConcavePunch,
-    Cone,
-    ConstantPressure,
-    Ellipsoid,
-    FlatPunch,
-    Hyperboloid,
-    Paraboloid,
-    RoundedPunch,
-    Sphere,
-    TruncatedCone,
-    TruncatedParaboloid,
-)
+import mdr
 from mdr.indenters.quadrature import double_exponential
 
 EXACT = 1e-12  # promised for closed forms
@@ -54,7 +40,7 @@ def radii(shape):
     beside = B * (1 + np.geomspace(1e-15, 0.5, 30))
     if shape in WORN:
         return np.concatenate([beside, B * np.geomspace(2, 1e9, 20)])
-    low, high = 1e-15, min(end(shape), 0.02 if isinstance(shape, Hyperboloid) else 1e6)
+    low, high = 1e-15, min(end(shape), 0.02 if isinstance(shape, mdr.Hyperboloid) else 1e6)
     return np.concatenate([np.geomspace(low, high, 60), [0.98 * high], beside if shape in KINKED else []])
 
 
@@ -92,31 +78,31 @@ def test_the_pressure_carries_the_force_at_any_depth(shape):
 def test_a_worn_tip_begins_as_a_punch(shape, d):
     """The edge of contact passes the corner within roundings of b: the force and the pressure must not."""
     a = float(shape.contact_radius(d))
-    wider = 1e-3 if isinstance(shape, RoundedPunch) else 1e-9  # than b: as d^(2/3), the others as d²
+    wider = 1e-3 if isinstance(shape, mdr.RoundedPunch) else 1e-9  # than b: as d^(2/3), the others as d²
     assert B <= a < B * (1 + wider)
     assert_allclose(shape.force(d, 1.0), 2 * B * d, rtol=wider)
     assert_allclose(shape.stiffness(d, 1.0), 2 * B, rtol=wider)
     r = B * np.array([0, 0.5, 0.9])
-    punch = FlatPunch(B).pressure(r, d, 1.0)
+    punch = mdr.FlatPunch(B).pressure(r, d, 1.0)
     assert_allclose(shape.pressure(r, d, 1.0), punch, rtol=20 * wider)  # (a - b)/(b - r)
     assert shape.contact_radius(0.0) == shape.force(0.0, 1.0) == shape.stiffness(-d, 1.0) == 0
 
 
 @pytest.mark.parametrize(("shape", "limit", "tolerance"), [
-    (TruncatedCone(1e-12, THETA), Cone(THETA), 1e-8),  # linear in b/a in d, and b/a < 1e-8
-    (CappedCone(1e-12, THETA), Cone(THETA), 1e-8),
-    (TruncatedParaboloid(1e-9, R), Paraboloid(R), 1e-8),  # quadratic
-    (RoundedPunch(1e-12, R), Paraboloid(R), 1e-7),
-    (CappedParaboloid(1.0, R, 1e-9), Paraboloid(R), 1e-8),
-    (CappedParaboloid(R, R, B), Paraboloid(R), EXACT),
-    (CappedParaboloid(1e6 * R, R, B), TruncatedParaboloid(B, R), 1e-4),  # R2/R1, over √(a² - b²)
-    (CappedCone(1.0, math.atan(1 / R)), Paraboloid(R), EXACT),  # within its cap
-    (Sphere(1e6), Paraboloid(1e6), 1e-8),  # d/3R
-    (Ellipsoid(1e6, 1e-4), Paraboloid(100.0), 1e-8),  # radius of curvature 1/(k²R)
-    (Ellipsoid(R, 1 / R), Sphere(R), 1e-10),  # 1/(1/R) is a rounding off, of R - a
-    (Hyperboloid(1e6, 1e4), Paraboloid(100.0), 1e-8),  # c²/h
-    (Hyperboloid(1e-12 * math.tan(THETA), 1e-12), Cone(THETA), 1e-7),
-    (ConstantPressure(1e3, 1e3), Paraboloid(2e3), 1e-6),  # near its tip: x²/R = d_0 x²/2a_0²
+    (mdr.TruncatedCone(1e-12, THETA), mdr.Cone(THETA), 1e-8),  # linear in b/a in d, and b/a < 1e-8
+    (mdr.CappedCone(1e-12, THETA), mdr.Cone(THETA), 1e-8),
+    (mdr.TruncatedParaboloid(1e-9, R), mdr.Paraboloid(R), 1e-8),  # quadratic
+    (mdr.RoundedPunch(1e-12, R), mdr.Paraboloid(R), 1e-7),
+    (mdr.CappedParaboloid(1.0, R, 1e-9), mdr.Paraboloid(R), 1e-8),
+    (mdr.CappedParaboloid(R, R, B), mdr.Paraboloid(R), EXACT),
+    (mdr.CappedParaboloid(1e6 * R, R, B), mdr.TruncatedParaboloid(B, R), 1e-4),  # R2/R1, over √(a² - b²)
+    (mdr.CappedCone(1.0, math.atan(1 / R)), mdr.Paraboloid(R), EXACT),  # within its cap
+    (mdr.Sphere(1e6), mdr.Paraboloid(1e6), 1e-8),  # d/3R
+    (mdr.Ellipsoid(1e6, 1e-4), mdr.Paraboloid(100.0), 1e-8),  # radius of curvature 1/(k²R)
+    (mdr.Ellipsoid(R, 1 / R), mdr.Sphere(R), 1e-10),  # 1/(1/R) is a rounding off, of R - a
+    (mdr.Hyperboloid(1e6, 1e4), mdr.Paraboloid(100.0), 1e-8),  # c²/h
+    (mdr.Hyperboloid(1e-12 * math.tan(THETA), 1e-12), mdr.Cone(THETA), 1e-7),
+    (mdr.ConstantPressure(1e3, 1e3), mdr.Paraboloid(2e3), 1e-6),  # near its tip: x²/R = d_0 x²/2a_0²
 ], ids=lambda one: name(one) if not isinstance(one, float) else "")  # fmt: skip
 def test_limits(shape, limit, tolerance):
     d, r = np.array([2e-5, 5e-5, 1.5e-4]), 2e-4
@@ -126,7 +112,7 @@ def test_limits(shape, limit, tolerance):
 
 
 def test_a_constant_pressure():
-    shape = ConstantPressure(A_0, D_0)
+    shape = mdr.ConstantPressure(A_0, D_0)
     assert shape.contact_radius(D_0) == A_0
     r = A_0 * np.array([0, 0.3, 0.9, 0.999999])
     assert_allclose(shape.pressure(r, D_0, 2e6), 2e6 * D_0 / (2 * A_0), rtol=EXACT)
@@ -139,20 +125,20 @@ def test_a_constant_pressure():
 
 def test_a_concave_punch():
     a, hollow, E_star = 2e-3, 1.0, 2e6
-    shape = ConcavePunch(a, hollow)
+    shape = mdr.ConcavePunch(a, hollow)
     d = shape.least_depth * np.array([1, 1.5, 100])
     assert shape.least_depth == pytest.approx(a**2 / hollow, rel=1e-15)
     assert_allclose(shape.force(d, E_star), 2 * E_star * (a * d + a**3 / (3 * hollow)), rtol=EXACT)
     assert_allclose(shape.stiffness(d, E_star), 2 * E_star * a, rtol=EXACT)
     assert shape.pressure(0.0, d[0], E_star) == 0
     assert np.all(shape.pressure(a * np.linspace(0, 0.999, 9)[:, None], d, E_star) >= 0)
-    flat = ConcavePunch(a, 1e12)
-    assert_allclose(flat.force(1e-5, 1), FlatPunch(a).force(1e-5, 1), rtol=1e-12)  # a²/(3R d) = 1e-13
+    flat = mdr.ConcavePunch(a, 1e12)
+    assert_allclose(flat.force(1e-5, 1), mdr.FlatPunch(a).force(1e-5, 1), rtol=1e-12)  # a²/(3R d) = 1e-13
 
 
 @pytest.mark.parametrize("share", [-0.49, 0.0, 0.5, 1 - 1e-9])
 def test_a_concave_punch_that_touches_with_a_ring(share):
-    shape = ConcavePunch(2e-3, 1.0)
+    shape = mdr.ConcavePunch(2e-3, 1.0)
     for ask in (shape.contact_radius, lambda d: shape.force(d, 1), lambda d: shape.pressure(0, d, 1)):
         with pytest.raises(ValueError, match=r"annular contact: at the depth d = .* a²/R = 4e-06 m on; press deeper"):
             ask(np.array([1e-5, share * shape.least_depth]))
@@ -161,16 +147,16 @@ def test_a_concave_punch_that_touches_with_a_ring(share):
 
 @pytest.mark.parametrize("scale", [1e-9, 1e3])
 @pytest.mark.parametrize("make", [
-    lambda s: Sphere(R * s),
-    lambda s: Ellipsoid(2 * R * s, 1 / (R * s)),
-    lambda s: Hyperboloid(1e-3 * s, 2e-3 * s),
-    lambda s: TruncatedCone(B * s, THETA),
-    lambda s: TruncatedParaboloid(B * s, R * s),
-    lambda s: RoundedPunch(B * s, R * s),
-    lambda s: CappedCone(B * s, THETA),
-    lambda s: CappedParaboloid(2 * R * s, R * s, B * s),
-    lambda s: ConstantPressure(A_0 * s, D_0 * s),
-    lambda s: ConcavePunch(A_0 * s, s),
+    lambda s: mdr.Sphere(R * s),
+    lambda s: mdr.Ellipsoid(2 * R * s, 1 / (R * s)),
+    lambda s: mdr.Hyperboloid(1e-3 * s, 2e-3 * s),
+    lambda s: mdr.TruncatedCone(B * s, THETA),
+    lambda s: mdr.TruncatedParaboloid(B * s, R * s),
+    lambda s: mdr.RoundedPunch(B * s, R * s),
+    lambda s: mdr.CappedCone(B * s, THETA),
+    lambda s: mdr.CappedParaboloid(2 * R * s, R * s, B * s),
+    lambda s: mdr.ConstantPressure(A_0 * s, D_0 * s),
+    lambda s: mdr.ConcavePunch(A_0 * s, s),
 ])  # fmt: skip
 def test_any_unit_of_length_will_do(make, scale):
     one, other = make(1.0), make(scale)
@@ -183,22 +169,22 @@ def test_any_unit_of_length_will_do(make, scale):
 
 
 @pytest.mark.parametrize(("ask", "words"), [
-    (lambda: Sphere(R).profile_1d(R), "Sphere is touched within its equator only, x < 0.005 m.*infinite"),
-    (lambda: Sphere(R).profile_3d([0, 1.1 * R]), "Sphere ends at its equator r = 0.005 m, got 0.0055 m"),
-    (lambda: Sphere(R).force(1.0, 1), "d = 1 m is deeper than Sphere can be pressed.*equator"),
-    (lambda: Ellipsoid(R, 100).profile_area(0.02), "Ellipsoid is touched within its equator only, x < 0.01 m"),
-    (lambda: Ellipsoid(R, 100).contact_radius(1.0), "Ellipsoid can be pressed.*equator, 0.01 m"),
-    (lambda: ConstantPressure(1e-3, 1e-5).stiffness(2e-5, 1), "d_0 = 1e-05 m its whole face touches.*press less"),
-    (lambda: ConstantPressure(1e-3, 1e-5).profile_3d(2e-3), "ConstantPressure ends at r = 0.001 m, got 0.002 m"),
-    (lambda: ConcavePunch(1e-3, 1).profile_1d(2e-3), "ConcavePunch ends at r = 0.001 m, got 0.002 m"),
-    (lambda: CappedParaboloid(1.0, 2.0, B), "R2 must not exceed R1 = 1 m, got 2 m.*annular contact"),
-    (lambda: TruncatedCone(0, THETA), "b must be positive, got 0.0 .*a Cone has none"),
-    (lambda: TruncatedCone(B, 2), "theta must lie between"),
-    (lambda: TruncatedParaboloid(-B, R), "b must be positive"),
-    (lambda: RoundedPunch(B, 0), "R must be positive"),
-    (lambda: CappedCone(B, 0), "theta must lie between"),
-    (lambda: Ellipsoid(1, 1e-320), "k = .* beyond the range of floats"),
-    (lambda: Hyperboloid(1, np.inf), "c must be a finite number"),
+    (lambda: mdr.Sphere(R).profile_1d(R), "Sphere is touched within its equator only, x < 0.005 m.*infinite"),
+    (lambda: mdr.Sphere(R).profile_3d([0, 1.1 * R]), "Sphere ends at its equator r = 0.005 m, got 0.0055 m"),
+    (lambda: mdr.Sphere(R).force(1.0, 1), "d = 1 m is deeper than Sphere can be pressed.*equator"),
+    (lambda: mdr.Ellipsoid(R, 100).profile_area(0.02), "Ellipsoid is touched within its equator only, x < 0.01 m"),
+    (lambda: mdr.Ellipsoid(R, 100).contact_radius(1.0), "Ellipsoid can be pressed.*equator, 0.01 m"),
+    (lambda: mdr.ConstantPressure(1e-3, 1e-5).stiffness(2e-5, 1), "d_0 = 1e-05 m its whole face touches.*press less"),
+    (lambda: mdr.ConstantPressure(1e-3, 1e-5).profile_3d(2e-3), "ConstantPressure ends at r = 0.001 m, got 0.002 m"),
+    (lambda: mdr.ConcavePunch(1e-3, 1).profile_1d(2e-3), "ConcavePunch ends at r = 0.001 m, got 0.002 m"),
+    (lambda: mdr.CappedParaboloid(1.0, 2.0, B), "R2 must not exceed R1 = 1 m, got 2 m.*annular contact"),
+    (lambda: mdr.TruncatedCone(0, THETA), "b must be positive, got 0.0 .*a Cone has none"),
+    (lambda: mdr.TruncatedCone(B, 2), "theta must lie between"),
+    (lambda: mdr.TruncatedParaboloid(-B, R), "b must be positive"),
+    (lambda: mdr.RoundedPunch(B, 0), "R must be positive"),
+    (lambda: mdr.CappedCone(B, 0), "theta must lie between"),
+    (lambda: mdr.Ellipsoid(1, 1e-320), "k = .* beyond the range of floats"),
+    (lambda: mdr.Hyperboloid(1, np.inf), "c must be a finite number"),
 ])  # fmt: skip
 def test_limits_are_told_by_their_physical_name(ask, words):
     with pytest.raises(ValueError, match=words):
@@ -206,15 +192,15 @@ def test_limits_are_told_by_their_physical_name(ask, words):
 
 
 def test_the_equator_is_the_end_of_a_sphere():
-    assert Sphere(R).profile_3d(R) == R
-    assert Ellipsoid(R, 100).profile_3d(-0.01) == pytest.approx(R, rel=1e-15)
-    assert Sphere(R).max_radius < R
-    assert Sphere(R).contact_radius(5 * R) < R
-    assert np.isfinite(Sphere(R).force(10 * R, 1))
+    assert mdr.Sphere(R).profile_3d(R) == R
+    assert mdr.Ellipsoid(R, 100).profile_3d(-0.01) == pytest.approx(R, rel=1e-15)
+    assert mdr.Sphere(R).max_radius < R
+    assert mdr.Sphere(R).contact_radius(5 * R) < R
+    assert np.isfinite(mdr.Sphere(R).force(10 * R, 1))
 
 
 def test_the_cap_of_a_cone():
-    assert pytest.approx(B / math.tan(THETA), rel=1e-15) == CappedCone(B, THETA).R
+    assert pytest.approx(B / math.tan(THETA), rel=1e-15) == mdr.CappedCone(B, THETA).R
     for shape in KINKED:
         assert shape.kinks == (B,)
         below, above = shape.profile_1d(B * np.array([1 - 1e-15, 1 + 1e-15]))
