@@ -60,8 +60,7 @@ def surface_fields(
     """What happens at the surface, at distances r [m] from the axis (None: 0 to 1.5 contact radii), at sample i.
 
     source: an Indentation made with record=True; a PartialSlip, with i counting its u_x; or a SlidingRun made with
-    record. A rim where p is infinite answers with 0, a sharp tip with
-    the value one rounding away.
+    record. A rim where p is infinite answers with 0, a sharp tip with the value one rounding away.
 
     Raises TypeError for another source, ValueError for one that was not recorded, IndexError for an i that it does
     not have.

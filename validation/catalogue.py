@@ -76,9 +76,10 @@ def claim(effort: str) -> Claim:
             " remains small). — Section 2"
         ),
         range=(
-            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range; elastic, Kelvin (ωτ = 1) and"
-            f" standard solid; rigid pull and body; {len(points)} measured velocities at α = 0.1, and the full-slip"
-            " value at α → 0 for all shapes."
+            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range; {len(points)} measured velocities"
+            f" at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and the full-slip value under a body at α →"
+            f" 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes, standard solid for"
+            f" {'three' if quick else 'the curved ones'}."
         ),
         measured=(
             "Rigid pull: Eq. (1) for every shape. Body: what a shape does to v_c at small amplitude is one number, the"

@@ -89,9 +89,14 @@ def claim(effort: str) -> Claim:
             " and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3)."
         ),
         range=(
-            f"{len(points)} contacts measured from runs: oscillating load of {SMALL:g} and {GREAT:g} of the mean, with"
-            " and without mass in z, four shapes, elastic, Kelvin and standard solid, rigid pull and body; periodic"
-            " depths of two to nine harmonics, square-like tapping among them."
+            f"{len(points)} contacts measured from runs: "
+            + (
+                "; ".join(p.where for p in points) + "."
+                if quick
+                else f"oscillating load of {SMALL:g} and {GREAT:g} of the mean without mass, and of 0.3 with mass in z,"
+                " four shapes, elastic, Kelvin and standard solid, rigid pull and body; periodic depths of three to"
+                " nine harmonics, square-like tapping among them."
+            )
         ),
         measured=(
             "Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this is a"
