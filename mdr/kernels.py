@@ -20,6 +20,11 @@ One spring in one step, with compression s and extension e at its start:
 
 T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
 
+Friction has no part in the normal motion, which is periodic from the start. So it is known, for every step of the
+period, which springs press throughout it and which are free throughout it: springs stand with rising gap, and these
+are the first ones and the last ones (`spans`). Pressed springs need no share of the step and one division, free ones
+a multiplication; only the few that touch or leave within the step go through all the rules.
+
 Materials with Maxwell arms add a state for each arm and direction, x_j' = x' - x_j/theta_j, and go by the same rules
 with what the general operator L makes of a spring, or a lag, that is left alone: linear functionals of its state, from
 the table of rheology.py. Without dashpot, T = 0, the force L[e] itself tells when stick gives way to slip, as in the
@@ -54,6 +59,7 @@ L_ROWS = 9
     L_STIFFNESS,  # of the static force over a step, over T (0 without dashpot); then zeros
 ) = range(L_ROWS)
 
+VECTOR = 16  #: springs that a loop takes at once, or a multiple of it
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state
 N_LOOK = 8  #: what `foresee` fills
 S_FREE, S_RATE, S_END, S_SHED, LAG_FREE, LAG_RATE, LAG_END, LAG_SHED = range(N_LOOK)
@@ -100,6 +106,27 @@ def elastic_spring(e, gap, z_1, du, surge, inverse_dz, bend, late):
 
 
 @_inline
+def slip_or_stick(
+    s, trial, travelled, lead_0, lead_1, h, dashpot, stiffness, damping, s_free, lag_free, lag_rate, lag_end, lag_shed
+):
+    """New extension of a spring with memory that is compressed to s and would stick at `trial`.
+
+    lead: by how much the indenter sinks faster than the body moves, at both ends of the step; travelled: share of the
+    step in contact. What compression and lag do if left alone, as in `viscous_spring`.
+    """
+    D_0 = lead_0 + lag_rate  # > 0: sticks at the start
+    sticks = D_0 > 0.0
+    held = stiffness * (max(s - trial, 0.0) - lag_shed)
+    D_1 = lead_1 + (held if sticks else lag_end)
+    turn = -1.0 if sticks else 1.0
+    change = after_change(turn * D_0, turn * D_1, h, damping) if (dashpot or not sticks) else 0.0
+    forward = s - lag_free
+    first = min((trial if (sticks and dashpot) else forward) - travelled * change, forward)
+    first = first if dashpot else min(first, trial)
+    return max(first, (s_free + s_free) - lag_free - s)
+
+
+@_inline
 def viscous_spring(
     e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
     s_free, s_rate, s_end, s_shed, lag_free, lag_rate, lag_end, lag_shed,
@@ -120,16 +147,11 @@ def viscous_spring(
     travelled = way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
     flown = 1.0 - travelled
     trial = e + flown * (s_free - lag_free - e) + travelled * (du + flown * surge)
-    D_0 = zd_0 - ud_0 + lag_rate  # > 0: sticks at the start
-    sticks = D_0 > 0.0
-    held = stiffness * (max(s - trial, 0.0) - lag_shed)
-    D_1 = zd_1 - ud_1 + (held if sticks else lag_end)
-    turn = -1.0 if sticks else 1.0
-    change = after_change(turn * D_0, turn * D_1, h, damping) if (dashpot or not sticks) else 0.0
-    forward = s - lag_free
-    first = min((trial if (sticks and dashpot) else forward) - travelled * change, forward)
-    first = first if dashpot else min(first, trial)
-    return max(first, (s_free + s_free) - lag_free - s), s, travelled, trial
+    e_1 = slip_or_stick(
+        s, trial, travelled, zd_0 - ud_0, zd_1 - ud_1, h, dashpot, stiffness, damping,
+        s_free, lag_free, lag_rate, lag_end, lag_shed,
+    )  # fmt: skip
+    return e_1, s, travelled, trial
 
 
 @_inline
@@ -144,10 +166,11 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, r
 
 
 # --- one step -------------------------------------------------------------------------------------
+# n_in: the springs before it press throughout the step; n_out: those from it on are free throughout
 
 
 @_jit
-def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rigid):
+def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rigid):
     """All elastic springs over one step: fills e_1 and returns sum(w e) and, unless rigid, the stiffness that stuck."""
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
     bend = bend_of(zd_0, zd_1)
@@ -155,33 +178,60 @@ def elastic_step(e_0, e_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rigi
     surge = surge_of(du, ud_0, ud_1, h)
     total = 0.0
     stuck = 0.0
+    for i in range(n_in):
+        s = z_1 - gap[i]
+        e_1[i] = max(min(e_0[i] + du, s - late), -s)
+        total += w[i] * e_1[i]
+    old, new, foot, weight = e_0[n_in:n_out], e_1[n_in:n_out], gap[n_in:n_out], w[n_in:n_out]
+    for i in range(new.size):
+        new[i] = elastic_spring(old[i], foot[i], z_1, du, surge, inverse_dz, bend, late)[0]
+        total += weight[i] * new[i]
+    e_1[n_out:] = 0.0
     if rigid:
-        for i in range(e_0.size):
-            e_1[i] = elastic_spring(e_0[i], gap[i], z_1, du, surge, inverse_dz, bend, late)[0]
-            total += w[i] * e_1[i]
         return total, stuck
-    for i in range(e_0.size):
-        e, _, travelled, trial = elastic_spring(e_0[i], gap[i], z_1, du, surge, inverse_dz, bend, late)
-        e_1[i] = e
-        total += w[i] * e
-        stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+    for i in range(n_in):
+        stuck += w[i] if (e_1[i] == e_0[i] + du or (late > 0.0 and e_1[i] > 0.0)) else 0.0
+    for i in range(new.size):
+        e, _, travelled, trial = elastic_spring(old[i], foot[i], z_1, du, surge, inverse_dz, bend, late)
+        stuck += weight[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
     return total, stuck
 
 
 @_jit
-def kelvin_step(e_0, s_0, e_1, s_1, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay):
+def kelvin_step(e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay):
     """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
     surge = surge_of(du, ud_0, ud_1, h)
+    lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
     total = 0.0
     stuck = 0.0
-    for i in range(e_0.size):
-        e, s, travelled, trial = kelvin_spring(
-            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay
-        )
+    for i in range(n_in):
+        s = z_1 - gap[i]
+        trial = e_0[i] + du
+        lag = s_0[i] - e_0[i]
+        lag_free = lag * decay
+        e = slip_or_stick(
+            s, trial, 1.0, lead_0, lead_1, h, True, rate, rate,
+            s_0[i] * decay, lag_free, lag * rate, lag_free * rate, 0.0,
+        )  # fmt: skip
         e_1[i] = e
         s_1[i] = s
         total += w[i] * e
-        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+        stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    p_0, q_0, p_1, q_1 = e_0[n_in:n_out], s_0[n_in:n_out], e_1[n_in:n_out], s_1[n_in:n_out]
+    foot, weight = gap[n_in:n_out], w[n_in:n_out]
+    for i in range(foot.size):
+        e, s, travelled, trial = kelvin_spring(
+            p_0[i], q_0[i], foot[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay
+        )
+        p_1[i] = e
+        q_1[i] = s
+        total += weight[i] * e
+        stuck += weight[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    p_0, q_0, p_1, q_1, weight = e_0[n_out:], s_0[n_out:], e_1[n_out:], s_1[n_out:], w[n_out:]
+    for i in range(weight.size):
+        p_1[i] = p_0[i] * decay
+        q_1[i] = q_0[i] * decay
+        total += weight[i] * p_1[i]
     return total, stuck
 
 
@@ -205,22 +255,43 @@ def foresee(e, s, table, look):
 
 
 @_jit
-def arms_step(e_0, s_0, e_1, s_1, look, gap, w, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping):
+def arms_step(
+    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping
+):  # fmt: skip
     """All springs of a material with arms over one step: fills e_1 and s_1 (n,), returns sum(w e) and what stuck."""
     surge = surge_of(du, ud_0, ud_1, h)
+    lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
     dashpot = stiffness > 0.0
     total = 0.0
     stuck = 0.0
-    for i in range(e_0.size):
-        e, s, travelled, trial = viscous_spring(
-            e_0[i], s_0[i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
-            look[S_FREE, i], look[S_RATE, i], look[S_END, i], look[S_SHED, i],
-            look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
+    for i in range(n_in):
+        s = z_1 - gap[i]
+        trial = e_0[i] + du
+        e = slip_or_stick(
+            s, trial, 1.0, lead_0, lead_1, h, dashpot, stiffness, damping,
+            look[S_FREE, i], look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
         )  # fmt: skip
         e_1[i] = e
         s_1[i] = s
         total += w[i] * e
-        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+        stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    p_0, q_0, p_1, q_1 = e_0[n_in:n_out], s_0[n_in:n_out], e_1[n_in:n_out], s_1[n_in:n_out]
+    foot, weight, seen = gap[n_in:n_out], w[n_in:n_out], look[:, n_in:n_out]
+    for i in range(foot.size):
+        e, s, travelled, trial = viscous_spring(
+            p_0[i], q_0[i], foot[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
+            seen[S_FREE, i], seen[S_RATE, i], seen[S_END, i], seen[S_SHED, i],
+            seen[LAG_FREE, i], seen[LAG_RATE, i], seen[LAG_END, i], seen[LAG_SHED, i],
+        )  # fmt: skip
+        p_1[i] = e
+        q_1[i] = s
+        total += weight[i] * e
+        stuck += weight[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    p_1, q_1, weight, seen = e_1[n_out:], s_1[n_out:], w[n_out:], look[:, n_out:]
+    for i in range(weight.size):
+        p_1[i] = seen[S_FREE, i] - seen[LAG_FREE, i]
+        q_1[i] = seen[S_FREE, i]
+        total += weight[i] * p_1[i]
     return total, stuck
 
 
@@ -348,54 +419,67 @@ def normal_forces(gap, w, z, zd, table, F, outermost, at_edge, begins):
 
 
 @_jit
-def settle_normal(s, gap, w, z, zd, table):
+def settle_normal(s, gap, w, z, zd, table, presses):
     """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period.
 
     s: (1 + J, n). Without arms one period is the memory of a spring in the normal direction, so a second pass over the
-    period is periodic; springs with arms are settled one by one.
+    period is periodic; springs with arms are settled one by one. Fills presses (n_z + 1,) with the number of springs
+    that press at each instant, which are the first ones, as gaps rise from the centre outwards.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
     n_x = table.shape[1]
     decay = table[L_DECAY, 0]
     mean = 0.0
+    presses[:] = 0
+    if n_x > 1:
+        force, touches, guess = np.empty(n_z), np.empty(n_z), np.zeros(n_x)
+        for i in range(gap.size):
+            mean += w[i] * settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches)
+            for k in range(n_z):
+                presses[k] += 1 if touches[k] > 0.0 else 0
+        presses[n_z] = presses[0]
+        return mean / n_z
+    rate = table[L_RATE, 0]
     for i in range(gap.size):
-        s[:, i] = 0.0
         s[0, i] = max(z[0] - gap[i], 0.0)
-    if decay == 0.0 and n_x == 1:
+    for _ in range(1 if decay == 0.0 else 2):
+        mean = 0.0
         for k in range(n_z):
             total = 0.0
+            count = 0.0
             for i in range(gap.size):
-                total += w[i] * max(z[k] - gap[i], 0.0)
-            mean += total
-        return mean / n_z
-    if n_x == 1:
-        rate = table[L_RATE, 0]
-        for turn in range(2):
-            for k in range(n_z):
-                total = 0.0
-                for i in range(gap.size):
+                if decay == 0.0:
+                    value = max(z[k + 1] - gap[i], 0.0)
+                else:
                     _, value, _, _ = kelvin_spring(
                         0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
                     )
-                    s[0, i] = value
-                    total += w[i] * value
-                mean += total if turn == 1 else 0.0
-        return mean / n_z
-    nothing, guess = np.empty(0), np.zeros(n_x)
-    for i in range(gap.size):
-        mean += w[i] * settle_spring(s[:, i], guess, gap[i], z, zd, table, nothing, nothing)
+                s[0, i] = value
+                total += w[i] * value
+                count += 1.0 if value > 0.0 and value <= z[k + 1] - gap[i] else 0.0
+            mean += total
+            presses[k + 1] = int(count)
+    presses[0] = presses[n_z]
     return mean / n_z
 
 
+@_inline
+def span_of(presses, k, n):
+    """n_in, n_out of step k, the one rounded down and the other up so that whole vectors go through each loop."""
+    low, high = min(presses[k], presses[k + 1]), max(presses[k], presses[k + 1])
+    return low // VECTOR * VECTOR, min((high + VECTOR - 1) // VECTOR * VECTOR, n)
+
+
 @_jit
-def march(e, s, history, body, gap, w, z, zd, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
+def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
     """March n_steps from step k_0 of the period; e, s and history are updated in place.
 
     e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. table: of the material
     over a step (rheology.py). history: (5 + 2J,) y, y_old, y_older, S, S_old and the sums of w e over each arm, now and
     one step before. body: (5 + 2J,) a_1, a_2, b_1, b_0, b_m and the weights of those sums, all zero for a rigid pull.
-    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity.
+    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. presses: (n_z + 1,)
+    how many springs press at z[k], the first ones (`settle_normal`); 0, n, 0, n ... takes all through all rules.
     lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative
     switches the watch off. y_out, S_out: (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
     Returns whether the core moved as one all the way.
@@ -416,6 +500,7 @@ def march(e, s, history, body, gap, w, z, zd, v, table, lump_margin, n_steps, k_
     for j in range(n_steps):
         k = (k_0 + j) % n_z
         z_0, z_1 = z[k], z[k + 1]
+        n_in, n_out = span_of(presses, k, gap.size)
         pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
         for a in range(2 * n_arms):
             pull -= body[5 + a] * history[5 + a]
@@ -428,15 +513,18 @@ def march(e, s, history, body, gap, w, z, zd, v, table, lump_margin, n_steps, k_
             du = v * h + (y_1 - y_0)
             ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
-                S_1, stuck = elastic_step(e_0[0], e_1[0], gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid)
+                S_1, stuck = elastic_step(
+                    e_0[0], e_1[0], gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid
+                )
             elif n_arms == 0:
                 S_1, stuck = kelvin_step(
-                    e_0[0], s_0[0], e_1[0], s_1[0], gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay
-                )
+                    e_0[0], s_0[0], e_1[0], s_1[0], gap, w, n_in, n_out,
+                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay,
+                )  # fmt: skip
             else:
                 S_1, stuck = arms_step(
-                    e_0[0], s_0[0], e_1[0], s_1[0], look, gap, w, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h,
-                    stiffness, damping,
+                    e_0[0], s_0[0], e_1[0], s_1[0], look, gap, w, n_in, n_out,
+                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, stiffness, damping,
                 )  # fmt: skip
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
@@ -545,22 +633,59 @@ def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
     return shear, press
 
 
+@_inline
+def close_look(e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, du, surge, h, T, dashpot):
+    """One spring in one step, of which it spends the share `touched` in contact; per_time is 1/(touched h).
+
+    force, trial: what would press it and what it would take to stick, over its long-time stiffness. Returns its
+    normal and tangential force at the end and mode; its slip velocity, stretch and squeeze while in contact; and the
+    impulse of its normal force. The step falls into a free part and a part in contact, as in the march.
+    """
+    normal = max(force, 0.0)
+    stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
+    squeezed = s_1 - s_0 - (1.0 - touched) * (s_free - s_0)
+    slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
+    # where arms make the static force, what a spring did in the step tells its mode, else its trial force
+    pace = 1e-9 * abs(du) / h
+    now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
+    tangential = min(max(trial, -normal), normal)
+    tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
+    impulse = max(0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s, 0.0)
+    return normal, tangential, now, slip_rate, stretched, squeezed, impulse
+
+
+@_inline
+def least_of(values, n):
+    """Least of the first n values, infinite for none; by halves, which vectorises. Changes values."""
+    while n > 1:
+        half = n // 2
+        low, high = values[:half], values[n - half : n]
+        for i in range(half):
+            low[i] = min(low[i], high[i])
+        n -= half
+    return values[0] if n == 1 else np.inf
+
+
 @_jit
-def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z):
+def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z):
     """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
 
-    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot:
-    (m + 1,). Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step, slip (m,) with the
-    least slip velocity of a spring in contact through the step, or else at the touch of those that touched in it
-    (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over its stiffness, or (0, n)
-    for none.
+    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot,
+    presses: (m + 1,), see `march`. Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step,
+    slip (m,) with the least slip velocity of a spring in contact through the step, or else at the touch of those that
+    touched in it (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over its
+    stiffness, or (0, n) for none.
     """
     T, n_x, n = table[L_TIME, 0], table.shape[1], gap.size
     dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
-    slips, first_slips, tangentials, normals = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
-    modes = np.empty(n, dtype=np.uint8)
+    remembers = n_x > 1 or T > 0.0
+    slips, first_slips = np.empty(n), np.empty(n)
     arms = np.zeros((8, n))
     free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
+    S_0, P_0 = 0.0, 0.0  # sums of w e and of w s
+    for i in range(n):
+        S_0 += w[i] * e[0, 0, i]
+        P_0 += w[i] * s[0, 0, i]
     for k in range(e.shape[0] - 1):
         du = v * h + (y[k + 3] - y[k + 2])
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
@@ -568,55 +693,89 @@ def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, 
         z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
         surge = surge_of(du, ux_dot_0, ux_dot, h)
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
-        pace = 1e-9 * abs(du) / h
-        sum_x = sum_z = sum_e = sum_s = stick = friction = shear_viscous = normal_viscous = shear = press = 0.0
+        S_1 = P_1 = sum_x = sum_z = stick = friction = shear_viscous = normal_viscous = shear_arms = press_arms = 0.0
         if n_x > 1:
             shear_viscous, normal_viscous = add_arms(e[k], e[k + 1], s[k], s[k + 1], w, table, h, arms)
+            for i in range(n):
+                shear_arms += w[i] * arms[6, i]
+                press_arms += w[i] * arms[7, i]
         e_here, e_next, s_here, s_next = e[k, 0], e[k + 1, 0], s[k, 0], s[k + 1, 0]
-        for i in range(n):
-            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
-            free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
-            rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
-            force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]  # over the long-time stiffness
-            arms_e, arms_s = arms[6, i], arms[7, i]
-            normal = force if s_1 <= z_1 - gap[i] and force > 0.0 else 0.0
-            # the step falls into a free part and a part in contact, as in the march
-            touched = contact_share(s_0, free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
-            per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
-            stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
-            slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
-            # where arms make the static force, what a spring did in the step tells its mode, else its trial force
-            by_force = normal * (1.0 - 1e-12)
-            now = mode_of(normal, trial if dashpot else slip_rate, by_force if dashpot else pace)
-            tangential = min(max(trial, -normal), normal)
-            tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
+        n_in, n_out = span_of(presses, k, n)
+        a, b = e_here[:n_in], e_next[:n_in]
+        for i in range(n_in):
+            e_0, e_1, s_0, s_1 = a[i], b[i], s_here[i], s_next[i]
+            force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]
+            normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
+                e_0, e_1, s_0, s_1, e_0, s_0, 1.0, 1.0 / h, force, trial, arms[7, i], du, surge, h, T, dashpot
+            )
             sum_x += w[i] * tangential
             sum_z += w[i] * normal
             stick += w[i] * normal if now == STICK else 0.0
-            sum_e += w[i] * (e_0 + e_1)
-            sum_s += w[i] * (s_0 + s_1)
-            normal_impulse = 0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s
-            friction += w[i] * max(normal_impulse, 0.0) * abs(slip_rate)
-            squeezed = s_1 - s_0 - (1.0 - touched) * (free - s_0)
+            friction += w[i] * impulse * abs(slip_rate)
+            shear_viscous += w[i] * T * (stretched * stretched / h)
+            normal_viscous += w[i] * T * (squeezed * squeezed / h)
+            S_1 += w[i] * e_1
+            P_1 += w[i] * s_1
+            slips[i] = slip_rate
+        for i in range(n_in, n_out):
+            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+            s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
+            rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
+            touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
+            per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+            follows = s_1 <= z_1 - gap[i]
+            force = s_1 + T * zd_1 + arms[4, i] if follows else 0.0
+            trial = e_1 + T * ux_dot + arms[5, i]
+            normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
+                e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
+                du, surge, h, T, dashpot,
+            )  # fmt: skip
             flight = (1.0 - touched) / h
+            sum_x += w[i] * tangential
+            sum_z += w[i] * normal
+            stick += w[i] * normal if now == STICK else 0.0
+            friction += w[i] * impulse * abs(slip_rate)
             shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flight)
-            normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (free - s_0) ** 2 * flight)
-            shear += w[i] * (0.5 * h * (e_0 + e_1) + T * (e_1 - e_0) + arms_e)
-            press += w[i] * normal_impulse
-            presses = s_1 > 0.0 and s_1 <= z_1 - gap[i]
-            slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
-            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
-            modes[i], tangentials[i], normals[i] = now, tangential, normal
-        least, first = np.inf, np.inf
-        for i in range(n):
-            least = min(least, slips[i])
-            first = min(first, first_slips[i])
-        least = least if least < np.inf else first  # all that press slip alike, so only the first touch of all adds
+            normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (s_free - s_0) ** 2 * flight)
+            S_1 += w[i] * e_1
+            P_1 += w[i] * s_1
+            presses_now = follows and s_1 > 0.0
+            slips[i] = slip_rate if presses_now and touched > 0.999999 else np.inf
+            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses_now and touched > 1e-6 else np.inf
+        if remembers:
+            weight, e_old, e_new, s_old, s_new = (
+                w[n_out:],
+                e_here[n_out:],
+                e_next[n_out:],
+                s_here[n_out:],
+                s_next[n_out:],
+            )
+            for i in range(weight.size):
+                shear_viscous += weight[i] * T * ((e_new[i] - e_old[i]) ** 2 / h)
+                normal_viscous += weight[i] * T * ((s_new[i] - s_old[i]) ** 2 / h)
+                S_1 += weight[i] * e_new[i]
+                P_1 += weight[i] * s_new[i]
+        least = least_of(slips, n_out)
+        if least == np.inf:  # all that press slip alike, so only the first touch of all adds
+            least = least_of(first_slips[n_in:], n_out - n_in)
         if mode.shape[0] > 0:
-            mode[k], f_x[k], f_z[k] = modes, tangentials, normals
+            for i in range(n):
+                e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+                s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
+                rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
+                touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
+                per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+                force = s_1 + T * zd_1 + arms[4, i] if s_1 <= z_1 - gap[i] else 0.0
+                trial = e_1 + T * ux_dot + arms[5, i]
+                f_z[k, i], f_x[k, i], mode[k, i], _, _, _, _ = close_look(
+                    e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
+                    du, surge, h, T, dashpot,
+                )  # fmt: skip
+        shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
+        press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
         F_x[k], F_z[k], slip[k] = sum_x, sum_z, least
-        sums[SUM_E] += 0.5 * sum_e
-        sums[SUM_S] += 0.5 * sum_s
+        sums[SUM_E] += 0.5 * (S_0 + S_1)
+        sums[SUM_S] += 0.5 * (P_0 + P_1)
         sums[STICK_TIME] += stick * h
         sums[CONTACT_TIME] += sum_z * h
         sums[SHEAR_WORK] += shear * du / h
@@ -625,3 +784,4 @@ def observe(e, s, y, z, z_dot, gap, w, v, table, h, sums, F_x, F_z, slip, mode, 
         sums[SHEAR_VISCOUS] += shear_viscous
         sums[NORMAL_VISCOUS] += normal_viscous
         sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least)
+        S_0, P_0 = S_1, P_1

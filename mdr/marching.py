@@ -146,7 +146,10 @@ class Line:
         self.scaled, self.v = scaled, v
         shape = 1 + scaled.n_arms, scaled.gap.size
         self.s, self.e = np.zeros(shape), np.zeros(shape)  # compression and extension, with their arms below
-        self.mean_F_z = kernels.settle_normal(self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
+        self.presses = np.empty(scaled.steps + 1, dtype=np.int64)
+        self.mean_F_z = kernels.settle_normal(
+            self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, self.presses
+        )
         self.driven: Array | None = None  # history of the body on an undamped resonance, if it is on one
         self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
         if start == "full_slip":
@@ -183,6 +186,7 @@ class Line:
             scaled.w,
             scaled.z,
             scaled.z_dot,
+            self.presses,
             fast,
             scaled.table,
             -np.inf,
@@ -207,6 +211,7 @@ class Line:
             scaled.w,
             scaled.z,
             scaled.z_dot,
+            self.presses,
             self.v,
             scaled.table,
             scaled.lump_margin,
@@ -379,6 +384,7 @@ class Line:
                 np.concatenate([history, y]),
                 scaled.z[k],
                 scaled.z_dot[k],
+                self.presses[k],
                 scaled.gap,
                 scaled.w,
                 self.v,

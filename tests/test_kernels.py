@@ -10,7 +10,7 @@ import reference
 from conftest import SHAPES, contact
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import kernels
@@ -75,10 +75,10 @@ class Step:
         u = self.u(h), self.rate(0), self.rate(h)
         if self.T:
             step = kernels.kelvin_step.py_func if python else kernels.kelvin_step
-            sums = step(self.e, self.s, e_1, s_1, self.gap, w, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
+            sums = step(self.e, self.s, e_1, s_1, self.gap, w, 0, w.size, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
         else:
             step = kernels.elastic_step.py_func if python else kernels.elastic_step
-            sums = step(self.e, e_1, self.gap, w, *z, *u, h, False)
+            sums = step(self.e, e_1, self.gap, w, 0, w.size, *z, *u, h, False)
             s_1 = np.maximum(self.z(h) - self.gap, 0)
         return e_1, s_1, *sums
 
@@ -133,7 +133,7 @@ def test_a_rigid_pull_moves_elastic_springs_alike():
         e_1, w, h = np.empty_like(step.e), np.full(step.e.size, 1 / step.e.size), step.h
         z = step.z(0), step.z(h), step.z_dot(0), step.z_dot(h)
         total, _ = kernels.elastic_step(
-            step.e, e_1, step.gap, w, *z, step.u(h), step.rate(0), step.rate(h), h, True
+            step.e, e_1, step.gap, w, 0, w.size, *z, step.u(h), step.rate(0), step.rate(h), h, True
         )
         expected, _, sum_expected, _ = step.kernel()
         assert_allclose(e_1, expected, rtol=0, atol=1e-15)
@@ -211,16 +211,16 @@ def test_a_first_touch_within_a_step_is_exact_for_linear_motion(h):
     w, e_0 = np.full(23, 1 / 23), np.zeros(23)
     for v in (0.5, -0.5):
         e_1, s_1 = np.empty(23), np.empty(23)
-        total, stuck = kernels.elastic_step(e_0, e_1, gap, w, 0.0, h, 1.0, 1.0, v * h, v, v, h, False)
+        total, stuck = kernels.elastic_step(e_0, e_1, gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, False)
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(
             [total, stuck], [w @ e_1, w @ (1 - gap / h)], rtol=1e-13
         )  # the slope of the sum over the travel
-        kernels.kelvin_step(e_0, e_0, e_1, s_1, gap, w, 0.0, h, 1.0, 1.0, v * h, v, v, h, 1.0, math.exp(-h))
+        kernels.kelvin_step(e_0, e_0, e_1, s_1, gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, 1.0, math.exp(-h))
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(s_1, h - gap, rtol=0, atol=1e-15)
     # twice as fast it slips from first touch, e = s
-    kernels.elastic_step(e_0, e_1, gap, w, 0.0, h, 1.0, 1.0, 2 * h, 2.0, 2.0, h, True)
+    kernels.elastic_step(e_0, e_1, gap, w, 0, w.size, 0.0, h, 1.0, 1.0, 2 * h, 2.0, 2.0, h, True)
     assert_allclose(e_1, h - gap, rtol=0, atol=1e-15)
 
 
@@ -240,7 +240,9 @@ def test_a_kelvin_step_tends_to_the_elastic_one(share):
 # --- one run ---
 
 
-def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1):
+def march(
+    scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1, presses=None
+):
     """March from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
     if s is None:
         s = settled(scaled)
@@ -260,6 +262,7 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, his
             scaled.w,
             z,
             zd,
+            all_rules(scaled, z.size) if presses is None else presses,
             v,
             scaled.table,
             -np.inf,
@@ -274,10 +277,61 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, his
     return out | ({"s": s[0]} if scaled.T else {})
 
 
+@pytest.mark.parametrize("body", [{}, {"k_ratio": 0.7, "omega_0_ratio": 0.6}], ids=["rigid", "body"])
+@pytest.mark.parametrize("depth_ratio", [3.0, 0.6])
+@pytest.mark.parametrize("shape", ["flat", "cone", "paraboloid"])
+@pytest.mark.parametrize("T", [0.0, 0.3, 3.0])
+def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body):
+    """With the springs sorted by what they do in a step, and with all of them taken through all rules."""
+    scaled = scaled_of(shape, depth_ratio, T, steps=128, n_springs=77, **body)
+    presses = counts_of(scaled)
+    s = np.zeros((1, scaled.gap.size))
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, presses)
+    moved = np.array([np.count_nonzero(scaled.gap < z) for z in scaled.z])
+    assert np.all(presses <= moved)
+    if not T:
+        assert_array_equal(presses, moved)
+    one, two = (march(scaled, 0.4, 400, s=s[0], e=0 * s[0], presses=p) for p in (None, presses))
+    for name in ("y", "S", "e_out", "s_out", "e"):
+        assert_allclose(two[name], one[name], rtol=0, atol=2e-13 * (1 + np.abs(one[name]).max()), err_msg=name)
+    seen = [look_at(scaled, out, s[0], 128, p) for out, p in ((one, None), (two, presses))]
+    for got, expected in zip(*seen, strict=True):
+        # a rate is a difference over a step
+        assert_allclose(got, expected, rtol=1e-10, atol=1e-10)
+
+
+def look_at(scaled, out, s, steps, presses):
+    """What `observe` makes of the first steps of a march: sums, forces, slip and what it keeps of each spring."""
+    n = scaled.gap.size
+    e = np.vstack([0 * s, out["e_out"][:steps]])[:, None]
+    s = np.vstack([s, out["s_out"][:steps]])[:, None]
+    sums, mode = np.zeros(kernels.N_SUMS), np.zeros((steps, n), dtype=np.uint8)
+    sums[kernels.LEAST_SLIP] = np.inf
+    forces, each = np.empty((3, steps)), np.empty((2, steps, n))
+    presses = all_rules(scaled) if presses is None else presses
+    y = np.concatenate([np.zeros(3), out["y"][:steps]])
+    z = scaled.z, scaled.z_dot
+    kernels.observe(
+        e, s, y, *z, presses, scaled.gap, scaled.w, 0.4, scaled.table, scaled.h, sums, *forces, mode, *each
+    )
+    forces[2][~np.isfinite(forces[2])] = 1e9
+    return sums[:-1], forces, each
+
+
+def all_rules(scaled, n_instants=None):
+    """Counts of pressing springs between which any spring may touch or leave in any step."""
+    return np.resize([0, scaled.gap.size], n_instants or scaled.z.size)
+
+
+def counts_of(scaled):
+    """Room for the number of springs that press at each instant."""
+    return np.empty(scaled.z.size, dtype=np.int64)
+
+
 def settled(scaled):
     """Compressions at phase 0 of the periodic normal motion."""
     s = np.zeros((1, scaled.gap.size))
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, counts_of(scaled))
     return s[0]
 
 
@@ -337,7 +391,7 @@ def test_a_kelvin_march_under_a_rigid_pull_has_the_lag_of_the_twin(depth_ratio, 
 def test_settled_normal_motion_is_that_of_the_twin(depth_ratio, T):
     scaled = scaled_of("paraboloid", depth_ratio, T, steps=512)
     s = np.zeros((1, 32))
-    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table)
+    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, counts_of(scaled))
     # kinks at touch and release between two steps
     assert_allclose(mean, scaled.w @ reference.mean_compression(-scaled.gap, T), rtol=0, atol=0.25 * scaled.h**2)
     on, off = reference.contact_times(-scaled.gap, T)
@@ -464,6 +518,7 @@ def test_full_slip_as_it_is_observed(T):
         np.zeros(steps + 3),
         scaled.z,
         scaled.z_dot,
+        all_rules(scaled),
         scaled.gap,
         scaled.w,
         v,

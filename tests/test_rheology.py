@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 import mdr
 from mdr import kernels as k
+from mdr.marching import Line
 from mdr.rheology import Rheology, over_step
 from mdr.scaled import ScaledContact
 
@@ -176,6 +177,25 @@ def test_forces_of_springs_add_up():
         sticks = run.state == mdr.State.STICK
         assert np.all(run.f_z[run.state == mdr.State.FREE] == 0)
         assert sticks.any()
+
+
+@pytest.mark.parametrize("depth_ratio", [3.0, 0.6])
+@pytest.mark.parametrize("arms", [ARMS["one"], ARMS["two"]], ids=["one", "two"])
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_pressed_and_free_springs_obey_all_the_rules(T, arms, depth_ratio):
+    contact = case(T, *arms, depth_ratio=depth_ratio, pull=mdr.SpringPull(2e3, 0.02, 1.0))
+    scaled = ScaledContact.of(contact, mdr.SpringArray.of(contact, 77), 128, lump=False)
+    sorted_out, plain = (Line(scaled, 0.4, "full_slip") for _ in range(2))
+    plain.presses = np.resize([0, 77], 129)  # so that any spring may touch or leave in any step
+    for line in (sorted_out, plain):
+        line.advance(3)
+        line.seen = line.observe(keep=True)
+    for name in ("e", "s", "history", "cofs"):
+        one, two = getattr(plain, name), getattr(sorted_out, name)
+        assert_allclose(two, one, rtol=0, atol=1e-12 * (1 + np.abs(one).max()), err_msg=name)
+    for name in ("sums", "F_x", "F_z", "f_x", "f_z"):
+        one, two = getattr(plain.seen, name), getattr(sorted_out.seen, name)
+        assert_allclose(two, one, rtol=1e-9, atol=1e-9, err_msg=name)
 
 
 def test_a_material_that_flows_is_refused():
