@@ -40,6 +40,7 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numba.extending import register_jitable
 
 _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
 _jit = njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST)
@@ -166,7 +167,14 @@ def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, r
 
 
 # --- one step -------------------------------------------------------------------------------------
-# n_in: the springs before it press throughout the step; n_out: those from it on are free throughout
+# n_in: the springs before it press throughout the step; n_out: those from it on are free throughout. e, s: (1 + J, n),
+# of which a step fills the first row
+
+
+@register_jitable(inline="always")
+def springs(first, last):
+    """The indices first ... last - 1, known not to be negative: else a loop over them is not vectorised."""
+    return range(np.uint64(first), np.uint64(last))
 
 
 @_jit
@@ -178,22 +186,22 @@ def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, 
     surge = surge_of(du, ud_0, ud_1, h)
     total = 0.0
     stuck = 0.0
-    for i in range(n_in):
+    for i in springs(0, n_in):
         s = z_1 - gap[i]
-        e_1[i] = max(min(e_0[i] + du, s - late), -s)
-        total += w[i] * e_1[i]
-    old, new, foot, weight = e_0[n_in:n_out], e_1[n_in:n_out], gap[n_in:n_out], w[n_in:n_out]
-    for i in range(new.size):
-        new[i] = elastic_spring(old[i], foot[i], z_1, du, surge, inverse_dz, bend, late)[0]
-        total += weight[i] * new[i]
-    e_1[n_out:] = 0.0
+        e_1[0, i] = max(min(e_0[0, i] + du, s - late), -s)
+        total += w[i] * e_1[0, i]
+    for i in springs(n_in, n_out):
+        e_1[0, i] = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, inverse_dz, bend, late)[0]
+        total += w[i] * e_1[0, i]
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = 0.0
     if rigid:
         return total, stuck
-    for i in range(n_in):
-        stuck += w[i] if (e_1[i] == e_0[i] + du or (late > 0.0 and e_1[i] > 0.0)) else 0.0
-    for i in range(new.size):
-        e, _, travelled, trial = elastic_spring(old[i], foot[i], z_1, du, surge, inverse_dz, bend, late)
-        stuck += weight[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+    for i in springs(0, n_in):
+        stuck += w[i] if (e_1[0, i] == e_0[0, i] + du or (late > 0.0 and e_1[0, i] > 0.0)) else 0.0
+    for i in springs(n_in, n_out):
+        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, inverse_dz, bend, late)
+        stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
     return total, stuck
 
 
@@ -204,34 +212,31 @@ def kelvin_step(e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, d
     lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
     total = 0.0
     stuck = 0.0
-    for i in range(n_in):
+    for i in springs(0, n_in):
         s = z_1 - gap[i]
-        trial = e_0[i] + du
-        lag = s_0[i] - e_0[i]
+        trial = e_0[0, i] + du
+        lag = s_0[0, i] - e_0[0, i]
         lag_free = lag * decay
         e = slip_or_stick(
             s, trial, 1.0, lead_0, lead_1, h, True, rate, rate,
-            s_0[i] * decay, lag_free, lag * rate, lag_free * rate, 0.0,
+            s_0[0, i] * decay, lag_free, lag * rate, lag_free * rate, 0.0,
         )  # fmt: skip
-        e_1[i] = e
-        s_1[i] = s
+        e_1[0, i] = e
+        s_1[0, i] = s
         total += w[i] * e
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    p_0, q_0, p_1, q_1 = e_0[n_in:n_out], s_0[n_in:n_out], e_1[n_in:n_out], s_1[n_in:n_out]
-    foot, weight = gap[n_in:n_out], w[n_in:n_out]
-    for i in range(foot.size):
+    for i in springs(n_in, n_out):
         e, s, travelled, trial = kelvin_spring(
-            p_0[i], q_0[i], foot[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay
+            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay
         )
-        p_1[i] = e
-        q_1[i] = s
-        total += weight[i] * e
-        stuck += weight[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    p_0, q_0, p_1, q_1, weight = e_0[n_out:], s_0[n_out:], e_1[n_out:], s_1[n_out:], w[n_out:]
-    for i in range(weight.size):
-        p_1[i] = p_0[i] * decay
-        q_1[i] = q_0[i] * decay
-        total += weight[i] * p_1[i]
+        e_1[0, i] = e
+        s_1[0, i] = s
+        total += w[i] * e
+        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = e_0[0, i] * decay
+        s_1[0, i] = s_0[0, i] * decay
+        total += w[i] * e_1[0, i]
     return total, stuck
 
 
@@ -258,40 +263,37 @@ def foresee(e, s, table, look):
 def arms_step(
     e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping
 ):  # fmt: skip
-    """All springs of a material with arms over one step: fills e_1 and s_1 (n,), returns sum(w e) and what stuck."""
+    """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck."""
     surge = surge_of(du, ud_0, ud_1, h)
     lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
     dashpot = stiffness > 0.0
     total = 0.0
     stuck = 0.0
-    for i in range(n_in):
+    for i in springs(0, n_in):
         s = z_1 - gap[i]
-        trial = e_0[i] + du
+        trial = e_0[0, i] + du
         e = slip_or_stick(
             s, trial, 1.0, lead_0, lead_1, h, dashpot, stiffness, damping,
             look[S_FREE, i], look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
         )  # fmt: skip
-        e_1[i] = e
-        s_1[i] = s
+        e_1[0, i] = e
+        s_1[0, i] = s
         total += w[i] * e
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    p_0, q_0, p_1, q_1 = e_0[n_in:n_out], s_0[n_in:n_out], e_1[n_in:n_out], s_1[n_in:n_out]
-    foot, weight, seen = gap[n_in:n_out], w[n_in:n_out], look[:, n_in:n_out]
-    for i in range(foot.size):
+    for i in springs(n_in, n_out):
         e, s, travelled, trial = viscous_spring(
-            p_0[i], q_0[i], foot[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
-            seen[S_FREE, i], seen[S_RATE, i], seen[S_END, i], seen[S_SHED, i],
-            seen[LAG_FREE, i], seen[LAG_RATE, i], seen[LAG_END, i], seen[LAG_SHED, i],
+            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
+            look[S_FREE, i], look[S_RATE, i], look[S_END, i], look[S_SHED, i],
+            look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
         )  # fmt: skip
-        p_1[i] = e
-        q_1[i] = s
-        total += weight[i] * e
-        stuck += weight[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    p_1, q_1, weight, seen = e_1[n_out:], s_1[n_out:], w[n_out:], look[:, n_out:]
-    for i in range(weight.size):
-        p_1[i] = seen[S_FREE, i] - seen[LAG_FREE, i]
-        q_1[i] = seen[S_FREE, i]
-        total += weight[i] * p_1[i]
+        e_1[0, i] = e
+        s_1[0, i] = s
+        total += w[i] * e
+        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = look[S_FREE, i] - look[LAG_FREE, i]
+        s_1[0, i] = look[S_FREE, i]
+        total += w[i] * e_1[0, i]
     return total, stuck
 
 
@@ -514,16 +516,16 @@ def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_
             ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
                 S_1, stuck = elastic_step(
-                    e_0[0], e_1[0], gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid
+                    e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid
                 )
             elif n_arms == 0:
                 S_1, stuck = kelvin_step(
-                    e_0[0], s_0[0], e_1[0], s_1[0], gap, w, n_in, n_out,
+                    e_0, s_0, e_1, s_1, gap, w, n_in, n_out,
                     z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay,
                 )  # fmt: skip
             else:
                 S_1, stuck = arms_step(
-                    e_0[0], s_0[0], e_1[0], s_1[0], look, gap, w, n_in, n_out,
+                    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out,
                     z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, stiffness, damping,
                 )  # fmt: skip
             excess = y_1 - pull + b_1 * S_1
@@ -701,9 +703,8 @@ def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, sli
                 press_arms += w[i] * arms[7, i]
         e_here, e_next, s_here, s_next = e[k, 0], e[k + 1, 0], s[k, 0], s[k + 1, 0]
         n_in, n_out = span_of(presses, k, n)
-        a, b = e_here[:n_in], e_next[:n_in]
-        for i in range(n_in):
-            e_0, e_1, s_0, s_1 = a[i], b[i], s_here[i], s_next[i]
+        for i in springs(0, n_in):
+            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]
             normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
                 e_0, e_1, s_0, s_1, e_0, s_0, 1.0, 1.0 / h, force, trial, arms[7, i], du, surge, h, T, dashpot
@@ -717,7 +718,7 @@ def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, sli
             S_1 += w[i] * e_1
             P_1 += w[i] * s_1
             slips[i] = slip_rate
-        for i in range(n_in, n_out):
+        for i in springs(n_in, n_out):
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
             rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
@@ -743,18 +744,11 @@ def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, sli
             slips[i] = slip_rate if presses_now and touched > 0.999999 else np.inf
             first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses_now and touched > 1e-6 else np.inf
         if remembers:
-            weight, e_old, e_new, s_old, s_new = (
-                w[n_out:],
-                e_here[n_out:],
-                e_next[n_out:],
-                s_here[n_out:],
-                s_next[n_out:],
-            )
-            for i in range(weight.size):
-                shear_viscous += weight[i] * T * ((e_new[i] - e_old[i]) ** 2 / h)
-                normal_viscous += weight[i] * T * ((s_new[i] - s_old[i]) ** 2 / h)
-                S_1 += weight[i] * e_new[i]
-                P_1 += weight[i] * s_new[i]
+            for i in springs(n_out, n):
+                shear_viscous += w[i] * T * ((e_next[i] - e_here[i]) ** 2 / h)
+                normal_viscous += w[i] * T * ((s_next[i] - s_here[i]) ** 2 / h)
+                S_1 += w[i] * e_next[i]
+                P_1 += w[i] * s_next[i]
         least = least_of(slips, n_out)
         if least == np.inf:  # all that press slip alike, so only the first touch of all adds
             least = least_of(first_slips[n_in:], n_out - n_in)

@@ -75,10 +75,10 @@ class Step:
         u = self.u(h), self.rate(0), self.rate(h)
         if self.T:
             step = kernels.kelvin_step.py_func if python else kernels.kelvin_step
-            sums = step(self.e, self.s, e_1, s_1, self.gap, w, 0, w.size, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
+            sums = step(self.e[None], self.s[None], e_1[None], s_1[None], self.gap, w, 0, w.size, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
         else:
             step = kernels.elastic_step.py_func if python else kernels.elastic_step
-            sums = step(self.e, e_1, self.gap, w, 0, w.size, *z, *u, h, False)
+            sums = step(self.e[None], e_1[None], self.gap, w, 0, w.size, *z, *u, h, False)
             s_1 = np.maximum(self.z(h) - self.gap, 0)
         return e_1, s_1, *sums
 
@@ -133,7 +133,7 @@ def test_a_rigid_pull_moves_elastic_springs_alike():
         e_1, w, h = np.empty_like(step.e), np.full(step.e.size, 1 / step.e.size), step.h
         z = step.z(0), step.z(h), step.z_dot(0), step.z_dot(h)
         total, _ = kernels.elastic_step(
-            step.e, e_1, step.gap, w, 0, w.size, *z, step.u(h), step.rate(0), step.rate(h), h, True
+            step.e[None], e_1[None], step.gap, w, 0, w.size, *z, step.u(h), step.rate(0), step.rate(h), h, True
         )
         expected, _, sum_expected, _ = step.kernel()
         assert_allclose(e_1, expected, rtol=0, atol=1e-15)
@@ -211,16 +211,16 @@ def test_a_first_touch_within_a_step_is_exact_for_linear_motion(h):
     w, e_0 = np.full(23, 1 / 23), np.zeros(23)
     for v in (0.5, -0.5):
         e_1, s_1 = np.empty(23), np.empty(23)
-        total, stuck = kernels.elastic_step(e_0, e_1, gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, False)
+        total, stuck = kernels.elastic_step(e_0[None], e_1[None], gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, False)
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(
             [total, stuck], [w @ e_1, w @ (1 - gap / h)], rtol=1e-13
         )  # the slope of the sum over the travel
-        kernels.kelvin_step(e_0, e_0, e_1, s_1, gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, 1.0, math.exp(-h))
+        kernels.kelvin_step(e_0[None], e_0[None], e_1[None], s_1[None], gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, 1.0, math.exp(-h))
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(s_1, h - gap, rtol=0, atol=1e-15)
     # twice as fast it slips from first touch, e = s
-    kernels.elastic_step(e_0, e_1, gap, w, 0, w.size, 0.0, h, 1.0, 1.0, 2 * h, 2.0, 2.0, h, True)
+    kernels.elastic_step(e_0[None], e_1[None], gap, w, 0, w.size, 0.0, h, 1.0, 1.0, 2 * h, 2.0, 2.0, h, True)
     assert_allclose(e_1, h - gap, rtol=0, atol=1e-15)
 
 
