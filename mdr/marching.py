@@ -25,6 +25,7 @@ TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
+AT_ONCE = 2**17  #: steps of a march whose forces are kept until their periods are averaged
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
 
@@ -154,9 +155,13 @@ class Line:
         self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
         if start == "full_slip":
             self.e[:] = self.s
-            force = self._full_slip_force()
-            self.history = scaled.full_slip_history(force)
-            self.driven = scaled.resonant_history(force, v)
+            if scaled.K:
+                force = self._full_slip_force()
+                self.history = scaled.full_slip_history(force)
+                self.driven = scaled.resonant_history(force, v)
+            else:
+                now, *arms = self.s @ scaled.w
+                self.history = np.array([0, 0, 0, now, now, *arms, *arms])
         else:
             self.history = scaled.rest_history(v)
             load = float(scaled.w @ np.maximum(scaled.z.max() - scaled.gap, 0))
@@ -230,7 +235,7 @@ class Line:
         if n_periods <= 0:
             return
         nothing = np.empty((0, *self.e.shape))
-        for part in _parts(n_periods, max(1, 4_000_000 // self.scaled.steps)):
+        for part in _parts(n_periods, max(1, AT_ONCE // self.scaled.steps)):
             start = self.history[3:].copy()
             y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
             self._append(start, y, S)

@@ -172,6 +172,8 @@ class ScaledContact:
     def arms_at_ends(self, S: Array, S_start: float, arms: Array) -> Array:
         """Sums over the arms (n_periods + 1, J) at the ends of periods, from those at the start (J,) and S (n_t,)."""
         out = np.empty((S.size // self.steps + 1, arms.size))
+        if not arms.size:
+            return out
         steps = np.diff(S, prepend=S_start).reshape(-1, self.steps)
         for j, (decay, gain) in enumerate(self._arms()):
             added = steps @ (gain * decay ** np.arange(self.steps - 1, -1, -1))

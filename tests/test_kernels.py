@@ -75,7 +75,8 @@ class Step:
         u = self.u(h), self.rate(0), self.rate(h)
         if self.T:
             step = kernels.kelvin_step.py_func if python else kernels.kelvin_step
-            sums = step(self.e[None], self.s[None], e_1[None], s_1[None], self.gap, w, 0, w.size, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
+            state, all_rules = (self.e[None], self.s[None], e_1[None], s_1[None]), (0, w.size)
+            sums = step(*state, self.gap, w, *all_rules, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
         else:
             step = kernels.elastic_step.py_func if python else kernels.elastic_step
             sums = step(self.e[None], e_1[None], self.gap, w, 0, w.size, *z, *u, h, False)
@@ -211,12 +212,14 @@ def test_a_first_touch_within_a_step_is_exact_for_linear_motion(h):
     w, e_0 = np.full(23, 1 / 23), np.zeros(23)
     for v in (0.5, -0.5):
         e_1, s_1 = np.empty(23), np.empty(23)
-        total, stuck = kernels.elastic_step(e_0[None], e_1[None], gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, False)
+        old, new, springs = e_0[None], e_1[None], (gap, w, 0, w.size)
+        total, stuck = kernels.elastic_step(old, new, *springs, 0.0, h, 1.0, 1.0, v * h, v, v, h, False)
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(
             [total, stuck], [w @ e_1, w @ (1 - gap / h)], rtol=1e-13
         )  # the slope of the sum over the travel
-        kernels.kelvin_step(e_0[None], e_0[None], e_1[None], s_1[None], gap, w, 0, w.size, 0.0, h, 1.0, 1.0, v * h, v, v, h, 1.0, math.exp(-h))
+        rate = 1.0, math.exp(-h)
+        kernels.kelvin_step(old, old, new, s_1[None], *springs, 0.0, h, 1.0, 1.0, v * h, v, v, h, *rate)
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(s_1, h - gap, rtol=0, atol=1e-15)
     # twice as fast it slips from first touch, e = s

@@ -1,0 +1,64 @@
+"""The other ways to write the march go the same way; what is timed is the same physics."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.rigid_pull import average_friction
+from validation import performance
+from validation.cases import contact
+from validation.loops import Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
+
+CASES = {"elastic": (0.5, 0.0), "kelvin": (0.5, 1.0), "lost": (1.6, 0.4), "lost, elastic": (1.6, 0.0)}
+
+
+@pytest.fixture(params=CASES.values(), ids=CASES)
+def start(request):
+    return Start(contact("paraboloid", *request.param), 203, 256, 0.4)
+
+
+def test_the_numpy_loop_goes_the_same_way(start):
+    assert same_state(vectorised(start, 512), compiled(start, 512))
+
+
+def test_the_c_loop_goes_the_same_way(start):
+    march = built_in_c()
+    if march is None:
+        pytest.skip("no C compiler")
+    assert same_state(march(start, 512), compiled(start, 512))
+
+
+def test_a_different_way_is_told():
+    one, other = (Start(contact("cone", 0.5), 64, 128, v) for v in (0.4, 0.4001))
+    assert not same_state(vectorised(other, 128), compiled(one, 128))
+
+
+def test_the_kernel_is_the_one_of_slide(start):
+    run = mdr.slide(
+        start.case, start.v * start.case.unit_velocity, n_springs=203, steps_per_period=256, n_periods=20, lump=False
+    )
+    # the run averages over its last periods, when nothing is left of how it began: exp(-2 pi 10/T)
+    S = compiled(start, 20 * 256)[1]
+    inner = S[19 * 256 :].mean() - 0.5 * (S[-1] - S[19 * 256 - 1]) / 256  # the trapezoidal mean
+    inner += start.scaled.T * (S[-1] - S[19 * 256 - 1]) / (2 * np.pi)
+    mean_s = run.mean_F_z / (start.scaled.stiffness_z * start.scaled.length_z)
+    assert_allclose(inner / mean_s, run.cof / run.mu_0, rtol=1e-9)
+
+
+def test_the_ode_solver_solves_the_same_law():
+    case = contact("paraboloid", 0.5, 1.0)
+    exact = average_friction(case, np.array([0.4 * case.unit_velocity])).cof[0] / case.mu_0
+    # 64 springs miss 1e-4; a crude tolerance of the solver would miss 1e-3
+    assert cof_by_solve_ivp(case, 0.4, 64, 1e-7) == pytest.approx(exact, abs=2e-4)
+
+
+def test_ratios_are_of_pairs_and_of_work():
+    row = performance.ratio("", np.array([2.0, 4.0, 6.0]), np.array([1.0, 1.0, 1.0]), 0.5)
+    assert (row["ratio"], row["least"], row["most"]) == (2.0, 1.0, 3.0)
+
+
+def test_memory_does_not_grow_with_the_periods():
+    rows = performance.memory("elastic", contact("paraboloid", 0.5))
+    # 16 bytes a period for its COF and its swing, beside what a part of the march takes
+    assert rows[0]["ratio"] < 1.5

@@ -1,0 +1,111 @@
+/* The march of springs under a rigid pull, rule by rule as mdr/kernels.py has it, for validation/performance.py.
+
+   e, e_next (n,): extensions, in two places by turns. s, s_next: compressions of Kelvin springs. gap, w (n,). z, zd
+   (n_z + 1,): normal motion over a period and its rate. presses (n_z + 1,): springs that press at each instant. S
+   (n_steps,): sum of w e after each step. The springs before n_in press throughout a step, those from n_out on are free
+   throughout. The compiler may reorder sums, so that a spring in contact is ahead of the indenter by a rounding: 1e-12
+   tells it from one that is free. With an even number of steps the last state is in e and s. */
+
+#include <math.h>
+
+#define VECTOR 16
+
+static inline double most(double a, double b) { return a > b ? a : b; }
+static inline double least(double a, double b) { return a < b ? a : b; }
+
+static inline double after_change(double D_0, double D_1, double h, double rate)
+{
+    double lead = most(D_1, 0.0);
+    return 0.5 * h * lead * lead / (lead + most(-D_0, 0.0) + 0.5 * rate * h * lead + 1e-300);
+}
+
+static inline double bend_of(double closing_0, double closing_1)
+{
+    double mean = fabs(closing_0 + closing_1) + 1e-300;
+    return least(most((closing_1 - closing_0) / mean, -0.5), 0.5);
+}
+
+static inline double kelvin_friction(double s, double trial, double travelled, double lead_0, double lead_1, double h,
+                                     double rate, double s_free, double lag_free, double lag_rate, double lag_end)
+{
+    double D_0 = lead_0 + lag_rate, held = rate * most(s - trial, 0.0);
+    int sticks = D_0 > 0.0;
+    double D_1 = lead_1 + (sticks ? held : lag_end), turn = sticks ? -1.0 : 1.0;
+    double change = after_change(turn * D_0, turn * D_1, h, rate), forward = s - lag_free;
+    double first = least((sticks ? trial : forward) - travelled * change, forward);
+    return most(first, s_free + s_free - lag_free - s);
+}
+
+void elastic_march(double *restrict e, double *restrict e_next, const double *restrict gap, const double *restrict w,
+                   const double *z, const double *zd, const long *presses, double v, double h, long n, long n_z,
+                   long n_steps, double *S)
+{
+    double du = v * h;
+    for (long j = 0; j < n_steps; j++) {
+        long k = j % n_z, low = presses[k] < presses[k + 1] ? presses[k] : presses[k + 1];
+        long high = presses[k] + presses[k + 1] - low, n_in = low / VECTOR * VECTOR;
+        long n_out = (high + VECTOR - 1) / VECTOR * VECTOR;
+        n_out = n_out < n ? n_out : n;
+        double z_1 = z[k + 1], inverse_dz = z[k + 1] > z[k] ? 1.0 / (z[k + 1] - z[k]) : 1e300;
+        double bend = bend_of(zd[k], zd[k + 1]), total = 0.0;
+        double late = zd[k] < v ? after_change(zd[k] - v, zd[k + 1] - v, h, 0.0) : 0.0;
+        double *restrict a = j % 2 ? e_next : e, *restrict b = j % 2 ? e : e_next;
+        for (long i = 0; i < n_in; i++) {
+            double s = z_1 - gap[i];
+            b[i] = most(least(a[i] + du, s - late), -s);
+            total += w[i] * b[i];
+        }
+        for (long i = n_in; i < n_out; i++) {
+            double s = most(z_1 - gap[i], 0.0), way = least(s * inverse_dz, 1.0);
+            double travelled = way * ((1.0 - bend) + bend * way);
+            b[i] = most(least(a[i] + travelled * du, s - travelled * late), -s);
+            total += w[i] * b[i];
+        }
+        for (long i = n_out; i < n; i++)
+            b[i] = 0.0;
+        S[j] = total;
+    }
+}
+
+void kelvin_march(double *restrict e, double *restrict e_next, double *restrict s, double *restrict s_next,
+                  const double *restrict gap, const double *restrict w, const double *z, const double *zd,
+                  const long *presses, double v, double h, double rate, double decay, long n, long n_z, long n_steps,
+                  double *S)
+{
+    double du = v * h;
+    for (long j = 0; j < n_steps; j++) {
+        long k = j % n_z, low = presses[k] < presses[k + 1] ? presses[k] : presses[k + 1];
+        long high = presses[k] + presses[k + 1] - low, n_in = low / VECTOR * VECTOR;
+        long n_out = (high + VECTOR - 1) / VECTOR * VECTOR;
+        n_out = n_out < n ? n_out : n;
+        double z_0 = z[k], z_1 = z[k + 1], zd_0 = zd[k], zd_1 = zd[k + 1], total = 0.0;
+        double *restrict a = j % 2 ? e_next : e, *restrict b = j % 2 ? e : e_next;
+        double *restrict p = j % 2 ? s_next : s, *restrict q = j % 2 ? s : s_next;
+        for (long i = 0; i < n_in; i++) {
+            double pressed = z_1 - gap[i], lag = p[i] - a[i];
+            q[i] = pressed;
+            b[i] = kelvin_friction(pressed, a[i] + du, 1.0, zd_0 - v, zd_1 - v, h, rate, p[i] * decay, lag * decay,
+                                   lag * rate, lag * decay * rate);
+            total += w[i] * b[i];
+        }
+        for (long i = n_in; i < n_out; i++) {
+            double lag = p[i] - a[i], s_free = p[i] * decay, lag_free = lag * decay, pressed = z_1 - gap[i];
+            double ahead = p[i] - (z_0 - gap[i]);
+            double leaving = after_change(-(zd_0 + p[i] * rate), -(zd_1 + rate * pressed), h, rate);
+            double now = most(pressed + (ahead <= 1e-12 ? leaving : 0.0), s_free), rise = now - s_free;
+            double way = rise / (rise + most(ahead, 0.0) + 1e-300);
+            double travelled = way * (1.0 - bend_of(zd_0 + p[i] * rate, zd_1 + s_free * rate) * (1.0 - way));
+            double trial = a[i] + (1.0 - travelled) * (s_free - lag_free - a[i]) + travelled * du;
+            q[i] = now;
+            b[i] = kelvin_friction(now, trial, travelled, zd_0 - v, zd_1 - v, h, rate, s_free, lag_free, lag * rate,
+                                   lag_free * rate);
+            total += w[i] * b[i];
+        }
+        for (long i = n_out; i < n; i++) {
+            b[i] = a[i] * decay;
+            q[i] = p[i] * decay;
+            total += w[i] * b[i];
+        }
+        S[j] = total;
+    }
+}
