@@ -9,6 +9,7 @@ its core was lumped and turns out not to move as one, the march is done again wi
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,13 +169,9 @@ class Line:
             distance = float(scaled.z.max()) - float(scaled.gap.min()) + (load / scaled.K if scaled.K else 0.0)
             self.on_the_way = distance / (2 * np.pi * v)
         self.as_one = True
-        self.cofs = np.empty(0)
-        self.swings = np.empty(0)  # of the body, greatest less least y of a period
-
-    @property
-    def n_periods(self) -> int:
-        """Periods marched so far."""
-        return self.cofs.size
+        self.n_periods = 0  # marched so far
+        self.cofs = np.empty(0)  # of each period that was not marched in search of the periodic state
+        self.swings = np.empty(0)  # of the body in it, greatest less least y
 
     def _full_slip_force(self) -> Array:
         """S at the nodes of one period in full slip, shape (n_steps,), from the normal motion of the springs."""
@@ -239,6 +236,7 @@ class Line:
             start = self.history[3:].copy()
             y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
             self._append(start, y, S)
+        self.n_periods += n_periods
 
     def _append(self, start: Array, y: Array, S: Array) -> None:
         """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends; and swing of y.
@@ -289,7 +287,7 @@ class Line:
                 spread = 2 * found.distance * float(np.linalg.norm(self._size(found.x))) / self.mean_F_z
                 return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
         self._put(first)
-        self.cofs, self.swings = np.empty(0), np.empty(0)
+        self.n_periods, self.cofs, self.swings = 0, np.empty(0), np.empty(0)
         return None
 
     def _state(self) -> Array:
@@ -307,19 +305,26 @@ class Line:
 
     def _period_from(self, x: Array) -> Array:
         self._put(x)
-        self.advance(1)
+        nothing = np.empty((0, *self.e.shape))
+        self._call(self.scaled.steps, 0, nothing, nothing)
+        self.n_periods += 1
         return self._state()
+
+    @cached_property
+    def _roots(self) -> Array:
+        """Square roots of the stiffness of every spring, and of every arm of it, (e.size,)."""
+        return np.sqrt(np.outer(self.scaled.table[kernels.L_RATIO], self.scaled.w)).ravel()
 
     def _size(self, x: Array) -> Array:
         """States (..., n) as vectors (..., m) whose squares are energies of springs, arms, system spring and mass."""
         scaled, n = self.scaled, self.e.size
-        weights = np.sqrt(np.outer(scaled.table[kernels.L_RATIO], scaled.w)).ravel()
-        parts = [weights * x[..., :n]]
+        out = np.empty((*x.shape[:-1], n + (2 if scaled.K else 0)))
+        out[..., :n] = self._roots * x[..., :n]
         if scaled.K:
             y, y_old = x[..., n], x[..., n + 1]
-            body = [np.sqrt(scaled.K) * y, np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h]
-            parts.append(np.stack(body, axis=-1))
-        return np.concatenate(parts, axis=-1)
+            out[..., n] = np.sqrt(scaled.K) * y
+            out[..., n + 1] = np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h
+        return out
 
     def _kicks(self) -> tuple[Array, ...]:
         """Pushes of unit size: to each arm of all springs, and to the body, in its position and in its velocity."""
@@ -409,6 +414,7 @@ class Line:
             S_all.append(S)
             done += part
         self._append(start, np.concatenate(y_all[1:]), np.concatenate(S_all))
+        self.n_periods += 1
         return Seen(
             sums, F_x, F_z, slip, np.concatenate(y_all), e_kept, s_kept, f_x, f_z, mode, (stored, self._stored())
         )
