@@ -9,7 +9,7 @@ its core was lumped and turns out not to move as one, the march is done again wi
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
+MOST_SHARED = 8192  #: springs of arrays that are kept for further runs
 AT_ONCE = 2**17  #: steps of a march whose forces are kept until their periods are averaged
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
@@ -105,9 +106,8 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
         raise ValueError(
             f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
         )
-    springs = SpringArray.of(case, knobs.n_springs)
     lump = knobs.lump and knobs.start == "full_slip"
-    scaled = ScaledContact.of(case, springs, knobs.steps, lump)
+    springs, scaled = _prepared(case, knobs.n_springs, knobs.steps, lump)
     v = v_0 / scaled.speed
     line = Line(scaled, v, knobs.start)
     n_seen = max(1, knobs.record)
@@ -141,25 +141,35 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     )
 
 
+def _prepared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
+    """Springs and their scaled form; runs of one case at other velocities share them."""
+    try:
+        return (_shared if n_springs <= MOST_SHARED else _shared.__wrapped__)(case, n_springs, steps, lump)
+    except TypeError:  # a shape of the user's own that has no hash
+        return _shared.__wrapped__(case, n_springs, steps, lump)
+
+
+@lru_cache(maxsize=16)
+def _shared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
+    springs = SpringArray.of(case, n_springs)
+    return springs, ScaledContact.of(case, springs, steps, lump)
+
+
 class Line:
     """The state of a march between calls of the kernel."""
 
     def __init__(self, scaled: ScaledContact, v: float, start: str) -> None:
         self.scaled, self.v = scaled, v
-        shape = 1 + scaled.n_arms, scaled.gap.size
-        self.s, self.e = np.zeros(shape), np.zeros(shape)  # compression and extension, with their arms below
-        self.presses = np.empty(scaled.steps + 1, dtype=np.int64)
-        self.mean_F_z = kernels.settle_normal(
-            self.s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, self.presses
-        )
+        normal = scaled.normal
+        self.s, self.presses, self.mean_F_z = normal.s.copy(), normal.presses, normal.mean  # rows of s: arms
+        self.e = np.zeros_like(self.s)  # extension, likewise
         self.driven: Array | None = None  # history of the body on an undamped resonance, if it is on one
         self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
         if start == "full_slip":
             self.e[:] = self.s
             if scaled.K:
-                force = self._full_slip_force()
-                self.history = scaled.full_slip_history(force)
-                self.driven = scaled.resonant_history(force, v)
+                self.history = scaled.full_slip_history(scaled.full_slip_force)
+                self.driven = scaled.resonant_history(scaled.full_slip_force, v)
             else:
                 now, *arms = self.s @ scaled.w
                 self.history = np.array([0, 0, 0, now, now, *arms, *arms])
@@ -172,34 +182,6 @@ class Line:
         self.n_periods = 0  # marched so far
         self.cofs = np.empty(0)  # of each period that was not marched in search of the periodic state
         self.swings = np.empty(0)  # of the body in it, greatest less least y
-
-    def _full_slip_force(self) -> Array:
-        """S at the nodes of one period in full slip, shape (n_steps,), from the normal motion of the springs."""
-        scaled, s = self.scaled, self.s.copy()
-        S = np.empty(scaled.steps)
-        fast = 1e9  # sliding at any high velocity is full slip
-        nothing = np.empty((0, *s.shape))
-        kernels.march(
-            s.copy(),
-            s,
-            np.zeros_like(scaled.body),
-            np.zeros_like(scaled.body),
-            scaled.gap,
-            scaled.w,
-            scaled.z,
-            scaled.z_dot,
-            self.presses,
-            fast,
-            scaled.table,
-            -np.inf,
-            scaled.steps,
-            0,
-            np.empty(scaled.steps),
-            S,
-            nothing,
-            nothing,
-        )
-        return np.roll(S, 1)
 
     def _call(self, n_steps: int, k_0: int, e_out: Array, s_out: Array) -> tuple[Array, Array]:
         scaled = self.scaled

@@ -21,6 +21,7 @@ y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old) - sum_j (b_j P_j + b
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,15 @@ from mdr.springs import SpringArray
 Array = NDArray[np.float64]
 
 RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
+
+
+@dataclass(frozen=True, eq=False)
+class NormalState:
+    """The springs in their periodic normal motion, in which friction has no part; not to be written to."""
+
+    s: Array  #: (1 + J, n) compressions at phase 0, and their arms
+    presses: NDArray[np.int64]  #: (n_steps + 1,) how many springs press at each instant
+    mean: float  #: sum of w s, its mean over the period
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +132,26 @@ class ScaledContact:
             stiffness_z=springs.E_star * width,
             omega=cycle.omega,
         )
+
+    @cached_property
+    def normal(self) -> NormalState:
+        """The springs in their periodic normal motion."""
+        s, presses = np.zeros((1 + self.n_arms, self.gap.size)), np.empty(self.steps + 1, dtype=np.int64)
+        mean = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, presses)
+        return NormalState(s, presses, float(mean))
+
+    @cached_property
+    def full_slip_force(self) -> Array:
+        """S at the nodes of one period in full slip, shape (n_steps,), which is sum of w s."""
+        s, S, at_rest = self.normal.s, np.empty(self.steps), np.zeros_like(self.body)
+        springs, motion = (self.gap, self.w), (self.z, self.z_dot, self.normal.presses)
+        fast = 1e9  # sliding at any high velocity is full slip
+        y, nothing = np.empty(self.steps), np.empty((0, *s.shape))
+        kernels.march(
+            s.copy(), s.copy(), at_rest.copy(), at_rest, *springs, *motion, fast, self.table,
+            -np.inf, self.steps, 0, y, S, nothing, nothing,
+        )  # fmt: skip
+        return np.roll(S, 1)
 
     def full_slip_history(self, S: Array) -> Array:
         """State (5 + 2J,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
