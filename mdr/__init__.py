@@ -44,6 +44,7 @@ from mdr.fields import SurfaceFields, surface_fields
 from mdr.friction import CofCurve, cof_curve
 from mdr.measurement import MeasuredVelocity, measure_critical_velocity
 from mdr.judgement import Verdict, verdict
+from mdr.studies import Quantity, Study, StudyError, read_study, sweep
 
 try:
     __version__ = version("mdr-friction")
@@ -80,6 +81,7 @@ __all__ = [
     "Profile",
     "Prony",
     "Pull",
+    "Quantity",
     "RigidPull",
     "RoundedPunch",
     "SampledProfile",
@@ -90,6 +92,8 @@ __all__ = [
     "SpringPull",
     "StandardLinearSolid",
     "State",
+    "Study",
+    "StudyError",
     "SurfaceFields",
     "TangentialLoop",
     "TruncatedCone",
@@ -103,9 +107,11 @@ __all__ = [
     "parse_case",
     "partial_slip",
     "read_case",
+    "read_study",
     "slide",
     "static_cof",
     "surface_fields",
+    "sweep",
     "tangential_loop",
     "verdict",
     "write_case",

@@ -1,4 +1,4 @@
-"""The command line: `mdr velocity`, `mdr curve`, `mdr measure` and `mdr verdict` of a case file.
+"""The command line: `mdr velocity`, `mdr curve`, `mdr measure`, `mdr verdict` of a case file, `mdr sweep` of a study.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input; 130 interrupted. Results go to standard output (with --json one JSON object: what is undefined is null,
@@ -24,6 +24,8 @@ from mdr.theory import critical_velocity, formula_of
 
 if TYPE_CHECKING:
     from mdr.friction import CofCurve
+    from mdr.studies import Study
+    from mdr.studies.study_files import StudyFile
 
 DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 MOST_POINTS = 100_000  #: of a curve
@@ -52,10 +54,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    """Read the case, do the work, and turn what goes wrong into a sentence and a status."""
-    work: Callable[[argparse.Namespace, SlidingContact], int] = args.work
+    """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
+    work: Callable[[argparse.Namespace, Any], int] = args.work
     try:
-        case = read_case(args.case)
+        case = args.read(args.case)
     except CaseFileError as fault:
         return _complain(str(fault), WRONG_INPUT)
     try:
@@ -87,15 +89,24 @@ def parser() -> argparse.ArgumentParser:
     curve.add_argument("--up-to", type=_multiple, default=1.3, help="highest velocity over v_c (default: 1.3)")
     _command(commands, "measure", _measure, "critical velocity from simulation alone")
     _command(commands, "verdict", _verdict, "whether the closed-form critical velocity holds, and by how much not")
+    sweep = _command(
+        commands, "sweep", _sweep, "a grid of cases, from a study file; the same call goes on after any end"
+    )
+    sweep.set_defaults(read=_read_study_file)
+    sweep.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
+    sweep.add_argument("-o", "--output", metavar="file", type=Path, help="write the whole study here, .nc or .csv")
+    sweep.add_argument("--shard", metavar="k/n", help="compute every n-th chunk, from the k-th on; needs --store")
     return top
 
 
 def _command(commands: Any, name: str, work: Callable[..., int], summary: str) -> argparse.ArgumentParser:
-    """One command that reads a case file."""
+    """One command that reads a file."""
     command: argparse.ArgumentParser = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
-    command.add_argument("case", metavar="case.toml", help="the case file; docs/example.toml is one")
+    kind = "study" if name == "sweep" else "case"
+    example = "docs/study.toml" if name == "sweep" else "docs/example.toml"
+    command.add_argument("case", metavar=f"{kind}.toml", help=f"the {kind} file; {example} is one")
     command.add_argument("--json", action="store_true", help="print one JSON object instead of text")
-    command.set_defaults(work=work)
+    command.set_defaults(work=work, read=read_case)
     return command
 
 
@@ -280,6 +291,71 @@ def _verdict(args: argparse.Namespace, case: SlidingContact) -> int:
             ("holds", {True: "yes", False: "no", None: "cannot be judged"}[found.holds], ""),
         ])  # fmt: skip
     return DONE if found.holds or found.measured is not None else FAILED  # no v_c on a resonance is an answer
+
+
+# --- sweep ---
+
+
+def _read_study_file(path: str) -> StudyFile:
+    from mdr.studies.study_files import read_study_file
+
+    return read_study_file(path)
+
+
+def _sweep(args: argparse.Namespace, asked: StudyFile) -> int:
+    _require_a_place(args)
+    try:
+        study = mdr.sweep(**vars(asked), store=args.store, shard=args.shard)
+    except ValueError as fault:  # of the shard; the file has been read
+        raise WrongInput(str(fault)) from None
+    if args.output is not None and study.complete:
+        (study.to_csv if args.output.suffix == ".csv" else study.to_netcdf)(args.output)
+    if args.json:
+        _print_json(args, asked.case, _of_study(study))
+    else:
+        print(study)
+    return _end_of_sweep(args, study)
+
+
+def _require_a_place(args: argparse.Namespace) -> None:
+    """Refuse, before the work, what would lose its outcome."""
+    if args.output is None:
+        if args.store is None and not args.json:
+            raise WrongInput("the study would be lost: give -o file.nc or file.csv, --store folder, or --json")
+        return
+    if args.output.suffix not in (".nc", ".csv"):
+        raise WrongInput(f"{args.output}: a study is written as .nc or .csv")
+    if args.output.is_dir() or not os.access(args.output.parent, os.W_OK):
+        raise WrongInput(f"{args.output}: no file can be written there")
+
+
+def _of_study(study: Study) -> dict[str, Any]:
+    from mdr.studies import Status
+
+    return {
+        "identity": study.identity,
+        "complete": study.complete,
+        "counts": {status.name.lower(): study.count(status) for status in Status},
+        "axes": {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))]
+                 for axis in study.frame.grid},
+        "units": study.units,
+        "values": {name: study[name].tolist() for name in study.quantities},
+        "status": study.status.tolist(),
+        "why": study.why.tolist(),
+    }  # fmt: skip
+
+
+def _end_of_sweep(args: argparse.Namespace, study: Study) -> int:
+    from mdr.studies import Status
+
+    failed, unsettled = study.count(Status.FAILED), study.count(Status.UNSETTLED)
+    if failed or unsettled:
+        return _complain(f"{failed} of {study.status.size} points failed, {unsettled} did not settle", FAILED)
+    if study.complete:
+        return DONE
+    missing = f"{study.count(Status.MISSING)} of {study.status.size} points are left to the other shards"
+    left_out = f"; {args.output} is not written" if args.output else ""
+    return _complain(missing + left_out, DONE)  # this shard has done its own
 
 
 # --- printing ---

@@ -32,9 +32,8 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
-from difflib import get_close_matches
 from inspect import isabstract
 from os import PathLike, fsdecode
 from types import ModuleType
@@ -46,10 +45,10 @@ from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.motion import Motion, NormalOscillation
 from mdr.pull import RigidPull, SpringPull
+from mdr.words import nearest, offer, one_line, short
 
 MAX_BYTES = 2**24  #: of a case file
 _STAND_INS = (1.0, 0.2, 1e-3, 1e-9, 50.0)  # for a number that is missing or wrong
-_LONGEST = 400  # characters of a fault
 _DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
 
 
@@ -67,7 +66,7 @@ class CaseFileError(ValueError):
 
 def read_case(path: str | PathLike[str]) -> SlidingContact:
     """The case in a TOML file. Raises CaseFileError with every fault."""
-    return parse_case(_read(path), source=fsdecode(path))
+    return parse_case(read_text(path), source=fsdecode(path))
 
 
 def parse_case(text: str, source: str = "<string>") -> SlidingContact:
@@ -77,7 +76,7 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     try:
         return case_of(parse_toml(text, source), source)
     except RecursionError:
-        raise _error(source, [_NESTED]) from None
+        raise fault_error(source, [NESTED]) from None
 
 
 def write_case(case: SlidingContact) -> str:
@@ -101,17 +100,18 @@ def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
     import tomllib
 
     if _DEEP.search(text):
-        raise _error(source, [_NESTED])
+        raise fault_error(source, [NESTED])
     try:
         return tomllib.loads(text)
     except ValueError as fault:
-        raise _error(source, [_syntax_fault(text, str(fault))]) from None
+        raise fault_error(source, [_syntax_fault(text, str(fault))]) from None
 
 
-def case_of(content: Mapping[str, Any], source: str = "<string>") -> SlidingContact:
-    """The case in tables already parsed. Raises CaseFileError with every fault."""
+def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequence[str] = ()) -> SlidingContact:
+    """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
     known = _top_level()
-    faults = [_unknown_top(key, value) for key, value in content.items() if key not in known]
+    content = {key: value for key, value in content.items() if key not in beside}
+    faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
     tables = {**_meant(content), **content}
     parts: dict[str, Any] = {}
     for table in _TABLES.values():
@@ -122,9 +122,37 @@ def case_of(content: Mapping[str, Any], source: str = "<string>") -> SlidingCont
     given = {key: _number(value) for key, value in content.items() if key in known and key not in _TABLES}
     case, found = _build(SlidingContact, {**(_HARMLESS if faults else parts), **given})
     if faults or found:
-        raise _error(source, [*faults, *found])
+        raise fault_error(source, [*faults, *found])
     assert isinstance(case, SlidingContact)
     return case
+
+
+def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
+    """The record that a table [name] describes, or None; and the faults."""
+    return _TABLES[name].read({name: table})
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file. Raises CaseFileError where there is none."""
+    source = fsdecode(path)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
+    if len(data) > MAX_BYTES:
+        raise fault_error(source, [f"is larger than {MAX_BYTES // 2**20} MiB: no case file"])
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
+        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
+        raise fault_error(source, [what]) from None
+
+
+def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:
+    """The error that tells these faults, one a line."""
+    return CaseFileError("\n".join(one_line(f"{source}: {fault}") for fault in faults))
 
 
 # --- tables ---
@@ -185,13 +213,13 @@ class _Table:
         names, name = self.writable(), table.get(self.choice)
         others = f"choose one of {', '.join(names)}"
         if self.choice not in table:
-            near = _near(self.choice, [key for key in table if key not in self.all_keys()])
+            near = nearest(self.choice, [key for key in table if key not in self.all_keys()])
             return None, f"{self.choice} is missing{f', and {_bare(near)} unknown' if near else ''}; {others}"
         if not isinstance(name, str):
             return None, f"{self.choice} must be a name in quotes, got {_kind(name)}; {others}"
         if name not in names and name in self.records():
             return None, f'{self.choice} "{name}": {_CALLABLE}; {others}'
-        return names.get(name), f"{self.choice} {_short(json.dumps(name))} is unknown; {_offer(name, list(names))}"
+        return names.get(name), f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}"
 
     def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, list[str]]:
         """The record made of the keys of the table, or None; and the faults."""
@@ -209,7 +237,7 @@ class _Table:
                 return f"{whose}; write it at the top of the file, above the first table"
             if homes := _homes(key, self):
                 return f"{whose}; it belongs to {homes}"
-        return f"{whose}; {_offer(key, known)}"
+        return f"{whose}; {offer(key, known)}"
 
 
 _TABLES = {
@@ -226,7 +254,7 @@ _HARMLESS = {
     "material": Elastic(E=1.0, nu=0.5),
     "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
 }
-_NESTED = "nested too deeply; a case has tables and keys, nothing deeper"
+NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
 
@@ -251,21 +279,21 @@ def _homes(key: str, here: _Table | None = None) -> str:
     return " or ".join(f"[{name}]" for name, one in _TABLES.items() if one is not here and key in one.all_keys())
 
 
-def _unknown_top(key: str, value: Any) -> str:
+def _unknown_top(key: str, value: Any, beside: Sequence[str]) -> str:
     """Say that a table, or a key outside the tables, is unknown."""
     if isinstance(value, dict):
-        near = _near(key, list(_TABLES))
+        near = nearest(key, [*_TABLES, *beside])
         there = f"did you mean [{near}]?" if near else f"there are {', '.join(f'[{name}]' for name in _TABLES)}"
         return f"[{_bare(key)}] is no table of a case; {there}"
-    keys = [name for name in _top_level() if name not in _TABLES]
+    keys = [*(name for name in _top_level() if name not in _TABLES), *beside]
     homes = _homes(key)
-    return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else _offer(key, keys))
+    return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else offer(key, keys))
 
 
 def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
     """Misnamed tables by the name that is offered for them, so that their own faults are told too."""
     unknown = {key: value for key, value in content.items() if isinstance(value, dict) and key not in _TABLES}
-    return {near: value for key, value in unknown.items() if (near := _near(key, list(_TABLES)))}
+    return {near: value for key, value in unknown.items() if (near := nearest(key, list(_TABLES)))}
 
 
 # --- from values to records ---
@@ -294,7 +322,7 @@ def _make(record: type[Any], values: Mapping[str, Any]) -> tuple[Any, str]:
     try:
         return record(**values), ""
     except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
-        return None, _one_line(str(refusal) or type(refusal).__name__)
+        return None, one_line(str(refusal) or type(refusal).__name__)
 
 
 def _fillings(names: list[str]) -> Iterator[dict[str, float]]:
@@ -351,24 +379,7 @@ def _toml(value: Any) -> str:
     return repr(float(value))
 
 
-# --- reading ---
-
-
-def _read(path: str | PathLike[str]) -> str:
-    source = fsdecode(path)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        raise _error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
-    if len(data) > MAX_BYTES:
-        raise _error(source, [f"is larger than {MAX_BYTES // 2**20} MiB: no case file"])
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
-        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
-        raise _error(source, [what]) from None
+# --- syntax ---
 
 
 def _syntax_fault(text: str, message: str) -> str:
@@ -384,45 +395,18 @@ def _syntax_fault(text: str, message: str) -> str:
         what += "; is it given twice?"
     elif what.startswith("Exceeds the limit"):
         what = "a number has thousands of digits"
-    return f"line {number}: {_short(line)}: {what}" if where else what
+    return f"line {number}: {short(line)}: {what}" if where else what
 
 
 # --- messages ---
 
 
-def _error(source: str, faults: Iterable[str]) -> CaseFileError:
-    return CaseFileError("\n".join(_one_line(f"{source}: {fault}") for fault in faults))
-
-
-def _offer(word: str, known: list[str]) -> str:
-    near = _near(word, known)
-    return f"did you mean {near}?" if near else f"there are {', '.join(known)}"
-
-
-def _near(word: str, known: list[str]) -> str | None:
-    folded = {one.casefold(): one for one in known}
-    word = word.casefold()[:99]
-    begun = [one for one in folded if word and one.startswith(word)]
-    found = begun if len(begun) == 1 else get_close_matches(word, folded, n=1)
-    return folded[found[0]] if found else None
-
-
 def _bare(name: str) -> str:
     """A key as TOML writes it: plain, or quoted where it holds other than letters, digits, _ and -."""
-    return _short(name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name))
+    return short(name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name))
 
 
 def _kind(value: Any) -> str:
     """What a TOML value is called."""
     names = {dict: "a table", list: "an array", str: "a string", bool: "true or false"}
-    return names.get(type(value)) or _short(str(value))
-
-
-def _short(text: str, longest: int = 60) -> str:
-    return text if len(text) <= longest else text[: longest - 1] + "…"
-
-
-def _one_line(text: str) -> str:
-    """One printable line of bearable length."""
-    plain = "".join(c if c.isprintable() else " " for c in text)
-    return _short(" ".join(plain.split()), _LONGEST)
+    return names.get(type(value)) or short(str(value))

@@ -23,7 +23,7 @@ from mdr.motion import DepthMotion, LoadOscillation, Motion, NormalOscillation, 
 from mdr.pull import Pull, RigidPull, SpringPull
 from mdr.rheology import Rheology
 
-_KINDS: dict[str, tuple[type, ...]] = {  # the rest of the chain knows these and no others
+KINDS: dict[str, tuple[type, ...]] = {  #: of the parts; the rest of the chain knows these and no others
     "indenter": (Indenter,),
     "material": (Elastic, KelvinVoigt, ElasticPair, StandardLinearSolid, Prony),
     "oscillation": (NormalOscillation, PeriodicMotion, LoadOscillation),
@@ -42,7 +42,7 @@ class SlidingContact:
     pull: Pull = field(default_factory=RigidPull)  #: what pulls in the plane
 
     def __post_init__(self) -> None:
-        for name, kinds in _KINDS.items():
+        for name, kinds in KINDS.items():
             value = getattr(self, name)
             if not isinstance(value, kinds):
                 hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""

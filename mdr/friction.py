@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import finite_array
+from mdr.checks import count, finite_array
 from mdr.contact import SlidingContact, require_case
 from mdr.full_slip import static_cof
 from mdr.progress import progress
@@ -25,6 +25,7 @@ from mdr.theory import critical_velocity
 Array = NDArray[np.float64]
 
 STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
+LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,14 +59,25 @@ class CofCurve(ArrayRecord):
         Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None) -> CofCurve:
+def cof_curve(
+    case: SlidingContact,
+    v_0: ArrayLike,
+    *,
+    method: str | None = None,
+    n_springs: int | None = None,
+    steps_per_period: int | None = None,
+) -> CofCurve:
     """COF of a case over pulling velocities v_0 >= 0 [m/s], shape (n_v,).
 
     method: None takes the closed form of a rigid pull (rigid_pull.py) under a harmonic depth, elastic or Kelvin, and a
-    run a velocity for every other case; "march" forces the runs. Raises ValueError for velocities that are negative,
-    infinite or NaN.
+    run a velocity for every other case; "march" forces the runs. n_springs, steps_per_period: of every run, as `slide`
+    takes them (None: chosen to meet the accuracy budget); the closed form has neither and is what it is with any.
+    Raises ValueError for velocities that are negative, infinite or NaN.
     """
     case = require_case(case)
+    for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
+        if knob is not None:
+            count(name, knob, LEAST_KNOB)
     if method not in (None, "march"):
         raise ValueError(f'method must be None or "march", got {method!r}')
     velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)  # a copy: the record keeps it
@@ -75,8 +87,11 @@ def cof_curve(case: SlidingContact, v_0: ArrayLike, *, method: str | None = None
         raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
     static, moving = static_cof(case), velocities > 0
     closed = method is None and isinstance(case.pull, RigidPull) and case.is_of_the_paper
-    columns = _closed_form if closed else _runs
-    cof, error, settled, sticks, why = columns(case, velocities[moving])
+    if closed:
+        columns = _closed_form(case, velocities[moving])
+    else:
+        columns = _runs(case, velocities[moving], n_springs, steps_per_period)
+    cof, error, settled, sticks, why = columns
 
     def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:
         out = np.full(velocities.shape, limit, dtype=values.dtype)
@@ -105,8 +120,11 @@ def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     return known.cof, known.cof_error, np.ones(v_0.shape, dtype=bool), known.stick_share, nothing
 
 
-def _runs(case: SlidingContact, v_0: Array) -> Columns:
-    runs = [slide(case, v) for v in progress(v_0.tolist(), "cof_curve")]
+def _runs(case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None) -> Columns:
+    runs = [
+        slide(case, v, n_springs=n_springs, steps_per_period=steps_per_period)
+        for v in progress(v_0.tolist(), "cof_curve")
+    ]
     return (
         np.array([run.cof for run in runs]),
         np.array([run.cof_error for run in runs]),

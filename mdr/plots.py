@@ -56,8 +56,8 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
         raise ValueError(f"labels must name each of the {len(curves)} curves, got {len(labels)}")
     scaled = all(_is_scale(curve.v_c) for curve in curves)
     with style():
-        ax = _axes(ax)
-        for i, (curve, colour) in enumerate(zip(curves, _colours(len(curves)), strict=True)):
+        ax = axes_of(ax)
+        for i, (curve, colour) in enumerate(zip(curves, colours(len(curves)), strict=True)):
             _draw_curve(ax, curve, curve.v_c if scaled else 1.0, colour, labels[i] if labels else None)
         ax.axhline(1.0, color="0.75", linewidth=0.8, zorder=0)
         if scaled:
@@ -79,11 +79,11 @@ def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
     state = np.asarray(run.state)
     order = np.argsort(run.x)
     every = -(-len(run.t) // _MAX_COLUMNS)
-    factor, unit = _prefix(run.x, "m")
+    factor, unit = prefix(run.x, "m")
     with style():
-        ax = _axes(ax)
+        ax = axes_of(ax)
         ax.pcolormesh(
-            _edges(_periods(run)[::every]),
+            edges_of(_periods(run)[::every]),
             _cells(np.asarray(run.x)[order]) * factor,
             state[::every, order].T,
             cmap=ListedColormap([colour for _, colour in MODES]),
@@ -108,7 +108,7 @@ def plot_traces(run: Any) -> "Figure":
     t = _periods(run)
     with style():
         fig, (forces, places, velocities) = plt.subplots(3, 1, sharex=True, figsize=(6.4, 7.2))
-        factor, unit = _prefix(np.concatenate([run.F_x, run.mu_0 * np.asarray(run.F_z)]), "N")
+        factor, unit = prefix(np.concatenate([run.F_x, run.mu_0 * np.asarray(run.F_z)]), "N")
         forces.plot(t, run.mu_0 * np.asarray(run.F_z) * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
         forces.plot(t, np.asarray(run.F_x) * factor, color="k", label="$F_x$")
         forces.set_ylabel(f"force [{unit}]")
@@ -134,7 +134,7 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLi
         x = (np.arange(-(-n_springs // 2)) + 0.5) * 1.5 * a / (n_springs / 2)
     else:
         x = np.sort(np.asarray(getattr(springs, "x", springs), dtype=float))
-    units = _prefix([1.5 * a], "m"), _prefix([d], "m")
+    units = prefix([1.5 * a], "m"), prefix([d], "m")
     with style():
         fig, (left, right) = plt.subplots(1, 2, sharex=True, sharey=True, figsize=(7.4, 3.6))
         _draw_shape(left, indenter.profile_3d, a, d, units)
@@ -191,7 +191,7 @@ def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
     lines: list[tuple[Any, dict[str, Any]]] = [(run.u_x - moved, {"label": "body", "color": "k"})]
     lines += [(foot - moved, look) for foot, look in _feet(run)]
     lines = [(y - np.nanmean(y), look) for y, look in lines if np.any(np.isfinite(y))]
-    factor, unit = _prefix(np.concatenate([y for y, _ in lines]), "m")
+    factor, unit = prefix(np.concatenate([y for y, _ in lines]), "m")
     for y, look in lines:
         ax.plot(t, y * factor, **look)
     ax.set_ylabel(f"$u - v_0 t$ [{unit}]\nabout its mean")
@@ -265,13 +265,14 @@ def _draw_springs(ax: "Axes", profile: Any, x: Any, a: float, d: float, units: A
     ax.plot(x[[0, -1]] * per_x, [-1.4 * d * per_z] * 2, color="k", linewidth=2)
 
 
-def _axes(ax: "Axes | None") -> "Axes":
+def axes_of(ax: "Axes | None") -> "Axes":
+    """The axes given, or those of a new figure."""
     import matplotlib.pyplot as plt
 
     return plt.subplots()[1] if ax is None else ax
 
 
-def _colours(n: int) -> list[Any]:
+def colours(n: int) -> list[Any]:
     """Take the named colours, or a perceptual scale where they do not suffice."""
     import matplotlib as mpl
 
@@ -295,7 +296,7 @@ def _periods(run: Any) -> "NDArray[np.float64]":
     return np.asarray(t - np.floor(t[0] + 1e-9))
 
 
-def _edges(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
+def edges_of(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
     """Cell boundaries half-way between ascending centres (n,), the outer cells symmetric: (n + 1,)."""
     if len(centres) == 1:
         half = abs(centres[0]) or 0.5
@@ -309,10 +310,10 @@ def _cells(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
     edges = np.zeros(len(centres) + 1)
     for i, centre in enumerate(centres):
         edges[i + 1] = 2 * centre - edges[i]
-    return edges if np.all(np.diff(edges) > 0) else np.maximum(_edges(centres), 0.0)
+    return edges if np.all(np.diff(edges) > 0) else np.maximum(edges_of(centres), 0.0)
 
 
-def _prefix(values: Any, unit: str) -> tuple[float, str]:
+def prefix(values: Any, unit: str) -> tuple[float, str]:
     """Factor and unit that bring the largest magnitude between 1 and 1000."""
     largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
     power = int(np.clip(np.floor(np.log10(largest) / 3 + 1e-9), -4, 3)) if largest > 0 else 0

@@ -41,5 +41,5 @@ class ArrayRecord:
 
 def _same(one: Any, two: Any) -> bool:
     if isinstance(one, np.ndarray) and isinstance(two, np.ndarray):
-        return np.array_equal(one, two)
+        return np.array_equal(one, two, equal_nan=one.dtype.kind == two.dtype.kind == "f")
     return bool(type(one) is type(two) and one == two)

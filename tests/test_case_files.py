@@ -75,7 +75,7 @@ class Layered(materials.base.OneBody):
 def test_a_new_record_needs_no_line_here(monkeypatch):
     monkeypatch.setattr(materials, "Layered", Layered, raising=False)
     monkeypatch.setattr(materials, "__all__", [*materials.__all__, "Layered"])
-    monkeypatch.setitem(contact._KINDS, "material", (mdr.Material,))
+    monkeypatch.setitem(contact.KINDS, "material", (mdr.Material,))
     layered = case(material=Layered(((1.0, 2.0), (3.0, 1e-5)), 'R²: "a\\b"\n\x7f😀', fitted=True, n_arms=2))
     assert parse_case(write_case(layered)) == layered
 

@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -507,3 +508,33 @@ def test_depths_matter_to_all_but_punches_and_most_to_the_cone():
     assert_allclose(s.eq_15[at("cone")], cone, rtol=1e-10)
     assert s.ordered[-1] == "cone"
     assert np.nanmax(np.abs(s.full / s.eq_15 - 1)) < 0.01
+
+
+# --- rubber slider ---
+
+
+def test_rubber_slider_needs_the_amplitude_that_halves_its_static_friction():
+    s = script("rubber_slider")
+    amplitudes, omegas = s.coarse.axes["oscillation.du_z"], s.coarse.axes["oscillation.omega"]
+    for omega, needed in zip(omegas, s.needed, strict=True):
+
+        def excess(du_z, omega=omega):
+            return mdr.static_cof(replace(s.foot, oscillation=mdr.NormalOscillation(s.depth, du_z, omega))) - 0.4
+
+        exact = brentq(excess, amplitudes[0], amplitudes[-1], xtol=1e-9)
+        assert needed == pytest.approx(exact, rel=0.06)  # linear between 27 and 50 % of the depth
+
+
+def test_rubber_slider_has_half_its_friction_where_the_table_says():
+    s = script("rubber_slider")
+    assert np.all(s.coarse.status == 0)
+    assert np.nanmax(s.coarse["cof_error"]) < 3e-4
+    assert np.all(s.fastest[:, 0] == 0)
+    assert np.all(np.diff(s.coarse["cof"], axis=2) > -1e-4)
+    for i, j in ((1, 4), (2, 2), (4, 3)):
+        motion = mdr.NormalOscillation(
+            s.depth, s.coarse.axes["oscillation.du_z"][j], s.coarse.axes["oscillation.omega"][i]
+        )
+        run = mdr.slide(replace(s.foot, oscillation=motion), s.fastest[i, j])
+        assert run.cof == pytest.approx(0.4, abs=0.05)  # linear between velocities that differ by a factor of 2.7
+    assert np.max(s.share_of_v_c) < 0.3

@@ -194,7 +194,7 @@ def test_profile_takes_positions_or_a_record_of_springs():
     ("largest", "expected"), [(3e-6, "µm"), (1e-3, "mm"), (0.0, "m"), (2e4, "km"), (1e-30, "pm")]
 )
 def test_prefix(largest, expected):
-    factor, unit = plots._prefix([0.0, -largest, np.nan], "m")
+    factor, unit = plots.prefix([0.0, -largest, np.nan], "m")
     assert unit == expected
     assert factor == pytest.approx(10.0 ** {"µm": 6, "mm": 3, "m": 0, "km": -3, "pm": 12}[expected])
 

@@ -1,7 +1,16 @@
-"""Progress is silent for what is short, and says how far it got for what is long."""
+"""Progress is silent for what is short, and says how far it got, and how long the rest takes, for what is long."""
+
+import pytest
 
 from mdr import progress as module
-from mdr.progress import Ticker, progress
+from mdr.progress import Meter, Ticker, in_words, progress, silent
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """A clock that three seconds pass on whenever it is looked at."""
+    seconds = iter(range(0, 1000, 3))
+    monkeypatch.setattr(module.time, "monotonic", lambda: float(next(seconds)))
 
 
 def test_short_work_is_silent(capsys):
@@ -9,17 +18,57 @@ def test_short_work_is_silent(capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_long_work_speaks_in_plain_lines(capsys, monkeypatch):
-    clock = iter(range(0, 100, 3))
-    monkeypatch.setattr(module.time, "monotonic", lambda: float(next(clock)))
+def test_long_work_speaks_in_plain_lines(capsys, clock):
     assert list(progress(list(range(12)), "work")) == list(range(12))
     lines = capsys.readouterr().err.splitlines()
-    assert lines[0] == "work: 1 of 12"
+    assert lines[0] == "work: 1 of 12, about 33 s left"
     assert 2 <= len(lines) <= 4  # one in ten seconds, none for the last
-    assert "12 of 12" not in lines
+    assert not any("12 of 12" in line for line in lines)
+
+
+def test_what_was_there_before_is_counted_and_not_timed(capsys, clock):
+    meter = Meter("sweep", 2000, "chunks", done=119)
+    meter.tick()
+    assert capsys.readouterr().err == "sweep: 120 of 2000 chunks, about 94 min left\n"  # 1880 chunks of 3 s
 
 
 def test_an_unknown_end(capsys, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", -1.0)
     Ticker("runs").tick()
     assert capsys.readouterr().err == "runs: 1\n"
+
+
+def test_a_terminal_gets_a_bar_from_where_it_stands(capsys, monkeypatch):
+    monkeypatch.setattr(module.sys.stderr, "isatty", lambda: True, raising=False)
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    meter = Meter("sweep", 20, "chunks", done=5)
+    meter.tick()
+    meter.bar.refresh()
+    shown = capsys.readouterr().err
+    meter.close()
+    assert "sweep" in shown
+    assert "6/20" in shown
+
+
+def test_silent_work_is_watched(capsys, clock):
+    calls = []
+    with silent(lambda: calls.append(1)):
+        list(progress([1, 2, 3], "work"))
+        Ticker("runs").tick()
+    assert len(calls) == 4
+    assert capsys.readouterr().err == ""
+
+
+def test_the_watch_may_end_the_work():
+    def end():
+        raise InterruptedError
+
+    with silent(end), pytest.raises(InterruptedError):
+        list(progress([1, 2, 3], "work"))
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(7, "7 s"), (99, "99 s"), (180, "3 min"), (7200, "2 h"), (1e6, "12 days")]
+)
+def test_times_in_words(seconds, words):
+    assert in_words(seconds) == words

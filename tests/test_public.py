@@ -47,7 +47,11 @@ SIGNATURES = {
     "static_cof": "case",
     "slide": "case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, "
     'start="full_slip", record=0, lump=True',
-    "cof_curve": "case, v_0, *, method=None",
+    "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None",
+    "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
+    "n_springs=None, steps_per_period=None",
+    "read_study": "path",
+    "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
     "measure_critical_velocity": 'case, *, start="full_slip"',
     "verdict": "case",
 }
@@ -123,6 +127,16 @@ def test_constructors_from_what_people_measure():
     assert bare(inspect.signature(mdr.KelvinVoigt.from_loss_tangent)) == "(*, E, nu, tan_delta, omega)"
 
 
+def test_a_study_answers():
+    for name in ("axes", "units", "status", "why", "complete", "shape", "quantities"):
+        assert isinstance(inspect.getattr_static(mdr.Study, name, None), property) or name in {
+            field.name for field in fields(mdr.Study)
+        }
+    for call in ("select(values)", "to_netcdf(path)", "to_csv(path)", "to_xarray()"):
+        name, arguments = call.rstrip(")").split("(")
+        assert bare(inspect.signature(getattr(mdr.Study, name))) == f"({arguments})"
+
+
 def test_modes_have_their_names():
     assert [mode.name for mode in mdr.State] == ["FREE", "STICK", "SLIP", "SLIP_BACK"]
 
@@ -149,6 +163,9 @@ def test_import_is_light():
         "tqdm",
         "scipy.optimize",
         "scipy.integrate",
+        "scipy.io",
+        "dask",
+        "xarray",
         "mdr.plots",
         "mdr.__main__",
     ]  # numba itself brings tomllib

@@ -35,6 +35,7 @@ CLAIMS = (
     "lost_contact",
     "resonances",
     "uniqueness",
+    "maps",
     "resolution",
     "energy",
 )

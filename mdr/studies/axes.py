@@ -1,0 +1,246 @@
+"""The axes of a study: which field, group or velocity each one sets, and to which values.
+
+A path is a field of the contact ("mu_0", "indenter", "material.tau"), a dimensionless group, or the velocity:
+
+    alpha           du_z/u_z0                sets oscillation.du_z
+    T               omega tau                sets material.tau
+    k_x/k_xc        over the contact's       sets pull.k_x
+    omega_0/omega   sqrt(k_x/m)/omega        sets pull.m
+    v_0, v_0/v_c    pulling velocity [m/s], or over the critical velocity of each case; 0 is the static limit
+
+The groups are set last, in this order, so that each has its value in the end. A path that none of the cases has is
+refused at once; one that some of them lack is a failure of those points.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.checks import finite_array
+from mdr.contact import KINDS, SlidingContact
+from mdr.studies.field_names import UNITS_AND_MEANINGS
+from mdr.words import nearest, one_line, short
+
+Array = NDArray[np.float64]
+
+GROUPS = {"alpha": "oscillation.du_z", "T": "material.tau", "k_x/k_xc": "pull.k_x", "omega_0/omega": "pull.m"}
+VELOCITIES = ("v_0", "v_0/v_c")
+_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """One axis of a study; two are equal by path and values, records by their labels."""
+
+    path: str  #: what it sets
+    values: Array | tuple[Any, ...]  #: numbers as an array (n,), anything else as a tuple
+    labels: tuple[str, ...] = ()  #: what values that are no numbers are called
+
+    def __post_init__(self) -> None:
+        if isinstance(self.values, np.ndarray):
+            own = self.values.view()
+            own.setflags(write=False)
+            object.__setattr__(self, "values", own)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __getitem__(self, index: int) -> Any:
+        return float(self.values[index]) if self.is_numeric else self.values[index]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Axis):
+            return NotImplemented
+        same = self.labels == other.labels and (not self.is_numeric or np.array_equal(self.values, other.values))
+        return self.path == other.path and self.is_numeric == other.is_numeric and bool(same)
+
+    def __hash__(self) -> int:
+        return hash((self.path, self.labels, np.asarray(self.values).tobytes() if self.is_numeric else b""))
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether its values are numbers."""
+        return isinstance(self.values, np.ndarray)
+
+    @property
+    def is_velocity(self) -> bool:
+        """Whether it is the pulling velocity."""
+        return self.path in VELOCITIES
+
+    @property
+    def unit(self) -> str:
+        """Unit of its values, "-" for pure numbers and "" where there is none or it depends on the record."""
+        return UNITS_AND_MEANINGS.get(self.path, ("", ""))[0]
+
+    @property
+    def meaning(self) -> str:
+        """What it is, in words."""
+        return UNITS_AND_MEANINGS.get(self.path, ("", self.path))[1]
+
+    @property
+    def summary(self) -> str:
+        """Its values in a few words."""
+        if not self.is_numeric:
+            return short("; ".join(self.labels), 160)
+        numbers = np.asarray(self.values)
+        if numbers.size <= 4:
+            return ", ".join(f"{value:.6g}" for value in numbers)
+        return f"{numbers.size} values from {numbers.min():.6g} to {numbers.max():.6g}"
+
+    def told(self, index: int) -> str:
+        """One of its values as text."""
+        return repr(self[index]) if self.is_numeric else self.labels[index]
+
+    def index(self, value: Any) -> int:
+        """Where a value stands; ValueError for one that is not there, with the nearest."""
+        if not self.is_numeric:
+            return self._index_of_label(value)
+        try:
+            asked = float(value)
+        except (TypeError, ValueError):
+            raise ValueError(f"{self.path} has numbers for values, got {short(repr(value))}") from None
+        nearest_one = int(np.argmin(np.abs(np.asarray(self.values) - asked)))
+        if self[nearest_one] != asked:
+            raise ValueError(f"{self.path} has no value {asked!r}; the nearest is {self[nearest_one]!r}")
+        return nearest_one
+
+    def _index_of_label(self, value: Any) -> int:
+        for i, known in enumerate(self.values):
+            if (type(known) is type(value) and known == value) or value == self.labels[i]:
+                return i
+        raise ValueError(f"{self.path} has no value {short(repr(value))}; there are {', '.join(self.labels)}")
+
+
+def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]:
+    """The axes of a study of this case; ValueError or TypeError for what can never be set."""
+    if not isinstance(axes, Mapping):
+        raise TypeError(f"axes must map paths to values, such as {{'v_0': [...]}}, got {short(repr(axes))}")
+    if not axes:
+        raise ValueError("axes must name at least one path and its values, such as {'v_0': [...]}")
+    for path in axes:
+        if not isinstance(path, str):
+            raise TypeError(f"axes must have paths in quotes for keys, got {path!r}")
+    _refuse_two_for_one(axes)
+    parts = {slot: _records(slot, axes[slot]) if slot in axes else (getattr(case, slot),) for slot in KINDS}
+    for path in axes:
+        _require_path(path, parts)
+    return tuple(_axis(path, values, parts) for path, values in axes.items())
+
+
+def label_of(value: Any) -> str:
+    """What a value is called that is no number: alike in every run."""
+    return one_line(without_addresses(repr(value)), 160)
+
+
+def without_addresses(text: str) -> str:
+    """A text without what Python says of an object's place in memory."""
+    return _ADDRESS.sub("", text)
+
+
+def fields_of(record: Any) -> tuple[str, ...]:
+    """Names of the fields that can be set in a record; none of what is no dataclass."""
+    return tuple(one.name for one in fields(record) if one.init) if is_dataclass(record) else ()
+
+
+def _axis(path: str, values: Any, parts: Mapping[str, tuple[Any, ...]]) -> Axis:
+    if path in parts:
+        return Axis(path, parts[path], _distinct(path, parts[path]))
+    slot, _, field = path.partition(".")
+    having = [getattr(part, field) for part in parts.get(slot, ()) if field in fields_of(part)]
+    if any(not isinstance(value, int | float | None) for value in having):
+        others = tuple(_frozen(one) for one in _listed(path, values))
+        return Axis(path, others, _distinct(path, others))
+    return Axis(path, _numbers(path, values))
+
+
+def _numbers(path: str, values: Any) -> Array:
+    unit = UNITS_AND_MEANINGS.get(path, ("", ""))[0]
+    listed = values if isinstance(values, np.ndarray) else _listed(path, values)
+    if not isinstance(listed, np.ndarray) and any(isinstance(one, bool) for one in listed):
+        raise TypeError(f"{path} must be real numbers, got {short(repr(values))}")
+    try:
+        numbers = np.array(finite_array(path, listed, "" if unit == "-" else unit))  # a copy: the study keeps it
+    except (TypeError, ValueError) as refusal:  # which quotes all that was given
+        raise type(refusal)(short(str(refusal), 160)) from None
+    if numbers.ndim != 1:
+        raise ValueError(f"{path} must be a plain list of values, got an array of shape {numbers.shape}")
+    if numbers.size == 0:
+        raise ValueError(f"{path} has no values: give at least one, or leave the axis out")
+    ordered = np.sort(numbers)
+    if twice := ordered[1:][ordered[1:] == ordered[:-1]].tolist():
+        raise ValueError(f"{path} has the value {twice[0]!r} twice; give each once")
+    if path in VELOCITIES and ordered[0] < 0:
+        raise ValueError(f"{path} must not be negative, got {float(ordered[0])!r}; 0 is the static limit")
+    return numbers
+
+
+def _listed(path: str, values: Any) -> list[Any]:
+    if isinstance(values, str | bytes | Mapping | set | frozenset) or not isinstance(values, Iterable):
+        raise TypeError(f"{path} must be a list of values, got {short(repr(values))}; write [...]")
+    listed = list(values)
+    if not listed:
+        raise ValueError(f"{path} has no values: give at least one, or leave the axis out")
+    return listed
+
+
+def _frozen(value: Any) -> Any:
+    """Lists as tuples, however deep."""
+    return tuple(_frozen(one) for one in value) if isinstance(value, list | tuple | np.ndarray) else value
+
+
+def _records(slot: str, values: Any) -> tuple[Any, ...]:
+    records = tuple(_listed(slot, values))
+    for one in records:
+        if not isinstance(one, KINDS[slot]):
+            names = " or ".join(kind.__name__ for kind in KINDS[slot])
+            raise TypeError(f"{slot} must be a list of records of kind {names}, got {short(repr(one))} among them")
+    return records
+
+
+def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
+    """Labels, each of its own; ValueError for a value that is there twice."""
+    labels: list[str] = []
+    seen: dict[str, list[Any]] = {}
+    for value in values:
+        label = label_of(value)
+        alike = seen.setdefault(label, [])
+        if any(type(one) is type(value) and one == value for one in alike):
+            raise ValueError(f"{path} has the value {label} twice; give each once")
+        alike.append(value)
+        labels.append(label if len(alike) == 1 else f"{label} ({len(alike)})")
+    return tuple(labels)
+
+
+def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
+    """Refuse a path that no case of the study has."""
+    if path in VELOCITIES or path == "mu_0" or path in parts:
+        return
+    slot, _, field = GROUPS.get(path, path).partition(".")
+    if any(field in fields_of(part) for part in parts.get(slot, ())):
+        return
+    names = sorted({type(part).__name__ for part in parts.get(slot, ())})
+    if path in GROUPS:
+        raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give a {slot} that has it")
+    known = _known_paths(parts)
+    homes = [one for one in known if one.endswith(f".{path}")]
+    meant = homes[0] if homes else nearest(path, known)
+    whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""
+    there = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
+    raise ValueError(f"{short(path)} is no path of this case{whose}; {there}")
+
+
+def _known_paths(parts: Mapping[str, tuple[Any, ...]]) -> list[str]:
+    of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
+    return [*VELOCITIES, "mu_0", *parts, *GROUPS, *dict.fromkeys(of_parts)]
+
+
+def _refuse_two_for_one(axes: Mapping[str, Any]) -> None:
+    for one, two in [VELOCITIES, *GROUPS.items()]:
+        if one in axes and two in axes:
+            raise ValueError(f"{one} and {two} set the same; keep one of the two axes")

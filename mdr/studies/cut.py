@@ -1,0 +1,66 @@
+"""How the work of a study is cut into chunks: runs of consecutive units, each long enough to be worth a file."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from mdr.studies.points import compute
+from mdr.studies.work import Work
+
+TRIAL = 1.0  #: s in which units are timed
+MOST_TRIALS = 32
+LEAST_CHUNKS = 32  #: where there are so many units, so that several workers share them evenly
+IN_MEMORY = 256  #: chunks of a study without a store
+COARSE = 32  #: springs and steps of the run that compiles
+
+GOLDEN = 0.6180339887498949
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Chunks of equally many units, but for the last."""
+
+    n_units: int
+    units_per_chunk: int
+
+    @property
+    def n_chunks(self) -> int:
+        """How many chunks there are."""
+        return -(-self.n_units // self.units_per_chunk)
+
+    def units(self, chunk: int) -> tuple[int, int]:
+        """First unit of a chunk, and the first that is no longer of it."""
+        start = chunk * self.units_per_chunk
+        return start, min(start + self.units_per_chunk, self.n_units)
+
+    @classmethod
+    def in_memory(cls, work: Work) -> Cut:
+        """Chunks that only have to share the work evenly."""
+        n = work.layout.n_units
+        return cls(n, max(1, n // IN_MEMORY))
+
+    @classmethod
+    def timed(cls, work: Work, seconds: float) -> Cut:
+        """Chunks of about so many seconds, as some units spread over the grid take."""
+        n = work.layout.n_units
+        most = max(1, n // LEAST_CHUNKS)
+        times = list(_times(work)) if most > 1 else [seconds]
+        mean = sum(times) / len(times)
+        return cls(n, max(1, min(most, int(seconds / max(mean, 1e-9)))))
+
+
+def _times(work: Work) -> Iterator[float]:
+    """How long units take [s], once the kernels are compiled."""
+    trials = [int((0.5 + k * GOLDEN) % 1 * work.layout.n_units) for k in range(MOST_TRIALS)]
+    coarse = replace(work, n_springs=COARSE, steps_per_period=COARSE)
+    compute(coarse, trials[0], trials[0] + 1)
+    begin = now = time.perf_counter()
+    for unit in trials:
+        if now - begin > TRIAL:
+            return
+        start = now
+        compute(work, unit, unit + 1)
+        now = time.perf_counter()
+        yield now - start

@@ -1,0 +1,65 @@
+"""Files that are whole or not there: written beside their place, brought to the disk, and moved in."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+_PART = ".part"
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file, or replace it, in one instant."""
+    with _beside(path, data) as partial:
+        os.replace(partial, path)
+    _sync_folder(path.parent)
+
+
+def write_once(path: Path, data: bytes) -> bool:
+    """Write a file in one instant unless there is one; whether it was written. One of several writers succeeds."""
+    with _beside(path, data) as partial:
+        try:
+            os.link(partial, path)
+        except FileExistsError:
+            return False
+        except OSError:  # a file system without links: of several at one instant, the last would win
+            if path.exists():
+                return False
+            os.replace(partial, path)
+    _sync_folder(path.parent)
+    return True
+
+
+def is_partial(name: str) -> bool:
+    """Whether a file of this name was left behind by a write that was cut off."""
+    return name.startswith(".") and name.endswith(_PART)
+
+
+@contextmanager
+def _beside(path: Path, data: bytes) -> Iterator[Path]:
+    """The data in a file of the same folder, on the disk; it is gone at the end."""
+    partial = path.parent / f".{path.name}-{os.getpid()}-{secrets.token_hex(4)}{_PART}"
+    try:
+        with open(partial, "xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        yield partial
+    finally:
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Bring the names in a folder to the disk, where its system can."""
+    if os.name == "nt":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):
+            os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

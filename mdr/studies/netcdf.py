@@ -1,0 +1,167 @@
+"""A study as NetCDF: every quantity over labelled axes, with units; status as flags; reasons as a table.
+
+Names with "/", which NetCDF forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are
+no numbers are texts. The bytes follow from the study alone.
+"""
+
+from __future__ import annotations
+
+import json
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.studies.axes import Axis
+from mdr.studies.frame import Column, Frame
+from mdr.studies.points import Status
+from mdr.studies.study import Study
+
+_TITLE = "Sliding friction under normal oscillation, a study by mdr"
+_MEANINGS = " ".join(status.name.lower() for status in Status)
+
+
+def packed(study: Study) -> bytes:
+    """The bytes of the file."""
+    from scipy.io import netcdf_file
+
+    buffer = BytesIO()
+    file = netcdf_file(buffer, "w", version=2)
+    for name, text in _attributes(study).items():
+        _set(file, name, text)
+    for axis in study.frame.grid:
+        _put_axis(file, axis)
+    dims = tuple(name_of(axis.path) for axis in study.frame.grid)
+    for column, values in zip(study.frame.columns, study.values, strict=True):
+        _put(file, column.name, "d", dims, values, **_described(column.unit, column.meaning))
+    flags = np.array([int(status) for status in Status], dtype=np.int8)
+    status = _put(file, "status", "b", dims, study.status, long_name="how the computation of the point ended")
+    _set(status, "flag_values", flags)
+    _set(status, "flag_meanings", _MEANINGS)
+    _put(file, "reason", "i", dims, study.reason, long_name="why it failed or did not settle, an index of reasons")
+    _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
+    file.flush()
+    return buffer.getvalue()
+
+
+def unpacked(data: bytes) -> Study:
+    """The study in the bytes of a file; ValueError if they are none."""
+    from scipy.io import netcdf_file
+
+    try:
+        file = netcdf_file(BytesIO(data), "r", mmap=False)
+        return _study(file)
+    except (TypeError, ValueError, LookupError, AttributeError, EOFError, ArithmeticError) as fault:
+        raise ValueError(f"no study, or a damaged one: {fault}") from fault
+
+
+def to_xarray(study: Study) -> Any:
+    """The study as an xarray.Dataset."""
+    try:
+        import xarray
+    except ImportError:
+        raise ImportError("to_xarray needs xarray: pip install 'mdr-friction[xarray]'") from None
+    return xarray.load_dataset(BytesIO(packed(study)), engine="scipy")
+
+
+def name_of(path: str) -> str:
+    """The name of an axis in the file."""
+    return path.replace("/", "_over_")
+
+
+# --- writing ---
+
+
+def _attributes(study: Study) -> dict[str, str]:
+    frame = study.frame
+    known = {"title": _TITLE, "identity": frame.identity, "mdr_version": frame.version, "case": frame.case}
+    if frame.selected:
+        known["selected"] = json.dumps(frame.selected)
+    return {name: text for name, text in known.items() if text}  # an empty text cannot be read back
+
+
+def _described(unit: str, meaning: str) -> dict[str, str]:
+    known = {"units": "1" if unit == "-" else unit, "long_name": meaning}
+    return {name: text for name, text in known.items() if text}
+
+
+def _put_axis(file: Any, axis: Axis) -> None:
+    name, told = name_of(axis.path), _described(axis.unit, axis.meaning) | {"path": axis.path}
+    if axis.is_numeric:
+        file.createDimension(name, len(axis))
+        _put(file, name, "d", (name,), axis.values, **told)
+    else:
+        _put_texts(file, name, axis.labels, **told)
+
+
+def _put(file: Any, name: str, kind: str, dims: tuple[str, ...], values: Any, **told: str) -> Any:
+    variable = file.createVariable(name, kind, dims)
+    variable.data[...] = values
+    for attribute, text in told.items():
+        _set(variable, attribute, text)
+    return variable
+
+
+def _put_texts(file: Any, name: str, texts: tuple[str, ...], **told: str) -> None:
+    raw = np.array([text.encode("utf-8") for text in texts])
+    width = max(raw.dtype.itemsize, 1)
+    file.createDimension(name, len(texts))
+    file.createDimension(f"length_of_{name}", width)
+    letters = raw.astype(f"S{width}").view("S1").reshape(len(texts), width)
+    _set(_put(file, name, "c", (name, f"length_of_{name}"), letters, **told), "_Encoding", "utf-8")
+
+
+def _set(holder: Any, name: str, value: Any) -> None:
+    setattr(holder, name, value.encode("utf-8") if isinstance(value, str) else value)
+
+
+# --- reading ---
+
+
+def _study(file: Any) -> Study:
+    variables, status = file.variables, file.variables["status"]
+    if _text(status, "flag_meanings") != _MEANINGS:
+        raise ValueError("its states are not those of a study")
+    grid = tuple(_axis(variables[name]) for name in status.dimensions)
+    apart = {*status.dimensions, "status", "reason", "reasons"}
+    # the file sorts its variables by shape, which all quantities share, and keeps their order otherwise
+    columns = tuple(
+        Column(name, _unit(one), _text(one, "long_name")) for name, one in variables.items() if name not in apart
+    )
+    frame = Frame(
+        grid,
+        columns,
+        case=_text(file, "case"),
+        version=_text(file, "mdr_version"),
+        identity=_text(file, "identity"),
+        selected=tuple((path, told) for path, told in json.loads(_text(file, "selected") or "[]")),
+    )
+    values = np.stack([_native(variables[column.name], "f8") for column in columns])
+    return Study(frame, values, _native(status, "u1"), _native(variables["reason"], "i4"), _texts(variables["reasons"]))
+
+
+def _axis(variable: Any) -> Axis:
+    path = _text(variable, "path")
+    if variable.typecode() == "c":
+        labels = _texts(variable)
+        return Axis(path, labels, labels)
+    return Axis(path, _native(variable, "f8"))
+
+
+def _native(variable: Any, kind: str) -> NDArray[Any]:
+    return np.array(variable.data, dtype=kind, order="C")
+
+
+def _texts(variable: Any) -> tuple[str, ...]:
+    return tuple(b"".join(row).decode("utf-8") for row in np.asarray(variable.data))
+
+
+def _text(holder: Any, name: str) -> str:
+    value = getattr(holder, name, b"")
+    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
+
+
+def _unit(variable: Any) -> str:
+    unit = _text(variable, "units")
+    return "-" if unit == "1" else unit

@@ -1,0 +1,150 @@
+"""What a study can compute: a catalogue of quantities, and quantities of one's own.
+
+Those of the first list follow from a case alone, those of the second from its COF curve and need an axis of velocity.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.contact import SlidingContact
+from mdr.friction import CofCurve
+from mdr.full_slip import mean_normal_force, static_cof
+from mdr.full_slip_body import full_slip_critical_velocity
+from mdr.measurement import measure_critical_velocity
+from mdr.studies.axes import VELOCITIES
+from mdr.theory import critical_velocity
+from mdr.words import offer, short
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of one's own: of(case), or of(case, v_0) with per_velocity, returns a float.
+
+    Its name is its identity in a store, which cannot look into a function: a function that is changed needs a new name,
+    or a new store. For other processes `of` must be defined at the top of a module.
+    """
+
+    name: str  #: letters, digits and _
+    unit: str  #: "-" for a pure number
+    of: Callable[..., float]  #: of(case), or of(case, v_0) with v_0 >= 0 in m/s
+    meaning: str = ""  #: in a few words
+    per_velocity: bool = field(default=False, kw_only=True)  #: whether it depends on the pulling velocity
+
+    def __post_init__(self) -> None:
+        for name in ("name", "unit", "meaning"):
+            if not isinstance(getattr(self, name), str):
+                raise TypeError(f"{name} must be a string, got {getattr(self, name)!r}")
+        if not re.fullmatch(r"[A-Za-z]\w*", self.name, re.ASCII) or self.name in ("status", "why", "reason", "reasons"):
+            raise ValueError(f"name must be of letters, digits and _, and not that of a status, got {self.name!r}")
+        if not callable(self.of):
+            raise TypeError(f"of must be a function of the case, got {self.of!r}")
+        if not isinstance(self.per_velocity, bool):
+            raise TypeError(f"per_velocity must be True or False, got {self.per_velocity!r}")
+
+
+@dataclass(frozen=True)
+class CurveQuantity:
+    """A quantity of a whole COF curve: of(case, curve) returns an array in the shape of its velocities."""
+
+    name: str
+    unit: str
+    of: Callable[[SlidingContact, CofCurve], Array]
+    meaning: str
+    per_velocity: bool = field(default=True, init=False)
+
+
+@dataclass(frozen=True)
+class _Property:
+    """A property of the case, as a function that can be sent to other processes."""
+
+    name: str
+
+    def __call__(self, case: SlidingContact) -> float:
+        return float(getattr(case, self.name))
+
+
+@dataclass(frozen=True)
+class _Column:
+    """A column of the curve, likewise."""
+
+    name: str
+
+    def __call__(self, case: SlidingContact, curve: CofCurve) -> Array:
+        return np.asarray(getattr(curve, self.name), dtype=float)
+
+
+def _mean_F_x(case: SlidingContact, curve: CofCurve) -> Array:
+    return curve.cof * mean_normal_force(case)
+
+
+def _mean_F_z(case: SlidingContact, curve: CofCurve) -> Array:
+    return np.full(curve.v_0.shape, mean_normal_force(case))
+
+
+def _measured(case: SlidingContact) -> float:
+    found = measure_critical_velocity(case)
+    if found.v_c is None:
+        raise ValueError(f"there is none: {found.why}")
+    return found.v_c
+
+
+CATALOGUE: dict[str, Quantity | CurveQuantity] = {
+    one.name: one
+    for one in (
+        Quantity("v_c", "m/s", critical_velocity, "critical velocity, Eq. (15)"),
+        Quantity("full_slip_v_c", "m/s", full_slip_critical_velocity, "critical velocity with all harmonics of F_N"),
+        Quantity("measured_v_c", "m/s", _measured, "critical velocity measured from runs"),
+        Quantity("static_cof", "-", static_cof, "coefficient of friction in the limit v_0 -> 0"),
+        Quantity("k_zc", "N/m", _Property("k_zc"), "normal contact stiffness at the mean depth"),
+        Quantity("k_xc", "N/m", _Property("k_xc"), "tangential contact stiffness at the mean depth"),
+        Quantity("alpha", "-", _Property("alpha"), "relative amplitude du_z/u_z0"),
+        Quantity("T", "-", _Property("T"), "omega tau of the long-time branch"),
+        Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
+        CurveQuantity("cof", "-", _Column("cof"), "average coefficient of friction"),
+        CurveQuantity("cof_error", "-", _Column("cof_error"), "bound on the numerical error of cof"),
+        CurveQuantity("stick_share", "-", _Column("stick_share"), "force-weighted share of contact time in stick"),
+        CurveQuantity("settled", "-", _Column("settled"), "1 where the run settled, else 0"),
+        CurveQuantity("mean_F_x", "N", _mean_F_x, "mean tangential force, cof times the mean normal force"),
+        CurveQuantity("mean_F_z", "N", _mean_F_z, "mean normal force, the same at any velocity"),
+    )
+}
+
+
+def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) -> tuple[Quantity | CurveQuantity, ...]:
+    """The quantities of a study with axes of these paths; ValueError or TypeError for what it cannot compute."""
+    if isinstance(quantities, str | Quantity) or not isinstance(quantities, Iterable):
+        raise TypeError(f"quantities must be a list of names, got {short(repr(quantities))}; write [...]")
+    paths = list(paths)
+    found = tuple(_known(one) for one in quantities)
+    if not found:
+        raise ValueError(f"quantities must name at least one; there are {', '.join(CATALOGUE)}")
+    names = [one.name for one in found]
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"quantities has {name} twice; give each once")
+        if name in paths:
+            raise ValueError(f"{name} is an axis of the study already; leave it out of quantities")
+    if not any(path in VELOCITIES for path in paths) and (moving := [one.name for one in found if one.per_velocity]):
+        raise ValueError(f'{", ".join(moving)} need a velocity: give an axis "v_0" [m/s] or "v_0/v_c"')
+    return found
+
+
+def _known(one: Any) -> Quantity | CurveQuantity:
+    if isinstance(one, str):
+        if one not in CATALOGUE:
+            raise ValueError(f"{short(one)} is no quantity of the catalogue; {offer(one, list(CATALOGUE))}")
+        return CATALOGUE[one]
+    if not isinstance(one, Quantity):
+        raise TypeError(f"quantities must be names or Quantity records, got {short(repr(one))} among them")
+    if CATALOGUE.get(one.name, one) != one:
+        raise ValueError(f"{one.name} is the name of another quantity of the catalogue; give yours one of its own")
+    return one

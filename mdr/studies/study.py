@@ -1,0 +1,187 @@
+"""A finished study, or what there is of one: values with named axes, units, and the fate of every point."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.records import ArrayRecord
+from mdr.studies.frame import Frame
+from mdr.studies.points import Status
+from mdr.words import nearest, short
+
+Array = NDArray[np.float64]
+
+_NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
+MOST_REASONS = 5  #: told in print
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Study(ArrayRecord):
+    """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
+
+    A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle
+    keeps its numbers. Printing it tells how many there are of either.
+    """
+
+    frame: Frame
+    values: Array  #: (n_quantities, *shape), NaN where there is none
+    status: NDArray[np.uint8]  #: (*shape,), see `Status`: 0 done, 1 unsettled, 2 failed, 3 missing
+    reason: NDArray[np.int32]  #: (*shape,), which of the reasons
+    reasons: tuple[str, ...] = ("",)  #: distinct, in the order of the points; the first is "", none
+
+    def __getitem__(self, name: str) -> Array:
+        """The values of a quantity, in its unit."""
+        if name not in self.quantities:
+            meant = nearest(name, self.quantities) if isinstance(name, str) else None
+            hint = f"did you mean {meant}?" if meant else f"there are {', '.join(self.quantities)}"
+            raise KeyError(f"the study has no quantity {name!r}; {hint}")
+        values: Array = self.values[self.quantities.index(name)]
+        return values
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the quantities."""
+        return tuple(column.name for column in self.frame.columns)
+
+    @property
+    def axes(self) -> dict[str, Array | tuple[Any, ...]]:
+        """The values of every axis by its path, in the order of the arrays' axes."""
+        return {axis.path: axis.values for axis in self.frame.grid}
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of axes and quantities, "-" for a pure number, "" where there is none."""
+        units = {axis.path: axis.unit for axis in self.frame.grid}
+        return units | {column.name: column.unit for column in self.frame.columns}
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each axis has."""
+        return self.frame.shape
+
+    @property
+    def why(self) -> NDArray[np.object_]:
+        """(*shape,) why a point failed or did not settle, "" where nothing is to be said."""
+        return np.array(self.reasons, dtype=object)[self.reason]
+
+    @property
+    def complete(self) -> bool:
+        """Whether every point was computed, however it ended."""
+        return not bool(np.any(self.status == Status.MISSING))
+
+    @property
+    def identity(self) -> str:
+        """SHA-256 of the specification; "" where it has none."""
+        return self.frame.identity
+
+    @property
+    def case(self) -> str:
+        """The case that the axes vary, as the text of a case file where one can carry it."""
+        return self.frame.case
+
+    def count(self, status: Status) -> int:
+        """How many points ended so."""
+        return int(np.count_nonzero(self.status == status))
+
+    def select(self, values: Mapping[str, Any]) -> Study:
+        """The part of the study at these values, {path: value}, each a value of its axis, which it then lacks.
+
+        Raises KeyError for a path that is no axis, ValueError for a value that is not there.
+        """
+        if not isinstance(values, Mapping):
+            raise TypeError(f"values must map paths to values, got {short(repr(values))}")
+        if unknown := [path for path in values if path not in self.axes]:
+            raise KeyError(f"{unknown[0]!r} is no axis of the study; there are {', '.join(self.axes)}")
+        fixed = {axis.path: axis.index(values[axis.path]) for axis in self.frame.grid if axis.path in values}
+        where = tuple(fixed.get(axis.path, slice(None)) for axis in self.frame.grid)
+        told = tuple((axis.path, axis.told(fixed[axis.path])) for axis in self.frame.grid if axis.path in fixed)
+        grid = tuple(axis for axis in self.frame.grid if axis.path not in fixed)
+        frame = replace(self.frame, grid=grid, selected=self.frame.selected + told)
+        return study_of(frame, self.values[(slice(None), *where)], self.status[where], self.reason[where], self.reasons)
+
+    def to_netcdf(self, path: str | PathLike[str]) -> None:
+        """Write NetCDF (classic, 64-bit offsets), with labelled axes, units, status and reasons."""
+        from mdr.studies.files import write_whole
+        from mdr.studies.netcdf import packed
+
+        write_whole(Path(path), packed(self))
+
+    def to_csv(self, path: str | PathLike[str]) -> None:
+        """Write one row a point, with units in the header."""
+        from mdr.studies.csv_files import table
+        from mdr.studies.files import write_whole
+
+        write_whole(Path(path), table(self).encode("utf-8"))
+
+    def to_xarray(self) -> Any:
+        """The study as an xarray.Dataset, as xarray opens the NetCDF file; needs the extra `xarray`."""
+        from mdr.studies.netcdf import to_xarray
+
+        return to_xarray(self)
+
+    def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
+        """Draw a quantity over two axes in colours; see `mdr.studies.pictures.plot_map`."""
+        from mdr.studies.pictures import plot_map
+
+        return plot_map(self, quantity, x, ax, **knobs)
+
+    def plot_curves(self, quantity: str, x: str | None = None, ax: Any = None) -> Any:
+        """Draw a family of curves; see `mdr.studies.pictures.plot_curves`."""
+        from mdr.studies.pictures import plot_curves
+
+        return plot_curves(self, quantity, x, ax)
+
+    def plot_multiples(self, quantity: str, over: str, x: str | None = None, **knobs: Any) -> Any:
+        """Draw a map or a family for each value of an axis; see `mdr.studies.pictures.plot_multiples`."""
+        from mdr.studies.pictures import plot_multiples
+
+        return plot_multiples(self, quantity, over, x, **knobs)
+
+    def __repr__(self) -> str:
+        n = self.status.size
+        names = ", ".join(f"{column.name} [{column.unit}]" for column in self.frame.columns)
+        size = " x ".join(map(str, self.shape)) or "1"
+        lines = [f"Study of {n} points ({size}): {names}"]
+        lines += [f"  {axis.path}{f' [{axis.unit}]' if axis.unit else ''}: {axis.summary}" for axis in self.frame.grid]
+        lines += [f"  at {path} = {value}" for path, value in self.frame.selected]
+        counts = [f"{self.count(status)} {status.name.lower()}" for status in Status if self.count(status)]
+        return "\n".join([*lines, f"  {', '.join(counts)}", *self._most_frequent()])
+
+    def _most_frequent(self) -> list[str]:
+        """The reasons that most points share, but for the numbers in them."""
+        codes, counts = np.unique(self.reason[self.reason > 0], return_counts=True)
+        kinds: dict[str, tuple[int, str]] = {}
+        for code, count in zip(codes.tolist(), counts.tolist(), strict=True):
+            kind = _NUMBERS.sub("#", self.reasons[code])
+            known, example = kinds.get(kind, (0, self.reasons[code]))
+            kinds[kind] = (known + count, example)
+        ranked = sorted(kinds.values(), key=lambda one: -one[0])
+        lines = [f"    {count}: {example}" for count, example in ranked[:MOST_REASONS]]
+        rest = sum(count for count, _ in ranked[MOST_REASONS:])
+        return lines + ([f"    {rest}: for {len(ranked) - MOST_REASONS} other reasons"] if rest else [])
+
+
+def study_of(
+    frame: Frame, values: Array, status: NDArray[Any], reason: NDArray[Any], reasons: tuple[str, ...]
+) -> Study:
+    """A study whose reasons are those of its own points, in their order."""
+    flat = np.ravel(reason)
+    codes, first = np.unique(flat[flat > 0], return_index=True)
+    kept = codes[np.argsort(first)]
+    new = np.zeros(len(reasons), dtype=np.int32)
+    new[kept] = np.arange(1, kept.size + 1)
+    return Study(
+        frame,
+        np.array(values, order="C"),
+        np.array(status, dtype=np.uint8, order="C"),
+        np.array(new[reason], order="C"),
+        ("", *(reasons[code] for code in kept.tolist())),
+    )

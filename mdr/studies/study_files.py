@@ -1,0 +1,164 @@
+"""Study files: a case file with the axes that vary the case, strictly read.
+
+    quantities = ["cof", "stick_share"]       # names of the catalogue; left out, ["cof"]
+    n_springs = 192                           # knobs of runs; left out, chosen to meet the accuracy budget
+    steps_per_period = 512
+    mu_0 = 0.5                                # the case, as in a case file
+    ...
+    [axes]                                    # paths in quotes, as `mdr.sweep` takes them
+    "material.tau" = { from = 1e-4, to = 1e-2, n = 9, spacing = "log" }
+    "v_0/v_c" = { from = 0, to = 1.3, n = 27 }
+    "oscillation.u_z0" = [10e-6, 20e-6]
+    indenter = [{ shape = "Cone", theta = 0.05 }, { shape = "Paraboloid", R = 5e-3 }]
+    pull = [{}, { k_x = 2e4, m = 0.1 }]       # {} is a rigid pull
+
+A file that is wrong is refused with every fault at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike, fsdecode
+from typing import Any
+
+import numpy as np
+
+from mdr.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of
+from mdr.checks import count, finite
+from mdr.contact import KINDS, SlidingContact
+from mdr.friction import LEAST_KNOB
+from mdr.pull import RigidPull
+from mdr.studies.axes import read_axes
+from mdr.studies.quantities import read_quantities
+from mdr.words import offer, short
+
+KEYS = ("axes", "quantities", "n_springs", "steps_per_period")
+_RANGE = ("from", "to", "n", "spacing")
+
+
+@dataclass(frozen=True)
+class StudyFile:
+    """What a study file asks for; `mdr.sweep(**vars(file))` does it."""
+
+    case: SlidingContact
+    axes: dict[str, Any]
+    quantities: tuple[str, ...]
+    n_springs: int | None
+    steps_per_period: int | None
+
+
+def read_study_file(path: str | PathLike[str]) -> StudyFile:
+    """The study in a TOML file. Raises CaseFileError with every fault."""
+    return parse_study(read_text(path), source=fsdecode(path))
+
+
+def parse_study(text: str, source: str = "<string>") -> StudyFile:
+    """The study in a TOML text; messages call it `source`. Raises CaseFileError with every fault."""
+    try:
+        return _study_of(parse_toml(text, source), source)
+    except RecursionError:
+        raise fault_error(source, [NESTED]) from None
+
+
+def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
+    axes, faults = _read_axes(content.get("axes"))
+    quantities = content.get("quantities", ["cof"])
+    faults += _faults_of_names(quantities)
+    knobs = {name: content.get(name) for name in ("n_springs", "steps_per_period")}
+    for name, knob in knobs.items():
+        faults += _tried(count, name, knob, LEAST_KNOB) if knob is not None else []
+    try:
+        case = case_of(content, source, beside=KEYS)
+    except CaseFileError as of_case:
+        raise CaseFileError("\n".join([*of_case.faults, *fault_error(source, faults).faults])) from None
+    faults = faults or _faults_of_axes(case, axes) or _tried(read_quantities, quantities, axes)
+    if faults:
+        raise fault_error(source, faults)
+    return StudyFile(case, axes, tuple(quantities), **knobs)
+
+
+# --- axes ---
+
+
+def _read_axes(table: Any) -> tuple[dict[str, Any], list[str]]:
+    """Values by path, and what is wrong with how they are written."""
+    if table is None:
+        return {}, ['[axes] is missing; a study varies something, such as "v_0/v_c" = [0.5, 0.9]']
+    if not isinstance(table, dict) or not table:
+        return {}, ["[axes] must be a table of paths and their values"]
+    axes: dict[str, Any] = {}
+    faults: list[str] = []
+    for path, written in table.items():
+        axes[path], found = _read_values(path, written)
+        faults += [f"[axes] {fault}" for fault in found]
+    return axes, faults
+
+
+def _read_values(path: str, written: Any) -> tuple[Any, list[str]]:
+    if isinstance(written, dict) and not set(written) & set(_RANGE) and path in KINDS:
+        example = next(iter(written), "...")
+        return None, [f'{path}.{example} must be in quotes, "{path}.{example}" = [...]; {path} itself a list of tables']
+    if isinstance(written, dict):
+        return _range(path, written)
+    if not isinstance(written, list):
+        return None, [f"{path} must be a list of values or {{ from = , to = , n = }}, got {short(str(written))}"]
+    if path not in KINDS:
+        return written, []
+    records: list[Any] = []
+    faults: list[str] = []
+    for one in written:
+        record, found = (RigidPull(), []) if path == "pull" and one == {} else record_of(path, one)
+        records.append(record)
+        faults += found
+    return records, faults
+
+
+def _range(path: str, written: Mapping[str, Any]) -> tuple[Any, list[str]]:
+    """Equidistant values, or values in equal ratios."""
+    faults = [
+        f"{path}: {short(key)} is no key of a range; {offer(key, _RANGE)}" for key in written if key not in _RANGE
+    ]
+    faults += [f"{path}: {key} is missing from the range" for key in _RANGE[:3] if key not in written]
+    for key in ("from", "to"):
+        if key in written:
+            faults += _tried(finite, f"{path}: {key}", written[key])
+    if "n" in written:
+        faults += _tried(count, f"{path}: n", written["n"], 2)
+    spacing = written.get("spacing", "linear")
+    if spacing not in ("linear", "log"):
+        faults.append(f'{path}: spacing must be "linear" or "log", got {short(str(spacing))}')
+    if faults:
+        return None, faults
+    low, high, n = float(written["from"]), float(written["to"]), written["n"]
+    if spacing == "linear":
+        return np.linspace(low, high, n), []
+    if low <= 0 or high <= 0:
+        return None, [f'{path}: a range with spacing = "log" must be positive, got {low:g} to {high:g}']
+    return np.geomspace(low, high, n), []
+
+
+# --- faults that only the case tells ---
+
+
+def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
+    """Each axis beside those of records, then all of them together."""
+    records = {path: axes[path] for path in axes if path in KINDS}
+    alone = [_tried(read_axes, case, {**records, path: axes[path]}) for path in axes]
+    found = list(dict.fromkeys(fault for faults in alone for fault in faults))
+    return [f"[axes] {fault}" for fault in found or _tried(read_axes, case, axes)]
+
+
+def _faults_of_names(quantities: Any) -> list[str]:
+    """Each quantity for itself, as if there were a velocity."""
+    if not isinstance(quantities, list):
+        return [f'quantities must be a list of names, ["cof"], got {short(str(quantities))}']
+    return [fault for one in quantities for fault in _tried(read_quantities, [one], ["v_0"])]
+
+
+def _tried(check: Any, *arguments: Any) -> list[str]:
+    try:
+        check(*arguments)
+    except (ValueError, TypeError) as fault:
+        return [str(fault)]
+    return []

@@ -1,0 +1,132 @@
+"""sweep(): a grid of cases, computed in parallel, resumed from a store, and returned as one Study."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from os import PathLike, fsdecode
+from typing import Any
+
+from mdr.checks import count, positive
+from mdr.contact import SlidingContact, require_case
+from mdr.friction import LEAST_KNOB
+from mdr.progress import Meter
+from mdr.studies.axes import read_axes
+from mdr.studies.cut import Cut
+from mdr.studies.frame import Frame
+from mdr.studies.points import Part
+from mdr.studies.quantities import Quantity, read_quantities
+from mdr.studies.results import Results
+from mdr.studies.run import WorkersLost, run
+from mdr.studies.specification import identity_of, specification
+from mdr.studies.store import Store, StudyError
+from mdr.studies.stored import Stored
+from mdr.studies.study import Study
+from mdr.studies.work import Work
+from mdr.words import short
+
+
+def sweep(
+    case: SlidingContact,
+    axes: Mapping[str, Any],
+    store: str | PathLike[str] | None = None,
+    executor: Any = None,
+    quantities: Iterable[str | Quantity] = ("cof",),
+    *,
+    chunk_seconds: float = 5.0,
+    shard: str | tuple[int, int] | None = None,
+    n_springs: int | None = None,
+    steps_per_period: int | None = None,
+) -> Study:
+    """Compute quantities over a grid of cases; returns a Study.
+
+    axes: values by path, as `mdr.studies.axes` lists them: a field ("oscillation.u_z0", "indenter"), a dimensionless
+    group ("alpha", "T", "k_x/k_xc", "omega_0/omega") or the velocity ("v_0" in m/s, "v_0/v_c"). quantities: names of
+    `mdr.studies.CATALOGUE`, or Quantity records. A point that cannot be computed is NaN, with its reason.
+
+    store: a folder that finished chunks of about chunk_seconds [s] are kept in; the same call, after whatever end, goes
+    on from there. shard: "k/n" or (k, n), computes only every n-th chunk, from the k-th on, k = 1 ... n; the points of
+    the others are missing until all are in the store. executor: None takes a thread a core, and any
+    concurrent.futures.Executor will do, of processes that are spawned, or of a cluster (Dask: client.get_executor()).
+    n_springs, steps_per_period: of every run, as `slide` takes them. No value depends on store, shard or executor.
+
+    Raises ValueError and TypeError for what can never be computed, StudyError for a store that cannot be used and for
+    workers that were lost.
+    """
+    case, axes_read = require_case(case), read_axes(case, axes)
+    for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
+        if knob is not None:
+            count(name, knob, LEAST_KNOB)
+    work = Work(case, axes_read, read_quantities(quantities, axes), n_springs, steps_per_period)
+    chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
+    _require_executor(executor)
+    if store is None:
+        if shard is not None:
+            raise ValueError("a shard needs a store that the others are kept in; give store=")
+        return _in_memory(work, executor)
+    if not isinstance(store, str | PathLike):
+        raise TypeError(f"store must be a folder, got {short(repr(store))}")
+    return Stored(work, Store(fsdecode(store)), executor).study(chunk_seconds, part)
+
+
+# --- without a store ---
+
+
+def _in_memory(work: Work, executor: Any) -> Study:
+    results, cut = Results(work.layout, len(work.quantities)), Cut.in_memory(work)
+    meter = Meter("sweep", cut.n_chunks, "chunks")
+
+    def take(chunk: int, part: Part) -> None:
+        results.put(cut.units(chunk)[0], part)
+        meter.tick()
+
+    try:
+        run(work, cut, range(cut.n_chunks), executor, take)
+    except KeyboardInterrupt:
+        meter.close()
+        print("sweep: interrupted, and nothing is kept; with store= finished chunks are", file=sys.stderr)
+        raise
+    except WorkersLost as error:
+        raise StudyError(f"{error}; nothing is kept, as there is no store=") from error
+    finally:
+        meter.close()
+    return results.study(Frame.of(work, _identity_or_none(work)))
+
+
+def _identity_or_none(work: Work) -> str:
+    try:
+        return identity_of(specification(work))
+    except ValueError:  # a function without a name, which only a store has to tell from others
+        return ""
+
+
+# --- what was given ---
+
+
+def _shard(shard: Any) -> tuple[int, int]:
+    """k and n; 1 and 1 for all of it."""
+    if shard is None:
+        return 1, 1
+    rule = f"shard must be k/n with k from 1 to n, such as 3/16, got {short(repr(shard))}"
+    if isinstance(shard, str):
+        parts: Any = shard.split("/")
+        if not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
+            raise ValueError(rule)
+        parts = tuple(map(int, parts))
+    else:
+        parts = tuple(shard) if isinstance(shard, tuple | list) else ()
+    if len(parts) != 2 or not all(isinstance(part, int) and not isinstance(part, bool) for part in parts):
+        raise ValueError(rule)
+    if not 1 <= parts[0] <= parts[1]:
+        raise ValueError(rule)
+    return parts[0], parts[1]
+
+
+def _require_executor(executor: Any) -> None:
+    if executor is None:
+        return
+    from concurrent.futures import Executor
+
+    if not isinstance(executor, Executor):
+        hint = "; write client.get_executor()" if hasattr(executor, "get_executor") else ""
+        raise TypeError(f"executor must be a concurrent.futures.Executor, got {short(repr(executor))}{hint}")

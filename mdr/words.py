@@ -1,0 +1,35 @@
+"""Words of messages: the spelling that was meant, and text cut to one bearable line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+LONGEST = 400  #: characters of a message in one line
+
+
+def offer(word: str, known: Sequence[str]) -> str:
+    """The right spelling of a name, as a question, or all there are."""
+    meant = nearest(word, known)
+    return f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
+
+
+def nearest(word: str, known: Sequence[str]) -> str | None:
+    """The known name that is spelt most like the word, or that alone begins with it."""
+    from difflib import get_close_matches
+
+    folded = {one.casefold(): one for one in known}
+    word = word.casefold()[:99]
+    begun = [one for one in folded if word and one.startswith(word)]
+    found = begun if len(begun) == 1 else get_close_matches(word, folded, n=1)
+    return folded[found[0]] if found else None
+
+
+def short(text: str, longest: int = 60) -> str:
+    """The text, or its beginning."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def one_line(text: str, longest: int = LONGEST) -> str:
+    """One printable line of bearable length."""
+    plain = "".join(c if c.isprintable() else " " for c in text)
+    return short(" ".join(plain.split()), longest)

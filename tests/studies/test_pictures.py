@@ -1,0 +1,140 @@
+"""Pictures of studies: what they show is what the study holds, and what is not there shows too."""
+
+from dataclasses import replace
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.studies import pictures
+from mdr.studies.points import Status
+
+mpl.use("Agg")
+import matplotlib.pyplot as plt
+
+CASE = mdr.SlidingContact(
+    mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.5, mdr.NormalOscillation(20e-6, 5e-6, 300.0)
+)
+ALPHA, V, T = [0.6, 0.1, 0.3], [0.2, 0.4, 0.8, 1.2], [0.1, 1.0]
+
+
+@pytest.fixture(scope="module")
+def study():
+    return mdr.sweep(CASE, {"alpha": ALPHA, "v_0/v_c": V, "T": T})
+
+
+@pytest.fixture(scope="module")
+def flat(study):
+    return study.select({"T": 1.0})
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def broken(study, where, status):
+    """The study with one point that ended otherwise."""
+    values, fate = study.values.copy(), study.status.copy()
+    fate[where] = status
+    if status != Status.UNSETTLED:
+        values[(slice(None), *where)] = np.nan
+    return replace(study, values=values, status=fate)
+
+
+def labels(ax):
+    legend = ax.get_legend()
+    return [text.get_text() for text in legend.get_texts()] if legend else []
+
+
+def test_a_map_shows_the_values_where_they_belong(flat):
+    ax = flat.plot_map("cof", x="v_0/v_c")
+    mesh = ax.collections[0]
+    ordered = flat["cof"][np.argsort(ALPHA)]
+    assert_allclose(mesh.get_array().reshape(3, 4), ordered)
+    assert "v_0/v_c" in ax.get_xlabel()
+    assert r"\alpha" in ax.get_ylabel()
+    corners = mesh.get_coordinates()
+    inside = (corners[:-1, :-1] + corners[1:, 1:]) / 2
+    assert np.all(np.diff(corners[:, 0, 1]) > 0)
+    assert abs(inside[0, 0, 0] - 0.2) < 0.11
+    assert labels(ax) == []
+
+
+def test_the_other_axis_may_go_across(flat):
+    ax = flat.plot_map("cof", x="alpha")
+    assert_allclose(ax.collections[0].get_array().reshape(4, 3), flat["cof"][np.argsort(ALPHA)].T)
+
+
+@pytest.mark.parametrize(
+    ("status", "word"), [(Status.FAILED, "failed"), (Status.MISSING, "not computed"), (Status.UNSETTLED, "not settled")]
+)
+def test_what_is_not_there_shows(flat, status, word):
+    one = broken(flat, (1, 2), status)
+    assert any(word in text for text in labels(one.plot_map("cof")))
+    assert any(word in text for text in labels(one.plot_curves("cof", x="v_0/v_c")))
+    one.plot_map("cof").figure.canvas.draw()
+
+
+def test_curves_of_a_family_are_rows(flat):
+    ax = flat.plot_curves("cof", x="v_0/v_c")
+    for row, alpha in zip(flat["cof"], ALPHA, strict=True):
+        line = next(line for line in ax.lines if line.get_label() == f"{alpha:.3g}")
+        assert_allclose(line.get_xdata(), V)
+        assert_allclose(line.get_ydata(), row)
+    assert r"\alpha" in ax.get_legend().get_title().get_text()
+
+
+def test_one_axis_is_one_curve(flat):
+    ax = flat.select({"alpha": 0.3}).plot_curves("cof")
+    assert len([line for line in ax.lines if len(line.get_xdata()) == 4]) == 1
+    assert ax.get_legend() is None
+
+
+def test_a_family_over_records_is_labelled_by_them():
+    shapes = [mdr.Cone(theta=0.05), mdr.FlatPunch(a=1e-3)]
+    study = mdr.sweep(CASE, {"indenter": shapes, "v_0/v_c": V})
+    ax = study.plot_curves("cof")
+    assert [text[:4] for text in labels(ax)] == ["Cone", "Flat"]
+    with pytest.raises(ValueError, match="two axes of numbers"):
+        study.plot_map("cof")
+
+
+def test_small_multiples_share_their_colours(study):
+    fig = study.plot_multiples("cof", over="T", x="v_0/v_c")
+    maps = [ax.collections[0] for ax in fig.axes if ax.get_title()]
+    assert len(maps) == 2
+    assert len({one.get_clim() for one in maps}) == 1
+    assert_allclose(maps[0].get_clim(), [study["cof"].min(), study["cof"].max()])
+    assert [ax.get_title().endswith(value) for ax, value in zip(fig.axes, ("0.1", "1"), strict=False)] == [True, True]
+
+
+def test_small_multiples_of_curves(flat):
+    fig = flat.plot_multiples("cof", over="alpha")
+    assert [len(ax.lines) > 0 for ax in fig.axes] == [True] * 3
+    fig.canvas.draw()
+
+
+def test_axes_that_grow_by_a_factor_are_logarithmic():
+    axes = {"oscillation.omega": np.geomspace(100, 1e4, 5), "alpha": [0.1, 0.2, 0.3]}
+    study = mdr.sweep(CASE, axes, quantities=("v_c",))
+    ax = study.plot_map("v_c", x="oscillation.omega", log=True)
+    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "linear")
+    assert "krad/s" in ax.get_xlabel()
+    assert_allclose(ax.collections[0].get_coordinates()[0, :2, 0], [0.1 / 10**0.25, 0.1 * 10**0.25])
+
+
+def test_what_cannot_be_drawn_says_so(study, flat):
+    with pytest.raises(ValueError, match="the study has 3"):
+        study.plot_map("cof")
+    with pytest.raises(ValueError, match="no axis of the study"):
+        flat.plot_map("cof", x="T")
+    with pytest.raises(KeyError, match="no quantity"):
+        flat.plot_map("v_c")
+
+
+def test_named_axes_and_quantities_exist():
+    assert set(pictures.SYMBOLS) <= set(mdr.studies.CATALOGUE) | set(mdr.studies.field_names.UNITS_AND_MEANINGS)

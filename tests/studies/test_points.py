@@ -1,0 +1,182 @@
+"""Points: their values are those of direct calls, and what fails fails alone and says why."""
+
+import threading
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from grids import BODY, COARSE, RIGID, SHAPES
+from numpy.testing import assert_array_equal
+
+import mdr
+from mdr.studies.axes import read_axes
+from mdr.studies.points import Ended, Status, compute, reason_of
+from mdr.studies.quantities import Quantity, read_quantities
+from mdr.studies.work import IN_CLOSED_FORM, MARCHED, Work
+
+
+def work(case, axes, quantities, **knobs):
+    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), **knobs)
+
+
+def test_values_are_those_of_direct_calls():
+    axes = {"v_0/v_c": [0.0, 0.5, 1.1], "indenter": SHAPES, "T": [0.1, 1.0]}
+    study = mdr.sweep(RIGID, axes, quantities=["cof", "stick_share", "v_c", "mean_F_N"])
+    assert study.shape == (3, 3, 2)
+    for i, shape in enumerate(SHAPES):
+        for j, T in enumerate(axes["T"]):
+            case = replace(RIGID, indenter=shape, material=replace(RIGID.material, tau=T / 300.0))
+            curve = mdr.cof_curve(case, np.array(axes["v_0/v_c"]) * mdr.critical_velocity(case))
+            assert_array_equal(study["cof"][:, i, j], curve.cof)
+            assert_array_equal(study["stick_share"][:, i, j], curve.stick_share)
+            assert_array_equal(study["v_c"][:, i, j], mdr.critical_velocity(case))
+    assert study.count(Status.DONE) == 18
+
+
+def test_runs_have_the_knobs_of_the_study():
+    v_0 = [1e-4, 3e-4]
+    study = mdr.sweep(BODY, {"pull.m": [0.1, 0.2], "v_0": v_0}, quantities=["cof", "settled"], **COARSE)
+    for i, m in enumerate((0.1, 0.2)):
+        case = replace(BODY, pull=replace(BODY.pull, m=m))
+        assert_array_equal(study["cof"][i], [mdr.slide(case, v, **COARSE).cof for v in v_0])
+    assert_array_equal(study["settled"], 1.0)
+
+
+def test_a_curve_of_runs_takes_the_knobs_and_the_closed_form_has_none():
+    runs = mdr.cof_curve(BODY, [1e-4], **COARSE)
+    assert runs.cof[0] == mdr.slide(BODY, 1e-4, **COARSE).cof != mdr.slide(BODY, 1e-4).cof
+    assert mdr.cof_curve(RIGID, [1e-4], **COARSE) == mdr.cof_curve(RIGID, [1e-4])
+    for wrong in ({"n_springs": 8}, {"steps_per_period": 31}):
+        with pytest.raises(ValueError, match="must be at least 32"):
+            mdr.cof_curve(RIGID, [1e-4], **wrong)
+
+
+def test_blocks_of_velocities():
+    v_0 = np.linspace(0, 1e-3, 130)
+    closed, marched = work(RIGID, {"v_0": v_0}, ["cof"]), work(BODY, {"v_0": v_0}, ["cof"])
+    assert (closed.layout.block, closed.layout.n_units) == (IN_CLOSED_FORM, 3)
+    assert (marched.layout.block, marched.layout.n_units) == (MARCHED, 17)
+    assert work(BODY, {"v_0": v_0, "pull": [mdr.RigidPull()]}, ["cof"]).layout.block == IN_CLOSED_FORM
+    assert work(RIGID, {"v_0": v_0, "pull": [mdr.RigidPull(), BODY.pull]}, ["cof"]).layout.block == MARCHED
+    assert_array_equal(compute(closed, 0, 3).values[0], mdr.sweep(RIGID, {"v_0": v_0})["cof"])
+
+
+def test_a_result_does_not_depend_on_how_units_are_dealt_out():
+    given = work(RIGID, {"v_0": np.linspace(0, 1e-3, 130), "T": [0.1, 1.0, 2.0]}, ["cof", "v_c"])
+    whole = compute(given, 0, 9)
+    parts = [compute(given, unit, unit + 1) for unit in range(9)]
+    assert_array_equal(np.concatenate([part.values for part in parts], axis=1), whole.values)
+
+
+def test_a_case_that_cannot_be_built_is_a_failure_of_its_points():
+    study = mdr.sweep(RIGID, {"oscillation.u_z0": [-1e-3, 6e-6], "v_0": [1e-4, 2e-4]}, quantities=["cof", "v_c"])
+    assert_array_equal(study.status, [[Status.FAILED] * 2, [Status.DONE] * 2])
+    assert np.isnan(study["cof"][0]).all()
+    assert np.isnan(study["v_c"][0]).all()
+    assert study.why[0, 0].startswith("u_z0 + du_z = -0.000998 m: the indenter never touches")
+    assert study.why[1, 0] == ""
+
+
+def test_a_path_that_some_records_lack_is_a_failure_of_their_points():
+    study = mdr.sweep(RIGID, {"indenter": SHAPES, "indenter.R": [1e-3]}, quantities=["v_c"])
+    assert_array_equal(study.status.ravel(), [Status.DONE, Status.FAILED, Status.FAILED])
+    assert study.why[1, 0] == "indenter.R: Cone has no R"
+
+
+def test_a_resonance_is_a_failure_of_the_velocities_and_a_value_of_v_c():
+    m = [0.1, 0.2]
+    case = replace(BODY, pull=mdr.SpringPull(k_x=300.0**2 * 0.1))
+    study = mdr.sweep(case, {"pull.m": m, "v_0/v_c": [0.5, 0.9]}, quantities=["cof", "v_c"], **COARSE)
+    assert np.isinf(study["v_c"][0]).all()
+    assert np.isnan(study["cof"][0]).all()
+    assert study.why[0, 0].startswith("v_0/v_c: the critical velocity of this case is infinite")
+    assert np.isfinite(study["cof"][1]).all()
+
+
+def test_a_run_that_did_not_settle_keeps_its_numbers(monkeypatch):
+    def restless(case, v_0, **knobs):
+        curve = mdr.cof_curve(case, v_0, **knobs)
+        return replace(curve, settled=curve.v_0 < 3e-4, why=tuple("F_x drifts" * bool(v > 2e-4) for v in curve.v_0))
+
+    monkeypatch.setattr("mdr.studies.points.cof_curve", restless)
+    v_0 = [1e-4, 4e-4, 2.5e-4]
+    study = mdr.sweep(RIGID, {"v_0": v_0}, quantities=["cof", "settled"])
+    assert_array_equal(study.status, [Status.DONE, Status.UNSETTLED, Status.DONE])
+    assert_array_equal(study["cof"], mdr.cof_curve(RIGID, v_0).cof)
+    assert_array_equal(study["settled"], [1, 0, 1])
+    assert study.why.tolist() == ["", "F_x drifts", ""]  # a settled run has nothing to explain
+
+
+def test_of_velocities_that_are_computed_together_only_the_guilty_fail():
+    """Beyond 1e15 times Eq. (1) a march refuses."""
+    study = mdr.sweep(BODY, {"v_0": [1e-4, 1e20, 2e-4]}, quantities=["cof"], **COARSE)
+    assert_array_equal(study.status, [Status.DONE, Status.FAILED, Status.DONE])
+    assert "full slip but for rounding" in study.why[1]
+    assert study["cof"][0] == mdr.slide(BODY, 1e-4, **COARSE).cof
+
+
+def faulty(case):
+    if case.mu_0 > 0.5:
+        raise KeyError("steep")
+    return np.nan if case.mu_0 > 0.3 else 1.0
+
+
+def test_a_quantity_that_fails_leaves_the_others():
+    study = mdr.sweep(RIGID, {"mu_0": [0.2, 0.4, 0.6]}, quantities=[Quantity("own", "-", faulty), "v_c"])
+    assert np.isfinite(study["v_c"]).all()
+    assert_array_equal(study["own"], [1.0, np.nan, np.nan])
+    assert_array_equal(study.status, [Status.DONE, Status.FAILED, Status.FAILED])
+    assert study.why.tolist() == ["", "own: is not a number", "own: KeyError: 'steep'"]
+
+
+def test_a_quantity_of_velocity_fails_at_its_own():
+    def of(case, v_0):
+        return 1 / v_0
+
+    own = Quantity("slowness", "s/m", of, per_velocity=True)
+    study = mdr.sweep(RIGID, {"v_0": [0.0, 0.5]}, quantities=["cof", own])
+    assert_array_equal(study["slowness"], [np.nan, 2.0])
+    assert study.why[0] == "slowness: ZeroDivisionError: float division by zero"
+
+
+@pytest.mark.parametrize("error", [MemoryError, NameError, OSError])
+def test_what_is_no_matter_of_the_point_ends_the_sweep(error):
+    def of(case):
+        raise error("no more")
+
+    with pytest.raises(error):
+        mdr.sweep(RIGID, {"mu_0": [0.2, 0.4]}, quantities=[Quantity("own", "-", of)])
+
+
+def test_reasons_are_one_line_without_places_in_memory():
+    assert reason_of(ValueError("a\nb")) == "a b"
+    assert reason_of(ZeroDivisionError()) == "ZeroDivisionError"
+    assert reason_of(TypeError(f"got {object()!r}")) == "got <object object>"
+    assert len(reason_of(ValueError("x" * 1000))) == 240
+
+
+def test_the_work_ends_soon_after_it_is_asked_to():
+    ended, seen = threading.Event(), []
+
+    def of(case):
+        seen.append(case.mu_0)
+        ended.set()
+        return 1.0
+
+    given = work(RIGID, {"mu_0": [0.2, 0.4, 0.6]}, [Quantity("own", "-", of)])
+    with pytest.raises(Ended):
+        compute(given, 0, 3, ended)
+    assert seen == [0.2]
+
+
+def test_a_march_ends_between_its_velocities():
+    ended = threading.Event()
+    ended.set()
+    with pytest.raises(Ended):
+        compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), 0, 1, ended)
+
+
+def test_nothing_inside_speaks(capsys, monkeypatch):
+    monkeypatch.setattr("mdr.progress.PATIENCE", -1.0)
+    compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), 0, 1)
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,137 @@
+"""`mdr sweep`: a study from a file, on the command line."""
+
+import json
+import os
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.__main__ import main
+
+STUDY = """
+quantities = ["cof", "v_c"]
+mu_0 = 0.5
+[indenter]
+shape = "Paraboloid"
+R = 5e-3
+[material]
+model = "KelvinVoigt"
+E = 3e6
+nu = 0.5
+tau = 1e-3
+[oscillation]
+u_z0 = 6e-6
+du_z = 2e-6
+omega = 300.0
+[axes]
+"v_0/v_c" = { from = 0, to = 1.2, n = 3 }
+"T" = [0.1, 1.0]
+indenter = [{ shape = "Paraboloid", R = 5e-3 }, { shape = "Cone", theta = 0.05 }]
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY)
+    return str(tmp_path / "study.toml")
+
+
+def test_a_study_is_written_and_told(file, tmp_path, capsys):
+    out = tmp_path / "study.nc"
+    assert main(["sweep", file, "-o", str(out)]) == 0
+    study = mdr.read_study(out)
+    assert study.shape == (3, 2, 2)
+    assert study.complete
+    assert capsys.readouterr() == (f"{study}\n", "")
+    assert main(["sweep", file, "-o", str(tmp_path / "study.csv")]) == 0
+    assert len((tmp_path / "study.csv").read_text().splitlines()) == 13
+
+
+def test_a_store_is_kept_and_shards_fill_it(file, tmp_path, capsys):
+    store, out = tmp_path / "store", tmp_path / "study.nc"
+    assert main(["sweep", file, "--store", str(store), "--shard", "1/2", "-o", str(out)]) == 0
+    shown = capsys.readouterr()
+    assert "missing" in shown.out
+    assert shown.err == f"mdr: 6 of 12 points are left to the other shards; {out} is not written\n"
+    assert not out.exists()
+    assert main(["sweep", file, "--store", str(store), "--shard", "2/2", "-o", str(out)]) == 0
+    assert out.read_bytes() == (store / "study.nc").read_bytes()
+    assert sorted(os.listdir(store)) == ["study.json", "study.nc"]
+
+
+def test_json_is_for_machines(file, capsys):
+    assert main(["sweep", file, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["complete"] is True
+    assert answer["counts"] == {"done": 12, "unsettled": 0, "failed": 0, "missing": 0}
+    assert answer["axes"]["indenter"] == ["Paraboloid(R=0.005)", "Cone(theta=0.05)"]
+    assert answer["units"]["v_c"] == "m/s"
+    assert len(answer["values"]["cof"]) == 3
+    assert answer["why"][0][0] == ["", ""]
+    assert answer["version"] == mdr.__version__
+
+
+def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(STUDY.replace('"T" = [0.1, 1.0]', '"oscillation.u_z0" = [-1.0, 6e-6]'))
+    assert main(["sweep", file, "-o", str(tmp_path / "study.nc")]) == 1
+    shown = capsys.readouterr()
+    assert "    6: u_z0 + du_z = -0.999998 m: the indenter never touches" in shown.out
+    assert shown.err == "mdr: 6 of 12 points failed, 0 did not settle\n"
+    assert main(["sweep", file, "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["values"]["cof"][0][0][0] is None
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ([], "the study would be lost: give -o file.nc or file.csv, --store folder, or --json"),
+        (["-o", "study.txt"], "study.txt: a study is written as .nc or .csv"),
+        (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: no file can be written there"),
+        (["--json", "--shard", "1/2"], "a shard needs a store"),
+        (["--store", "store", "--shard", "3/2"], "shard must be k/n"),
+    ],
+)
+def test_what_cannot_be_is_found_before_the_work(file, capsys, options, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("mdr.studies.points.compute", None)
+    assert main(["sweep", file, *options]) == 2
+    assert f"mdr: {words}" in capsys.readouterr().err
+
+
+def test_a_wrong_file_is_status_2_with_every_fault(file, tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(STUDY.replace("mu_0", "mu0").replace('"T"', '"Tau"').replace("n = 3", "n = 0"))
+    assert main(["sweep", file, "--json"]) == 2
+    told = capsys.readouterr().err.splitlines()
+    assert len(told) == 3
+    assert all(line.startswith(f"mdr: {file}: ") for line in told)
+
+
+def test_a_store_of_another_study_fails(file, tmp_path, capsys):
+    store = str(tmp_path / "store")
+    assert main(["sweep", file, "--store", store]) == 0
+    (tmp_path / "study.toml").write_text(STUDY.replace("0.05", "0.06"))
+    assert main(["sweep", file, "--store", store]) == 1
+    assert "is the store of another study: axes.indenter is" in capsys.readouterr().err
+
+
+def test_an_interrupt_is_status_130(file, tmp_path, capsys, monkeypatch):
+    def interrupted(*args):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mdr.studies.stored.run", interrupted)
+    assert main(["sweep", file, "--store", str(tmp_path / "store")]) == 130
+    told = capsys.readouterr().err
+    assert "sweep: interrupted; 0 of 4 chunks are safe in" in told
+    assert "mdr: interrupted before it was done" in told
+
+
+def test_the_study_comes_back_without_numbers_lost(file, tmp_path):
+    main(["sweep", file, "-o", str(tmp_path / "a.nc")])
+    study = mdr.read_study(tmp_path / "a.nc")
+    case = mdr.parse_case(study.case)
+    case = replace(case, material=replace(case.material, tau=0.1 / 300))
+    curve = mdr.cof_curve(case, np.array([0.0, 0.6, 1.2]) * mdr.critical_velocity(case))
+    assert_allclose(study["cof"][:, 0, 0], curve.cof, rtol=1e-14)

@@ -1,0 +1,222 @@
+"""Two maps, each a study of the library: v_c over frequency and damping, and friction over velocity and amplitude.
+
+The first is Eq. (15) of a body on a paraboloid, over Eq. (1), in the plane of omega/omega_0 and omega_0 tau. Its ridge
+is the resonance of the body on its spring, its valley that of the body on spring and contact, where an elastic contact
+drives the body just as the stick limit moves; dashpots fill the valley. Above both the body stands still, and v_c is
+that of the rigid pull.
+
+The second is mu/mu_0 in the plane of v_0/v_c, v_c of Eq. (15), and alpha = du_z/u_z0, once for a rigid pull in closed
+form and once for a body, velocity by velocity. Friction is full from the full-slip v_c on and reduced below it, with
+the contact kept or lost; for a body that line leaves Eq. (15) as the amplitude grows.
+
+Symbols: omega_0² = k_x/m, k_xc tangential contact stiffness at u_z0, T = omega tau, zeta share of critical damping.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from validation.cases import OMEGA, contact
+from validation.measured import TOLERANCE
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+
+SMALL = 0.003  #: alpha of the first map
+ZETA, STIFFNESS = 0.02, 2.0  #: damping of the body, k_x over k_xc
+BODY = contact("paraboloid", SMALL, 0.1, k_ratio=STIFFNESS, omega_0_ratio=1.0, damping_ratio=ZETA)
+RIGID = contact("paraboloid", SMALL, 0.3)
+LIGHT = contact("paraboloid", SMALL, 0.3, k_ratio=1.0, omega_0_ratio=1.9, damping_ratio=0.1)
+KNOBS = {"n_springs": 96, "steps_per_period": 256}  #: of the marched map
+POINTS = ((0.3, 0.03), (1.0, 0.03), (1.22, 0.02), (1.22, 1.0), (2.0, 0.1), (4.0, 10.0))  #: omega/omega_0, omega_0 tau
+
+
+def claim(effort: str) -> Claim:
+    """Compute the two maps and look at every point of them."""
+    quick = effort == "quick"
+    of_v_c = over_frequency(*((25, 13) if quick else (121, 61)))
+    n_v, n_alpha = (14, 8) if quick else (40, 30)
+    rigid, body = over_velocity(RIGID, 4 * n_v, 2 * n_alpha), over_velocity(LIGHT, n_v, n_alpha)
+    points = [measured(*point) for point in (POINTS[1::2] if quick else POINTS)]
+    low, high = (float(f(of_v_c["v_c"] / of_v_c["eq_1"])) for f in (np.min, np.max))
+    least = float(np.nanmin(body["full_slip_v_c"] / body["v_c"]))
+    return Claim(
+        name="maps",
+        title="Friction is reduced below the critical velocity and full above it, everywhere on the map",
+        quote=(
+            "The velocity-dependences all start from the static value at vanishing velocity. Second, the coefficient of"
+            " friction increases monotonically (again, barring exceptional system-dynamical circumstances) until it"
+            " reaches the microscopic value at some critical velocity. (Section 3)"
+        ),
+        range=(
+            f"Paraboloid. Eq. (15) at {of_v_c['v_c'].size} points, ω/ω_0 and ω_0 τ from 0.01 and more, and"
+            f" {len(points)} measured; friction at {rigid['cof'].size} points under a rigid pull and"
+            f" {body['cof'].size} of a body (k_x = k_x,c, ω_0 = 1.9 ω), v_0/v_c from 0 to 1.3, Δu_z/u_z0"
+            " from 0.05 to 1.6, the contact kept and lost."
+        ),
+        measured=(
+            f"v_c of a body lies between {low:.2g} and {high:.2g} of Eq. (1), on the frequency more than on"
+            " anything else. Friction rises along every line of velocity, from its static value to μ_0, which it"
+            " reaches at the full-slip v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at"
+            f" Eq. (15) for small ones and at down to {least:.2f} of it for large."
+        ),
+        verdict="holds",
+        sentence=(
+            "No point below the critical velocity of full slip has full friction and none above it less; whether that"
+            " velocity is Eq. (15) is a question of the amplitude, but for a rigid pull."
+        ),
+        checks=(*_checks_of_v_c(of_v_c, points), *_checks_of_cof(rigid, "rigid pull"), *_checks_of_cof(body, "body")),
+        figures=(_figure_of_v_c(of_v_c), _figure_of_cof(rigid, body)),
+    )
+
+
+# --- studies ---
+
+
+def eq_1(case: mdr.SlidingContact) -> float:
+    """Eq. (1) [m/s], the critical velocity under a rigid pull."""
+    return case.unit_velocity
+
+
+def over_frequency(n_omega: int, n_tau: int) -> mdr.Study:
+    """v_c over omega/omega_0 from 0.1 to 10 and omega_0 tau from 0.01 to 100."""
+    omega_0 = OMEGA  # by construction of BODY
+    axes = {
+        "material.tau": np.geomspace(0.01, 100, n_tau) / omega_0,
+        "oscillation.omega": np.geomspace(0.1, 10, n_omega) * omega_0,
+    }
+    return mdr.sweep(BODY, axes, quantities=("v_c", mdr.Quantity("eq_1", "m/s", eq_1, "Eq. (1)")))
+
+
+def over_velocity(case: mdr.SlidingContact, n_v: int, n_alpha: int) -> mdr.Study:
+    """COF over v_0/v_c and alpha."""
+    axes = {"alpha": np.linspace(0.05, 1.6, n_alpha), "v_0/v_c": np.linspace(0, 1.3, n_v)}
+    return mdr.sweep(case, axes, quantities=("cof", "cof_error", "v_c", "full_slip_v_c"), **KNOBS)
+
+
+def reach_of_half(study: mdr.Study) -> float:
+    """Greatest v_0/v_c with half of mu_0 at any amplitude of the study."""
+    v = study.axes["v_0/v_c"]
+    return max(float(np.interp(0.5 * RIGID.mu_0, row, v)) for row in study["cof"] if row[0] < 0.5 * RIGID.mu_0)
+
+
+def measured(ratio: float, loss: float) -> tuple[mdr.SlidingContact, mdr.MeasuredVelocity]:
+    """A point of the first map with its critical velocity from runs."""
+    case = replace(
+        BODY,
+        material=replace(BODY.material, tau=loss / OMEGA),
+        oscillation=replace(BODY.oscillation, omega=ratio * OMEGA),
+    )
+    return case, mdr.measure_critical_velocity(case)
+
+
+# --- checks ---
+
+
+def _checks_of_v_c(study: mdr.Study, points: list[tuple[mdr.SlidingContact, mdr.MeasuredVelocity]]) -> list[Check]:
+    why = "a study computes what the function does"
+    tau, omega = study.axes["material.tau"], study.axes["oscillation.omega"]
+    off = 0.0
+    for i, j in ((0, 0), (tau.size // 2, omega.size // 2), (-1, -1)):
+        oscillation = replace(BODY.oscillation, omega=omega[j])
+        case = replace(BODY, material=replace(BODY.material, tau=tau[i]), oscillation=oscillation)
+        off = max(off, abs(study["v_c"][i, j] / mdr.critical_velocity(case) - 1))
+    checks = [Check.at_most("v_c in the study against critical_velocity(), three corners, worst", off, 1e-13, why)]
+    for case, found in points:
+        where = f"ω/ω_0 = {case.oscillation.omega / OMEGA:g}, ω_0 τ = {case.material.tau * OMEGA:g}"
+        got = np.nan if found.v_c is None else found.v_c / mdr.full_slip_critical_velocity(case)
+        why = "half the bracket of the measurement, and its step to second order"
+        checks.append(Check(f"measured v_c over that of full slip: {where}", got, 1.0, TOLERANCE, why))
+    high = study.frame.shape[1] - 1
+    why = f"the body moves by (ω_0/ω)² of what a spring would, and its viscous part by T/(k_x/k_x,c) of that: {1e-2:g}"
+    got = study["v_c"][0, high] / study["eq_1"][0, high]
+    checks.append(Check("v_c over Eq. (1) at ω = 10 ω_0, nearly elastic", got, 1.0, 1e-2, why))
+    return checks
+
+
+def _checks_of_cof(study: mdr.Study, what: str) -> list[Check]:
+    """Reduced below the full-slip v_c, full above it, and never falling; every point computed."""
+    mu_0, cof, error = RIGID.mu_0, study["cof"], study["cof_error"]
+    v = study.axes["v_0/v_c"] * study["v_c"] / study["full_slip_v_c"]  # over the full-slip v_c
+    above, below = v >= 1, v <= 0.95
+    excess = (1 - cof / mu_0 - 2 * error / mu_0)[above].max()
+    why = "twice the bound on its own error, by steps of 1/256 of a period"
+    deficit = ((1 - cof / mu_0) / np.maximum(error / mu_0, 1e-12))[below].min()
+    fall = (-np.diff(cof, axis=1) / mu_0 - (error[:, 1:] + error[:, :-1]) / mu_0).max()
+    bad = int(np.count_nonzero(study.status))
+    full = f"{what}: lost friction above the full-slip v_c, less twice its error, greatest"
+    reduced = f"{what}: lost friction up to 0.95 of the full-slip v_c, over its error, least"
+    rising = f"{what}: fall of μ/μ_0 from one velocity to the next, less both errors, greatest"
+    return [
+        Check.at_most(full, excess, 0.0, why),
+        Check.at_least(reduced, deficit, 3.0, "a deficit of three errors is there"),
+        Check.at_most(rising, fall, 0.0, "friction never falls with velocity"),
+        Check(f"{what}: points that failed or did not settle", bad, 0.0, 0.0, "all are to be computed"),
+    ]
+
+
+# --- figures ---
+
+
+def _figure_of_v_c(study: mdr.Study) -> Figure:
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import style
+
+    tau, omega = study.axes["material.tau"] * OMEGA, study.axes["oscillation.omega"] / OMEGA
+    with style():
+        fig, ax = plt.subplots(figsize=(6.8, 4.4))
+        values = study["v_c"] / study["eq_1"]
+        levels = (0.03, 0.1, 0.3, 0.9, 1.1, 3, 10, 20)
+        from matplotlib.colors import LogNorm
+
+        mesh = ax.pcolormesh(omega, tau, values, norm=LogNorm(), cmap="viridis", rasterized=True, shading="nearest")
+        lines = ax.contour(omega, tau, values, levels=levels, colors="white", linewidths=1)
+        ax.clabel(lines, fmt="%g", fontsize=9)
+        ax.plot(*np.transpose(POINTS), "o", mfc="none", mec="w", ms=7, mew=1.6)
+        ax.set(
+            xscale="log", yscale="log", xlabel=r"frequency $\omega/\omega_0$", ylabel=r"relaxation time $\omega_0\tau$",
+            xlim=(omega[0], omega[-1]), ylim=(tau[0], tau[-1]),
+        )  # fmt: skip
+        bar = fig.colorbar(mesh, ax=ax, pad=0.02)
+        bar.set_label("$v_c$ over Eq. (1)")
+        bar.outline.set_visible(False)
+    return Figure(
+        "critical_velocity",
+        f"Eq. (15) over Eq. (1) for a body on a paraboloid, k_x = {STIFFNESS:g} k_x,c, {100 * ZETA:g} % of critical"
+        " damping. The ridge at ω = ω_0 is the body on its spring; the valley at ω = 1.22 ω_0 is the body on spring"
+        " and contact, where friction is out of control at almost any velocity, and dashpots fill it. To the"
+        " right the body is too heavy to move, and v_c is Eq. (1); to the left a slow body follows the force, which"
+        " dashpots raise. Circles: where v_c was measured.",
+        fig,
+        "Map of the critical velocity over frequency and relaxation time with a ridge and a valley.",
+    )
+
+
+def _figure_of_cof(rigid: mdr.Study, body: mdr.Study) -> Figure:
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import style
+
+    with style():
+        fig, axes = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True)
+        for ax, study, title in zip(axes, (rigid, body), ("rigid pull", "body on a spring"), strict=True):
+            study.plot_map("cof", "v_0/v_c", ax, levels=RIGID.mu_0 * np.array([0.25, 0.5, 0.75, 0.9]),
+                     limits=(0, RIGID.mu_0), colorbar=ax is axes[-1])  # fmt: skip
+            alpha = study.axes["alpha"]
+            ax.plot((study["full_slip_v_c"] / study["v_c"])[:, 0], alpha, color="#D55E00", lw=2)
+            ax.axhline(1 / np.hypot(1, 0.3), color="w", lw=1, ls=":")
+            ax.set_title(title)
+        axes[1].set_ylabel("")
+    return Figure(
+        "friction",
+        "μ (μ_0 = 0.5) over velocity and amplitude, a paraboloid, ωτ = 0.3. Orange: the full-slip v_c, where friction"
+        " is full on its right. Under a rigid pull it is v_c of Eq. (1) at every amplitude; for a body (ω_0 = 1.9 ω) it"
+        " bends away from Eq. (15), as the second harmonic of the force nears the resonance. Dotted: above it the"
+        " contact is lost in every period. To halve friction takes an amplitude of about a third of the depth; with"
+        f" more of it half lasts up to {reach_of_half(rigid):.2f} v_c, but no amplitude carries it further.",
+        fig,
+        "Two maps of friction over velocity and amplitude with the line on which it becomes full.",
+    )
