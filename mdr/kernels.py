@@ -178,8 +178,31 @@ def springs(first, last):
 
 
 @_jit
-def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rigid):
-    """All elastic springs over one step: fills e_1 and returns sum(w e) and, unless rigid, the stiffness that stuck."""
+def elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z_0, z_1, zd_0, zd_1, v, h):
+    """All elastic springs over one step of a rigid pull, which asks for no state twice: updates e, returns sum(w e).
+
+    n_at_rest: the springs from it on were free in the step before.
+    """
+    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
+    bend = bend_of(zd_0, zd_1)
+    late = after_change(zd_0 - v, zd_1 - v, h, 0.0) if zd_0 < v else 0.0
+    du = v * h
+    total = 0.0
+    for i in springs(0, n_in):
+        s = z_1 - gap[i]
+        e[0, i] = max(min(e[0, i] + du, s - late), -s)
+        total += w[i] * e[0, i]
+    for i in springs(n_in, n_out):
+        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, du, 0.0, inverse_dz, bend, late)[0]
+        total += w[i] * e[0, i]
+    for i in springs(n_out, n_at_rest):
+        e[0, i] = 0.0
+    return total
+
+
+@_jit
+def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
+    """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
     bend = bend_of(zd_0, zd_1)
     late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
@@ -188,20 +211,17 @@ def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, 
     stuck = 0.0
     for i in springs(0, n_in):
         s = z_1 - gap[i]
-        e_1[0, i] = max(min(e_0[0, i] + du, s - late), -s)
-        total += w[i] * e_1[0, i]
-    for i in springs(n_in, n_out):
-        e_1[0, i] = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, inverse_dz, bend, late)[0]
-        total += w[i] * e_1[0, i]
-    for i in springs(n_out, gap.size):
-        e_1[0, i] = 0.0
-    if rigid:
-        return total, stuck
-    for i in springs(0, n_in):
-        stuck += w[i] if (e_1[0, i] == e_0[0, i] + du or (late > 0.0 and e_1[0, i] > 0.0)) else 0.0
+        e = max(min(e_0[0, i] + du, s - late), -s)
+        e_1[0, i] = e
+        total += w[i] * e
+        stuck += w[i] if (e == e_0[0, i] + du or (late > 0.0 and e > 0.0)) else 0.0
     for i in springs(n_in, n_out):
         e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, inverse_dz, bend, late)
+        e_1[0, i] = e
+        total += w[i] * e
         stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = 0.0
     return total, stuck
 
 
@@ -474,6 +494,31 @@ def span_of(presses, k, n):
 
 
 @_jit
+def glide(e, history, gap, w, z, zd, presses, v, lump_margin, k_0, S_out, e_out, s_out):
+    """The march of elastic springs under a rigid pull, where no spring knows of another; arguments as of `march`."""
+    n_z, n = z.size - 1, gap.size
+    h = 2.0 * np.pi / n_z
+    k, n_at_rest = k_0 % n_z, n
+    S_0, S_m = history[3], history[4]
+    as_one = True
+    for j in range(S_out.size):
+        z_1 = z[k + 1]
+        n_in, n_out = span_of(presses, k, n)
+        S_m, S_0 = S_0, elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z[k], z_1, zd[k], zd[k + 1], v, h)
+        n_at_rest = n_out
+        S_out[j] = S_0
+        as_one = as_one and e[0, 0] + max(z_1 - gap[0], 0.0) >= lump_margin
+        if j < e_out.shape[0]:
+            for i in springs(0, n):
+                e_out[j, 0, i] = e[0, i]
+                s_out[j, 0, i] = max(z_1 - gap[i], 0.0)
+        k = k + 1 if k + 1 < n_z else 0
+    history[:3] = 0.0
+    history[3], history[4] = S_0, S_m
+    return as_one
+
+
+@_jit
 def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
     """March n_steps from step k_0 of the period; e, s and history are updated in place.
 
@@ -498,6 +543,9 @@ def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_
     elastic = n_arms == 0 and decay == 0.0
     look = np.empty((N_LOOK, gap.size if n_arms > 0 else 0))
     rigid = b_1 == 0.0
+    if elastic and rigid:
+        y_out[:] = 0.0
+        return glide(e, history, gap, w, z, zd, presses, v, lump_margin, k_0, S_out, e_out, s_out)
     as_one = True
     for j in range(n_steps):
         k = (k_0 + j) % n_z
@@ -515,9 +563,7 @@ def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_
             du = v * h + (y_1 - y_0)
             ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
-                S_1, stuck = elastic_step(
-                    e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rigid
-                )
+                S_1, stuck = elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h)
             elif n_arms == 0:
                 S_1, stuck = kelvin_step(
                     e_0, s_0, e_1, s_1, gap, w, n_in, n_out,

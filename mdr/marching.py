@@ -359,7 +359,7 @@ class Line:
         y_all, S_all, start = [self.history[2::-1].copy()], [], self.history[3:].copy()
         stored = self._stored()
         done = 0
-        at_once = min(n_steps, max(1, 50_000 // self.e.size))  # arrays that stay in cache
+        at_once = min(n_steps, max(8, 50_000 // self.e.size))  # arrays that stay in cache, not too many calls
         e_all, s_all = np.empty((2, at_once + 1, n_x, n))
         for part in _parts(n_steps, at_once):
             e, s = e_all[: part + 1], s_all[: part + 1]

@@ -146,7 +146,7 @@ def built_in_c() -> March | None:
     array, number, count = np.ctypeslib.ndpointer(float), ctypes.c_double, ctypes.c_long
     counts = np.ctypeslib.ndpointer(np.int64)
     tail = [count, count, count, array]
-    code.elastic_march.argtypes = [*[array] * 6, counts, number, number, *tail]
+    code.elastic_march.argtypes = [*[array] * 5, counts, number, number, *tail]
     code.kelvin_march.argtypes = [*[array] * 8, counts, *[number] * 4, *tail]
     code.elastic_march.restype = code.kelvin_march.restype = None
 
@@ -161,7 +161,7 @@ def built_in_c() -> March | None:
             state = e, np.empty_like(e), s.copy(), np.empty_like(e)
             code.kelvin_march(*state, *arrays, start.v, scaled.h, start.rate, start.decay, *sizes)
         else:
-            code.elastic_march(e, np.empty_like(e), *arrays, start.v, scaled.h, *sizes)
+            code.elastic_march(e, *arrays, start.v, scaled.h, *sizes)
         return e, S
 
     return march
