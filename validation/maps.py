@@ -9,16 +9,19 @@ The second is mu/mu_0 in the plane of v_0/v_c, v_c of Eq. (15), and alpha = du_z
 form and once for a body, velocity by velocity. Friction is full from the full-slip v_c on and reduced below it, with
 the contact kept or lost; for a body that line leaves Eq. (15) as the amplitude grows.
 
+What a designer reads off it, under a rigid pull and for any shape and loss tangent: the least amplitude that halves
+friction at rest, and the greatest v_0/v_c at which any amplitude still halves it.
+
 Symbols: omega_0² = k_x/m, k_xc tangential contact stiffness at u_z0, T = omega tau, zeta share of critical damping.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.cases import OMEGA, contact
+from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
 
@@ -30,6 +33,7 @@ BODY = contact("paraboloid", SMALL, 0.1, k_ratio=STIFFNESS, omega_0_ratio=1.0, d
 RIGID = contact("paraboloid", SMALL, 0.3)
 LIGHT = contact("paraboloid", SMALL, 0.3, k_ratio=1.0, omega_0_ratio=1.9, damping_ratio=0.1)
 KNOBS = {"n_springs": 96, "steps_per_period": 256}  #: of the marched map
+LOSSES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0)  #: T of the control by half
 POINTS = ((0.3, 0.03), (1.0, 0.03), (1.22, 0.02), (1.22, 1.0), (2.0, 0.1), (4.0, 10.0))  #: omega/omega_0, omega_0 tau
 
 
@@ -40,6 +44,8 @@ def claim(effort: str) -> Claim:
     n_v, n_alpha = (14, 8) if quick else (40, 30)
     rigid, body = over_velocity(RIGID, 4 * n_v, 2 * n_alpha), over_velocity(LIGHT, n_v, n_alpha)
     points = [measured(*point) for point in (POINTS[1::2] if quick else POINTS)]
+    halves = [half_of(shape, T, quick) for shape in SHAPES for T in (LOSSES[::3] if quick else LOSSES)]
+    furthest = [half.reach for half in halves]
     low, high = (float(f(of_v_c["v_c"] / of_v_c["eq_1"])) for f in (np.min, np.max))
     least = float(np.nanmin(body["full_slip_v_c"] / body["v_c"]))
     return Claim(
@@ -60,15 +66,23 @@ def claim(effort: str) -> Claim:
             f"v_c of a body lies between {low:.2g} and {high:.2g} of Eq. (1), on the frequency more than on"
             " anything else. Friction rises along every line of velocity, from its static value to μ_0, which it"
             " reaches at the full-slip v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at"
-            f" Eq. (15) for small ones and at down to {least:.2f} of it for large."
+            f" Eq. (15) for small ones and at down to {least:.2f} of it for large. To halve friction at rest takes an"
+            f" amplitude of {min(half.at_rest for half in halves):.2g} to {max(half.at_rest for half in halves):.2g} of"
+            f" the depth; no amplitude halves it beyond {min(furthest):.2f} to {max(furthest):.2f} v_c (four shapes, ωτ"
+            f" from 0 to {max(half.T for half in halves):g}, rigid pull)."
         ),
         verdict="holds",
         sentence=(
             "No point below the critical velocity of full slip has full friction and none above it less; whether that"
             " velocity is Eq. (15) is a question of the amplitude, but for a rigid pull."
         ),
-        checks=(*_checks_of_v_c(of_v_c, points), *_checks_of_cof(rigid, "rigid pull"), *_checks_of_cof(body, "body")),
-        figures=(_figure_of_v_c(of_v_c), _figure_of_cof(rigid, body)),
+        checks=(
+            *_checks_of_v_c(of_v_c, points),
+            *_checks_of_cof(rigid, "rigid pull"),
+            *_checks_of_cof(body, "body"),
+            *_checks_of_half(halves),
+        ),
+        figures=(_figure_of_v_c(of_v_c), _figure_of_cof(rigid, body), _figure_of_half(halves)),
     )
 
 
@@ -100,6 +114,34 @@ def reach_of_half(study: mdr.Study) -> float:
     """Greatest v_0/v_c with half of mu_0 at any amplitude of the study."""
     v = study.axes["v_0/v_c"]
     return max(float(np.interp(0.5 * RIGID.mu_0, row, v)) for row in study["cof"] if row[0] < 0.5 * RIGID.mu_0)
+
+
+@dataclass(frozen=True)
+class Half:
+    """What it takes to halve the friction of a shape under a rigid pull."""
+
+    shape: str
+    T: float
+    at_rest: float  #: alpha that halves the static friction
+    reach: float  #: greatest v_0/v_c at which some alpha halves it
+    best: float  #: that alpha
+
+
+def half_of(shape: str, T: float, coarse: bool) -> Half:
+    """Half the friction at rest, by its closed form, and in motion, over amplitudes from 0.02 to 20 of the depth."""
+    from scipy.optimize import brentq
+
+    def excess(alpha: float) -> float:
+        case = contact(shape, alpha, T)
+        return mdr.static_cof(case) / case.mu_0 - 0.5
+
+    n_alpha, n_v = (16, 31) if coarse else (60, 121)
+    axes = {"alpha": np.geomspace(0.02, 20, n_alpha), "v_0/v_c": np.linspace(0, 0.6, n_v)}
+    study = mdr.sweep(contact(shape, 0.1, T), axes)
+    v, cof = study.axes["v_0/v_c"], study["cof"] / RIGID.mu_0
+    reaches = [float(np.interp(0.5, row, v)) if row[0] < 0.5 else 0.0 for row in cof]
+    best = int(np.argmax(reaches))
+    return Half(shape, T, float(brentq(excess, 1e-3, 2)), reaches[best], float(study.axes["alpha"][best]))
 
 
 def measured(ratio: float, loss: float) -> tuple[mdr.SlidingContact, mdr.MeasuredVelocity]:
@@ -155,6 +197,32 @@ def _checks_of_cof(study: mdr.Study, what: str) -> list[Check]:
         Check.at_most(rising, fall, 0.0, "friction never falls with velocity"),
         Check(f"{what}: points that failed or did not settle", bad, 0.0, 0.0, "all are to be computed"),
     ]
+
+
+def _checks_of_half(halves: list[Half]) -> list[Check]:
+    checks = [
+        Check(
+            f"amplitude over depth that halves the friction of a flat punch at rest: ωτ = {half.T:g}",
+            half.at_rest,
+            0.5 / np.hypot(1, half.T),
+            1e-11,
+            "Eq. (7), and the root to 1e-12",
+        )
+        for half in halves
+        if half.shape == "flat punch"
+    ]
+    reaches = {f"{half.shape}, ωτ = {half.T:g}": half.reach for half in halves}
+    why = "a quarter to a third: read off many contacts, no law behind it"
+    for name, where in (
+        ("least", min(reaches, key=reaches.__getitem__)),
+        ("greatest", max(reaches, key=reaches.__getitem__)),
+    ):
+        checks.append(
+            Check.between(
+                f"{name} v_0/v_c up to which friction can be halved: {where}", reaches[where], 0.25, 0.35, why
+            )
+        )
+    return checks
 
 
 # --- figures ---
@@ -219,4 +287,36 @@ def _figure_of_cof(rigid: mdr.Study, body: mdr.Study) -> Figure:
         f" more of it half lasts up to {reach_of_half(rigid):.2f} v_c, but no amplitude carries it further.",
         fig,
         "Two maps of friction over velocity and amplitude with the line on which it becomes full.",
+    )
+
+
+def _figure_of_half(halves: list[Half]) -> Figure:
+    import matplotlib.pyplot as plt
+
+    from mdr.plots import style
+
+    with style():
+        fig, (rest, motion) = plt.subplots(1, 2, figsize=(10, 4))
+        for shape, (colour, marker) in LOOKS.items():
+            own = [half for half in halves if half.shape == shape]
+            T = [max(half.T, 0.03) for half in own]
+            look = {"color": colour, "marker": marker, "label": shape_label(shape)}
+            rest.plot(T, [half.at_rest for half in own], **look)
+            motion.plot(T, [half.reach for half in own], **look)
+        for ax in (rest, motion):
+            ax.set(xscale="log", xlabel=r"loss tangent $\omega\tau$")
+            ax.set_xticks([0.03, 0.1, 1, 10], ["0", "0.1", "1", "10"])
+        rest.set(yscale="log", ylabel=r"amplitude $\alpha$ that halves static friction")
+        motion.set(ylim=(0, 0.4), ylabel="greatest $v_0/v_c$ with half the friction")
+        rest.set_yticks([0.03, 0.1, 0.3, 0.5], ["0.03", "0.1", "0.3", "0.5"])
+        rest.minorticks_off()
+        rest.legend()
+    return Figure(
+        "half",
+        "Rigid pull. Left: the amplitude, over the depth, that halves friction at rest; dashpots lower it as they"
+        " unload the contact on its way up. Right: how fast the contact may slide for any amplitude to halve its"
+        " friction: up to a quarter to a third of v_c, whatever the shape. The best amplitude is one that just loses"
+        " the contact; a greater one raises v_c, but the share of it with half the friction falls.",
+        fig,
+        "Two panels over the loss tangent: the amplitude for half the static friction, and the velocity with half.",
     )
