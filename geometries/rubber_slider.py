@@ -8,9 +8,10 @@ friction never falls when a contact slides faster. Run as a script it fills a st
 
 The rubber is a standard linear solid: soft below 160 Hz, twice as stiff far above. The answer: half needs an amplitude
 of a third of the depth at low frequencies and of less than a fifth at high ones, where the contact is stiffer against
-the oscillation than against the load. It lasts up to 0.28 of the critical velocity, whatever the amplitude; beyond
-half the depth more amplitude helps only as it raises v_c itself. So the speed grows with the velocity amplitude of the
-shaker, but for a step back just above the resonance of the mass on its spring, at 80 Hz.
+the oscillation than against the load. It lasts up to 0.28 of the critical velocity: above 300 Hz for any amplitude from
+half the depth on, so that more of it helps only as it raises v_c; at low frequencies only for the greatest. So the
+speed grows with the velocity amplitude of the shaker, but for a step back just above the resonance of the mass on its
+spring, at 80 Hz.
 """
 
 import argparse
@@ -42,12 +43,14 @@ def study(n_frequencies, n_amplitudes, n_speeds, store=None):
 
 
 def fastest_half(table):
-    """Greatest speed [m/s] with friction at or below half, (n_frequencies, n_amplitudes); 0 where there is none."""
+    """Greatest speed [m/s] with half the friction or less, (n_frequencies, n_amplitudes); 0: none, nan: beyond."""
     speed, cof = table.axes["v_0"], table["cof"] / mu_0
     out = np.zeros(cof.shape[:2])
     for where in np.ndindex(out.shape):
         low = np.flatnonzero(cof[where] <= 0.5)
-        if low.size and low[-1] + 1 < speed.size:
+        if low.size == speed.size:
+            out[where] = np.nan
+        elif low.size:
             k = low[-1]
             share = (0.5 - cof[where][k]) / (cof[where][k + 1] - cof[where][k])
             out[where] = speed[k] + share * (speed[k + 1] - speed[k])

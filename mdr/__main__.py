@@ -95,6 +95,7 @@ def parser() -> argparse.ArgumentParser:
     sweep.set_defaults(read=_read_study_file)
     sweep.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
     sweep.add_argument("-o", "--output", metavar="file", type=Path, help="write the whole study here, .nc or .csv")
+    sweep.add_argument("--chunk-seconds", type=float, default=5.0, metavar="s", help="work in a chunk [s] (default: 5)")
     sweep.add_argument("--shard", metavar="k/n", help="compute every n-th chunk, from the k-th on; needs --store")
     return top
 
@@ -305,8 +306,9 @@ def _read_study_file(path: str) -> StudyFile:
 def _sweep(args: argparse.Namespace, asked: StudyFile) -> int:
     _require_a_place(args)
     try:
-        study = mdr.sweep(**vars(asked), store=args.store, shard=args.shard)
-    except ValueError as fault:  # of the shard; the file has been read
+        knobs = {"chunk_seconds": args.chunk_seconds, "shard": args.shard}
+        study = mdr.sweep(**vars(asked), store=args.store, **knobs)
+    except ValueError as fault:  # of shard and chunks; the file has been read
         raise WrongInput(str(fault)) from None
     if args.output is not None and study.complete:
         (study.to_csv if args.output.suffix == ".csv" else study.to_netcdf)(args.output)

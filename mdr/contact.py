@@ -21,6 +21,7 @@ from mdr.load_control import depth_under_load, static_depth
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
 from mdr.motion import DepthMotion, LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.pull import Pull, RigidPull, SpringPull
+from mdr.remembered import remembered
 from mdr.rheology import Rheology
 
 KINDS: dict[str, tuple[type, ...]] = {  #: of the parts; the rest of the chain knows these and no others
@@ -161,10 +162,10 @@ def _prescribed(oscillation: DepthMotion) -> Cycle:
     return oscillation.cycle
 
 
-_rests_at = lru_cache(maxsize=256)(static_depth)
+_rests_at = remembered(maxsize=256)(static_depth)
 
 
-@lru_cache(maxsize=64)
+@remembered(maxsize=64)
 def _under_load(indenter: Indenter, material: Material, oscillation: LoadOscillation) -> Cycle:
     return depth_under_load(indenter, material, oscillation)
 

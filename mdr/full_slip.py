@@ -28,7 +28,6 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -40,6 +39,7 @@ from mdr.indenters.quadrature import double_exponential
 from mdr.motion import LoadOscillation
 from mdr.normal_cycle import N_STEPS, NormalCycle, normal_cycle, of_harmonics
 from mdr.records import ArrayRecord
+from mdr.remembered import remembered
 from mdr.unilateral import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
 
 Array = NDArray[np.float64]
@@ -73,7 +73,7 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     return FullSlip(phase / cycle.omega, F_N, np.asarray(case.indenter.contact_radius(g_c)), u_z_dot, g_c > 0)
 
 
-@lru_cache(maxsize=8)
+@remembered(maxsize=8)
 def followed(case: SlidingContact, n_t: int) -> NormalCycle:
     """The normal contact of a case that has no closed form, at n_t instants."""
     return normal_cycle(case.indenter, case.rheology, case.cycle, n_t)

@@ -21,9 +21,10 @@ One spring in one step, with compression s and extension e at its start:
 T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
 
 Friction has no part in the normal motion, which is periodic from the start. So it is known, for every step of the
-period, which springs press throughout it and which are free throughout it: springs stand with rising gap, and these
-are the first ones and the last ones (`spans`). Pressed springs need no share of the step and one division, free ones
-a multiplication; only the few that touch or leave within the step go through all the rules.
+period, which springs press throughout it and which are free throughout it; as springs stand with rising gap, these are
+stretches at the beginning and at the end of the row (`spans`; a hollow face, whose gaps fall, presses as a whole).
+Pressed springs need no share of the step and one division, free ones a multiplication; only those between, few but for
+fast motions of many springs, go through all the rules.
 
 Materials with Maxwell arms add a state for each arm and direction, x_j' = x' - x_j/theta_j, and go by the same rules
 with what the general operator L makes of a spring, or a lag, that is left alone: linear functionals of its state, from
@@ -62,6 +63,8 @@ L_ROWS = 9
 
 VECTOR = 16  #: springs that a loop takes at once, or a multiple of it
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state
+STEADY = 1e-12  #: change over a period up to which a spring does the same in every period, of du_z
+SETTLED = 1e-3  #: change over a period that a spring may be left with, of du_z: at the edge it may alternate
 N_LOOK = 8  #: what `foresee` fills
 S_FREE, S_RATE, S_END, S_SHED, LAG_FREE, LAG_RATE, LAG_END, LAG_SHED = range(N_LOOK)
 
@@ -345,7 +348,7 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
     """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
 
     force, touches (n_z,), or empty: its normal force at z[0] ... z[n_z - 1], and the share of the step before in which
-    it was in contact.
+    it was in contact; -1 where it follows the indenter without pressing, 0 where it is free.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
@@ -371,20 +374,23 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
             normal = value + table[L_TIME, 0] * zd[k + 1]
             for j in range(1, x.size):
                 normal += table[L_RATIO, j] * x[j]
-            presses = value > 0.0 and value <= z[k + 1] - gap and normal > 0.0
+            follows = value > 0.0 and value <= z[k + 1] - gap
+            presses = follows and normal > 0.0
             force[(k + 1) % n_z] = normal if presses else 0.0
-            touches[(k + 1) % n_z] = share if presses else 0.0
+            touches[(k + 1) % n_z] = share if presses else (-1.0 if follows else 0.0)
     return total
 
 
 @_jit
 def settle_spring(x, guess, gap, z, zd, table, force, touches):
-    """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions.
+    """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions, NaN if none is
+    found, and what it still changes by over a period.
 
     Without arms one period is its memory. With arms the passes go on, from the greatest depth, where it presses: what
     an arm changed in one, over the share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is
-    exact for a spring that keeps contact. Every third time, where the last two changes are alike, what they tend to is
-    added at once. guess (1 + J,): arms to begin with, zero or those of a neighbour; becomes this spring's.
+    exact for a spring that keeps contact; where changes grow, half as much of what is beyond the plain change. Every
+    third time, where the last two changes are alike, what they tend to is added at once. guess (1 + J,): arms to begin
+    with, zero or those of a neighbour; becomes this spring's.
     """
     start, move, last = np.empty(x.size), np.zeros(x.size), np.zeros(x.size)
     total = 0.0
@@ -392,6 +398,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches):
     deepest = np.argmax(z[:n_z])
     x[:] = guess
     x[0] = max(z[deepest] - gap, 0.0)
+    trust, before, change, size = 1.0, np.inf, 0.0, 0.0
     for turn in range(MOST_PASSES):
         start[:] = x
         total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches)
@@ -401,18 +408,25 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches):
             size = max(size, abs(x[j]))
         if turn > 0 and change <= 1e-13 * size:
             break
+        grows = change > before
+        trust = 0.5 * trust if grows else trust
+        before = change
         along = length = 0.0
         for j in range(1, x.size):
-            last[j], move[j] = move[j], -(x[j] - start[j]) / np.expm1(-2.0 * np.pi / table[L_TIME, j])
+            plain = x[j] - start[j]
+            far = -plain / np.expm1(-2.0 * np.pi / table[L_TIME, j])
+            last[j], move[j] = move[j], plain + trust * (far - plain)
             along += table[L_RATIO, j] * last[j] * move[j]
             length += table[L_RATIO, j] * last[j] * last[j]
-        rate = along / length if turn % 3 == 2 and length > 0.0 else 0.0
+        rate = along / length if turn % 3 == 2 and length > 0.0 and not grows else 0.0
         more = 1.0 / (1.0 - rate) if 0.0 < rate < 0.98 else 1.0
         for j in range(1, x.size):
             x[j] = start[j] + more * move[j]
+    if not change <= SETTLED:
+        total = np.nan
     guess[:] = x
     press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0))
-    return total
+    return total, change
 
 
 @_jit
@@ -433,7 +447,7 @@ def normal_forces(gap, w, z, zd, table, F, outermost, at_edge, begins):
             F[k] += w[i] * force[k]
             if touches[k] > 0.0:
                 outermost[k], at_edge[k] = i, force[k]
-                if touches[k - 1] == 0.0:
+                if touches[k - 1] <= 0.0:
                     n_touches += 1
                     begins[i] = k - touches[k]
         if n_touches != 1:
@@ -441,60 +455,76 @@ def normal_forces(gap, w, z, zd, table, F, outermost, at_edge, begins):
 
 
 @_jit
-def settle_normal(s, gap, w, z, zd, table, presses):
-    """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period.
+def settle_normal(s, gap, w, z, zd, table, spans):
+    """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period,
+    NaN if springs with arms find none.
 
     s: (1 + J, n). Without arms one period is the memory of a spring in the normal direction, so a second pass over the
-    period is periodic; springs with arms are settled one by one. Fills presses (n_z + 1,) with the number of springs
-    that press at each instant, which are the first ones, as gaps rise from the centre outwards.
+    period is periodic; springs with arms are settled one by one. Fills spans (2, n_z): how many of the first springs
+    follow the indenter at both ends of a step, and from which one on none does at either.
     """
-    n_z = z.size - 1
+    n_z, n = z.size - 1, gap.size
     h = 2.0 * np.pi / n_z
     n_x = table.shape[1]
-    decay = table[L_DECAY, 0]
-    mean = 0.0
-    presses[:] = 0
+    decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
+    mean, steady = 0.0, True
+    inner, outer = np.full(n_z + 1, n), np.zeros(n_z + 1, dtype=np.int64)  # at z[0] ... z[n_z]
     if n_x > 1:
         force, touches, guess = np.empty(n_z), np.empty(n_z), np.zeros(n_x)
-        for i in range(gap.size):
-            mean += w[i] * settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches)
+        for i in range(n):
+            total, change = settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches)
+            mean += w[i] * total
+            steady = steady and change <= STEADY
             for k in range(n_z):
-                presses[k] += 1 if touches[k] > 0.0 else 0
-        presses[n_z] = presses[0]
-        return mean / n_z
-    rate = table[L_RATE, 0]
-    for i in range(gap.size):
-        s[0, i] = max(z[0] - gap[i], 0.0)
-    for _ in range(1 if decay == 0.0 else 2):
-        mean = 0.0
-        for k in range(n_z):
-            total = 0.0
-            count = 0.0
-            for i in range(gap.size):
-                if decay == 0.0:
-                    value = max(z[k + 1] - gap[i], 0.0)
+                if touches[k] == 0.0:
+                    inner[k] = min(inner[k], i)
                 else:
-                    _, value, _, _ = kelvin_spring(
-                        0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
-                    )
-                s[0, i] = value
-                total += w[i] * value
-                count += 1.0 if value > 0.0 and value <= z[k + 1] - gap[i] else 0.0
-            mean += total
-            presses[k + 1] = int(count)
-    presses[0] = presses[n_z]
+                    outer[k] = i + 1
+    else:
+        for i in range(n):
+            s[0, i] = max(z[0] - gap[i], 0.0)
+        once = np.empty(n)
+        for turn in range(1 if decay == 0.0 else 3):  # the third is for spans, and tells whether it is like the second
+            mean = 0.0
+            once[:] = s[0]
+            for k in range(n_z):
+                total = 0.0
+                least, most = n, 0
+                for i in range(n):
+                    if decay == 0.0:
+                        value = max(z[k + 1] - gap[i], 0.0)
+                    else:
+                        _, value, _, _ = kelvin_spring(
+                            0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
+                        )
+                    s[0, i] = value
+                    total += w[i] * value
+                    follows = value > 0.0 and value <= z[k + 1] - gap[i]
+                    least = min(least, n if follows else i)
+                    most = max(most, i + 1 if follows else 0)
+                mean += total
+                if turn > 0 or decay == 0.0:
+                    inner[k + 1], outer[k + 1] = min(inner[k + 1], least), max(outer[k + 1], most)
+        inner[0], outer[0] = inner[n_z], outer[n_z]
+        for i in range(n):
+            steady = steady and (decay == 0.0 or abs(s[0, i] - once[i]) <= STEADY * (1.0 + s[0, i]))
+    if n_x > 1:
+        inner[n_z], outer[n_z] = inner[0], outer[0]
+    if not steady:  # in coarse steps the touches of springs at the edge may alternate
+        inner[:], outer[:] = 0, n
+    for k in range(n_z):
+        spans[0, k], spans[1, k] = min(inner[k], inner[k + 1]), max(outer[k], outer[k + 1])
     return mean / n_z
 
 
 @_inline
-def span_of(presses, k, n):
+def span_of(spans, k, n):
     """n_in, n_out of step k, the one rounded down and the other up so that whole vectors go through each loop."""
-    low, high = min(presses[k], presses[k + 1]), max(presses[k], presses[k + 1])
-    return low // VECTOR * VECTOR, min((high + VECTOR - 1) // VECTOR * VECTOR, n)
+    return spans[0, k] // VECTOR * VECTOR, min((spans[1, k] + VECTOR - 1) // VECTOR * VECTOR, n)
 
 
 @_jit
-def glide(e, history, gap, w, z, zd, presses, v, lump_margin, k_0, S_out, e_out, s_out):
+def glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s_out):
     """The march of elastic springs under a rigid pull, where no spring knows of another; arguments as of `march`."""
     n_z, n = z.size - 1, gap.size
     h = 2.0 * np.pi / n_z
@@ -503,7 +533,7 @@ def glide(e, history, gap, w, z, zd, presses, v, lump_margin, k_0, S_out, e_out,
     as_one = True
     for j in range(S_out.size):
         z_1 = z[k + 1]
-        n_in, n_out = span_of(presses, k, n)
+        n_in, n_out = span_of(spans, k, n)
         S_m, S_0 = S_0, elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z[k], z_1, zd[k], zd[k + 1], v, h)
         n_at_rest = n_out
         S_out[j] = S_0
@@ -519,14 +549,14 @@ def glide(e, history, gap, w, z, zd, presses, v, lump_margin, k_0, S_out, e_out,
 
 
 @_jit
-def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
+def march(e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
     """March n_steps from step k_0 of the period; e, s and history are updated in place.
 
     e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. table: of the material
     over a step (rheology.py). history: (5 + 2J,) y, y_old, y_older, S, S_old and the sums of w e over each arm, now and
     one step before. body: (5 + 2J,) a_1, a_2, b_1, b_0, b_m and the weights of those sums, all zero for a rigid pull.
-    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. presses: (n_z + 1,)
-    how many springs press at z[k], the first ones (`settle_normal`); 0, n, 0, n ... takes all through all rules.
+    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. spans: (2, n_z)
+    of springs that press, or are free, throughout a step (`settle_normal`); 0 and n take all through all rules.
     lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative
     switches the watch off. y_out, S_out: (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
     Returns whether the core moved as one all the way.
@@ -545,12 +575,12 @@ def march(e, s, history, body, gap, w, z, zd, presses, v, table, lump_margin, n_
     rigid = b_1 == 0.0
     if elastic and rigid:
         y_out[:] = 0.0
-        return glide(e, history, gap, w, z, zd, presses, v, lump_margin, k_0, S_out, e_out, s_out)
+        return glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s_out)
     as_one = True
     for j in range(n_steps):
         k = (k_0 + j) % n_z
         z_0, z_1 = z[k], z[k + 1]
-        n_in, n_out = span_of(presses, k, gap.size)
+        n_in, n_out = span_of(spans, k, gap.size)
         pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
         for a in range(2 * n_arms):
             pull -= body[5 + a] * history[5 + a]
@@ -715,14 +745,14 @@ def least_of(values, n):
 
 
 @_jit
-def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z):
+def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z):
     """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
 
-    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot,
-    presses: (m + 1,), see `march`. Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of each step,
-    slip (m,) with the least slip velocity of a spring in contact through the step, or else at the touch of those that
-    touched in it (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over its
-    stiffness, or (0, n) for none.
+    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot:
+    (m + 1,). spans: (2, m), see `march`. Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of
+    each step, slip (m,) with the least slip velocity of a spring in contact through the step, or else at the touch of
+    those that touched in it (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over
+    its stiffness, or (0, n) for none.
     """
     T, n_x, n = table[L_TIME, 0], table.shape[1], gap.size
     dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
@@ -748,7 +778,7 @@ def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, sli
                 shear_arms += w[i] * arms[6, i]
                 press_arms += w[i] * arms[7, i]
         e_here, e_next, s_here, s_next = e[k, 0], e[k + 1, 0], s[k, 0], s[k + 1, 0]
-        n_in, n_out = span_of(presses, k, n)
+        n_in, n_out = span_of(spans, k, n)
         for i in springs(0, n_in):
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]
@@ -786,9 +816,9 @@ def observe(e, s, y, z, z_dot, presses, gap, w, v, table, h, sums, F_x, F_z, sli
             normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (s_free - s_0) ** 2 * flight)
             S_1 += w[i] * e_1
             P_1 += w[i] * s_1
-            presses_now = follows and s_1 > 0.0
-            slips[i] = slip_rate if presses_now and touched > 0.999999 else np.inf
-            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses_now and touched > 1e-6 else np.inf
+            presses = follows and s_1 > 0.0
+            slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
+            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
         if remembers:
             for i in springs(n_out, n):
                 shear_viscous += w[i] * T * ((e_next[i] - e_here[i]) ** 2 / h)

@@ -9,13 +9,14 @@ its core was lumped and turns out not to move as one, the march is done again wi
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr import kernels, periodic
 from mdr.contact import SlidingContact
+from mdr.remembered import remembered
 from mdr.scaled import ScaledContact
 from mdr.settling import Settling, judge, smooth_mean
 from mdr.springs import SpringArray
@@ -107,7 +108,8 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
             f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
         )
     lump = knobs.lump and knobs.start == "full_slip"
-    springs, scaled = _prepared(case, knobs.n_springs, knobs.steps, lump)
+    prepared = _shared if knobs.n_springs <= MOST_SHARED else _prepared
+    springs, scaled = prepared(case, knobs.n_springs, knobs.steps, lump)
     v = v_0 / scaled.speed
     line = Line(scaled, v, knobs.start)
     n_seen = max(1, knobs.record)
@@ -141,16 +143,13 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     )
 
 
-def _prepared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
-    """Springs and their scaled form; runs of one case at other velocities share them."""
-    try:
-        return (_shared if n_springs <= MOST_SHARED else _shared.__wrapped__)(case, n_springs, steps, lump)
-    except TypeError:  # a shape of the user's own that has no hash
-        return _shared.__wrapped__(case, n_springs, steps, lump)
-
-
-@lru_cache(maxsize=16)
+@remembered(maxsize=16)
 def _shared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
+    """Springs and their scaled form; runs of one case at other velocities share them."""
+    return _prepared(case, n_springs, steps, lump)
+
+
+def _prepared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
     springs = SpringArray.of(case, n_springs)
     return springs, ScaledContact.of(case, springs, steps, lump)
 
@@ -161,7 +160,7 @@ class Line:
     def __init__(self, scaled: ScaledContact, v: float, start: str) -> None:
         self.scaled, self.v = scaled, v
         normal = scaled.normal
-        self.s, self.presses, self.mean_F_z = normal.s.copy(), normal.presses, normal.mean  # rows of s: arms
+        self.s, self.spans, self.mean_F_z = normal.s.copy(), normal.spans, normal.mean  # rows of s: arms
         self.e = np.zeros_like(self.s)  # extension, likewise
         self.driven: Array | None = None  # history of the body on an undamped resonance, if it is on one
         self.on_the_way = 0.0  # periods until a run from rest can have stretched springs and system
@@ -195,7 +194,7 @@ class Line:
             scaled.w,
             scaled.z,
             scaled.z_dot,
-            self.presses,
+            self.spans,
             self.v,
             scaled.table,
             scaled.lump_margin,
@@ -376,7 +375,7 @@ class Line:
                 np.concatenate([history, y]),
                 scaled.z[k],
                 scaled.z_dot[k],
-                self.presses[k],
+                np.ascontiguousarray(self.spans[:, now]),
                 scaled.gap,
                 scaled.w,
                 self.v,
@@ -404,7 +403,7 @@ class Line:
     def _compression(self, step: int) -> Array:
         """Compressions now; the elastic march does not keep them."""
         scaled = self.scaled
-        if scaled.rheology.remembers:
+        if scaled.n_arms or scaled.table[kernels.L_DECAY, 0] > 0:
             return np.asarray(self.s[0])
         return np.asarray(np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0))
 

@@ -74,6 +74,11 @@ class _Band:
         outermost, at_edge, begins = np.empty(n_t, dtype=np.int64), np.empty(n_t), np.empty(self.x.size)
         table = rheology.over_step(2 * np.pi / n_t)
         kernels.normal_forces(self.gap, self.width, z, rate, table, F, outermost, at_edge, begins)
+        if np.isnan(F).any():
+            raise ValueError(
+                "the normal motion of springs with these arms does not become periodic: an arm relaxes within less "
+                f"than 1/{n_t} of a period, or is far stiffer than E_inf; leave out what is so fast, or merge arms"
+            )
         some = outermost >= 0
         last = np.maximum(outermost, 0)
         ends = radius[0] + 0.5 * np.cumsum(self.width)
@@ -93,7 +98,7 @@ def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_],
     table = rheology.over_step(2 * np.pi / n_t)
     state, guess = np.zeros((2, table.shape[1]))
     kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares)
-    begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) == 0))
+    begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) <= 0))
     return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
 
 

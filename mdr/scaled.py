@@ -42,7 +42,7 @@ class NormalState:
     """The springs in their periodic normal motion, in which friction has no part; not to be written to."""
 
     s: Array  #: (1 + J, n) compressions at phase 0, and their arms
-    presses: NDArray[np.int64]  #: (n_steps + 1,) how many springs press at each instant
+    spans: NDArray[np.int64]  #: (2, n_steps) of springs that press, or are free, throughout a step
     mean: float  #: sum of w s, its mean over the period
 
 
@@ -136,15 +136,20 @@ class ScaledContact:
     @cached_property
     def normal(self) -> NormalState:
         """The springs in their periodic normal motion."""
-        s, presses = np.zeros((1 + self.n_arms, self.gap.size)), np.empty(self.steps + 1, dtype=np.int64)
-        mean = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, presses)
-        return NormalState(s, presses, float(mean))
+        s, spans = np.zeros((1 + self.n_arms, self.gap.size)), np.empty((2, self.steps), dtype=np.int64)
+        mean = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans)
+        if np.isnan(mean):
+            raise ValueError(
+                f"steps_per_period = {self.steps} is too coarse for the normal motion of springs with these arms, "
+                "which does not become periodic; raise it"
+            )
+        return NormalState(s, spans, float(mean))
 
     @cached_property
     def full_slip_force(self) -> Array:
         """S at the nodes of one period in full slip, shape (n_steps,), which is sum of w s."""
         s, S, at_rest = self.normal.s, np.empty(self.steps), np.zeros_like(self.body)
-        springs, motion = (self.gap, self.w), (self.z, self.z_dot, self.normal.presses)
+        springs, motion = (self.gap, self.w), (self.z, self.z_dot, self.normal.spans)
         fast = 1e9  # sliding at any high velocity is full slip
         y, nothing = np.empty(self.steps), np.empty((0, *s.shape))
         kernels.march(

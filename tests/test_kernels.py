@@ -243,7 +243,7 @@ def test_a_kelvin_step_tends_to_the_elastic_one(share):
 
 
 def march(
-    scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1, presses=None
+    scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1, spans=None
 ):
     """March from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
     if s is None:
@@ -264,7 +264,7 @@ def march(
             scaled.w,
             z,
             zd,
-            all_rules(scaled, z.size) if presses is None else presses,
+            all_rules(scaled, z.size) if spans is None else spans,
             v,
             scaled.table,
             -np.inf,
@@ -286,23 +286,24 @@ def march(
 def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body):
     """With the springs sorted by what they do in a step, and with all of them taken through all rules."""
     scaled = scaled_of(shape, depth_ratio, T, steps=128, n_springs=77, **body)
-    presses = counts_of(scaled)
+    spans = spans_of(scaled)
     s = np.zeros((1, scaled.gap.size))
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, presses)
-    moved = np.array([np.count_nonzero(scaled.gap < z) for z in scaled.z])
-    assert np.all(presses <= moved)
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans)
+    above = np.array([np.count_nonzero(scaled.gap < z) for z in scaled.z])
+    assert np.all(spans[0] <= np.minimum(above[1:], above[:-1]))
+    assert np.all(spans[1] <= np.maximum(above[1:], above[:-1]))
     if not T:
-        assert_array_equal(presses, moved)
-    one, two = (march(scaled, 0.4, 400, s=s[0], e=0 * s[0], presses=p) for p in (None, presses))
+        assert_array_equal(spans, [np.minimum(above[1:], above[:-1]), np.maximum(above[1:], above[:-1])])
+    one, two = (march(scaled, 0.4, 400, s=s[0], e=0 * s[0], spans=p) for p in (None, spans))
     for name in ("y", "S", "e_out", "s_out", "e"):
         assert_allclose(two[name], one[name], rtol=0, atol=2e-13 * (1 + np.abs(one[name]).max()), err_msg=name)
-    seen = [look_at(scaled, out, s[0], 128, p) for out, p in ((one, None), (two, presses))]
+    seen = [look_at(scaled, out, s[0], 128, p) for out, p in ((one, None), (two, spans))]
     for got, expected in zip(*seen, strict=True):
         # a rate is a difference over a step
         assert_allclose(got, expected, rtol=1e-10, atol=1e-10)
 
 
-def look_at(scaled, out, s, steps, presses):
+def look_at(scaled, out, s, steps, spans):
     """What `observe` makes of the first steps of a march: sums, forces, slip and what it keeps of each spring."""
     n = scaled.gap.size
     e = np.vstack([0 * s, out["e_out"][:steps]])[:, None]
@@ -310,30 +311,31 @@ def look_at(scaled, out, s, steps, presses):
     sums, mode = np.zeros(kernels.N_SUMS), np.zeros((steps, n), dtype=np.uint8)
     sums[kernels.LEAST_SLIP] = np.inf
     forces, each = np.empty((3, steps)), np.empty((2, steps, n))
-    presses = all_rules(scaled) if presses is None else presses
+    spans = np.ascontiguousarray((all_rules(scaled) if spans is None else spans)[:, :steps])
     y = np.concatenate([np.zeros(3), out["y"][:steps]])
     z = scaled.z, scaled.z_dot
     kernels.observe(
-        e, s, y, *z, presses, scaled.gap, scaled.w, 0.4, scaled.table, scaled.h, sums, *forces, mode, *each
+        e, s, y, *z, spans, scaled.gap, scaled.w, 0.4, scaled.table, scaled.h, sums, *forces, mode, *each
     )
     forces[2][~np.isfinite(forces[2])] = 1e9
     return sums[:-1], forces, each
 
 
 def all_rules(scaled, n_instants=None):
-    """Counts of pressing springs between which any spring may touch or leave in any step."""
-    return np.resize([0, scaled.gap.size], n_instants or scaled.z.size)
+    """Spans in which any spring may touch or leave in any step."""
+    n_steps = (n_instants or scaled.z.size) - 1
+    return np.array([[0] * n_steps, [scaled.gap.size] * n_steps])
 
 
-def counts_of(scaled):
-    """Room for the number of springs that press at each instant."""
-    return np.empty(scaled.z.size, dtype=np.int64)
+def spans_of(scaled):
+    """Room for the springs that press, or are free, throughout a step."""
+    return np.empty((2, scaled.steps), dtype=np.int64)
 
 
 def settled(scaled):
     """Compressions at phase 0 of the periodic normal motion."""
     s = np.zeros((1, scaled.gap.size))
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, counts_of(scaled))
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans_of(scaled))
     return s[0]
 
 
@@ -393,7 +395,7 @@ def test_a_kelvin_march_under_a_rigid_pull_has_the_lag_of_the_twin(depth_ratio, 
 def test_settled_normal_motion_is_that_of_the_twin(depth_ratio, T):
     scaled = scaled_of("paraboloid", depth_ratio, T, steps=512)
     s = np.zeros((1, 32))
-    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, counts_of(scaled))
+    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans_of(scaled))
     # kinks at touch and release between two steps
     assert_allclose(mean, scaled.w @ reference.mean_compression(-scaled.gap, T), rtol=0, atol=0.25 * scaled.h**2)
     on, off = reference.contact_times(-scaled.gap, T)

@@ -186,7 +186,7 @@ def test_pressed_and_free_springs_obey_all_the_rules(T, arms, depth_ratio):
     contact = case(T, *arms, depth_ratio=depth_ratio, pull=mdr.SpringPull(2e3, 0.02, 1.0))
     scaled = ScaledContact.of(contact, mdr.SpringArray.of(contact, 77), 128, lump=False)
     sorted_out, plain = (Line(scaled, 0.4, "full_slip") for _ in range(2))
-    plain.presses = np.resize([0, 77], 129)  # so that any spring may touch or leave in any step
+    plain.spans = np.array([[0] * 128, [77] * 128])  # so that any spring may touch or leave in any step
     for line in (sorted_out, plain):
         line.advance(3)
         line.seen = line.observe(keep=True)
@@ -196,6 +196,49 @@ def test_pressed_and_free_springs_obey_all_the_rules(T, arms, depth_ratio):
     for name in ("sums", "F_x", "F_z", "f_x", "f_z"):
         one, two = getattr(plain.seen, name), getattr(sorted_out.seen, name)
         assert_allclose(two, one, rtol=1e-9, atol=1e-9, err_msg=name)
+
+
+def drawn(rng):
+    """A contact with a motion of four harmonics and a material of any kind."""
+    taus = 10 ** rng.uniform(-4, 0, 3)
+    arms = [(3e6 * 10 ** rng.uniform(-1, 1), float(tau)) for tau in taus[: rng.integers(1, 4)]]
+    kinds = [mdr.Elastic(3e6, 0.4), mdr.KelvinVoigt(3e6, 0.4, float(taus[0])), mdr.Prony(3e6, arms, 0.4)]
+    cos, sin = (tuple(1e-6 * rng.normal(size=4)) for _ in range(2))
+    shape = SHAPES[("cone", "paraboloid", "r4")[rng.integers(3)]][0]
+    pull = mdr.SpringPull(2e3, 0.02, 1.0) if rng.random() < 0.5 else mdr.RigidPull()
+    motion = mdr.PeriodicMotion(100.0, 2e-6 * rng.uniform(0.5, 3), cos, sin)
+    return mdr.SlidingContact(shape, kinds[rng.integers(3)], 0.5, motion, pull)
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize(("n_springs", "steps"), [(2000, 32), (300, 64)])
+def test_so_do_springs_of_fast_motions_in_coarse_steps(seed, n_springs, steps):
+    """Touches and leaves of many springs fall into one step, inside and outside, and may alternate from period to
+    period.
+    """
+    contact = drawn(np.random.default_rng(seed))
+    scaled = ScaledContact.of(contact, mdr.SpringArray.of(contact, n_springs), steps, lump=False)
+    try:
+        sorted_out, plain = (Line(scaled, 0.3, "full_slip") for _ in range(2))
+    except ValueError:
+        pytest.skip("too coarse for the normal motion")
+    plain.spans = np.array([[0] * steps, [n_springs] * steps])
+    for line in (sorted_out, plain):
+        line.advance(3)
+        line.seen = line.observe(keep=True)
+    for one, two in ((plain.e, sorted_out.e), (plain.cofs, sorted_out.cofs), (plain.seen.F_z, sorted_out.seen.F_z)):
+        assert_allclose(two, one, rtol=0, atol=1e-10 * (1 + np.abs(one).max()))
+
+
+def test_springs_that_find_no_periodic_motion_are_refused():
+    body = mdr.Prony(3e6, [(3.511e5, 8.036e-4), (1.129e6, 1.618e-4)], 0.4, tau=0.4875)
+    cos, sin = (2.19e-7, 3.7e-8, 1.66e-7, -1.293e-6), (4.08e-7, 1.274e-6, 5.3e-7, -1.606e-6)
+    motion = mdr.PeriodicMotion(100.0, 1.14e-7, cos, sin)
+    contact = mdr.SlidingContact(mdr.RoundedPunch(b=2e-4, R=5e-3), body, 0.5, motion)
+    with pytest.raises(ValueError, match="steps_per_period = 64 is too coarse for the normal motion"):
+        mdr.slide(contact, 0.3 * contact.unit_velocity, n_springs=300, steps_per_period=64, n_periods=2)
+    run = mdr.slide(contact, 0.3 * contact.unit_velocity, n_springs=300, steps_per_period=1024, n_periods=2)
+    assert np.isfinite(run.cof)
 
 
 def test_a_material_that_flows_is_refused():

@@ -37,8 +37,8 @@ def advance(scaled, y, S):
 
 def periodic_springs(scaled):
     """Springs in full slip at phase 0 and their force over the period, from a march at a velocity above any other."""
-    s, presses = np.zeros((1, scaled.gap.size)), np.empty(scaled.z.size, dtype=np.int64)
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, presses)
+    s, spans = np.zeros((1, scaled.gap.size)), np.empty((2, scaled.steps), dtype=np.int64)
+    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans)
     e, S, keep = s.copy(), np.empty(scaled.steps), np.empty((0, *s.shape))
     kernels.march(
         e,
@@ -49,7 +49,7 @@ def periodic_springs(scaled):
         scaled.w,
         scaled.z,
         scaled.z_dot,
-        presses,
+        spans,
         1e9,
         scaled.table,
         -np.inf,
@@ -247,7 +247,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
         scaled.w,
         scaled.z,
         scaled.z_dot,
-        np.resize([0, s.size], STEPS + 1),
+        np.array([[0] * STEPS, [s.size] * STEPS]),
         1e3,
         scaled.table,
         -np.inf,

@@ -46,11 +46,11 @@ class Start:
 
     @cached_property
     def normal(self) -> tuple[Any, Any]:
-        """Compressions (n,) at phase 0 and how many springs press at each instant (n_steps + 1,)."""
+        """Compressions (n,) at phase 0, and which springs press or are free throughout a step, (2, n_steps)."""
         scaled = self.scaled
-        s, presses = np.zeros((1, scaled.gap.size)), np.empty(scaled.steps + 1, dtype=np.int64)
-        kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, presses)
-        return s[0], presses
+        s, spans = np.zeros((1, scaled.gap.size)), np.empty((2, scaled.steps), dtype=np.int64)
+        kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans)
+        return s[0], spans
 
     @property
     def rate(self) -> float:
@@ -68,10 +68,10 @@ March = Callable[[Start, int], tuple[Any, Any]]  # n_steps -> extensions (n,) at
 
 def compiled(start: Start, n_steps: int) -> tuple[Any, Any]:
     """The kernel that slide() calls."""
-    scaled, (s, presses) = start.scaled, start.normal
+    scaled, (s, spans) = start.scaled, start.normal
     e, S = s[None].copy(), np.empty(n_steps)
     nothing, rest = np.empty((0, *e.shape)), np.zeros(5)
-    motion = scaled.gap, scaled.w, scaled.z, scaled.z_dot, presses, start.v, scaled.table
+    motion = scaled.gap, scaled.w, scaled.z, scaled.z_dot, spans, start.v, scaled.table
     kernels.march(
         e, s[None].copy(), rest, scaled.body, *motion, -np.inf, n_steps, 0, np.empty(n_steps), S, nothing, nothing
     )
@@ -153,9 +153,9 @@ def built_in_c() -> March | None:
     def march(start: Start, n_steps: int) -> tuple[Any, Any]:
         if n_steps % 2:
             raise ValueError(f"n_steps must be even, got {n_steps}")
-        scaled, (s, presses) = start.scaled, start.normal
+        scaled, (s, spans) = start.scaled, start.normal
         e, S = s.copy(), np.empty(n_steps)
-        arrays = scaled.gap, scaled.w, scaled.z, scaled.z_dot, presses
+        arrays = scaled.gap, scaled.w, scaled.z, scaled.z_dot, spans
         sizes = e.size, scaled.steps, n_steps, S
         if scaled.T:
             state = e, np.empty_like(e), s.copy(), np.empty_like(e)

@@ -1,9 +1,8 @@
 /* The march of springs under a rigid pull, rule by rule as mdr/kernels.py has it, for validation/performance.py.
 
    e (n,): extensions; e_next: of Kelvin springs, in two places by turns. s, s_next: their compressions. gap, w (n,). z, zd
-   (n_z + 1,): normal motion over a period and its rate. presses (n_z + 1,): springs that press at each instant. S
-   (n_steps,): sum of w e after each step. The springs before n_in press throughout a step, those from n_out on are free
-   throughout. The compiler may reorder sums, so that a spring in contact is ahead of the indenter by a rounding: 1e-12
+   (n_z + 1,): normal motion over a period and its rate. spans (2, n_z): the springs before the
+   first number press throughout a step, those from the second on are free throughout it. S (n_steps,): sum of w e after each step. The compiler may reorder sums, so that a spring in contact is ahead of the indenter by a rounding: 1e-12
    tells it from one that is free. With an even number of steps the last state is in e and s. */
 
 #include <math.h>
@@ -36,22 +35,21 @@ static inline double kelvin_friction(double s, double trial, double travelled, d
     return most(first, s_free + s_free - lag_free - s);
 }
 
-static inline void span_of(const long *presses, long k, long n, long *n_in, long *n_out)
+static inline void span_of(const long *spans, long k, long n, long n_z, long *n_in, long *n_out)
 {
-    long low = presses[k] < presses[k + 1] ? presses[k] : presses[k + 1], high = presses[k] + presses[k + 1] - low;
-    high = (high + VECTOR - 1) / VECTOR * VECTOR;
-    *n_in = low / VECTOR * VECTOR;
+    long high = (spans[n_z + k] + VECTOR - 1) / VECTOR * VECTOR;
+    *n_in = spans[k] / VECTOR * VECTOR;
     *n_out = high < n ? high : n;
 }
 
 void elastic_march(double *restrict e, const double *restrict gap, const double *restrict w, const double *z,
-                   const double *zd, const long *presses, double v, double h, long n, long n_z, long n_steps, double *S)
+                   const double *zd, const long *spans, double v, double h, long n, long n_z, long n_steps, double *S)
 {
     double du = v * h;
     long n_at_rest = n;
     for (long j = 0; j < n_steps; j++) {
         long k = j % n_z, n_in, n_out;
-        span_of(presses, k, n, &n_in, &n_out);
+        span_of(spans, k, n, n_z, &n_in, &n_out);
         double z_1 = z[k + 1], inverse_dz = z[k + 1] > z[k] ? 1.0 / (z[k + 1] - z[k]) : 1e300;
         double bend = bend_of(zd[k], zd[k + 1]), total = 0.0;
         double late = zd[k] < v ? after_change(zd[k] - v, zd[k + 1] - v, h, 0.0) : 0.0;
@@ -75,13 +73,13 @@ void elastic_march(double *restrict e, const double *restrict gap, const double 
 
 void kelvin_march(double *restrict e, double *restrict e_next, double *restrict s, double *restrict s_next,
                   const double *restrict gap, const double *restrict w, const double *z, const double *zd,
-                  const long *presses, double v, double h, double rate, double decay, long n, long n_z, long n_steps,
+                  const long *spans, double v, double h, double rate, double decay, long n, long n_z, long n_steps,
                   double *S)
 {
     double du = v * h;
     for (long j = 0; j < n_steps; j++) {
         long k = j % n_z, n_in, n_out;
-        span_of(presses, k, n, &n_in, &n_out);
+        span_of(spans, k, n, n_z, &n_in, &n_out);
         double z_0 = z[k], z_1 = z[k + 1], zd_0 = zd[k], zd_1 = zd[k + 1], total = 0.0;
         double *restrict a = j % 2 ? e_next : e, *restrict b = j % 2 ? e : e_next;
         double *restrict p = j % 2 ? s_next : s, *restrict q = j % 2 ? s : s_next;

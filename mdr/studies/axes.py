@@ -226,7 +226,7 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
         return
     names = sorted({type(part).__name__ for part in parts.get(slot, ())})
     if path in GROUPS:
-        raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give a {slot} that has it")
+        raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
     known = _known_paths(parts)
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 from collections.abc import Iterator
@@ -42,6 +43,8 @@ def is_partial(name: str) -> bool:
 def _beside(path: Path, data: bytes) -> Iterator[Path]:
     """The data in a file of the same folder, on the disk; it is gone at the end."""
     partial = path.parent / f".{path.name}-{os.getpid()}-{secrets.token_hex(4)}{_PART}"
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
     try:
         with open(partial, "xb") as file:
             file.write(data)

@@ -75,7 +75,7 @@ def plot_map(
     order = np.ix_(np.argsort(up.values), np.argsort(across.values))
     values, status = (_over(study, up, across, one)[order] for one in (study[quantity], study.status))
     finite = values[np.isfinite(values) & ((values > 0) | (not log))]
-    low, high = limits or ((float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0))
+    low, high = limits or ((float(finite.min()), float(finite.max())) if finite.size else (0.1, 1.0))
     norm = (LogNorm if log else Normalize)(low, high)
     with style():
         ax = axes_of(ax)
@@ -128,9 +128,13 @@ def plot_multiples(
     """
     import matplotlib.pyplot as plt
 
+    if columns < 1:
+        raise ValueError(f"columns must be at least 1, got {columns!r}")
     axis = _axis(study, over)
     parts = [study.select({over: axis.values[i]}) for i in range(len(axis))]
     is_map = len(parts[0].axes) == 2 and all(one.is_numeric for one in parts[0].frame.grid)
+    if knobs and not is_map:
+        raise TypeError(f"{', '.join(knobs)} is for maps, and these are curves")
     columns = min(columns, len(parts))
     rows = -(-len(parts) // columns)
     with style():
@@ -139,13 +143,15 @@ def plot_multiples(
         if is_map:
             finite = study[quantity][np.isfinite(study[quantity])]
             knobs = {"limits": (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)} | knobs
+        marks: dict[str, Any] = {}
         for i, (part, ax) in enumerate(zip(parts, grid.ravel(), strict=False)):
             if is_map:
                 plot_map(part, quantity, x, ax, colorbar=False, **knobs)
             else:
                 plot_curves(part, quantity, x, ax)
-                if i and (legend := ax.get_legend()):
-                    legend.remove()
+            if (i or is_map) and (legend := ax.get_legend()):
+                marks |= {text.get_text(): mark for text, mark in zip(legend.texts, legend.legend_handles, strict=True)}
+                legend.remove()
             ax.set_title(_value(axis, i, name=True), fontsize=10)
             if i % columns:
                 ax.set_ylabel("")
@@ -153,6 +159,8 @@ def plot_multiples(
                 ax.set_xlabel("")
         for ax in grid.ravel()[len(parts) :]:
             ax.set_visible(False)
+        if is_map and marks:
+            fig.legend(marks.values(), marks.keys(), loc="outside lower left", ncols=3)
         if is_map:
             bar = fig.colorbar(grid.ravel()[0].collections[0], ax=grid, pad=0.02)
             bar.set_label(_name(quantity, study.units[quantity]))

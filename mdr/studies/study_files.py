@@ -34,6 +34,7 @@ from mdr.studies.quantities import read_quantities
 from mdr.words import offer, short
 
 KEYS = ("axes", "quantities", "n_springs", "steps_per_period")
+MOST_VALUES = 10**7  #: of an axis
 _RANGE = ("from", "to", "n", "spacing")
 
 
@@ -125,6 +126,8 @@ def _range(path: str, written: Mapping[str, Any]) -> tuple[Any, list[str]]:
             faults += _tried(finite, f"{path}: {key}", written[key])
     if "n" in written:
         faults += _tried(count, f"{path}: n", written["n"], 2)
+        if not faults and written["n"] > MOST_VALUES:
+            faults.append(f"{path}: n must be at most {MOST_VALUES}, got {written['n']}")
     spacing = written.get("spacing", "linear")
     if spacing not in ("linear", "log"):
         faults.append(f'{path}: spacing must be "linear" or "log", got {short(str(spacing))}')

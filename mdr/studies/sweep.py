@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from os import PathLike, fsdecode
 from typing import Any
 
@@ -24,6 +25,8 @@ from mdr.studies.stored import Stored
 from mdr.studies.study import Study
 from mdr.studies.work import Work
 from mdr.words import short
+
+MOST_NUMBERS = 10**9  #: of a study
 
 
 def sweep(
@@ -58,6 +61,7 @@ def sweep(
         if knob is not None:
             count(name, knob, LEAST_KNOB)
     work = Work(case, axes_read, read_quantities(quantities, axes), n_springs, steps_per_period)
+    _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
     _require_executor(executor)
     if store is None:
@@ -103,6 +107,15 @@ def _identity_or_none(work: Work) -> str:
 # --- what was given ---
 
 
+def _require_room(work: Work) -> None:
+    n_points, n_quantities = work.layout.n_points, len(work.quantities)
+    if n_points * n_quantities > MOST_NUMBERS:
+        raise ValueError(
+            f"the grid has {n_points} points of {n_quantities} quantities, more than memory holds (at most "
+            f"{MOST_NUMBERS} numbers); cut it into several studies"
+        )
+
+
 def _shard(shard: Any) -> tuple[int, int]:
     """k and n; 1 and 1 for all of it."""
     if shard is None:
@@ -115,11 +128,11 @@ def _shard(shard: Any) -> tuple[int, int]:
         parts = tuple(map(int, parts))
     else:
         parts = tuple(shard) if isinstance(shard, tuple | list) else ()
-    if len(parts) != 2 or not all(isinstance(part, int) and not isinstance(part, bool) for part in parts):
+    if len(parts) != 2 or not all(isinstance(part, Integral) and not isinstance(part, bool) for part in parts):
         raise ValueError(rule)
     if not 1 <= parts[0] <= parts[1]:
         raise ValueError(rule)
-    return parts[0], parts[1]
+    return int(parts[0]), int(parts[1])
 
 
 def _require_executor(executor: Any) -> None:

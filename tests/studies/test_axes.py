@@ -64,7 +64,7 @@ def test_what_can_never_be_set_is_refused_at_once(axes, kind, words):
     ("axes", "words"),
     [
         ({"pull.m": [0.1]}, "pull.m is no path of this case; RigidPull has none"),
-        ({"k_x/k_xc": [1.0]}, "k_x/k_xc sets pull.k_x, which RigidPull has not; give a pull that has it"),
+        ({"k_x/k_xc": [1.0]}, "k_x/k_xc sets pull.k_x, which RigidPull has not; give one that has it"),
         ({"omega_0/omega": [1.0]}, "omega_0/omega sets pull.m"),
         ({"material": [mdr.Elastic(E=1e6, nu=0.3)], "T": [1.0]}, "T sets material.tau, which Elastic has not"),
         ({"oscillation": [mdr.LoadOscillation(1, 0.5, 300)], "alpha": [0.1]}, "alpha sets oscillation.du_z"),

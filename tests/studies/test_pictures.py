@@ -136,5 +136,23 @@ def test_what_cannot_be_drawn_says_so(study, flat):
         flat.plot_map("v_c")
 
 
+def test_small_multiples_say_what_they_cannot(study, flat):
+    with pytest.raises(ValueError, match="columns must be at least 1"):
+        study.plot_multiples("cof", over="T", columns=0)
+    with pytest.raises(TypeError, match="levels is for maps"):
+        flat.plot_multiples("cof", over="alpha", levels=[0.3])
+
+
+def test_small_multiples_name_what_failed_once_beside_the_titles(study):
+    fig = broken(study, (1, 2, 0), Status.FAILED).plot_multiples("cof", over="T", x="v_0/v_c")
+    assert [text.get_text() for text in fig.legends[0].get_texts()] == ["failed"]
+    assert all(ax.get_legend() is None for ax in fig.axes)
+
+
+def test_a_map_of_nothing_is_drawn(flat):
+    empty = replace(flat, values=np.full_like(flat.values, np.nan), status=np.full_like(flat.status, Status.FAILED))
+    assert labels(empty.plot_map("cof", log=True)) == ["failed"]
+
+
 def test_named_axes_and_quantities_exist():
     assert set(pictures.SYMBOLS) <= set(mdr.studies.CATALOGUE) | set(mdr.studies.field_names.UNITS_AND_MEANINGS)

@@ -94,6 +94,10 @@ def test_what_is_left_out_is_the_default():
             ],
         ),
         (
+            ['"v_0" = { from = 0, to = 1, n = 1000000000000 }'],
+            ["[axes] v_0: n must be at most 10000000, got 1000000000000"],
+        ),
+        (
             ['"v_0" = { from = 0, to = 1, n = 3, spacing = "log" }'],
             ['[axes] v_0: a range with spacing = "log" must be positive, got 0 to 1'],
         ),

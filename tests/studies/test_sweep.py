@@ -205,3 +205,9 @@ def test_a_study_of_runs_with_every_option(tmp_path):
     found = mdr.sweep(BODY, {"v_0": [1e-4]}, tmp_path, None, ["cof"], chunk_seconds=1.0, shard="1/1", **COARSE)
     assert found["cof"][0] == mdr.slide(BODY, 1e-4, **COARSE).cof
     assert SLOW.name == "depth"
+
+
+def test_a_grid_that_no_memory_holds_is_refused():
+    axes = {"alpha": np.linspace(0.1, 1, 1001), "T": np.linspace(0.1, 1, 1001), "v_0": np.linspace(0.1, 1, 1001)}
+    with pytest.raises(ValueError, match="the grid has 1003003001 points of 1 quantities, more than memory holds"):
+        mdr.sweep(RIGID, axes)
