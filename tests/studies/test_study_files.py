@@ -4,28 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from grids import TABLES
 from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.studies.study_files import parse_study, read_study_file
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "study.toml"
-CASE = """
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
-[pull]
-k_x = 2e4
-"""
+CASE = TABLES + "[pull]\nk_x = 2e4\n"
 
 
 def text(axes='"v_0/v_c" = [0.5]', top="", case=CASE):

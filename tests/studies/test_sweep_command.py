@@ -6,31 +6,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from grids import TABLES
 from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
 
-STUDY = """
-quantities = ["cof", "v_c"]
-mu_0 = 0.5
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
+AXES = """
 [axes]
 "v_0/v_c" = { from = 0, to = 1.2, n = 3 }
 "T" = [0.1, 1.0]
 indenter = [{ shape = "Paraboloid", R = 5e-3 }, { shape = "Cone", theta = 0.05 }]
 """
+STUDY = 'quantities = ["cof", "v_c"]\nmu_0 = 0.5\n' + TABLES + AXES
 
 
 @pytest.fixture
