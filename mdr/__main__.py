@@ -57,7 +57,7 @@ def _run(args: argparse.Namespace) -> int:
     """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
     work: Callable[[argparse.Namespace, Any], int] = args.work
     try:
-        case = args.read(args.case)
+        case = args.read(args.case) if args.read else None
     except CaseFileError as fault:
         return _complain(str(fault), WRONG_INPUT)
     try:
@@ -69,7 +69,8 @@ def _run(args: argparse.Namespace) -> int:
     except BrokenPipeError:
         raise
     except _FAILURES as fault:
-        return _complain(f"{args.case}: {str(fault) or type(fault).__name__}", FAILED)
+        where = f"{args.case}: " if args.read else ""
+        return _complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -89,8 +90,17 @@ def parser() -> argparse.ArgumentParser:
     curve.add_argument("--up-to", type=_multiple, default=1.3, help="highest velocity over v_c (default: 1.3)")
     _command(commands, "measure", _measure, "critical velocity from simulation alone")
     _command(commands, "verdict", _verdict, "whether the closed-form critical velocity holds, and by how much not")
+    _command(commands, "shapes", _shapes, "the shapes, materials and motions that a file can name, and their keys", "")
+    start = _command(commands, "case", _case, "a commented case file to begin with, on standard output", "")
+    start.add_argument("--example", default="Paraboloid", metavar="shape", help="its shape (default: Paraboloid)")
+    start.add_argument("--material", default="KelvinVoigt", metavar="model", help="its material (default: KelvinVoigt)")
+    motions = "NormalOscillation, PeriodicMotion or LoadOscillation"
+    start.add_argument("--motion", default="NormalOscillation", metavar="name", help=f"{motions} (default: the first)")
+    start.add_argument(
+        "--pull", default="SpringPull", metavar="name", help="SpringPull or RigidPull (default: SpringPull)"
+    )
     sweep = _command(
-        commands, "sweep", _sweep, "a grid of cases, from a study file; the same call goes on after any end"
+        commands, "sweep", _sweep, "a grid of cases, from a study file; the same call goes on after any end", "study"
     )
     sweep.set_defaults(read=_read_study_file)
     sweep.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
@@ -100,14 +110,16 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def _command(commands: Any, name: str, work: Callable[..., int], summary: str) -> argparse.ArgumentParser:
-    """One command that reads a file."""
+def _command(
+    commands: Any, name: str, work: Callable[..., int], summary: str, kind: str = "case"
+) -> argparse.ArgumentParser:
+    """One command that reads a file of a kind, "case" or "study", or none."""
     command: argparse.ArgumentParser = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
-    kind = "study" if name == "sweep" else "case"
-    example = "docs/study.toml" if name == "sweep" else "docs/example.toml"
-    command.add_argument("case", metavar=f"{kind}.toml", help=f"the {kind} file; {example} is one")
+    if kind:
+        example = "docs/study.toml" if kind == "study" else "docs/example.toml"
+        command.add_argument("case", metavar=f"{kind}.toml", help=f"the {kind} file; {example} is one")
     command.add_argument("--json", action="store_true", help="print one JSON object instead of text")
-    command.set_defaults(work=work, read=read_case)
+    command.set_defaults(work=work, read=read_case if kind else None)
     return command
 
 
@@ -292,6 +304,48 @@ def _verdict(args: argparse.Namespace, case: SlidingContact) -> int:
             ("holds", {True: "yes", False: "no", None: "cannot be judged"}[found.holds], ""),
         ])  # fmt: skip
     return DONE if found.holds or found.measured is not None else FAILED  # no v_c on a resonance is an answer
+
+
+# --- shapes and case ---
+
+
+def _shapes(args: argparse.Namespace, _: None) -> int:
+    from mdr.case_files import nameable
+    from mdr.field_names import UNITS_AND_MEANINGS
+
+    tables: dict[str, dict[str, Any]] = {}
+    for table, records in nameable().items():
+        tables[table] = {}
+        for name, (record, keys) in records.items():
+            told = {key: UNITS_AND_MEANINGS.get(f"{table}.{key}", ("", "")) for key in keys}
+            tables[table][name] = {
+                "is": (record.__doc__ or "").strip().splitlines()[0],
+                "keys": {key: {"unit": unit, "meaning": meaning} for key, (unit, meaning) in told.items()},
+            }
+    if args.json:
+        print(json.dumps({"version": mdr.__version__, "command": args.command, **tables}, indent=1, ensure_ascii=False))
+        return DONE
+    for table, described in tables.items():
+        print(f"[{table}]")
+        for name, one in described.items():
+            print(f"  {name:<20} {one['is']}")
+            for key, what in one["keys"].items():
+                unit = f"[{what['unit']}]" if what["unit"] else ""
+                print(f"{'':23}{key:<10} {unit:<8} {what['meaning']}".rstrip())
+    return DONE
+
+
+def _case(args: argparse.Namespace, _: None) -> int:
+    from mdr.examples import example, example_file
+
+    try:
+        case = example(args.example, args.material, args.motion, args.pull)
+    except ValueError as fault:
+        raise WrongInput(str(fault)) from None
+    if args.json:
+        return _print_json(args, case, {})
+    print(example_file(case), end="")
+    return DONE
 
 
 # --- sweep ---

@@ -89,7 +89,7 @@ def write_case(case: SlidingContact) -> str:
     for field in _inputs(SlidingContact):
         value = getattr(case, field.name)
         if field.name not in _TABLES:
-            top.append(f"{field.name} = {_toml(value)}")
+            top.append(f"{field.name} = {toml_value(value)}")
         elif not isinstance(value, RigidPull):
             tables.append(_written(_TABLES[field.name], value))
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
@@ -130,6 +130,14 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
     """The record that a table [name] describes, or None; and the faults."""
     return _TABLES[name].read({name: table})
+
+
+def nameable() -> dict[str, dict[str, tuple[type[Any], list[str]]]]:
+    """The records that a file can name and the keys of each, {table: {name: (record, keys)}}."""
+    return {
+        table.name: {name: (record, [one.name for one in _inputs(record)]) for name, record in table.writable().items()}
+        for table in _TABLES.values()
+    }
 
 
 def read_text(path: str | PathLike[str]) -> str:
@@ -362,12 +370,13 @@ def _written(table: _Table, record: Any) -> str:
         way_out = f"keep the case in a script, or use one of {', '.join(writable)}"
         raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
     values = {field.name: getattr(record, field.name) for field in _inputs(type(record))}
-    lines = [f"{key} = {_toml(value)}" for key, value in values.items() if value is not None]
-    head = [f"[{table.name}]", *([f"{table.choice} = {_toml(name)}"] if table.choice else [])]
+    lines = [f"{key} = {toml_value(value)}" for key, value in values.items() if value is not None]
+    head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if table.choice else [])]
     return "\n".join(head + lines)
 
 
-def _toml(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """A string, number, truth or list of them as TOML writes it."""
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, bool):
@@ -375,7 +384,7 @@ def _toml(value: Any) -> str:
     if isinstance(value, int):
         return str(value)
     if isinstance(value, Iterable):
-        return "[" + ", ".join(_toml(one) for one in value) + "]"
+        return "[" + ", ".join(toml_value(one) for one in value) + "]"
     return repr(float(value))
 
 

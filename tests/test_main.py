@@ -268,3 +268,30 @@ def test_a_terminal_that_lacks_a_letter_still_shows_the_rest(tmp_path):
     done = run("velocity", str(path), env={**os.environ, "PYTHONIOENCODING": "ascii"})
     assert done.returncode == 2
     assert "\\xe4.toml: [indenter] r is no key of Paraboloid; did you mean R?" in done.stderr
+
+
+# --- shapes and case ---
+
+
+def test_shapes_names_all_that_a_file_can_name(capsys):
+    assert main(["shapes"]) == 0
+    shown = capsys.readouterr().out
+    for name in ("[indenter]", "CappedCone", "[material]", "Prony", "LoadOscillation", "[pull]", "k_x"):
+        assert name in shown
+    assert main(["shapes", "--json"]) == 0
+    told = strict_json(capsys.readouterr().out)
+    assert told["indenter"]["Cone"]["keys"]["theta"] == {"unit": "rad", "meaning": "angle between flank and plane"}
+    assert all(one["is"] for table in ("indenter", "material", "oscillation") for one in told[table].values())
+
+
+def test_an_example_goes_through_the_other_commands(tmp_path, capsys):
+    assert main(["case", "--example", "flat_punch", "--material", "elastic", "--pull", "RigidPull"]) == 0
+    path = tmp_path / "case.toml"
+    path.write_text(capsys.readouterr().out, encoding="utf-8")
+    assert main(["velocity", str(path), "--json"]) == 0
+    assert strict_json(capsys.readouterr().out)["v_c"] > 0
+
+
+def test_an_example_of_nothing_is_wrong_input(capsys):
+    assert main(["case", "--example", "coen"]) == 2
+    assert "did you mean Cone" in capsys.readouterr().err

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from mdr.checks import finite_array
 from mdr.contact import KINDS, SlidingContact
-from mdr.studies.field_names import UNITS_AND_MEANINGS
+from mdr.field_names import UNITS_AND_MEANINGS
 from mdr.words import nearest, one_line, short
 
 Array = NDArray[np.float64]

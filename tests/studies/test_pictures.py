@@ -8,6 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.field_names import UNITS_AND_MEANINGS
 from mdr.studies import pictures
 from mdr.studies.points import Status
 
@@ -155,4 +156,4 @@ def test_a_map_of_nothing_is_drawn(flat):
 
 
 def test_named_axes_and_quantities_exist():
-    assert set(pictures.SYMBOLS) <= set(mdr.studies.CATALOGUE) | set(mdr.studies.field_names.UNITS_AND_MEANINGS)
+    assert set(pictures.SYMBOLS) <= set(mdr.studies.CATALOGUE) | set(UNITS_AND_MEANINGS)

@@ -1,0 +1,60 @@
+"""Starting files: each is read back as the case it was written from, and is a case one can begin with."""
+
+import itertools
+import re
+
+import pytest
+
+import mdr
+from mdr.case_files import nameable
+from mdr.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example, example_file
+
+
+def test_there_is_an_example_of_every_record_that_a_file_can_name():
+    known = nameable()
+    assert set(SHAPES) == set(known["indenter"])
+    assert set(MATERIALS) == set(known["material"])
+    assert set(MOTIONS) == set(known["oscillation"])
+
+
+def test_every_example_reads_back():
+    for names in itertools.product(SHAPES, MATERIALS, MOTIONS, PULLS):
+        case = example(*names)
+        assert mdr.parse_case(example_file(case)) == case, names
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_every_shape_is_a_contact_of_a_millimetre_with_a_critical_velocity(shape):
+    case = example(shape)
+    a = float(case.indenter.contact_radius(20e-6))
+    assert 0.9e-3 < a < 1.3e-3
+    assert 0 < mdr.critical_velocity(case) < 0.01
+
+
+def test_every_key_has_its_unit_or_meaning():
+    for names in zip(itertools.cycle(MATERIALS), SHAPES, itertools.cycle(MOTIONS), strict=False):
+        material, shape, motion = names
+        for line in example_file(example(shape, material, motion)).splitlines():
+            if "=" in line and not line.startswith(("shape", "model", "#")):
+                assert "#" in line, line
+
+
+def test_numbers_are_written_as_one_writes_them():
+    text = example_file(example())
+    assert "E = 3e6 " in text
+    assert "u_z0 = 2e-5 " in text
+    assert not re.search(r"\d{10}", text)
+
+
+@pytest.mark.parametrize("name", ["flat_punch", "FLATPUNCH", "flat-punch", "FlatPunch"])
+def test_names_are_taken_as_one_types_them(name):
+    assert example(name) == example("FlatPunch")
+
+
+def test_a_name_that_is_none_is_refused_with_the_nearest():
+    with pytest.raises(ValueError, match="coen is no shape of an example; did you mean Cone"):
+        example("coen")
+    with pytest.raises(ValueError, match="no material of an example; there are Elastic"):
+        example(material="granite")
+    with pytest.raises(TypeError, match="shape must be a name, got 3"):
+        example(3)
