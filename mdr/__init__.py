@@ -44,6 +44,8 @@ from mdr.fields import SurfaceFields, surface_fields
 from mdr.friction import CofCurve, cof_curve
 from mdr.measurement import MeasuredVelocity, measure_critical_velocity
 from mdr.judgement import Verdict, verdict
+from mdr.friction_data import FrictionData, read_friction_data
+from mdr.fitting import Fit, fit
 from mdr.studies import Quantity, Study, StudyError, read_study, sweep
 
 try:
@@ -63,7 +65,9 @@ __all__ = [
     "ElasticPair",
     "Ellipsoid",
     "EnergyBalance",
+    "Fit",
     "FlatPunch",
+    "FrictionData",
     "FromForce",
     "Hyperboloid",
     "Indentation",
@@ -101,12 +105,14 @@ __all__ = [
     "Verdict",
     "cof_curve",
     "critical_velocity",
+    "fit",
     "full_slip_critical_velocity",
     "indent",
     "measure_critical_velocity",
     "parse_case",
     "partial_slip",
     "read_case",
+    "read_friction_data",
     "read_study",
     "slide",
     "static_cof",

@@ -70,6 +70,25 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
     return ax
 
 
+def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
+    """Measured coefficients of friction with their errors, and the curve of the fitted contact through them."""
+    from mdr.fitting import N_SPRINGS, STEPS
+    from mdr.friction import cof_curve
+
+    data = fitted.data
+    v = np.linspace(0, 1.05 * float(data.v_0.max()), 60)
+    curve = cof_curve(fitted.case, v, n_springs=N_SPRINGS, steps_per_period=STEPS)
+    factor, unit = prefix(data.v_0, "m/s")
+    with style():
+        ax = axes_of(ax)
+        ax.errorbar(data.v_0 * factor, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
+        ax.plot(v * factor, curve.cof, color=COLOURS[0], label="fitted contact")
+        ax.axhline(fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
+        ax.set(xlabel=f"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
+        ax.legend()
+    return ax
+
+
 def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
     """Which mode every spring is in: position against time, coloured by `run.state`."""
     from matplotlib.colors import BoundaryNorm, ListedColormap

@@ -1,4 +1,4 @@
-"""The code of the guide runs as it stands, from top to bottom."""
+"""The code of README and guide runs as it stands, from top to bottom."""
 
 import re
 from pathlib import Path
@@ -6,14 +6,14 @@ from pathlib import Path
 import matplotlib as mpl
 import pytest
 
-DOCS = Path(__file__).parents[1] / "docs"
+ROOT = Path(__file__).parents[1]
 
 
-@pytest.mark.parametrize("page", ["studies.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/studies.md"])
 def test_the_code_of_a_page_runs(page, tmp_path, monkeypatch):
     mpl.use("Agg")
     monkeypatch.chdir(tmp_path)
-    blocks = re.findall(r"```python\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
     assert blocks
     names = {"__name__": "guide"}  # what starts processes stands under if __name__ == "__main__"
     for block in blocks:

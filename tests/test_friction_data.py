@@ -1,0 +1,72 @@
+"""Measured friction: read with its units, or refused with file and line."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+
+
+def table(tmp_path, text):
+    path = tmp_path / "data.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_columns_in_any_order_with_units_and_comments(tmp_path):
+    text = "# rubber on steel\nerror;note;COF [-];v_0 [mm/s]\n0.02;b;0.35;2.0\n\n0.01;a;0.31;0.5\n"
+    data = mdr.read_friction_data(table(tmp_path, text))
+    assert_allclose(data.v_0, [0.5e-3, 2e-3], rtol=1e-15)
+    assert_allclose(data.cof, [0.31, 0.35])
+    assert_allclose(data.error, [0.01, 0.02])
+
+
+@pytest.mark.parametrize(("head", "scale"), [("v [m/s]", 1), ("Speed (µm/s)", 1e-6), ("velocity [cm/s]", 1e-2)])
+def test_units_of_velocity(tmp_path, head, scale):
+    data = mdr.read_friction_data(table(tmp_path, f"{head}, mu\n2, 0.3\n4, 0.4\n"))
+    assert_allclose(data.v_0, np.array([2, 4]) * scale, rtol=1e-15)
+    assert data.error is None
+
+
+def test_what_a_curve_writes_is_read(tmp_path):
+    case = mdr.SlidingContact(
+        mdr.Cone(theta=0.05), mdr.Elastic(3e6, 0.4), 0.5, mdr.NormalOscillation(20e-6, 5e-6, 300.0)
+    )
+    curve = mdr.cof_curve(case, [1e-4, 2e-4, 3e-4])
+    curve.to_csv(tmp_path / "curve.csv")
+    data = mdr.read_friction_data(tmp_path / "curve.csv")
+    assert_allclose(data.cof, curve.cof, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "holds no table"),
+        ("v_0 [m/s], cof\n", "holds no table"),
+        ("v_0, cof\n1, 0.3\n", "v_0 needs a unit in its header"),
+        ("v_0 [mph], cof\n1, 0.3\n", "the unit 'mph' of v_0 is none of m/s"),
+        ("v_0 [m/s], cof [%]\n1, 0.3\n", "cof is a pure number, got the unit '%'"),
+        ("v_0 [m/s], x\n1, 0.3\n", "the header names no cof"),
+        ("v_0 [m/s], cof, mu\n1, 0.3, 0.3\n", "the header names cof twice"),
+        ("v_0 [m/s], cof\n1, 0.3\n2, high\n", "line 3: high is no number"),
+        ("v_0 [m/s], cof\n1\n", "line 2: nothing is no number"),
+        ("v_0 [m/s], cof\n1, nan\n", "cof must be finite"),
+        ("v_0 [m/s], cof\n-1, 0.3\n", "v_0 must not be negative"),
+        ("v_0 [m/s], cof, error\n1, 0.3, 0\n", "error must be positive"),
+    ],
+)
+def test_what_is_wrong_is_told(tmp_path, text, words):
+    path = table(tmp_path, text)
+    with pytest.raises(ValueError, match=r"data\.csv: ") as caught:
+        mdr.read_friction_data(path)
+    assert words in str(caught.value)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(ValueError, match="cannot be read"):
+        mdr.read_friction_data(tmp_path / "none.csv")
+
+
+def test_columns_are_of_one_length():
+    with pytest.raises(ValueError, match="cof must be a list of as many numbers as v_0"):
+        mdr.FrictionData([1.0, 2.0], [0.3])
