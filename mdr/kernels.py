@@ -480,6 +480,7 @@ def settle_normal(s, gap, w, z, zd, table, spans):
                     inner[k] = min(inner[k], i)
                 else:
                     outer[k] = i + 1
+        inner[n_z], outer[n_z] = inner[0], outer[0]
     else:
         for i in range(n):
             s[0, i] = max(z[0] - gap[i], 0.0)
@@ -508,8 +509,6 @@ def settle_normal(s, gap, w, z, zd, table, spans):
         inner[0], outer[0] = inner[n_z], outer[n_z]
         for i in range(n):
             steady = steady and (decay == 0.0 or abs(s[0, i] - once[i]) <= STEADY * (1.0 + s[0, i]))
-    if n_x > 1:
-        inner[n_z], outer[n_z] = inner[0], outer[0]
     if not steady:  # in coarse steps the touches of springs at the edge may alternate
         inner[:], outer[:] = 0, n
     for k in range(n_z):

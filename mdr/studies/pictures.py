@@ -74,9 +74,7 @@ def plot_map(
     across, up = _two_axes(study, x)
     order = np.ix_(np.argsort(up.values), np.argsort(across.values))
     values, status = (_over(study, up, across, one)[order] for one in (study[quantity], study.status))
-    finite = values[np.isfinite(values) & ((values > 0) | (not log))]
-    low, high = limits or ((float(finite.min()), float(finite.max())) if finite.size else (0.1, 1.0))
-    norm = (LogNorm if log else Normalize)(low, high)
+    norm = (LogNorm if log else Normalize)(*(limits or _limits(values, log)))
     with style():
         ax = axes_of(ax)
         centres = [np.sort(axis.values) * _scale(ax, which, axis) for which, axis in (("x", across), ("y", up))]
@@ -88,9 +86,7 @@ def plot_map(
             ax.clabel(lines, fmt="%g", fontsize=9)
         _mark(ax, edges, centres, ~np.isfinite(values), status)
         if colorbar:
-            bar = ax.figure.colorbar(mesh, ax=ax, pad=0.02)
-            bar.set_label(_name(quantity, study.units[quantity]))
-            bar.outline.set_visible(False)
+            _colorbar(ax.figure, mesh, ax, study, quantity)
     return ax
 
 
@@ -141,8 +137,7 @@ def plot_multiples(
         size = (1.2 + 2.9 * columns, 0.8 + 2.5 * rows)
         fig, grid = plt.subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
         if is_map:
-            finite = study[quantity][np.isfinite(study[quantity])]
-            knobs = {"limits": (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)} | knobs
+            knobs = {"limits": _limits(study[quantity], knobs.get("log", False))} | knobs
         marks: dict[str, Any] = {}
         for i, (part, ax) in enumerate(zip(parts, grid.ravel(), strict=False)):
             if is_map:
@@ -159,13 +154,25 @@ def plot_multiples(
                 ax.set_xlabel("")
         for ax in grid.ravel()[len(parts) :]:
             ax.set_visible(False)
-        if is_map and marks:
+        first = grid.ravel()[0].get_legend()
+        known = {text.get_text() for text in first.texts} if first else set()
+        if marks := {name: mark for name, mark in marks.items() if name not in known}:
             fig.legend(marks.values(), marks.keys(), loc="outside lower left", ncols=3)
         if is_map:
-            bar = fig.colorbar(grid.ravel()[0].collections[0], ax=grid, pad=0.02)
-            bar.set_label(_name(quantity, study.units[quantity]))
-            bar.outline.set_visible(False)
+            _colorbar(fig, grid.ravel()[0].collections[0], grid, study, quantity)
     return fig
+
+
+def _limits(values: Array, log: bool) -> tuple[float, float]:
+    """The range of what colours can show."""
+    seen = values[np.isfinite(values) & ((values > 0) | (not log))]
+    return (float(seen.min()), float(seen.max())) if seen.size else (0.1, 1.0)
+
+
+def _colorbar(fig: Any, mesh: Any, ax: Any, study: Study, quantity: str) -> None:
+    bar = fig.colorbar(mesh, ax=ax, pad=0.02)
+    bar.set_label(_name(quantity, study.units[quantity]))
+    bar.outline.set_visible(False)
 
 
 # --- axes ---

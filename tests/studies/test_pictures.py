@@ -150,6 +150,19 @@ def test_small_multiples_name_what_failed_once_beside_the_titles(study):
     assert all(ax.get_legend() is None for ax in fig.axes)
 
 
+def test_small_multiples_of_curves_name_what_failed_in_any_of_them(study):
+    fig = broken(study, (1, 2, 1), Status.FAILED).select({"T": 1.0}).plot_multiples("cof", over="alpha")
+    assert [text.get_text() for text in fig.legends[0].get_texts()] == ["1 failed"]
+    assert study.select({"T": 1.0}).plot_multiples("cof", over="alpha").legends == []
+
+
+def test_small_multiples_may_be_logarithmic_beside_zeros(study):
+    zero = replace(study, values=np.where(study.values == study.values.min(), 0.0, study.values))
+    fig = zero.plot_multiples("cof", over="T", log=True)
+    fig.canvas.draw()
+    assert all(ax.collections[0].norm.vmin > 0 for ax in fig.axes if ax.get_title())
+
+
 def test_a_map_of_nothing_is_drawn(flat):
     empty = replace(flat, values=np.full_like(flat.values, np.nan), status=np.full_like(flat.status, Status.FAILED))
     assert labels(empty.plot_map("cof", log=True)) == ["failed"]
