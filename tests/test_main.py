@@ -12,8 +12,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.__main__ import main, velocity_scale
+from mdr.__main__ import main
 from mdr.case_files import parse_case, read_case, write_case
+from mdr.commands.curve import velocity_scale
+from mdr.provenance import versions
 
 EXAMPLE = str(Path(__file__).parents[1] / "docs" / "example.toml")
 
@@ -97,9 +99,12 @@ def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
     assert sorted(path.name for path in folder.iterdir()) == ["curve.csv", "curve.png", "curve.svg"]
     lines = (folder / "curve.csv").read_text(encoding="utf-8").splitlines()
     head = [line[2:] for line in lines if line.startswith("#")]
-    assert head[0] == f"mdr {mdr.__version__}"
+    assert head[0] == versions()
     assert head[1] == " ".join(["mdr", *command])
     assert parse_case("\n".join(head[2:])) == read_case(punch)
+    for name in ("curve.png", "curve.svg"):
+        assert versions().encode() in (folder / name).read_bytes()
+        assert " ".join(["mdr", *command]).encode() in (folder / name).read_bytes()
     rows = np.loadtxt(folder / "curve.csv", delimiter=",", skiprows=len(head) + 1)
     assert_allclose(rows[:, 0], mdr.critical_velocity(read_case(punch)) * np.array([0, 0.6, 1.2]))
     assert_allclose(rows[-1, 1], 0.4, rtol=1e-9)  # above v_c

@@ -9,13 +9,13 @@ import html
 import io
 import json
 import math
-import platform
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import InitVar, dataclass, field
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
+
+from mdr.provenance import versions
 
 VERDICTS = ("holds", "holds if …", "fails when …")  #: a verdict reads or starts like one of these
 SIDES = ("within", "at most", "at least")  #: of the expected number a check allows
@@ -205,7 +205,7 @@ def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
         _table("verdicts", ("Claim", "Verdict", "In one sentence", "Checks"), claims, _verdict_row),
         *(_figure(claim, figure) for claim, figure in glance),
         *(_section(claim, [figure for _, figure in glance]) for claim in claims),
-        f"<footer><p>Made by <code>{_command(effort)}</code> with {_versions()}.</p></footer>",
+        f"<footer><p>Made by <code>{_command(effort)}</code> with {versions()}.</p></footer>",
         "</main></body></html>\n",
     ]
     return "\n".join(parts)
@@ -312,17 +312,6 @@ def _power(match: re.Match[str]) -> str:
 
 def _command(effort: str) -> str:
     return "python -m validation" + ("" if effort == "full" else f" --{effort}")
-
-
-def _versions() -> str:
-    def of(name: str) -> str:
-        try:
-            return version(name)
-        except PackageNotFoundError:
-            return "(not installed)"
-
-    parts = [f"{name} {of(name)}" for name in ("numpy", "scipy", "numba", "matplotlib")]
-    return ", ".join([f"mdr {of('mdr-friction')}", *parts, f"Python {platform.python_version()}"])
 
 
 def _json_number(value: float | None) -> float | str | None:

@@ -22,13 +22,13 @@ _TITLE = "Sliding friction under normal oscillation, a study by mdr"
 _MEANINGS = " ".join(status.name.lower() for status in Status)
 
 
-def packed(study: Study) -> bytes:
-    """The bytes of the file."""
+def packed(study: Study, history: str = "") -> bytes:
+    """The bytes of the file; history is what made it, kept as the CF conventions have it."""
     from scipy.io import netcdf_file
 
     buffer = BytesIO()
     file = netcdf_file(buffer, "w", version=2)
-    for name, text in _attributes(study).items():
+    for name, text in _attributes(study, history).items():
         _set(file, name, text)
     for axis in study.frame.grid:
         _put_axis(file, axis)
@@ -73,9 +73,10 @@ def name_of(path: str) -> str:
 # --- writing ---
 
 
-def _attributes(study: Study) -> dict[str, str]:
+def _attributes(study: Study, history: str) -> dict[str, str]:
     frame = study.frame
     known = {"title": _TITLE, "identity": frame.identity, "mdr_version": frame.version, "case": frame.case}
+    known["history"] = history
     if frame.selected:
         known["selected"] = json.dumps(frame.selected)
     return {name: text for name, text in known.items() if text}  # an empty text cannot be read back

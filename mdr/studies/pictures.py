@@ -8,7 +8,7 @@ are drawn on a logarithmic scale.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +52,28 @@ SYMBOLS = {
 }  #: how axes and quantities are written in figures; any other by its name
 LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
 MOST_LABELS = 10  #: values of a family that are named one by one
+
+
+def plot(study: Study, quantity: str | None = None) -> Figure:
+    """Draw the picture that suits the axes: curves along one, a map or curves over two, small multiples over three.
+
+    quantity: by default the first. Across stands the velocity where there is one, and else the last axis of numbers;
+    the multiples go over texts where there are any. Axes of one value are left out.
+    Raises ValueError for a study of other axes.
+    """
+    quantity = study.quantities[0] if quantity is None else quantity
+    lone = {axis.path: axis.values[0] for axis in study.frame.grid if len(axis) == 1}
+    study = study.select(lone) if len(lone) < len(study.axes) else study
+    numbers = [axis.path for axis in study.frame.grid if axis.is_numeric]
+    if not numbers:
+        raise ValueError(f"no axis of numbers to draw along; the study has {', '.join(study.axes)}")
+    x = next((path for path in numbers if path in ("v_0", "v_0/v_c")), numbers[-1])
+    if len(study.axes) == 3:
+        rest = [path for path in study.axes if path != x]
+        over = next((path for path in rest if path not in numbers), min(rest, key=lambda path: len(study.axes[path])))
+        return plot_multiples(study, quantity, over, x)
+    draw = plot_map if len(study.axes) == 2 and len(numbers) == 2 else plot_curves
+    return cast("Figure", draw(study, quantity, x).figure)
 
 
 def plot_map(

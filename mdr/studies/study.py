@@ -127,6 +127,12 @@ class Study(ArrayRecord):
 
         return to_xarray(self)
 
+    def plot(self, quantity: str | None = None) -> Any:
+        """Draw the picture that suits the axes; see `mdr.studies.pictures.plot`."""
+        from mdr.studies.pictures import plot
+
+        return plot(self, quantity)
+
     def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
         """Draw a quantity over two axes in colours; see `mdr.studies.pictures.plot_map`."""
         from mdr.studies.pictures import plot_map

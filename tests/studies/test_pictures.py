@@ -170,3 +170,36 @@ def test_a_map_of_nothing_is_drawn(flat):
 
 def test_named_axes_and_quantities_exist():
     assert set(pictures.SYMBOLS) <= set(mdr.studies.CATALOGUE) | set(UNITS_AND_MEANINGS)
+
+
+# --- the picture that suits ---
+
+
+def test_the_picture_that_suits_two_axes_of_numbers_is_a_map(flat):
+    ax = flat.plot("cof").axes[0]
+    assert "v_0/v_c" in ax.get_xlabel()
+    assert r"\alpha" in ax.get_ylabel()
+    assert len(ax.collections)
+
+
+def test_the_picture_that_suits_one_axis_is_a_curve(flat):
+    ax = flat.select({"alpha": 0.1}).plot().axes[0]
+    assert_allclose(ax.lines[0].get_ydata(), flat.select({"alpha": 0.1})["cof"])
+
+
+def test_texts_give_curves_and_multiples(study):
+    shapes = [mdr.Paraboloid(R=5e-3), mdr.Cone(theta=0.05)]
+    two = mdr.sweep(CASE, {"indenter": shapes, "v_0/v_c": V})
+    assert labels(two.plot().axes[0]) == [repr(shape) for shape in shapes]
+    three = mdr.sweep(CASE, {"indenter": shapes, "v_0/v_c": V, "T": T})
+    assert [ax.get_title() for ax in three.plot().axes[:2]] == ["Paraboloid(R=0.005)", "Cone(theta=0.05)"]
+    by_number = study.plot()
+    assert sum(ax.get_title() != "" for ax in by_number.axes) == len(T)  # over the shortest axis
+
+
+def test_an_axis_of_one_value_is_left_out_and_texts_alone_have_no_picture(flat):
+    one = mdr.sweep(CASE, {"T": [0.5], "v_0/v_c": V})
+    assert "v_0/v_c" in one.plot().axes[0].get_xlabel()
+    shapes = mdr.sweep(CASE, {"indenter": [mdr.Paraboloid(R=5e-3), mdr.Cone(theta=0.05)]}, quantities=("v_c",))
+    with pytest.raises(ValueError, match="no axis of numbers"):
+        shapes.plot()

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
+from mdr.provenance import versions
 
 AXES = """
 [axes]
@@ -19,6 +20,11 @@ AXES = """
 indenter = [{ shape = "Paraboloid", R = 5e-3 }, { shape = "Cone", theta = 0.05 }]
 """
 STUDY = 'quantities = ["cof", "v_c"]\nmu_0 = 0.5\n' + TABLES + AXES
+
+
+def commented_and_not(text):
+    lines = text.splitlines()
+    return [line for line in lines if line.startswith("#")], [line for line in lines if not line.startswith("#")]
 
 
 @pytest.fixture
@@ -35,7 +41,28 @@ def test_a_study_is_written_and_told(file, tmp_path, capsys):
     assert study.complete
     assert capsys.readouterr() == (f"{study}\n", "")
     assert main(["sweep", file, "-o", str(tmp_path / "study.csv")]) == 0
-    assert len((tmp_path / "study.csv").read_text().splitlines()) == 13
+    head, rows = commented_and_not((tmp_path / "study.csv").read_text())
+    assert len(rows) == 13
+    assert head[0] == f"# {versions()}"
+    assert mdr.parse_case("\n".join(line[2:] for line in head[2:])) == mdr.parse_case(study.case)
+
+
+def test_every_file_names_the_command_and_the_versions(file, tmp_path):
+    for kind in ("nc", "csv"):
+        out = tmp_path / f"study.{kind}"
+        assert main(["sweep", file, "-o", str(out)]) == 0
+        for path in (out, out.with_suffix(".png"), out.with_suffix(".svg")):
+            data = path.read_bytes()
+            assert versions().encode() in data, path
+            assert f"mdr sweep {file} -o {out}".encode() in data, path
+            path.unlink()
+
+
+def test_a_study_of_many_axes_has_no_picture_and_says_so(file, tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(STUDY + 'mu_0 = [0.1, 0.2]\n')
+    assert main(["sweep", file, "-o", str(tmp_path / "study.nc")]) == 0
+    assert "mdr: no picture: a picture has one or two axes" in capsys.readouterr().err
+    assert not (tmp_path / "study.png").exists()
 
 
 def test_a_store_is_kept_and_shards_fill_it(file, tmp_path, capsys):
@@ -46,7 +73,10 @@ def test_a_store_is_kept_and_shards_fill_it(file, tmp_path, capsys):
     assert shown.err == f"mdr: 6 of 12 points are left to the other shards; {out} is not written\n"
     assert not out.exists()
     assert main(["sweep", file, "--store", str(store), "--shard", "2/2", "-o", str(out)]) == 0
-    assert out.read_bytes() == (store / "study.nc").read_bytes()
+    kept = mdr.read_study(store / "study.nc")
+    assert np.array_equal(mdr.read_study(out).values, kept.values)
+    mdr.read_study(out).to_netcdf(tmp_path / "again.nc")
+    assert (tmp_path / "again.nc").read_bytes() == (store / "study.nc").read_bytes()
     assert sorted(os.listdir(store)) == ["study.json", "study.nc"]
 
 

@@ -1,0 +1,69 @@
+"""`mdr shapes` and `mdr case`: what a file can name, and a file to begin with."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from mdr.commands.output import DONE, WrongInput, print_json
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """The parts of the example."""
+    command.add_argument("--example", default="Paraboloid", metavar="shape", help="its shape (default: Paraboloid)")
+    command.add_argument(
+        "--material", default="KelvinVoigt", metavar="model", help="its material (default: KelvinVoigt)"
+    )
+    motions = "NormalOscillation, PeriodicMotion or LoadOscillation"
+    command.add_argument(
+        "--motion", default="NormalOscillation", metavar="name", help=f"{motions} (default: the first)"
+    )
+    command.add_argument(
+        "--pull", default="SpringPull", metavar="name", help="SpringPull or RigidPull (default: SpringPull)"
+    )
+
+
+def shapes(args: argparse.Namespace, _: None) -> int:
+    """Print the shapes, materials, motions and pulls with their keys, units and meanings."""
+    tables = _tables()
+    if args.json:
+        return print_json(args, tables)
+    for table, described in tables.items():
+        print(f"[{table}]")
+        for name, one in described.items():
+            print(f"  {name:<20} {one['is']}")
+            for key, what in one["keys"].items():
+                unit = f"[{what['unit']}]" if what["unit"] else ""
+                print(f"{'':23}{key:<10} {unit:<8} {what['meaning']}".rstrip())
+    return DONE
+
+
+def case(args: argparse.Namespace, _: None) -> int:
+    """Print a commented case file."""
+    from mdr.examples import example, example_file
+
+    try:
+        found = example(args.example, args.material, args.motion, args.pull)
+    except ValueError as fault:
+        raise WrongInput(str(fault)) from None
+    if args.json:
+        return print_json(args, {}, found)
+    print(example_file(found), end="")
+    return DONE
+
+
+def _tables() -> dict[str, dict[str, Any]]:
+    """{table of a file: {name: {"is": first line of its docstring, "keys": {key: {"unit", "meaning"}}}}}."""
+    from mdr.case_files import nameable
+    from mdr.field_names import UNITS_AND_MEANINGS
+
+    tables: dict[str, dict[str, Any]] = {}
+    for table, records in nameable().items():
+        tables[table] = {}
+        for name, (record, keys) in records.items():
+            told = {key: UNITS_AND_MEANINGS.get(f"{table}.{key}", ("", "")) for key in keys}
+            tables[table][name] = {
+                "is": (record.__doc__ or "").strip().splitlines()[0],
+                "keys": {key: {"unit": unit, "meaning": meaning} for key, (unit, meaning) in told.items()},
+            }
+    return tables

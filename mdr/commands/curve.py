@@ -1,0 +1,134 @@
+"""`mdr curve`: coefficient of friction over pulling velocity, as a table, a CSV file and a figure."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mdr.case_files import write_case
+from mdr.commands.output import (
+    DONE,
+    FAILED,
+    WrongInput,
+    complain,
+    made_by,
+    print_json,
+    velocity_text,
+    write_figure,
+)
+from mdr.contact import SlidingContact
+from mdr.provenance import commented
+from mdr.theory import critical_velocity
+
+if TYPE_CHECKING:
+    from mdr.friction import CofCurve
+
+MOST_POINTS = 100_000  #: of a curve
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Where to write, and over which velocities."""
+    folder = "write curve.csv, curve.png and curve.svg here"
+    command.add_argument("-o", "--output", metavar="folder", type=Path, help=folder)
+    command.add_argument("--points", type=_points, default=24, help="how many velocities, from 0 on (default: 24)")
+    command.add_argument("--up-to", type=_multiple, default=1.3, help="highest velocity over v_c (default: 1.3)")
+
+
+def curve(args: argparse.Namespace, case: SlidingContact) -> int:
+    """Compute the curve, write and print it; status 1 if a run did not settle."""
+    import numpy as np
+
+    if args.output is not None:
+        _make_folder(args.output)  # before the work, not after it
+    from mdr.friction import cof_curve
+
+    found = cof_curve(case, velocity_scale(case) * np.linspace(0, args.up_to, args.points))
+    if args.output is not None:
+        _write_csv(args, case, found)
+        _write_figures(args, found)
+    if args.json:
+        scalars = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof}
+        print_json(args, scalars | _columns(found), case)
+    else:
+        _print_curve(found)
+    unsettled = int(np.sum(~found.settled))
+    if unsettled:
+        reasons = "".join(f"\n  {why}" for why in dict.fromkeys(_loose_ends(found)))
+        return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}", FAILED)
+    return DONE
+
+
+def velocity_scale(case: SlidingContact) -> float:
+    """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero."""
+    v_c = critical_velocity(case)
+    if math.isfinite(v_c) and v_c > 0:
+        return v_c
+    return case.unit_velocity
+
+
+def _points(text: str) -> int:
+    if not text.isascii() or not text.isdigit() or not 2 <= int(text[:9]) <= MOST_POINTS:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 2 to {MOST_POINTS}, got {text!r}")
+    return int(text)
+
+
+def _multiple(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a positive multiple of v_c, got {text!r}")
+    return number
+
+
+def _columns(curve: CofCurve) -> dict[str, Any]:
+    names = ("v_0", "cof", "cof_error", "settled", "stick_share")
+    return {name: getattr(curve, name).tolist() for name in names} | {"why": list(curve.why)}
+
+
+def _loose_ends(curve: CofCurve) -> list[str]:
+    """Why the unsettled runs did not settle."""
+    return [why for why, settled in zip(curve.why, curve.settled, strict=False) if why and not settled]
+
+
+def _print_curve(curve: CofCurve) -> None:
+    scaled = math.isfinite(curve.v_c) and curve.v_c > 0
+    print(f"v_c = {velocity_text(curve.v_c)}, mu_0 = {curve.mu_0:.6g}, static COF = {curve.static_cof:.6g}")
+    print(f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled")
+    columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled)
+    for v_0, cof, error, stick, settled in zip(*columns, strict=True):
+        ratio = f"{v_0 / curve.v_c:8.4f}" if scaled else f"{'-':>8}"
+        end = "yes" if settled else "no"
+        print(f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}")
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as fault:
+        raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
+
+
+def _write_csv(args: argparse.Namespace, case: SlidingContact, curve: CofCurve) -> None:
+    """curve.csv with versions, command and case at its head, each line behind a #."""
+    target = args.output / "curve.csv"
+    partial = target.with_suffix(".csv.part")
+    curve.to_csv(partial)
+    head = commented(made_by(args), "", write_case(case))
+    partial.write_text(head + partial.read_text(encoding="utf-8"), encoding="utf-8")
+    partial.replace(target)  # a file that is there is whole
+
+
+def _write_figures(args: argparse.Namespace, curve: CofCurve) -> None:
+    """curve.png and curve.svg, drawn without a display."""
+    from matplotlib.figure import Figure
+
+    from mdr import plots
+
+    with plots.style():
+        figure = Figure()
+        plots.plot_curve(curve, figure.subplots())
+        write_figure(args, figure, args.output, "curve")

@@ -1,0 +1,75 @@
+"""What commands say and write: rows, JSON, complaints, files that name the command and the versions that made them."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import mdr
+from mdr.case_files import write_case
+from mdr.contact import SlidingContact
+from mdr.provenance import figure_metadata, versions
+
+DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130  #: exit statuses
+
+
+class WrongInput(Exception):
+    """What the user gave cannot be used."""
+
+
+def print_rows(rows: Sequence[tuple[str, str, str]]) -> None:
+    """Name, value and meaning, in columns."""
+    wide = max((len(value) for name, value, _ in rows if name), default=0)
+    for name, value, meaning in rows:
+        print(f"{name:<11}{value:<{wide}}  {meaning}".rstrip())
+
+
+def print_json(args: argparse.Namespace, values: dict[str, Any], case: SlidingContact | None = None) -> int:
+    """One JSON object: version, command, versions of all parts, the case where there is one, and the values."""
+    head = {"version": mdr.__version__, "command": args.command, "made_with": versions()}
+    if case is not None:
+        head["case"] = write_case(case)
+    print(json.dumps(_plain({**head, **values}), indent=1, allow_nan=False, ensure_ascii=False))
+    return DONE
+
+
+def complain(message: str, status: int) -> int:
+    """A message on standard error, each line behind the program's name; returns the status."""
+    for line in message.splitlines() or [""]:
+        print(line if line.startswith(" ") else f"mdr: {line}", file=sys.stderr)
+    return status
+
+
+def velocity_text(v: float | None) -> str:
+    """A critical velocity in words."""
+    if v is None:
+        return "none"
+    return "infinite, an undamped resonance" if math.isinf(v) else f"{v:.6g} m/s"
+
+
+def made_by(args: argparse.Namespace) -> str:
+    """The two lines that text files keep: versions and command."""
+    return f"{versions()}\n{args.command}"
+
+
+def write_figure(args: argparse.Namespace, figure: Any, folder: Path, stem: str) -> None:
+    """Write stem.png and stem.svg, which keep versions and command."""
+    for kind in ("png", "svg"):
+        figure.savefig(folder / f"{stem}.{kind}", dpi=150, metadata=figure_metadata(kind, args.command))
+
+
+def _plain(value: Any) -> Any:
+    """What JSON can say: null for what is undefined, "inf" for infinity, numbers of Python for those of NumPy."""
+    if isinstance(value, dict):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    value = value.item() if hasattr(value, "item") else value
+    if isinstance(value, float) and not math.isfinite(value):
+        return None if math.isnan(value) else str(value)
+    return value

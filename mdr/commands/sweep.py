@@ -1,0 +1,113 @@
+"""`mdr sweep`: a grid of cases from a study file, kept in a store, written with its picture."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import mdr
+from mdr.commands.output import DONE, FAILED, WrongInput, complain, made_by, print_json, write_figure
+from mdr.provenance import commented
+
+if TYPE_CHECKING:
+    from mdr.studies import Study
+    from mdr.studies.study_files import StudyFile
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Where to keep and write the study, and which part of it to compute."""
+    command.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
+    whole = "write the whole study here, .nc or .csv, and a picture beside it, .png and .svg"
+    command.add_argument("-o", "--output", metavar="file", type=Path, help=whole)
+    command.add_argument(
+        "--chunk-seconds", type=float, default=5.0, metavar="s", help="work in a chunk [s] (default: 5)"
+    )
+    command.add_argument("--shard", metavar="k/n", help="compute every n-th chunk, from the k-th on; needs --store")
+
+
+def read_study(path: str) -> StudyFile:
+    """Read the study file."""
+    from mdr.studies.study_files import read_study_file
+
+    return read_study_file(path)
+
+
+def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
+    """Compute what is missing, write and print the study; status 1 if a point failed or did not settle."""
+    _require_a_place(args)
+    try:
+        knobs = {"chunk_seconds": args.chunk_seconds, "shard": args.shard}
+        study = mdr.sweep(**vars(asked), store=args.store, **knobs)
+    except ValueError as fault:  # of shard and chunks; the file has been read
+        raise WrongInput(str(fault)) from None
+    if args.output is not None and study.complete:
+        _write(args, study)
+    if args.json:
+        print_json(args, _told(study), asked.case)
+    else:
+        print(study)
+    return _end(args, study)
+
+
+def _require_a_place(args: argparse.Namespace) -> None:
+    """Refuse, before the work, what would lose its outcome."""
+    if args.output is None:
+        if args.store is None and not args.json:
+            raise WrongInput("the study would be lost: give -o file.nc or file.csv, --store folder, or --json")
+        return
+    if args.output.suffix not in (".nc", ".csv"):
+        raise WrongInput(f"{args.output}: a study is written as .nc or .csv")
+    if args.output.is_dir() or not os.access(args.output.parent, os.W_OK):
+        raise WrongInput(f"{args.output}: no file can be written there")
+
+
+def _write(args: argparse.Namespace, study: Study) -> None:
+    """The file, and beside it the picture of its first quantity, where the study has few enough axes for one."""
+    from mdr.studies.csv_files import table
+    from mdr.studies.files import write_whole
+    from mdr.studies.netcdf import packed
+
+    if args.output.suffix == ".csv":
+        write_whole(args.output, (commented(made_by(args), "", study.case) + table(study)).encode("utf-8"))
+    else:
+        write_whole(args.output, packed(study, history=made_by(args)))
+    import matplotlib as mpl
+
+    mpl.use("Agg")  # no display is needed
+    try:
+        figure = study.plot()
+    except ValueError as fault:
+        complain(f"no picture: {fault}", DONE)
+    else:
+        write_figure(args, figure, args.output.parent, args.output.stem)
+
+
+def _told(study: Study) -> dict[str, Any]:
+    from mdr.studies import Status
+
+    return {
+        "identity": study.identity,
+        "complete": study.complete,
+        "counts": {status.name.lower(): study.count(status) for status in Status},
+        "axes": {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))]
+                 for axis in study.frame.grid},
+        "units": study.units,
+        "values": {name: study[name].tolist() for name in study.quantities},
+        "status": study.status.tolist(),
+        "why": study.why.tolist(),
+    }  # fmt: skip
+
+
+def _end(args: argparse.Namespace, study: Study) -> int:
+    from mdr.studies import Status
+
+    failed, unsettled = study.count(Status.FAILED), study.count(Status.UNSETTLED)
+    if failed or unsettled:
+        return complain(f"{failed} of {study.status.size} points failed, {unsettled} did not settle", FAILED)
+    if study.complete:
+        return DONE
+    missing = f"{study.count(Status.MISSING)} of {study.status.size} points are left to the other shards"
+    left_out = f"; {args.output} is not written" if args.output else ""
+    return complain(missing + left_out, DONE)  # this shard has done its own
