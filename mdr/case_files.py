@@ -127,6 +127,18 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     return case
 
 
+def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str]]:
+    """A case of the tables that are sound, harmless ones for the others, and the names of those others.
+
+    To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
+    """
+    tables = {**_meant(content), **content}
+    read = {table.name: table.read(tables) for table in _TABLES.values()}
+    unsound = {name for name, (_, faults) in read.items() if faults}
+    parts = {name: part for name, (part, _) in read.items() if part is not None and name not in unsound}
+    return _make(SlidingContact, {**_HARMLESS, **parts, "mu_0": 1.0})[0], unsound
+
+
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
     """The record that a table [name] describes, or None; and the faults."""
     return _TABLES[name].read({name: table})

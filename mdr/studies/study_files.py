@@ -24,12 +24,12 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of
+from mdr.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of, stand_in
 from mdr.checks import count, finite
 from mdr.contact import KINDS, SlidingContact
 from mdr.friction import LEAST_KNOB
 from mdr.pull import RigidPull
-from mdr.studies.axes import read_axes
+from mdr.studies.axes import GROUPS, VELOCITIES, read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.words import offer, short
 
@@ -72,8 +72,10 @@ def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
     try:
         case = case_of(content, source, beside=KEYS)
     except CaseFileError as of_case:
+        faults += _faults_behind(content, axes)
         raise CaseFileError("\n".join([*of_case.faults, *fault_error(source, faults).faults])) from None
-    faults = faults or _faults_of_axes(case, axes) or _tried(read_quantities, quantities, axes)
+    faults += _faults_of_axes(case, axes)
+    faults = faults or _tried(read_quantities, quantities, axes)
     if faults:
         raise fault_error(source, faults)
     return StudyFile(case, axes, tuple(quantities), **knobs)
@@ -83,7 +85,7 @@ def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
 
 
 def _read_axes(table: Any) -> tuple[dict[str, Any], list[str]]:
-    """Values by path, and what is wrong with how they are written."""
+    """Values by path, those that are well written, and what is wrong with the others."""
     if table is None:
         return {}, ['[axes] is missing; a study varies something, such as "v_0/v_c" = [0.5, 0.9]']
     if not isinstance(table, dict) or not table:
@@ -91,8 +93,10 @@ def _read_axes(table: Any) -> tuple[dict[str, Any], list[str]]:
     axes: dict[str, Any] = {}
     faults: list[str] = []
     for path, written in table.items():
-        axes[path], found = _read_values(path, written)
+        values, found = _read_values(path, written)
         faults += [f"[axes] {fault}" for fault in found]
+        if not found:
+            axes[path] = values
     return axes, faults
 
 
@@ -149,7 +153,16 @@ def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
     records = {path: axes[path] for path in axes if path in KINDS}
     alone = [_tried(read_axes, case, {**records, path: axes[path]}) for path in axes]
     found = list(dict.fromkeys(fault for faults in alone for fault in faults))
-    return [f"[axes] {fault}" for fault in found or _tried(read_axes, case, axes)]
+    return [f"[axes] {fault}" for fault in found or (_tried(read_axes, case, axes) if axes else [])]
+
+
+def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[str]:
+    """Faults of the axes that show although the case is refused: of those that set what is sound in it."""
+    case, unsound = stand_in(content)
+    slots = {path: GROUPS.get(path, path).partition(".")[0] for path in axes}
+    known = {*KINDS, *VELOCITIES, "mu_0"} - unsound
+    seen = {path: axes[path] for path, slot in slots.items() if slot in known or not unsound}
+    return _faults_of_axes(case, seen) if case is not None else []
 
 
 def _faults_of_names(quantities: Any) -> list[str]:

@@ -137,6 +137,22 @@ def test_faults_of_case_and_study_are_told_at_once():
     assert any(line.startswith("[axes] v_0 must be a list") for line in found)
 
 
+def test_axes_are_judged_behind_a_case_that_is_refused():
+    unsound = CASE.replace("E = 3e6", "E = -1")
+    found = faults('"oscillation.u_z" = [1e-6]\n"pull.m" = [0.1, 0.1]\n"material.tua" = [1]\n"v_0" = [1]', case=unsound)
+    assert [line.split(";")[0] for line in found] == [
+        "[material] E must be positive, got -1.0 (Young's modulus in Pa)",
+        "[axes] oscillation.u_z is no path of this case",
+        "[axes] pull.m has the value 0.1 twice",
+    ]  # material.tua waits for a material that can be read
+
+
+def test_one_badly_written_axis_does_not_hide_another():
+    found = faults('"v_0" = 3\n"material.tua" = [1]\n"mu_0" = [0.1, 0.1]')
+    assert len(found) == 3
+    assert "did you mean material.tau?" in found[1]
+
+
 def test_no_axes_at_all():
     with pytest.raises(mdr.CaseFileError, match=r"\[axes\] is missing; a study varies something"):
         parse_study("mu_0 = 0.5\n" + CASE)

@@ -123,7 +123,7 @@ def test_a_wrong_file_is_status_2_with_every_fault(file, tmp_path, capsys):
     (tmp_path / "study.toml").write_text(STUDY.replace("mu_0", "mu0").replace('"T"', '"Tau"').replace("n = 3", "n = 0"))
     assert main(["sweep", file, "--json"]) == 2
     told = capsys.readouterr().err.splitlines()
-    assert len(told) == 3
+    assert len(told) == 4
     assert all(line.startswith(f"mdr: {file}: ") for line in told)
 
 
