@@ -1,0 +1,80 @@
+"""Numbers in prose are those of the record, the record is that of the claims, and a stale number is seen."""
+
+import json
+
+import pytest
+
+from validation import CLAIMS, written
+from validation.written import RECORD, formatted, main, number, pages, verdict_table
+
+CHECKS = [
+    {"claim": "one", "name": "worst of 4", "got": 4.9e-6, "expected": 0.0, "held": True},
+    {"claim": "one", "name": "v over v_c: cone", "got": 0.998, "expected": 1.0, "held": True},
+    {"claim": "one", "name": "v over v_c: punch", "got": 1.001, "expected": 1.0, "held": False},
+]
+SAMPLE = {"claims": [{"name": "one", "verdict": "holds if E* | F", "sentence": "As v_c."}], "checks": CHECKS}
+
+
+def test_every_page_is_as_the_record_says():
+    assert len(pages()) >= 2
+    assert main(["--check"]) == 0
+
+
+def test_the_record_is_of_all_claims_and_all_checks_held():
+    record = json.loads(RECORD.read_text(encoding="utf-8"))
+    assert tuple(claim["name"] for claim in record["claims"]) == CLAIMS
+    assert all(check["held"] for check in record["checks"])
+
+
+@pytest.mark.parametrize(
+    ("value", "form", "shown"),
+    [
+        (4.9e-6, ["2"], "4.9·10⁻⁶"), (4.9e-6, ["2", "tex"], r"$4.9 \times 10^{-6}$"), (0.0, ["2"], "0"),
+        (-0.586186, ["2"], "−0.59"), (1.37355, ["3", "%"], "137 %"), (729, ["6"], "729"), (1234.5, ["2"], "1200"),
+    ],
+)  # fmt: skip
+def test_numbers_read_well(value, form, shown):
+    assert formatted(value, *form) == shown
+
+
+@pytest.mark.parametrize(
+    ("mark", "shown"),
+    [
+        ("got :: one :: worst :: 2", "4.9·10⁻⁶"), ("worst :: one :: v over v_c :: 1", "0.002"),
+        ("most :: one :: v over v_c :: 4", "1.001"), ("count :: * :: * :: 3", "3"),
+        ("most :: one :: *: punch :: 4", "1.001"),
+    ],
+)  # fmt: skip
+def test_a_mark_takes_what_it_names(mark, shown):
+    assert number(mark, SAMPLE) == shown
+    text = f"about 17<!--= {mark} --> and 12 % of 3"
+    assert written.written(text, SAMPLE) == f"about {shown}<!--= {mark} --> and 12 % of 3"
+
+
+@pytest.mark.parametrize("mark", ["got :: one :: v :: 2", "got :: one :: x :: 2", "got :: two :: worst :: 2", "best"])
+def test_a_mark_that_names_no_check_or_several_is_refused(mark):
+    with pytest.raises(ValueError, match=r"names \d checks|a mark reads"):
+        number(mark, SAMPLE)
+
+
+def test_the_table_counts_what_held_and_escapes_what_would_break_it():
+    assert verdict_table(SAMPLE).splitlines()[2] == r"| one | holds if E\* \| F | As v_c. | 2 of 3 |"
+
+
+def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
+    (tmp_path / "docs").mkdir()
+    page, record = tmp_path / "README.md", tmp_path / "docs" / "checks.json"
+    text = "17 %<!--= got :: one :: worst :: 2 -->\n<!--= verdicts -->\nbefore\n<!--= end -->\n"
+    page.write_text(text, encoding="utf-8")
+    given = tmp_path / "given.json"
+    given.write_text(json.dumps(SAMPLE), encoding="utf-8")
+    monkeypatch.setattr(written, "ROOT", tmp_path)
+    monkeypatch.setattr(written, "RECORD", record)
+    assert main([str(given), "--check"]) == 1
+    assert "is not as the record says" in capsys.readouterr().out
+    assert not record.exists()
+    assert main([str(given)]) == 0
+    assert record.read_text() == given.read_text()
+    assert page.read_text(encoding="utf-8").startswith("4.9·10⁻⁶<!--=")
+    assert "before" not in page.read_text(encoding="utf-8")
+    assert main(["--check"]) == 0

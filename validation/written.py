@@ -1,0 +1,121 @@
+"""Numbers and tables in prose: taken from the record of the checks, never written by hand.
+
+`python -m validation.written report/checks.json` keeps that record as docs/checks.json and sets every marked place of
+README and docs from it; `--check` changes nothing and fails where a place is not what the record says. Places are
+marked by comments, which no reader sees:
+
+    4.9·10⁻⁶<!--= got :: finite_amplitude :: worst |v_c/full-slip value − 1| :: 2 -->
+    <!--= verdicts --> ... <!--= end -->
+
+A number stands right before its mark, which says what of the checks (`got`; `worst`, the greatest |got − expected|;
+`most`, the greatest got; `count`, how many there are) of a claim, by how their names begin (`*` for any letters), with
+how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX.
+"""
+
+import argparse
+import json
+import re
+import shutil
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parents[1]
+RECORD = ROOT / "docs" / "checks.json"
+
+_NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
+_TABLE = re.compile(r"(<!--= verdicts -->\n).*?(<!--= end -->)", re.DOTALL)
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+#: what a mark takes of the checks that it names
+_TAKEN: dict[str, Callable[[Sequence[dict[str, Any]]], float]] = {
+    "got": lambda checks: float(checks[0]["got"]),
+    "worst": lambda checks: max(abs(float(one["got"]) - float(one["expected"])) for one in checks),
+    "most": lambda checks: max(float(one["got"]) for one in checks),
+    "count": len,
+}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Set the places, or check them; 0 if all is as the record says, 1 if not, 2 for wrong arguments."""
+    parser = argparse.ArgumentParser("python -m validation.written", description=__doc__.partition("\n\n")[0])
+    parser.add_argument(
+        "record", nargs="?", type=Path, help="checks.json of a full report, to be kept and written from"
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="change nothing; fail where a place is not as it should be"
+    )
+    args = parser.parse_args(argv)
+    if args.record is not None and not args.check:
+        shutil.copyfile(args.record, RECORD)
+    record = json.loads((args.record or RECORD).read_text(encoding="utf-8"))
+    stale = 0
+    for page in pages():
+        text = page.read_text(encoding="utf-8")
+        new = written(text, record)
+        if new != text:
+            stale += 1
+            print(f"{page.relative_to(ROOT)}: {'is not as the record says' if args.check else 'set'}")
+            if not args.check:
+                page.write_text(new, encoding="utf-8")
+    return 1 if args.check and stale else 0
+
+
+def pages() -> list[Path]:
+    """The pages with marked places."""
+    return [
+        page for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))) if "<!--= " in page.read_text()
+    ]
+
+
+def written(text: str, record: dict[str, Any]) -> str:
+    """The text with all its marked places set from a record of checks."""
+    table = verdict_table(record)
+    text = _TABLE.sub(lambda place: place[1] + table + place[2], text)
+    return _NUMBER.sub(lambda place: f"{number(place[2], record)}<!--= {place[2]} -->", text)
+
+
+def number(mark: str, record: dict[str, Any]) -> str:
+    """The number that a mark asks for; ValueError for a mark that names no check, or too many."""
+    parts = [part.strip() for part in " ".join(mark.split()).split(" :: ")]
+    if len(parts) != 4 or parts[0] not in _TAKEN:
+        raise ValueError(f"a mark reads '{' or '.join(_TAKEN)} :: claim :: check :: digits', got {mark!r}")
+    what, claim, name, form = parts
+    begins = re.compile(".*".join(re.escape(part) for part in name.split("*")))
+    found = [c for c in record["checks"] if claim in (c["claim"], "*") and begins.match(c["name"])]
+    if not found or (what == "got" and len(found) > 1):
+        raise ValueError(f"{mark!r} names {len(found)} checks: {[one['name'] for one in found[:5]]}")
+    return formatted(float(_TAKEN[what](found)), *form.split())
+
+
+def formatted(value: float, digits: str, style: str = "") -> str:
+    """A number with so many significant digits, small and large ones as powers of ten."""
+    if style == "%":
+        return f"{formatted(100 * value, digits)} %"
+    if value == 0 or 1e-3 <= abs(value) < 1e5:
+        plain = f"{value:.{digits}g}"
+        return (f"{float(plain):.0f}" if "e" in plain else plain).replace("-", "−")
+    mantissa, exponent = f"{value:.{int(digits) - 1}e}".split("e")
+    if style == "tex":
+        return rf"${mantissa} \times 10^{{{int(exponent)}}}$"
+    return f"{mantissa.replace('-', '−')}·10{str(int(exponent)).translate(_RAISED)}"
+
+
+def verdict_table(record: dict[str, Any]) -> str:
+    """Every claim with its verdict, the conclusion in a sentence and how many checks held, as Markdown."""
+    rows = ["| claim | verdict | in one sentence | checks held |", "| --- | --- | --- | --- |"]
+    for claim in record["claims"]:
+        own = [check["held"] for check in record["checks"] if check["claim"] == claim["name"]]
+        cells = (claim["name"].replace("_", " "), claim["verdict"], claim["sentence"], f"{sum(own)} of {len(own)}")
+        rows.append(f"| {' | '.join(_cells(cells))} |")
+    return "\n".join(rows) + "\n"
+
+
+def _cells(texts: Iterable[str]) -> Iterable[str]:
+    """Texts as cells of a table: a bar would end one, and a star could set the rest in italics."""
+    return (re.sub(r"([|*])", r"\\\1", text) for text in texts)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
