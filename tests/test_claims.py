@@ -1,7 +1,9 @@
 """Every claim in its quick form: all checks hold, and they do not where something is wrong."""
 
+import json
 import os
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -11,6 +13,8 @@ from mdr.settling import Settling
 from validation import CLAIMS, finite_amplitude, indentation, lost_contact, static_cof, uniqueness
 from validation.__main__ import run_all
 from validation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure, system
+from validation.report import plain
+from validation.written import RECORD
 
 
 @pytest.fixture(scope="module")
@@ -21,11 +25,18 @@ def outcomes(request):
     return dict(run_all(names, "quick", "validation", os.cpu_count() or 1))
 
 
+@cache
+def recorded_verdicts():
+    """The verdicts that README and docs quote."""
+    return {claim["name"]: claim["verdict"] for claim in json.loads(RECORD.read_text(encoding="utf-8"))["claims"]}
+
+
 @pytest.mark.parametrize("name", CLAIMS)
 def test_every_check_of_the_claim_holds(outcomes, name):
     claim, _, trace = outcomes[name]
     missed = [f"{c.name}: got {c.got}, expected {c.expected}" for c in claim.checks if not c.held]
     assert not missed, "\n".join([trace, *missed])
+    assert plain(claim.verdict) == recorded_verdicts()[name], "run python -m validation, then validation.written"
     assert claim.figures
     assert all(figure.caption and figure.alt for figure in claim.figures)
 
