@@ -64,9 +64,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def pages() -> list[Path]:
     """The pages with marked places."""
-    return [
-        page for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))) if "<!--= " in page.read_text()
-    ]
+    known = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+    return [page for page in known if "<!--= " in page.read_text(encoding="utf-8")]
 
 
 def written(text: str, record: dict[str, Any]) -> str:
