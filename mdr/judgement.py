@@ -40,9 +40,10 @@ class Verdict:
         head = f"{self.formula} {words[self.holds]}"
         measured = "no critical velocity" if self.measured is None else f"measured v_c = {self.measured:.6g} m/s"
         off = "" if self.deviation is None else f" ({100 * self.deviation:+.3g} %)"
+        why = self.why[:1].upper() + self.why[1:]
         if self.measured is not None:
             measured += f" (between {self.measurement.low:.8g} and {self.measurement.high:.8g})"
-        return f"{head}: {measured}, against {self.eq_15:.6g} m/s{off}. {self.why}"
+        return f"{head}: {measured}, against {self.eq_15:.6g} m/s{off}. {why}"
 
 
 def verdict(case: SlidingContact) -> Verdict:

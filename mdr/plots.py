@@ -1,4 +1,4 @@
-"""Every figure of the library: COF curves, spring maps, traces of a run, and the mapped profile.
+"""Every figure of the library: COF curves, spring maps, forces and traces of a run, and the mapped profile.
 
 Functions with `ax` draw on it (or on a new one) and return it; the others return a Figure. Records are read
 by attribute only. Times are in periods of the oscillation, lengths and forces in the prefix that reads best.
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 #: Okabe and Ito (2008): distinct to colour-blind readers, and dark enough on white
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
-MODES = (("free", "#F2F2F2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
+MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
 _FREE = 0
 _MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
@@ -91,29 +91,67 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
 
 def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
     """Which mode every spring is in: position against time, coloured by `run.state`."""
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-    from matplotlib.patches import Patch
-
-    _require_record(run)
-    state = np.asarray(run.state)
-    order = np.argsort(run.x)
-    every = -(-len(run.t) // _MAX_COLUMNS)
-    factor, unit = prefix(run.x, "m")
     with style():
         ax = axes_of(ax)
-        ax.pcolormesh(
-            edges_of(_periods(run)[::every]),
-            _cells(np.asarray(run.x)[order]) * factor,
-            state[::every, order].T,
-            cmap=ListedColormap([colour for _, colour in MODES]),
-            norm=BoundaryNorm(np.arange(5) - 0.5, 4),
-            rasterized=True,
-        )
-        ax.set_xlabel("time [periods]")
-        ax.set_ylabel(f"position of the spring $x$ [{unit}]")
-        patches = [Patch(fc=MODES[m][1], ec="0.6", lw=0.5, label=MODES[m][0]) for m in np.unique(state)]
+        _draw_map(ax, run, prefix(_recorded(run).x, "m"))
+        patches = mode_patches(run.state)
         ax.legend(handles=patches, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.2)
     return ax
+
+
+def plot_spring_maps(runs: Sequence[Any], labels: Sequence[str]) -> "Figure":
+    """Show the spring maps of several runs side by side, under their labels and on the same axes."""
+    import matplotlib.pyplot as plt
+
+    runs, labels = [_recorded(run) for run in runs], list(labels)
+    if not runs or len(labels) != len(runs):
+        raise ValueError(f"labels must name each of the {len(runs)} runs (at least one), got {len(labels)}")
+    unit = prefix(np.concatenate([run.x for run in runs]), "m")
+    with style():
+        size = (max(3.4, 1.2 + 2.4 * len(runs)), 3.4)
+        fig, axes = plt.subplots(1, len(runs), sharex=True, sharey=True, squeeze=False, figsize=size)
+        for ax, run, label in zip(axes[0], runs, labels, strict=True):
+            _draw_map(ax, run, unit)
+            ax.set_title(label)
+            ax.label_outer()
+            ax.locator_params(axis="x", nbins=3)
+        layout: Any = fig.get_layout_engine()
+        layout.set(w_pad=0.07)  # the last number of one time axis stands beside the first of the next
+        fig.legend(handles=mode_patches(*(run.state for run in runs)), loc="outside lower center", ncols=4)
+    return fig
+
+
+def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
+    """Tangential force and its limit mu_0 F_z against time; the shaded gap is the friction that is missing.
+
+    Its share of the area under the limit, named in the legend, is 1 − mean F_x/(mu_0 mean F_z).
+    """
+    t = periods_of(_recorded(run))
+    limit, F_x = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x)
+    factor, unit = prefix(np.concatenate([F_x, limit]), "N")
+    missing = max(0.0, 1 - float(F_x.mean() / limit.mean()))
+    with style():
+        ax = axes_of(ax)
+        gap = f"{100 * missing:.3g} % missing" if missing > 1e-6 else "nothing missing"
+        ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
+        ax.plot(t, limit * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
+        ax.plot(t, F_x * factor, color="k", label="$F_x$")
+        ax.set(xlabel="time [periods]", ylabel=f"force [{unit}]", xlim=_span(t))
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, columnspacing=1.3, handlelength=1.5)
+    return ax
+
+
+def plot_run(run: Any) -> "Figure":
+    """Show a recorded run: the spring map, and below it the forces that the springs add up to."""
+    import matplotlib.pyplot as plt
+
+    with style():
+        fig, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.6), height_ratios=(3, 2))
+        plot_spring_map(run, above)
+        plot_forces(run, below)
+        above.set_xlabel("")
+        fig.align_ylabels()
+    return fig
 
 
 def plot_traces(run: Any) -> "Figure":
@@ -123,19 +161,15 @@ def plot_traces(run: Any) -> "Figure":
     """
     import matplotlib.pyplot as plt
 
-    _require_record(run)
-    t = _periods(run)
+    t = periods_of(_recorded(run))
     with style():
         fig, (forces, places, velocities) = plt.subplots(3, 1, sharex=True, figsize=(6.4, 7.2))
-        factor, unit = prefix(np.concatenate([run.F_x, run.mu_0 * np.asarray(run.F_z)]), "N")
-        forces.plot(t, run.mu_0 * np.asarray(run.F_z) * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
-        forces.plot(t, np.asarray(run.F_x) * factor, color="k", label="$F_x$")
-        forces.set_ylabel(f"force [{unit}]")
+        plot_forces(run, forces)
+        forces.set_xlabel("")
         _draw_places(places, t, run)
         _draw_velocities(velocities, t, run)
         velocities.set_xlabel("time [periods]")
-        for ax in (forces, places):
-            ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, columnspacing=1.3, handlelength=1.5)
+        places.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, columnspacing=1.3, handlelength=1.5)
         fig.align_ylabels()
     return fig
 
@@ -202,6 +236,31 @@ def _curve_legend(ax: "Axes", settled: bool) -> None:
     if not settled:
         handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
     ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
+
+
+def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> None:
+    """Colours of the modes over time and position, positions in the unit (factor, name)."""
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    order, t = np.argsort(run.x), periods_of(run)
+    every = -(-len(t) // _MAX_COLUMNS)
+    ax.pcolormesh(
+        edges_of(t[::every]),
+        _cells(np.asarray(run.x)[order]) * unit[0],
+        np.asarray(run.state)[::every, order].T,
+        cmap=ListedColormap([colour for _, colour in MODES]),
+        norm=BoundaryNorm(np.arange(5) - 0.5, 4),
+        rasterized=True,
+    )
+    ax.set(xlabel="time [periods]", ylabel=f"position of the spring $x$ [{unit[1]}]", xlim=_span(t))
+
+
+def mode_patches(*states: Any) -> list[Any]:
+    """Legend entries of the modes that occur in arrays of modes."""
+    from matplotlib.patches import Patch
+
+    seen = np.unique(np.concatenate([np.unique(state) for state in states]))
+    return [Patch(fc=MODES[m][1], ec="0.6", lw=0.5, label=MODES[m][0]) for m in seen]
 
 
 def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
@@ -304,15 +363,22 @@ def _is_scale(v_c: Any) -> bool:
     return v_c is not None and bool(np.isfinite(v_c)) and v_c > 0
 
 
-def _require_record(run: Any) -> None:
+def _recorded(run: Any) -> Any:
+    """The run, if it kept its arrays."""
     if run.t is None:
         raise ValueError("the run kept no arrays to draw; call slide(case, v_0, record=2) to keep two periods")
+    return run
 
 
-def _periods(run: Any) -> "NDArray[np.float64]":
+def periods_of(run: Any) -> "NDArray[np.float64]":
     """Time in periods, from the last whole period before the record begins."""
     t = np.asarray(run.t) * run.omega / (2 * np.pi)
     return np.asarray(t - np.floor(t[0] + 1e-9))
+
+
+def _span(t: "NDArray[np.float64]") -> tuple[float, float]:
+    """What a record spans: its instants are the ends of its steps."""
+    return float(2 * t[0] - t[1]), float(t[-1])
 
 
 def edges_of(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":

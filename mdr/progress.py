@@ -74,9 +74,9 @@ class Ticker:
         self.start = time.monotonic()
         self.next = self.start + PATIENCE
 
-    def tick(self) -> None:
-        """One more part is done."""
-        self.done += 1
+    def tick(self, parts: int = 1) -> None:
+        """One more part is done, or several."""
+        self.done += parts
         if self.watch is not None:
             self.watch()
             return

@@ -1,12 +1,15 @@
 """The moving picture: its frames, and what it needs."""
 
+from base64 import b64decode
+
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from conftest import contact
 from PIL import Image
 
 import mdr
-from mdr.animation import animate_springs
+from mdr.animation import _Springs, animate_springs
 
 
 @pytest.fixture(scope="module")
@@ -22,6 +25,42 @@ def test_a_gif_with_as_many_frames(run, tmp_path):
         first = np.asarray(gif.convert("RGB"))
         gif.seek(3)
         assert np.count_nonzero(np.any(np.asarray(gif.convert("RGB")) != first, axis=2)) > 200
+    assert not plt.get_fignums()  # a notebook would show them
+
+
+def test_every_period_has_its_frames_and_lasts_as_long(tmp_path):
+    case = contact("cone", 1.5, 0.5)
+    two = mdr.slide(case, 0.3 * case.unit_velocity, n_springs=32, steps_per_period=32, record=2)
+    with Image.open(animate_springs(two, tmp_path / "two.gif", frames=8, title="two periods")) as gif:
+        assert gif.n_frames == 16
+        assert gif.info["duration"] == 500
+
+
+def test_a_notebook_shows_it_without_the_file(run, tmp_path):
+    made = animate_springs(run, tmp_path / "springs.gif", frames=2)
+    html = made._repr_html_()
+    data = html.split("base64,")[1].split('"')[0]
+    assert html.startswith('<img alt="springs" ')
+    assert b64decode(data) == (tmp_path / "springs.gif").read_bytes()
+
+
+def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
+    _, ax = plt.subplots()
+    picture = _Springs(ax, run)
+    x, R = run.x, 5e-3
+    second_order = 1e-3 * 2e-6  # a tenth of (2 pi/64)² du_z: springs leave and touch between steps
+    pressed = np.any(run.state != mdr.State.FREE, axis=0)  # others never learn how deep the indenter is
+    assert np.max(np.abs(picture.image - x**2 / R)[pressed]) < second_order  # the paraboloid's g, from the run alone
+    ax.figure.canvas.draw()
+    for k in (0, 20, 40):
+        picture.show(k)
+        feet, tops = np.swapaxes(picture.lines.get_segments(), 0, 1)
+        i = np.argmin(np.abs(x[:, None] - np.abs(tops[:, 0]) / 1e6), axis=0)  # drawn in µm
+        here = run.state[k, i] != mdr.State.FREE
+        assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
+        shear = (tops[:, 0] - feet[:, 0]) / run.e[k, i]
+        assert np.ptp(shear) < 1e-9 * shear.max()
+    plt.close("all")
 
 
 def test_what_it_cannot_draw_is_refused(run, tmp_path):

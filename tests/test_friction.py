@@ -262,7 +262,7 @@ def test_eq_15_fails_for_a_curved_contact_of_finite_amplitude():
     assert_allclose(verdict.full_slip, expected, rtol=1e-7)
     assert "contact stiffness changes within the period" in verdict.why
     assert str(verdict).startswith("Eq. (15) fails: measured v_c = ")
-    assert f"({100 * verdict.deviation:+.3g} %)" in str(verdict)
+    assert f"({100 * verdict.deviation:+.3g} %). {verdict.why[0].upper()}{verdict.why[1:]}" in str(verdict)
 
 
 @pytest.mark.parametrize(("nu", "said"), [(0.3, True), (0.5, False)])

@@ -164,10 +164,49 @@ def test_traces_show_forces_and_feet():
     assert_allclose(centre[1:-1], slip[1:-1], atol=0.01)  # differences over 1/32 period: (2 pi/32)²/6 of 0.3
 
 
+def test_forces_show_the_gap_and_its_share():
+    run = made_up_run()
+    ax = plots.plot_forces(run)
+    assert_allclose(line(ax, "$F_x$").get_ydata(), run.F_x)
+    assert_allclose(line(ax, r"$\mu_0 F_z$, the limit").get_ydata(), 0.5 * run.F_z)
+    assert legend_texts(ax)[0] == "20 % missing"  # F_x = 0.4 F_z, mu_0 = 0.5
+    assert_allclose(ax.get_xlim(), [0.25 - 1 / 32, 2.25 - 1 / 32])  # from the start of the first of 64 steps
+    run.F_x = 0.5 * run.F_z
+    assert legend_texts(plots.plot_forces(run))[0] == "nothing missing"
+
+
+def test_a_run_is_its_map_above_its_forces():
+    run = made_up_run()
+    above, below = plots.plot_run(run).axes
+    assert_allclose(np.asarray(above.collections[0].get_array()).reshape(3, -1), run.state.T)
+    assert_allclose(line(below, "$F_x$").get_ydata(), run.F_x)
+    assert above.get_xlim() == below.get_xlim()
+    assert not above.get_xlabel()
+
+
+def test_maps_of_several_runs_share_axes_colours_and_legend():
+    one, two = made_up_run(), made_up_run()
+    two.state, two.x = np.full_like(two.state, SLIP_BACK), 1e3 * two.x
+    figure = plots.plot_spring_maps([one, two], ["one", "two"])
+    assert [ax.get_title() for ax in figure.axes] == ["one", "two"]
+    assert figure.axes[0].get_ylim() == figure.axes[1].get_ylim()
+    assert "[mm]" in figure.axes[0].get_ylabel()
+    assert not figure.axes[1].get_ylabel()
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["free", "stick", "slip", "slip back"]
+    slip_back = np.unique(figure.axes[1].collections[0].to_rgba([SLIP_BACK]), axis=0)[0]
+    assert matplotlib.colors.to_hex(slip_back) == plots.MODES[SLIP_BACK][1].lower()
+    for runs, labels in (([one], ["a", "b"]), ([], [])):
+        with pytest.raises(ValueError, match="labels must name each"):
+            plots.plot_spring_maps(runs, labels)
+
+
 def test_a_run_without_a_record_is_refused():
-    for draw in (plots.plot_spring_map, plots.plot_traces):
+    bare = SimpleNamespace(t=None)
+    for draw in (plots.plot_spring_map, plots.plot_traces, plots.plot_forces, plots.plot_run):
         with pytest.raises(ValueError, match="record=2"):
-            draw(SimpleNamespace(t=None))
+            draw(bare)
+    with pytest.raises(ValueError, match="record=2"):
+        plots.plot_spring_maps([made_up_run(), bare], ["one", "two"])
 
 
 @pytest.mark.parametrize(("d", "unit"), [(2e-5, 1e-6), (8e-4, 1e-3)])
