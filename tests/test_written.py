@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from validation import CLAIMS, written
@@ -70,11 +71,13 @@ def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     given.write_text(json.dumps(SAMPLE), encoding="utf-8")
     monkeypatch.setattr(written, "ROOT", tmp_path)
     monkeypatch.setattr(written, "RECORD", record)
+    monkeypatch.setattr(written, "CONSTRAINTS", tmp_path / "constraints.txt")
     assert main([str(given), "--check"]) == 1
     assert "is not as the record says" in capsys.readouterr().out
     assert not record.exists()
     assert main([str(given)]) == 0
     assert record.read_text() == given.read_text()
+    assert f"numpy=={np.__version__}\n" in (tmp_path / "constraints.txt").read_text()
     assert page.read_text(encoding="utf-8").startswith("4.9·10⁻⁶<!--=")
     assert "before" not in page.read_text(encoding="utf-8")
     assert main(["--check"]) == 0

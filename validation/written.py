@@ -1,7 +1,8 @@
 """Numbers and tables in prose: taken from the record of the checks, never written by hand.
 
-`python -m validation.written report/checks.json` keeps that record as docs/checks.json and sets every marked place of
-README and docs from it; `--check` changes nothing and fails where a place is not what the record says. Places are
+`python -m validation.written report/checks.json`, where the report was just made, keeps that record as docs/checks.json
+and the versions that made it as constraints.txt beside this file, and sets every marked place of README and docs from
+the record; `--check` changes nothing and fails where a place is not what the record says. Places are
 marked by comments, which no reader sees:
 
     4.9·10⁻⁶<!--= got :: finite_amplitude :: worst |v_c/full-slip value − 1| :: 2 -->
@@ -21,8 +22,11 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from mdr.provenance import PARTS, version_of
+
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"
+CONSTRAINTS = Path(__file__).with_name("constraints.txt")
 
 _NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
 _TABLE = re.compile(r"(<!--= verdicts -->\n).*?(<!--= end -->)", re.DOTALL)
@@ -49,6 +53,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     args = parser.parse_args(argv)
     if args.record is not None and not args.check:
         shutil.copyfile(args.record, RECORD)
+        pins = "".join(f"{name}=={version_of(name)}\n" for name in sorted(PARTS))
+        CONSTRAINTS.write_text(pins, encoding="utf-8")
     record = json.loads((args.record or RECORD).read_text(encoding="utf-8"))
     stale = 0
     for page in pages():
