@@ -18,9 +18,10 @@ row = (g, x, area, power): depths, radii, int_0^x g dx, and the local exponents 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
+from mdr.compiled import compiled
+
+_jit = compiled(nogil=True, error_model="numpy")
 _EPS = 2.220446049250313e-16
 _EVENTS = 12  # releases and touches of a spring in one step, more than there ever are
 

@@ -43,8 +43,10 @@ import numpy as np
 from numba import njit
 from numba.extending import register_jitable
 
+from mdr.compiled import compiled
+
 _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
-_jit = njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST)
+_jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
 _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 
 # rows of the table of a linear operator L over one step (rheology.py): a column for x itself and one for each arm
@@ -722,8 +724,9 @@ def close_look(e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, tri
     stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
     squeezed = s_1 - s_0 - (1.0 - touched) * (s_free - s_0)
     slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
-    # where arms make the static force, what a spring did in the step tells its mode, else its trial force
-    pace = 1e-9 * abs(du) / h
+    # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
+    # extension, else its trial force
+    pace = (1e-9 * abs(du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
     now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
     tangential = min(max(trial, -normal), normal)
     tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)

@@ -24,6 +24,7 @@ and equality holds in slip. Over a period <e + T e'> = <e> and <N> = <s>, so a r
 
 import json
 import math
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -135,6 +136,13 @@ def contact_times(h, T):
         on = bracketed_root(lambda t: h + np.cos(t) - w_off * np.exp(-(t - off) / T), rising, off + TWO_PI)
     always = always_touches(h, T)
     return np.where(always, 0.0, on), np.where(always, TWO_PI, off + TWO_PI)
+
+
+@lru_cache
+def tip_times(depth_ratio, T):
+    """Touch and loss of contact of the tip, as numbers."""
+    on, off = contact_times([depth_ratio], T)
+    return float(on[0]), float(off[0])
 
 
 def mean_compression(h, T):
@@ -283,7 +291,7 @@ def kelvin_breaks(depth_ratio, v_hat, T, n_scan=600):
     kind = kelvin_lag(h, v_hat, T)[1]
     at = np.flatnonzero(kind[1:] != kind[:-1])
     low, high, kind_low = h[at], h[at + 1], kind[at]
-    for _ in range(26 if at.size else 0):  # to 1e-10: a misplaced break costs its square
+    for _ in range(16 if at.size else 0):  # to 1e-7: a misplaced break costs its square
         middle = (low + high) / 2
         same = kelvin_lag(middle, v_hat, T)[1] == kind_low
         low, high = np.where(same, middle, low), np.where(same, high, middle)
@@ -331,7 +339,7 @@ def full_slip_force(t, n, depth_ratio, T, reference_depth=None):
     reference = depth_ratio if reference_depth is None else reference_depth
     load = depth_ratio + np.cos(t) - T * np.sin(t)  # w + T w' at the tip
     if math.isinf(n):
-        on, off = contact_times([depth_ratio], T)
+        on, off = tip_times(depth_ratio, T)
         touching = ((t - on) % TWO_PI <= off - on) | always_touches(depth_ratio, T)
         return np.where(touching, np.maximum(load, 0), 0.0)
     edge = np.array([edge_of_contact(ti, T) for ti in t])
@@ -377,7 +385,7 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
     periodic start (1 - exp(2 pi A))**-1 z(2 pi), and a second run from there the motion.
     """
     mass, matrix = body_matrix(k_ratio, omega_0_ratio, c_ratio)
-    on, off = (float(t[0]) for t in contact_times([depth_ratio], T))
+    on, off = tip_times(depth_ratio, T)
     if always_touches(depth_ratio, T):
         cuts = sorted({0.0, np.pi - math.atan(T), TWO_PI})
     else:
@@ -415,7 +423,7 @@ def full_slip_critical_velocity(n, depth_ratio, T, k_ratio=math.inf, omega_0_rat
     = inf is the rigid pull, y = 0: then v_c is 1 if the tip touches at t = 3 pi / 2, and less if it comes
     back later.
     """
-    on, off = (float(t[0]) for t in contact_times([depth_ratio], T))
+    on, off = tip_times(depth_ratio, T)
     if math.isinf(k_ratio):
         return 1.0 if on <= 1.5 * np.pi else max(-math.sin(on), 0.0)
     motion = full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth)

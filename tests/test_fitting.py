@@ -87,6 +87,23 @@ def test_what_cannot_be_fitted_is_refused(parameters, error, words):
         mdr.fit(CASE, data, parameters)
 
 
+def test_data_and_confidence_are_what_they_should_be():
+    data = mdr.FrictionData(V[:4], np.full(4, 0.3))
+    with pytest.raises(TypeError, match=r"must be FrictionData, as read_friction_data gives, got \(\(0, 0\.3\),\)"):
+        mdr.fit(CASE, ((0, 0.3),), ["mu_0"])
+    with pytest.raises(ValueError, match=r"confidence must lie between 0 and 1, got 95"):
+        mdr.fit(CASE, data, ["mu_0"], confidence=95)
+
+
+def test_ratios_of_the_body_are_fitted_as_its_fields_are():
+    """k_x/k_xc is k_x in other units: the same fit, the same interval."""
+    v = mdr.critical_velocity(BODY) * np.array([0.2, 0.5, 0.8])
+    start, data = replace(BODY, pull=replace(BODY.pull, k_x=7e3)), measured(0.002, 1, BODY, v)
+    field, ratio = (mdr.fit(start, data, [name]) for name in ("k_x", "k_x/k_xc"))
+    for one, two in ((field.values, ratio.values), (field.low, ratio.low), (field.high, ratio.high)):
+        assert two["k_x/k_xc"] * BODY.k_xc == pytest.approx(one["k_x"], rel=1e-3)  # to what least squares stop at
+
+
 def test_a_parameter_that_is_zero_to_begin_with_is_refused():
     with pytest.raises(ValueError, match="c_x must be positive in the case"):
         mdr.fit(replace(BODY, pull=mdr.SpringPull(k_x=8e3)), measured(0.01), ["c_x"])

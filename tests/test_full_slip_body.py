@@ -1,6 +1,7 @@
 """The body in full slip against the twin's shooting, a harmonic sum, Eqs. (1) and (15), and where it is infinite."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -133,6 +134,19 @@ def test_it_is_infinite_on_the_resonance_of_any_harmonic(shape, T, multiple):
 def test_a_punch_that_keeps_contact_has_no_higher_harmonics_to_resonate(T, multiple):
     case = on_resonance("flat", multiple, T=T)
     assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-9)
+
+
+@pytest.mark.parametrize("multiple", [1, 2, 3])
+def test_arms_resonate_where_their_force_has_the_harmonic(multiple):
+    """A punch that keeps contact has one harmonic whatever its material, so Eq. (15) at other natural frequencies."""
+    body = mdr.StandardLinearSolid(E_inf=2e6, E_1=4e6, tau_1=3e-3, nu=0.4)
+    case = replace(on_resonance("flat", multiple), material=body)
+    found = mdr.full_slip_critical_velocity(case)
+    if multiple == 1:
+        assert math.isinf(found)
+    else:
+        assert_allclose(found, mdr.critical_velocity(case), rtol=1e-9)
+    assert math.isinf(mdr.full_slip_critical_velocity(replace(on_resonance("cone", multiple), material=body)))
 
 
 def test_an_elastic_cone_that_keeps_contact_has_two_harmonics():

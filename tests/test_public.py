@@ -157,6 +157,21 @@ def test_version_is_that_of_the_distribution():
     assert mdr.__version__ == version("mdr-friction")
 
 
+def test_a_folder_that_was_never_installed_has_no_version():
+    code = """
+import importlib.metadata as known
+
+def version(name):
+    raise known.PackageNotFoundError(name)
+
+known.version = version
+import mdr
+print(mdr.__version__)
+"""
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "0+unknown"
+
+
 def test_import_is_light():
     heavy = [
         "matplotlib",

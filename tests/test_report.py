@@ -228,14 +228,15 @@ def test_number(value, tolerance, expected):
 CLAIM = """
 from validation.report import Check, Claim, Figure
 def claim(effort):
+    figures = []
     {body}
-    import matplotlib.pyplot as plt
-    fig, ax = plt.subplots()
-    ax.plot([0, 1])
     checks = [Check("x", {got}, 1.0, 0.1, "why")]
-    figures = [Figure("f", "c", fig, "a")]
     return Claim({name!r}, "t", "q", "r", "m", "holds", "Done with " + effort, checks, figures)
 """
+DRAWS = """import matplotlib.pyplot as plt
+    fig, ax = plt.subplots()
+    ax.plot([0, 1])
+    figures.append(Figure("f", "c", fig, "a"))"""
 
 
 @pytest.fixture
@@ -257,7 +258,7 @@ def claims(tmp_path, monkeypatch):
 
 
 def test_all_held_gives_0_and_the_default_folder(claims, capsys):
-    package = claims("all_held", one=(1.0, "pass"), two=(1.05, "pass"))
+    package = claims("all_held", one=(1.0, DRAWS), two=(1.05, "pass"))
     assert command.main(["--jobs", "1", "--long"], package) == 0
     out, err = capsys.readouterr()
     assert "one: holds [1/1 checks held]" in out
@@ -306,7 +307,7 @@ def test_wrong_arguments_give_2(argv):
 
 
 def test_two_processes_write_the_same_bytes(claims):
-    claims("same", one=(1.0, "pass"))
+    claims("same", one=(1.0, DRAWS))
     for seed in ("1", "2"):
         code = f"from validation.__main__ import main; main(['--jobs', '1', '-o', 'out{seed}'], 'same')"
         path = os.pathsep.join([str(Path.cwd()), str(ROOT)])

@@ -119,6 +119,12 @@ def test_small_multiples_of_curves(flat):
     fig.canvas.draw()
 
 
+def test_small_multiples_name_an_axis_at_the_rim_alone(flat):
+    fig = flat.plot_multiples("cof", over="alpha", columns=2)
+    named = [(bool(ax.get_xlabel()), bool(ax.get_ylabel()), ax.get_visible()) for ax in fig.axes]
+    assert named == [(False, True, True), (True, False, True), (True, True, True), (False, False, False)]
+
+
 def test_axes_that_grow_by_a_factor_are_logarithmic():
     axes = {"oscillation.omega": np.geomspace(100, 1e4, 5), "alpha": [0.1, 0.2, 0.3]}
     study = mdr.sweep(CASE, axes, quantities=("v_c",))

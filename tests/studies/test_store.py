@@ -87,6 +87,15 @@ def test_a_damaged_chunk_is_noticed_and_computed_again(tmp_path, part_done, chan
     assert bytes_of(part_done) == bytes_of(tmp_path / "other")
 
 
+def test_what_is_read_of_a_study_leaves_a_damaged_chunk_out(part_done):
+    before = mdr.read_study(part_done)
+    (part_done / "chunks" / "000004.npz").write_bytes(b"")
+    now = mdr.read_study(part_done)
+    assert now.count(Status.MISSING) == before.count(Status.MISSING) + 1
+    there = now.status != Status.MISSING
+    assert_array_equal(now["v_c"][there], before["v_c"][there])
+
+
 def test_a_damaged_chunk_of_another_shard_is_computed_again(part_done):
     (part_done / "chunks" / "000004.npz").write_bytes(b"")
     with pytest.warns(UserWarning, match="chunk 4 is damaged"):

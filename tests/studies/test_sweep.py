@@ -144,6 +144,15 @@ def test_a_wrong_count_would_be_seen(tmp_path):
 # --- interrupts ---
 
 
+@pytest.fixture
+def hears_interrupts():
+    """A shell that starts tests in the background has them ignore interrupts."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("hears_interrupts")
 def test_ctrl_c_says_what_is_kept_and_ends_soon(tmp_path, capsys, monkeypatch):
     store = tmp_path / "store"
     monkeypatch.setenv(LOG, str(tmp_path / "log"))

@@ -1,0 +1,87 @@
+"""Runs small enough for Python alone: `NUMBA_DISABLE_JIT=1 python tests/small_runs.py` prints what they come to."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+from conftest import contact
+
+import mdr
+from mdr import indentation, kernels
+from mdr.rheology import Rheology
+
+MATERIALS = {
+    "elastic": mdr.Elastic(E=3e6, nu=0.4),
+    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.4, tau=2e-3),
+    "arms": mdr.Prony(E_inf=2e6, arms=((1e6, 1e-3), (2e6, 1e-2)), nu=0.4),
+    "arms and dashpot": mdr.Prony(E_inf=2e6, arms=((1e6, 5e-3),), nu=0.4, tau=1e-3),
+}
+MOTIONS = {"pressed": 3.0, "taps": 0.5, "flies": -0.6}
+PULLS = {
+    "rigid": {},
+    "body": {"k_ratio": 0.7, "c_ratio": 0.1},
+    "light body": {"k_ratio": 0.02, "omega_0_ratio": np.inf},
+}
+#: instants [s] and depths or forces over the greatest: in, out and in again, jumps both ways, a rest
+TIMES = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 8.0, 8.0, 9.0]) * 1e-3
+DEPTHS = np.array([0.1, 1.0, 0.7, -0.2, 0.6, 0.9, 0.3, 0.8, 0.3, 0.25])
+FORCES = np.array([0.1, 1.0, 0.3, 0.0, 0.5, 0.8, 0.0, 0.0, 0.4, 0.6])
+
+
+def slides():
+    """Every kind of spring, motion and pull, from both starts, in an odd and an even number of steps."""
+    like = contact("paraboloid")
+    for name, material in MATERIALS.items():
+        for motion, depth_ratio in MOTIONS.items():
+            for pull, groups in PULLS.items():
+                oscillation = replace(like.oscillation, u_z0=depth_ratio * like.oscillation.du_z)
+                of_pull = contact("paraboloid", **groups).pull
+                case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull)
+                for start, n_periods in (("full_slip", 2), ("rest", 3)):
+                    v_0 = 0.4 * case.unit_velocity
+                    knobs = {"n_springs": 20, "steps_per_period": 33, "n_periods": n_periods, "start": start}
+                    run = mdr.slide(case, v_0, record=n_periods - 2, **knobs)
+                    energy = run.energy_balance
+                    numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss]
+                    yield f"{name}, {motion}, {pull}, {start}", [*numbers, *(() if run.F_x is None else run.F_x)]
+
+
+def presses():
+    """Histories of depth and of force."""
+    for name, material in MATERIALS.items():
+        for shape in (mdr.Paraboloid(R=5e-3), mdr.FlatPunch(a=1e-3)):
+            for what, history in {"u_z": 1e-5 * DEPTHS, "F_z": FORCES}.items():
+                record = isinstance(shape, mdr.Paraboloid)
+                run = mdr.indent(shape, material, TIMES, **{what: history}, n_springs=16, record=record)
+                loads = run.q_z.ravel() if record else ()
+                yield f"{name}, {type(shape).__name__}, {what}", [*run.u_z, *run.F_z, *run.contact_radius, *loads]
+
+
+def cycles():
+    """Springs with memory in their periodic normal motion; arms too fast for the steps find none, or alternate."""
+    fast = mdr.Prony(3e6, [(3.511e5, 8.036e-4), (1.129e6, 1.618e-4)], 0.4, tau=0.4875)
+    gap, w, spans = np.linspace(-1.0, 1.0, 9), np.full(9, 0.25), np.empty((2, 48), dtype=np.int64)
+    several = dict.fromkeys(MATERIALS, (300.0, 48)) | {"finds none": (300.0, 16), "alternates": (1e3, 20)}
+    for name, (omega, n_z) in several.items():
+        phase = 2 * np.pi * np.arange(n_z + 1) / n_z - 1.0
+        table = Rheology.of(MATERIALS.get(name, fast), omega).over_step(2 * np.pi / n_z)
+        s, motion = np.zeros((table.shape[1], 9)), (np.cos(phase), -np.sin(phase))
+        mean = kernels.settle_normal(s, gap, w, *motion, table, spans)
+        yield f"{name}, start", [mean, *s.ravel(), *spans[:, :n_z].ravel()]
+        if table.shape[1] > 1:
+            F, at_edge, outermost, begins = np.zeros(n_z), np.empty(n_z), np.empty(n_z, dtype=np.int64), np.empty(9)
+            kernels.normal_forces(gap, w, *motion, table, F, outermost, at_edge, begins)
+            yield f"{name}, force", [*F, *outermost, *at_edge, *begins]
+
+
+def results():
+    """Name -> numbers of every run."""
+    few, indentation.STEPS = indentation.STEPS, 40
+    try:
+        return {name: [float(x) for x in numbers] for make in (slides, presses, cycles) for name, numbers in make()}
+    finally:
+        indentation.STEPS = few
+
+
+if __name__ == "__main__":
+    print(json.dumps(results()))

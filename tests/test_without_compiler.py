@@ -1,0 +1,29 @@
+"""The compiled march is the written one: Python alone comes to the same, and reads no element that is not there."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+import small_runs
+from numpy.testing import assert_allclose
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+def test_small_runs_come_to_the_same_in_python():
+    """Compiled code does not look whether an index is in range, and Python does."""
+    command = [sys.executable, str(Path(small_runs.__file__))]
+    plain = subprocess.run(
+        command, env={**os.environ, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True, check=True, timeout=600
+    )
+    expected, got = json.loads(plain.stdout), small_runs.results()
+    assert expected.keys() == got.keys()
+    for name, numbers in got.items():
+        scale = np.nanmax(np.abs(expected[name]))
+        # the compiler may contract and reorder, and springs with arms stop 1e-13 of their size short of their period
+        assert_allclose(numbers, expected[name], rtol=0, atol=1e-10 * scale, err_msg=name)
+    assert any(np.isnan(numbers).any() for numbers in got.values())  # also where no periodic motion is found
