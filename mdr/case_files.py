@@ -103,6 +103,8 @@ def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
         raise fault_error(source, [NESTED])
     try:
         return tomllib.loads(text)
+    except RecursionError:
+        raise fault_error(source, [NESTED]) from None
     except ValueError as fault:
         raise fault_error(source, [_syntax_fault(text, str(fault))]) from None
 

@@ -132,7 +132,7 @@ class SlidingContact:
     @property
     def T(self) -> float:
         """omega tau [-] of the long-time branch, the loss tangent of a Kelvin material at the frequency omega."""
-        return self.oscillation.omega * self.material.tau
+        return self.rheology.T
 
     @property
     def unit_velocity(self) -> float:

@@ -123,7 +123,7 @@ def peaks(harmonics: NDArray[np.complex128], some: int = 24, within: NDArray[np.
     best = values[first]
     for _ in range(20):
         turn = harmonics * np.exp(1j * np.outer(phase, n))
-        slope, bend = (turn @ (1j * n)).real, (turn @ (-(n**2))).real
+        slope, bend = -(turn.imag * n).sum(axis=1), -(turn.real * n**2).sum(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
             move = np.where(bend < 0, -slope / bend, 0.0)
         phase = phase + np.clip(np.nan_to_num(move), -np.pi / count, np.pi / count)

@@ -154,6 +154,7 @@ def _of_partial_slip(source: PartialSlip, r: ArrayLike | None, i: int) -> Surfac
     p = np.asarray(shape.pressure(r, d, source.material.E_star))
     d_c = max(d - u_x / unit, 0.0)
     stuck = np.asarray(shape.pressure(r, d_c, source.material.E_star)) if d_c > 0 else 0 * p
+    stuck = np.minimum(stuck, p)  # at a rim, which either radius may miss by a rounding, p is 0 or huge
     x = np.unique(
         np.concatenate([a * np.sin(np.linspace(0, np.pi / 2, N_KNOTS)), [c], [k for k in shape.kinks if k < a]])
     )

@@ -76,7 +76,13 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
 @remembered(maxsize=8)
 def followed(case: SlidingContact, n_t: int) -> NormalCycle:
     """The normal contact of a case that has no closed form, at n_t instants."""
-    return normal_cycle(case.indenter, case.rheology, case.cycle, n_t)
+    known = normal_cycle(case.indenter, case.rheology, case.cycle, n_t)
+    if not known.in_contact.any() or not known.F_N.any():
+        raise ValueError(
+            f"u_z0 = {case.cycle.u_z0:.6g} m: the contact lasts less than 1/{n_t} of a period, as its springs are "
+            "touched so late, or released so soon, by their dashpots; press deeper, or lower tau"
+        )
+    return known
 
 
 def force_of(case: SlidingContact, known: NormalCycle) -> Array:

@@ -246,10 +246,10 @@ def _depth_under(indenter: Indenter, V: float, end: float) -> float:
     def short(d: float) -> bool:
         return d < end and float(indenter.force(d, 1.0)) < V
 
-    low = high = float(np.sqrt(V))
+    low = high = min(indenter.depth_about(V), end)
     while short(high):
         low, high = high, 2 * high
-    while not short(low):
+    while low > 0 and not short(low):
         low, high = low / 2, low
     for _ in range(8):
         middle = 0.5 * (low + high)

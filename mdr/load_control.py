@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 N_HARMONICS = 256  #: of the depth; its instants are eight times as many
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
 ENOUGH = 1e-4  #: the same with which it may end when it gets no further
+NOISE = 1e-6  #: of a depth, from which on a search may end at the rounding of the shape
 MOST, MEMORY = 150, 10  #: iterations, and how many of them are combined
 
 
@@ -45,18 +46,24 @@ def static_depth(shape: Indenter, material: Material, F_z: float) -> float:
 
 def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
     """The same for loads (n,) > 0. Newton's method from above, on a force whose slope 2E*a never falls with depth."""
-    E_star, most = material.E_star, float(np.max(F_z))
-    deep = _scale(shape)
-    while float(shape.force(deep, E_star)) > most:
-        deep *= 0.25
-    while float(shape.force(deep, E_star)) < most:
-        deep = _deeper(shape, deep, most)
-    d = np.full(F_z.shape, deep)
+    E_star = material.E_star
+    d = np.full(F_z.shape, _depth_beyond(shape, E_star, float(np.max(F_z))))
+    left = np.inf
     for _ in range(200):
         step = (np.asarray(shape.force(d, E_star)) - F_z) / np.asarray(shape.stiffness(d, E_star))
         d = np.maximum(d - step, 1e-3 * d)
-        if np.all(np.abs(step) <= 4e-16 * d):
+        last, left = left, float(np.max(np.abs(step) / d))
+        if left <= 4e-16 or last <= left < NOISE:  # of a shape that has its own rounding, steps do not get smaller
             break
+    return d
+
+
+def _depth_beyond(shape: Indenter, E_star: float, F_z: float) -> float:
+    """A depth [m] that carries the load [N] or more, of the same size as the one that carries it."""
+    reach = float(shape.profile_1d(shape.max_radius)) if np.isfinite(shape.max_radius) else np.inf
+    d = max(min(shape.depth_about(F_z / E_star), reach if reach > 0 else np.inf), shape.least_depth)
+    while float(shape.force(d, E_star)) < F_z:
+        d = _deeper(shape, d, F_z)
     return d
 
 
@@ -173,13 +180,3 @@ def _anderson(
         share = np.linalg.lstsq(flat.T, np.concatenate([moves[-1].real, moves[-1].imag]), rcond=1e-8)[0]
         u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + dm)
     return best if least <= ENOUGH else None
-
-
-def _scale(shape: Indenter) -> float:
-    """A depth that the shape can have, to begin a search with."""
-    if shape.least_depth > 0:
-        return shape.least_depth
-    if np.isfinite(shape.max_radius):
-        reach = float(shape.profile_1d(shape.max_radius))
-        return 1e-3 * reach if reach > 0 else shape.max_radius
-    return 1.0

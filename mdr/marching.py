@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from mdr import kernels, periodic
 from mdr.contact import SlidingContact
+from mdr.progress import Ticker
 from mdr.remembered import remembered
 from mdr.scaled import ScaledContact
 from mdr.settling import Settling, judge, smooth_mean
@@ -24,6 +25,7 @@ from mdr.springs import SpringArray
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
+DYING = 0.1  #: share of the swing of a damped body that is still to die away
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
@@ -71,6 +73,12 @@ class March:
         return self.settling.mean
 
     @property
+    def sees_contact(self) -> bool:
+        """Whether any spring presses for longer than an instant between two steps."""
+        sums = self.seen.sums
+        return bool(sums[kernels.CONTACT_TIME] > 0 and np.isfinite(sums[kernels.LEAST_SLIP]))
+
+    @property
     def least_slip(self) -> float:
         """Least slip velocity in contact over v_0 of a run in full slip; zero of any other."""
         sums = self.seen.sums
@@ -107,9 +115,9 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
         raise ValueError(
             f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
         )
-    lump = knobs.lump and knobs.start == "full_slip"
-    prepared = _shared if knobs.n_springs <= MOST_SHARED else _prepared
-    springs, scaled = prepared(case, knobs.n_springs, knobs.steps, lump)
+    springs, scaled = _at_hand(case, knobs)
+    if not scaled.normal.mean > 0:
+        raise too_coarse(knobs.steps)
     v = v_0 / scaled.speed
     line = Line(scaled, v, knobs.start)
     n_seen = max(1, knobs.record)
@@ -141,6 +149,25 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
         account,
         tuple(seen),
     )
+
+
+def touches(case: SlidingContact, knobs: Knobs) -> bool:
+    """Whether any spring presses at the instants of these steps."""
+    scaled = _at_hand(case, knobs)[1]
+    return scaled.n_core > 0 or scaled.normal.mean > 0
+
+
+def too_coarse(steps: int) -> ValueError:
+    """The error of a contact that the steps do not see."""
+    return ValueError(
+        f"steps_per_period = {steps} is too coarse: the contact begins and ends within a step; "
+        "raise it, or press deeper"
+    )
+
+
+def _at_hand(case: SlidingContact, knobs: Knobs) -> tuple[SpringArray, ScaledContact]:
+    prepared = _shared if knobs.n_springs <= MOST_SHARED else _prepared
+    return prepared(case, knobs.n_springs, knobs.steps, knobs.lump and knobs.start == "full_slip")
 
 
 @remembered(maxsize=16)
@@ -181,6 +208,7 @@ class Line:
         self.n_periods = 0  # marched so far
         self.cofs = np.empty(0)  # of each period that was not marched in search of the periodic state
         self.swings = np.empty(0)  # of the body in it, greatest less least y
+        self.ticker = Ticker("slide, periods")
 
     def _call(self, n_steps: int, k_0: int, e_out: Array, s_out: Array) -> tuple[Array, Array]:
         scaled = self.scaled
@@ -217,6 +245,7 @@ class Line:
             start = self.history[3:].copy()
             y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
             self._append(start, y, S)
+            self.ticker.tick(part)
         self.n_periods += n_periods
 
     def _append(self, start: Array, y: Array, S: Array) -> None:
@@ -289,6 +318,7 @@ class Line:
         nothing = np.empty((0, *self.e.shape))
         self._call(self.scaled.steps, 0, nothing, nothing)
         self.n_periods += 1
+        self.ticker.tick()
         return self._state()
 
     @cached_property
@@ -325,9 +355,18 @@ class Line:
     def judge(self) -> Settling:
         """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""
         settling = judge(self.cofs, TOLERANCE)
-        if settling.settled and self.growth * self.n_periods > SWING_TOLERANCE:
+        if settling.settled and (self.growth * self.n_periods > SWING_TOLERANCE or self._dies_away(settling.mean)):
             return replace(settling, settled=False, kind="unsettled")
         return settling
+
+    def _dies_away(self, cof: float) -> bool:
+        """Whether a body that rings for many periods still loses a swing that friction depends on: springs that it
+        carries to and fro slip as it has them, however steadily. In full slip forward a smaller swing changes nothing.
+        """
+        scaled = self.scaled
+        if not (scaled.M and scaled.C) or abs(1 - cof) <= TOLERANCE:
+            return False
+        return -self.growth * scaled.M / (np.pi * scaled.C) > DYING
 
     def _may_settle_by(self, most: int) -> bool:
         """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""

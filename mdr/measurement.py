@@ -94,12 +94,15 @@ class _Search:
         )
 
     def measure(self) -> MeasuredVelocity:
-        first = self._first_free_run()
-        if first is None:
+        free = self._first_free_run()
+        jumps = self._jumps()
+        if free is not None and not jumps:
+            free = self._resolve(free)
+        if free is None:
             return self._none("friction stays reduced, or stick goes on, up to the highest velocity tried")
-        if self._jumps():
-            return self._by_friction(self._locate(first)[2])
-        v_c, low, high = self._locate(self._resolve(first))
+        v_c, low, high = self._locate(free)
+        if jumps:
+            return self._by_friction(high)
         low, high = max(low - self.doubt, 0.0), high + self.doubt
         if v_c <= LEAST * self.scale:
             why = f"stick ends below {LEAST:g} of Eq. (1), which is not told from zero"
@@ -124,8 +127,8 @@ class _Search:
             v_0 *= 6.85
         return None
 
-    def _resolve(self, free: SlidingRun) -> SlidingRun:
-        """Double steps and springs until the end of stick moves by no more than the margin; the finest run.
+    def _resolve(self, free: SlidingRun) -> SlidingRun | None:
+        """Double steps and springs until the end of stick moves by no more than the margin; the finest run without.
 
         A first touch falls anywhere within a step, so its error is irregular: three resolutions are compared, not two.
         """
@@ -135,8 +138,9 @@ class _Search:
                 for finer in (3 * known // 2, 2 * known):
                     setattr(self, knob, finer)
                     run = self.run(free.v_0)
-                    if not _is_free(run):
-                        return free
+                    if not _is_free(run):  # free in coarse steps only: begin anew, further up
+                        further = self._first_free_run()
+                        return None if further is None else self._resolve(further)
                     slips.append(run.least_slip)
                 free, moved = run, max(slips) - min(slips)
                 if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale) or 2 * known >= most:

@@ -110,7 +110,7 @@ def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Ar
 
 def _multiplier(step: Step, x: Array, measure: Measure, kicks: tuple[Array, ...]) -> tuple[float, float]:
     """Largest multiplier of the pushed motions, and what their combinations do not explain."""
-    size = KICK * float(np.linalg.norm(measure(x)))
+    size = KICK * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
     before, after = [], []
     for kick in kicks:
         pushed = x + size * kick

@@ -28,6 +28,8 @@ from mdr.materials.base import Material
 
 Table = NDArray[np.float64]
 
+SLOWEST = 1e10  #: omega tau, from which on rounding costs the mean force of a period more than 1e-7
+
 
 @dataclass(frozen=True)
 class Rheology:
@@ -39,8 +41,17 @@ class Rheology:
 
     @classmethod
     def of(cls, material: Material, omega: float) -> Rheology:
-        """The operator of a material with a long-time modulus, its times in units of 1/omega."""
+        """The operator of a material with a long-time modulus, its times in units of 1/omega.
+
+        Raises ValueError for a time so long that what relaxes in a period is lost in rounding.
+        """
         arms = material.contact_arms
+        name, slowest = max([("tau", material.tau), *(("tau_j", tau_j) for _, tau_j in arms)], key=lambda one: one[1])
+        if not omega * slowest <= SLOWEST:
+            raise ValueError(
+                f"{name} = {slowest:.6g} s is more than {SLOWEST:g}/omega: what relaxes in a period is lost in "
+                f"rounding; lower it to {SLOWEST / omega:.6g} s"
+            )
         ratios = tuple(E_j / material.E_star for E_j, _ in arms)
         return cls(omega * material.tau, ratios, tuple(omega * tau_j for _, tau_j in arms))
 
@@ -59,7 +70,7 @@ class Rheology:
         answer = 1 + 1j * n * self.T
         for rho_j, theta_j in zip(self.rho, self.theta, strict=True):
             lead = 1j * n * theta_j
-            answer = answer + rho_j * lead / (1 + lead)
+            answer = answer + rho_j * (lead / (1 + lead))
         return np.asarray(answer)
 
 

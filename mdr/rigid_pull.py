@@ -106,7 +106,7 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     return RigidPullFriction(
         cof=case.mu_0 * (1 - fine[0]).reshape(shape),
         cof_error=case.mu_0 * error.reshape(shape),
-        stick_share=fine[1].reshape(shape),
+        stick_share=np.clip(fine[1], 0, 1).reshape(shape),  # of a contact of an instant, but for rounding
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr import kernels
-from mdr.marching import TOLERANCE, March
+from mdr.marching import TOLERANCE, March, too_coarse
 from mdr.records import ArrayRecord
 from mdr.settling import MIN_PERIODS
 
@@ -25,7 +25,7 @@ class State(IntEnum):
     """Mode of a spring."""
 
     FREE = kernels.FREE  #: out of contact
-    STICK = kernels.STICK  #: its foot rests on the indenter
+    STICK = kernels.STICK  #: its foot rests on the plane
     SLIP = kernels.SLIP  #: slides forward, friction holds the indenter back
     SLIP_BACK = kernels.SLIP_BACK  #: slides backward, friction drives the indenter on
 
@@ -98,6 +98,12 @@ class SlidingRun(ArrayRecord):
     f_z: Array | None = None  #: (n_t, n_springs) normal forces [N]
     state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
 
+    def plot(self) -> Any:
+        """Draw what was recorded: the mode of every spring over time, and the forces below; returns the Figure."""
+        from mdr import plots
+
+        return plots.plot_run(self)
+
 
 def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
     """From scaled form to SI."""
@@ -105,6 +111,8 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
     mu_0, sums = case.mu_0, seen.sums
     n_steps = seen.F_x.size
     force_z = scaled.stiffness_z * scaled.length_z
+    if not march.sees_contact:
+        raise too_coarse(scaled.steps)
     mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
@@ -136,7 +144,8 @@ def _why_not(march: March) -> str:
     if march.knobs.start == "rest" and n < march.on_the_way:
         return f"a start from rest takes {march.on_the_way:.3g} periods to stretch the springs: start from full slip"
     if settling.spread <= TOLERANCE:
-        return f"the swing of the body still grows after {n} periods, as on a resonance: raise n_periods or add c_x"
+        how = "the swing of the body still grows or dies away"
+        return f"{how} after {n} periods, as on a resonance: raise n_periods or c_x"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.M and march.scaled.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"

@@ -14,7 +14,7 @@ import numpy as np
 
 from mdr.checks import count, positive
 from mdr.contact import SlidingContact, require_case
-from mdr.marching import Knobs, March, march
+from mdr.marching import Knobs, March, march, too_coarse, touches
 from mdr.runs import SlidingRun, finish
 from mdr.scaled import RESOLVED, fast_ratio
 
@@ -22,6 +22,7 @@ BUDGET = 1e-5  #: of cof/mu_0, what the default knobs are to meet
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
 N_SPRINGS, _STEPS = 384, 1024  # first choice; doubled while cof_error exceeds the budget
+MOST_STEPS = 16384  #: of a period, that are chosen
 
 
 def slide(
@@ -82,14 +83,18 @@ def default_steps(case: SlidingContact) -> int:
     return (
         _STEPS
         if fast * 2 * RESOLVED < _STEPS or not np.isfinite(fast)
-        else int(min(2 * RESOLVED * np.ceil(fast), 16384))
+        else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
     )
 
 
 def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[bool, bool]) -> SlidingRun:
     """Run with its companions; refine what was left free while the error exceeds the budget."""
     while True:
+        knobs = _that_touch(case, knobs, free[1])
         main = march(case, v_0, knobs)
+        if not main.sees_contact and free[1] and knobs.steps < MOST_STEPS:
+            knobs = replace(knobs, steps=2 * knobs.steps)
+            continue
         if not main.settling.settled:
             return finish(main)
         # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
@@ -105,11 +110,20 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         finer = replace(
             knobs,
             n_springs=knobs.n_springs * (2 if free[0] and error_springs > BUDGET / 2 and knobs.n_springs < 4096 else 1),
-            steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < 16384 else 1),
+            steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < MOST_STEPS else 1),
         )
         if run.cof_error <= BUDGET * case.mu_0 or finer == knobs:
             return run
         knobs = finer
+
+
+def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
+    """The knobs, with more steps where they are free and the contact too brief for them or for their companions."""
+    while not all(touches(case, knobs.coarser(n)) for n in (knobs.steps, knobs.steps // 2, 3 * knobs.steps // 4)):
+        if not free or knobs.steps >= MOST_STEPS:
+            raise too_coarse(knobs.steps)
+        knobs = replace(knobs, steps=2 * knobs.steps)
+    return knobs
 
 
 def _clear_of_stick(main: March, half: March) -> bool:

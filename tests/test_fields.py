@@ -227,7 +227,32 @@ def test_units_do_not_matter(length):
     assert_allclose(two.u_z / length, one.u_z, atol=1e-11 * DEPTH)
 
 
+def test_an_indenter_that_does_not_touch_presses_nowhere():
+    """What is left then is the surface, which stands still where it was and relaxes where it has memory."""
+    t, u_z = [0.0, 1e-3, 2e-3, 1.0], [0.0, DEPTH, -DEPTH, -DEPTH]
+    run = indent(mdr.Paraboloid(5e-3), SOFT, t, u_z, record=True)
+    pressed, left, late = (surface_fields(run, r=[0.0, 1e-4, 5e-4], i=i) for i in (1, 2, 3))
+    assert left.contact_radius == 0
+    assert np.all(left.pressure == 0)
+    assert 0 < left.u_z[0] < pressed.u_z[0]
+    assert abs(late.u_z[0]) < 1e-3 * left.u_z[0]
+
+
+def test_a_contact_of_one_or_two_springs_carries_its_force():
+    case = mdr.SlidingContact(mdr.Cone(0.02), BODY, MU_0, mdr.NormalOscillation(0.0, DEPTH, 100.0))
+    run = mdr.slide(case, 0.3 * case.unit_velocity, n_springs=16, steps_per_period=8192, n_periods=1, record=1)
+    n_pressed = np.count_nonzero(run.f_z, axis=1)
+    for n, error in ((1, 1e-4), (2, 0.2), (3, 1e-4)):  # two springs make a line, and tell their edge to a cell
+        i = int(np.flatnonzero(n_pressed == n)[0])
+        whole = surface_fields(run, i=i)
+        r, weight = within(whole.contact_radius)
+        assert_allclose(weight @ surface_fields(run, r=r, i=i).pressure, whole.F_z, rtol=error)  # kinks
+
+
 def test_what_is_refused(pulled_run):
+    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), BODY, MU_0, mdr.NormalOscillation(DEPTH, DEPTH / 2, 100.0))
+    with pytest.raises(ValueError, match=r"slide\(..., record=1\)"):
+        surface_fields(mdr.slide(case, 1e-4, n_periods=1))
     with pytest.raises(TypeError, match="source must be of kind"):
         surface_fields(3)
     with pytest.raises(ValueError, match="record=True"):
@@ -238,3 +263,14 @@ def test_what_is_refused(pulled_run):
         from_displacement([0.0, 0.5], [1.0], 0.1)
     with pytest.raises(IndexError):
         surface_fields(pulled_run, i=10**6)
+
+
+def test_the_rim_of_a_punch_that_sticks_bears_no_more_traction_than_friction_gives():
+    """Its stick radius is its contact radius, but for a rounding, on either side of which p is 0 or huge."""
+    d = 1e-12 * np.linspace(0, 2, 17)
+    shape, E_star = mdr.FromForce(d, 5.668e3 * d, 1.3e11, tip="flat"), 6e10
+    for u_z0 in 1e-12 * np.linspace(1, 2, 20):
+        pulled = mdr.partial_slip(shape, mdr.Elastic(E_star, 0.3), 0.15, u_z0, 0.3 * u_z0 * 0.15)
+        fields = mdr.surface_fields(pulled, np.append(np.linspace(0, 0.99, 20), 1.0) * pulled.stick_radius)
+        assert np.all(fields.traction >= 0)
+        assert np.all(fields.traction <= 0.15 * fields.pressure * (1 + 1e-12))

@@ -306,3 +306,19 @@ def test_a_shape_that_ends_before_the_depth_under_a_force_says_so():
     with pytest.raises(ValueError, match="deeper than Profile reaches"):
         indent(lens, MATERIALS["elastic"], [0, 1], F_z=[0, 100.0])
     assert indent(lens, MATERIALS["elastic"], [0, 1], F_z=[0, 0.1]).u_z[1] > 0
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_force_asks_nothing_far_beyond_the_depth_that_it_brings_about():
+    """A bowl whose map is no longer exact where it is a thousand times as wide as its bend."""
+
+    def bowl(r):
+        u = np.asarray(r) / 2.4e-9
+        return 6.6e-13 * u**2 / (np.sqrt(1 + u**2) + 1)
+
+    F_z = float(mdr.Hyperboloid(h=3.3e-13, c=2.4e-9).force(1e-12, 2e6))
+    got, expected = (
+        indent(one, mdr.Elastic(1e6, 0.5), [0.0, 1.0], F_z=[0.0, F_z])
+        for one in (mdr.Profile(bowl), mdr.Hyperboloid(h=6.6e-13, c=2.4e-9))
+    )
+    assert_allclose(got.u_z, expected.u_z, rtol=1e-6)

@@ -128,3 +128,30 @@ def test_units_drop_out():
     small = mdr.SlidingContact(one.indenter, SOLID, 0.4, nano)  # a cone has no length: depth scales with 1e-9
     assert_allclose(small.cycle.z(np.arange(6.0)), one.cycle.z(np.arange(6.0)), rtol=0, atol=1e-7)
     assert_allclose(small.cycle.du_z, 1e-9 * one.cycle.du_z, rtol=1e-7)
+
+
+def ball(r):
+    """A sphere of 1 mm that is one up to its equator, and not known beyond; without cancellation, and with it."""
+    u = np.asarray(r) / 1e-3
+    return 1e-3 * u**2 / (1 + np.sqrt(1 - u**2))
+
+
+def rounded_ball(r):
+    return 1e-3 - np.sqrt(1e-6 - np.asarray(r) ** 2)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_shape_that_is_one_near_its_tip_only_carries_a_load():
+    motion = mdr.LoadOscillation(1e-2, 2e-3, OMEGA)
+    got, expected = (mdr.SlidingContact(one, ELASTIC, 0.4, motion) for one in (mdr.Profile(ball), mdr.Sphere(1e-3)))
+    assert_allclose(got.working_depth, expected.working_depth, rtol=1e-9)
+    assert_allclose(got.u_z_max, expected.u_z_max, rtol=1e-9)
+
+
+def test_a_depth_is_not_sought_beyond_the_rounding_of_a_shape(monkeypatch):
+    asked = []
+    stiffness = mdr.Profile.stiffness
+    monkeypatch.setattr(mdr.Profile, "stiffness", lambda *args: (asked.append(1), stiffness(*args))[1])
+    got = static_depth(mdr.Profile(rounded_ball), ELASTIC, 1e-2)
+    assert_allclose(got, static_depth(mdr.Sphere(1e-3), ELASTIC, 1e-2), rtol=1e-6)
+    assert len(asked) < 20  # steps of Newton's method; 200, all there may be, where smaller ones were waited for

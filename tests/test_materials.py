@@ -216,7 +216,59 @@ def test_tables_of_arms(tmp_path):
         table.write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=words):
             mdr.Prony.read(table, nu=0.3)
-    for text, words in (("material = 3\n", "must be a table"), ("E_inf = 1.0\n", "arms is missing")):
+    for content, words in (
+        (b"E_j,tau_j\n1e6,\xff\n", "line 2 is not UTF-8"),
+        (b"E_j,tau_j\ninf,1\n", "row 2 must have a finite E_j"),
+        (b"E_j,tau_j\n1e6," + b"1" * 140_000, "row 2: field larger"),
+        (b"E_j,\x1btau\n", "got E_j, tau"),
+    ):
+        table.write_bytes(content)
+        with pytest.raises(ValueError, match=rf"arms\.csv: .*{words}"):
+            mdr.Prony.read(table, nu=0.3)
+    for text, words in (
+        ("material = 3\n", "must be a table"),
+        ("E_inf = 1.0\narms = 3\nnu = 0.3\n", r"arms\.toml: arms must be a sequence"),
+        ("E_inf = inf\narms = [[1.0, 1.0]]\nnu = 0.3\n", r"arms\.toml: E_inf must be a finite number"),
+        ("E_inf = 1.0\narms = [[1.0, 1.0]]\nnu = 0.7\n", r"arms\.toml: nu must lie in"),
+        ("arms = " + "[" * 3000, r"arms\.toml: nested too deeply"),
+        ("E_inf = 1.0\n", "arms is missing"),
+        ("E_inf = = 1.0\n", r"arms\.toml: "),
+        ('model = "Elastic"\n', 'model "Elastic" is not Prony'),
+        ("E_inf = 1.0\nE_o = 2.0\n", "E_o is no key of Prony; there are E_inf, arms, nu, tau"),
+    ):
         case.write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=words):
             mdr.Prony.read(case)
+
+
+def test_the_ratio_given_beside_a_table_is_the_one_taken(tmp_path):
+    table = tmp_path / "arms.toml"
+    table.write_text("E_inf = 1e6\narms = [[2e6, 0.01]]\nnu = 0.3\n", encoding="utf-8")
+    assert mdr.Prony.read(table, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)
+
+
+def test_as_many_arms_as_asked_for():
+    omega = np.geomspace(1.0, 1e4, 41)
+    modulus = 1e6 * (1j * omega) ** 0.3  # a power law needs them all
+    for n_arms in (1, 5):
+        found = mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=n_arms)
+        assert len(found.arms) == n_arms
+    assert_allclose(mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=1).arms[0][1], 1e-2, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("storage", "loss", "words"),
+    [
+        ([1.0, 2.0, 3.0], [0.1, -0.2, 0.1], "loss must not be negative, got -0.2 Pa"),
+        ([1.0, 2.0], [0.1, 0.2, 0.1], r"lists of one length, got shapes \(3,\), \(2,\), \(3,\)"),
+    ],
+)
+def test_moduli_of_no_passive_body_are_refused(storage, loss, words):
+    with pytest.raises(ValueError, match=words):
+        mdr.Prony.fit([1.0, 10.0, 100.0], storage, loss, nu=0.3)
+
+
+def test_a_power_law_beyond_the_arms_says_how_near_it_comes(monkeypatch):
+    monkeypatch.setattr("mdr.materials.prony_fit.MOST_ARMS", 12)
+    with pytest.raises(ValueError, match=r"error = 0\.0001 of the power law is not reached by 12 arms, only 0\.\d+:"):
+        mdr.Prony.power_law(modulus=3e6, exponent=0.5, omega=(2.0, 2e4), nu=0.5, error=1e-4)

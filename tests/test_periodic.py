@@ -143,3 +143,10 @@ def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
             awaited = march(case, v_0, knobs)
         shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
     assert np.median(shares) <= 0.2
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_state_of_nothing_can_be_pushed_too():
+    """At phase 0 every spring may be in flight and forget all it knew."""
+    found = periodic.find(lambda x: 0.1 * x, np.zeros(6), itself, KICKS)
+    assert found.multiplier == pytest.approx(0.1)

@@ -246,3 +246,28 @@ def test_a_material_that_flows_is_refused():
         mdr.SlidingContact(
             SHAPES["cone"][0], mdr.Prony(0.0, [(1e6, 1.0)], 0.3), 0.5, mdr.NormalOscillation(1e-6, 1e-7, 1.0)
         )
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_material_that_relaxes_too_slowly_is_refused_and_one_almost_so_is_elastic_over_a_period():
+    solid = mdr.Prony(3e6, [(2e6, 0.99e10 / OMEGA)], 0.5)
+    motion = mdr.PeriodicMotion(OMEGA, 20e-6, (2e-6, 5e-7))
+    slow = mdr.SlidingContact(mdr.FlatPunch(1e-3), solid, 0.4, motion)
+    assert_allclose(mdr.static_cof(slow) / 0.4, 1 - 5 / 3 * (2e-6 - 5e-7) / 20e-6, rtol=1e-6)
+    for body in (mdr.Prony(3e6, [(2e6, 1e300)], 0.5), mdr.KelvinVoigt(3e6, 0.5, 1e10)):
+        for one in (motion, mdr.NormalOscillation(1e-6, 2e-6, OMEGA), mdr.LoadOscillation(1.0, 0.1, OMEGA)):
+            too_slow = mdr.SlidingContact(mdr.FlatPunch(1e-3), body, 0.4, one)
+            for question in (mdr.static_cof, mdr.full_slip_critical_velocity, lambda case: mdr.slide(case, 1e-3)):
+                with pytest.raises(ValueError, match=r"tau\S* = 1e\+\d+ s is more than 1e\+10/omega"):
+                    question(too_slow)
+    assert mdr.Prony(3e6, [(2e6, 1e305)], 0.5).dynamic_modulus(OMEGA) == pytest.approx(5e6 / 0.75)
+
+
+def test_slip_and_stick_are_told_apart_where_an_extension_dwarfs_a_step():
+    """At u_z0 = 1e8 du_z the rounding of an extension is more than a billionth of the way of the body in a step."""
+    motion = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-13, omega=OMEGA)
+    solid = mdr.StandardLinearSolid(3e6, 6e4, 2e-3, 0.4)
+    one = mdr.SlidingContact(mdr.Paraboloid(5e-3), solid, 0.4, motion)
+    run = mdr.slide(one, 0.08 * one.unit_velocity, n_springs=32, steps_per_period=64, n_periods=4, record=1)
+    assert np.all(np.abs(run.f_x) <= 0.4 * run.f_z * (1 + 1e-12))
+    assert not np.any(run.state == mdr.State.SLIP_BACK)

@@ -209,3 +209,10 @@ def test_cases_without_a_closed_form_are_refused():
     for other in (replace(case, material=solid), replace(case, oscillation=load)):
         with pytest.raises(ValueError, match="the closed form is that of a harmonic depth"):
             average_friction(other, 1e-4)
+
+
+@pytest.mark.parametrize("dip", [1e-4, 1e-8, 1e-10])
+@pytest.mark.parametrize("T", [0.0, 5e-6])
+def test_a_contact_of_an_instant_sticks_for_no_more_than_all_of_it(T, dip):
+    share = friction(contact("cone", dip - 1, T), np.geomspace(1e-9, 10, 40))[2]
+    assert np.all((share >= 0) & (share <= 1))

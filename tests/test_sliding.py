@@ -511,3 +511,30 @@ def test_a_slip_velocity_that_falls_with_every_finer_step_is_not_clear_of_stick(
     run = mdr.slide(case, 200 * unit_of_velocity(case))
     assert run.mu_0 - run.cof > 1e-4 * run.mu_0
     assert run.steps_per_period > 1024  # at the first it slips throughout
+
+
+def test_a_contact_that_begins_and_ends_within_a_step_is_refused_and_by_default_resolved():
+    """It presses for 2e-3 of phase about the instant at which it is deepest."""
+    phase = 0.01  # between the instants of coarse steps
+    cos, sin = 2e-6 * math.cos(phase), 2e-6 * math.sin(phase)
+    motion = mdr.PeriodicMotion(300.0, -2e-6 * math.cos(1e-3), (cos,), (sin,))
+    case = mdr.SlidingContact(SHAPES["paraboloid"][0], mdr.Elastic(3e6, 0.4), 0.4, motion)
+    for knobs in ({"n_springs": 32, "steps_per_period": 64}, {"n_springs": 32, "steps_per_period": 64, "n_periods": 4}):
+        with pytest.raises(ValueError, match="steps_per_period = 64 is too coarse: the contact begins and ends within"):
+            mdr.slide(case, case.unit_velocity, **knobs)
+    run = mdr.slide(case, case.unit_velocity, n_springs=32)
+    assert run.steps_per_period > 1024
+    assert math.isfinite(run.stick_share)
+    assert math.isfinite(run.least_slip)
+
+
+@pytest.mark.parametrize("knobs", [{}, {"n_periods": 12}])
+def test_a_swing_that_rings_for_ages_is_not_settled_however_steady_friction_is(knobs):
+    """On a resonance of Q = 5e5 a body that set out in full slip presses only while it swings back: mu = -mu_0 until
+    the swing has died away, long after the run.
+    """
+    case = contact("cone", 0.01, k_ratio=1e4, omega_0_ratio=1.0, c_ratio=0.02)
+    run = run_at(case, 1.0, n_springs=32, steps_per_period=64, **knobs)
+    assert run.cof < 0
+    assert not run.settled
+    assert "dies away" in run.why or run.n_periods == 12

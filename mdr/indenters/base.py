@@ -137,6 +137,24 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         p[rim] += rim_pressure(r[rim], a[rim], step[rim])
         return p
 
+    def depth_about(self, V: float) -> float:
+        """A depth [m] of the size of that at which F_N/E* = V [m²], to begin a search with: V ~ a d with d ~ f(a).
+
+        Only heights are asked for, as a shape may be one near its tip only, and say so if it is pressed too deep.
+        """
+        height = self._g if self._gives_g else self._f
+
+        def short(r: float) -> bool:
+            with np.errstate(all="ignore"):
+                return bool(r * height(np.array([r]))[0] < V)
+
+        r = min(float(np.sqrt(V)), self.max_radius)
+        while r < min(self.max_radius, 1e150) and short(r):
+            r = min(2 * r, self.max_radius)
+        while V / r < np.inf and not short(r):
+            r /= 2
+        return V / r
+
     def _pressure_of_slope(self, r: FloatArray, a: FloatArray) -> FloatArray:
         """p/E* without that of a rim. Arrays (n,)."""
         if self._gives_g:

@@ -84,7 +84,7 @@ class FromForce(Indenter):
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
         a = np.zeros(d.shape)
-        a[d > 0] = self._radius(d[d > 0])
+        a[d > 0] = np.minimum(self._radius(d[d > 0]), self.max_radius)  # of a punch it is the same but for a rounding
         return plain(a)
 
     def profile_area(self, a: ArrayLike) -> FloatArray:

@@ -80,7 +80,7 @@ class Material(ABC):
         modulus = self.E_star * (1 + 1j * omega * self.tau)
         for E_j, tau_j in self.contact_arms:
             lead = 1j * omega * tau_j
-            modulus = modulus + E_j * lead / (1 + lead)
+            modulus = modulus + E_j * (lead / (1 + lead))
         return complex(modulus) if modulus.ndim == 0 else np.asarray(modulus)
 
     def relaxation_modulus(self, t: ArrayLike) -> FloatArray:

@@ -139,7 +139,13 @@ class Prony(_WithArms):
         """
         from mdr.materials import prony_fit
 
-        return cls(**prony_fit.from_table(path, nu))
+        if nu is not None:
+            nu = poisson_ratio("nu", nu)
+        fields = prony_fit.from_table(path, nu)
+        try:
+            return cls(**fields)
+        except (TypeError, ValueError) as fault:
+            raise prony_fit.table_fault(path, str(fault)) from None
 
     def misfit(self, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
         """Greatest relative deviation |E(omega) - E' - i E''|/|E' + i E''| [-] from data [Pa], arrays (n,)."""

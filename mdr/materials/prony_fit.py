@@ -7,16 +7,15 @@ relative deviation of E(omega) (Lawson and Hanson 1974, in scipy.optimize.nnls),
 from __future__ import annotations
 
 import csv
-import tomllib
 from itertools import product
 from os import PathLike, fsdecode
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, between, count, finite_array, positive, positive_array
+from mdr.words import one_line, short
 
 if TYPE_CHECKING:
     from mdr.materials.prony import Prony
@@ -76,15 +75,21 @@ def misfit(material: Prony, omega: ArrayLike, storage: ArrayLike, loss: ArrayLik
 
 def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
     """The fields of a Prony in a file."""
+    from mdr.case_files import read_text
+
     name = fsdecode(path)
-    text = Path(name).read_text(encoding="utf-8-sig")
+    if not name.lower().endswith((".csv", ".toml")):
+        raise table_fault(path, "a table of arms must end in .csv or .toml")
     if name.lower().endswith(".toml"):
-        return _from_toml(text, name, nu)
-    if not name.lower().endswith(".csv"):
-        raise ValueError(f"{name}: a table of arms must end in .csv or .toml")
+        return _from_toml(read_text(path), path, nu)
     if nu is None:
-        raise ValueError(f"{name}: a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(text, name), "nu": nu}
+        raise table_fault(path, "a CSV table has no Poisson's ratio; give nu=")
+    return {**_from_csv(read_text(path), path), "nu": nu}
+
+
+def table_fault(path: str | PathLike[str], what: str) -> ValueError:
+    """What is wrong with a file, in one line."""
+    return ValueError(one_line(f"{fsdecode(path)}: {what}"))
 
 
 def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, FloatArray]:
@@ -129,22 +134,24 @@ def _range(omega: tuple[float, float]) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
-def _from_csv(text: str, name: str) -> dict[str, Any]:
-    rows = [row for row in csv.reader(text.splitlines()) if any(cell.strip() for cell in row)]
-    heads = [cell.split("[")[0].strip() for cell in rows[0]] if rows else []
+def _from_csv(text: str, path: str | PathLike[str]) -> dict[str, Any]:
+    rows = [
+        (number, _cells(line, number, path)) for number, line in enumerate(text.splitlines(), start=1) if line.strip()
+    ]
+    heads = [cell.split("[")[0].strip() for cell in rows[0][1]] if rows else []
     if not {"E_j", "tau_j"} <= set(heads):
-        raise ValueError(
-            f"{name}: the first line must name the columns E_j and tau_j, got {', '.join(heads) or 'nothing'}"
-        )
+        got = short(", ".join(heads)) or "nothing"
+        raise table_fault(path, f"the first line must name the columns E_j and tau_j, got {got}")
     E_inf, arms = 0.0, []
-    for number, row in enumerate(rows[1:], start=2):
+    for number, row in rows[1:]:
         cells = dict(zip(heads, (cell.strip() for cell in row), strict=False))
         try:
             E_j, tau_j = float(cells["E_j"]), float(cells.get("tau_j") or "inf")
         except (KeyError, ValueError):
-            raise ValueError(f"{name}: row {number} is no pair of numbers: {', '.join(row)}") from None
-        if not E_j >= 0 or not tau_j > 0:
-            raise ValueError(f"{name}: row {number} must have E_j >= 0 Pa and tau_j > 0 s, got {', '.join(row)}")
+            raise table_fault(path, f"row {number} is no pair of numbers: {short(', '.join(row))}") from None
+        if not 0 <= E_j < np.inf or not tau_j > 0:
+            what = f"row {number} must have a finite E_j >= 0 Pa and tau_j > 0 s, got {short(', '.join(row))}"
+            raise table_fault(path, what)
         if np.isinf(tau_j):
             E_inf += E_j
         else:
@@ -152,24 +159,31 @@ def _from_csv(text: str, name: str) -> dict[str, Any]:
     return {"E_inf": E_inf, "arms": tuple(arms)}
 
 
-def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
+def _cells(line: str, number: int, path: str | PathLike[str]) -> list[str]:
     try:
-        content = tomllib.loads(text)
-    except ValueError as fault:
-        raise ValueError(f"{name}: {fault}") from None
+        return next(csv.reader([line]), [])
+    except csv.Error as fault:
+        raise table_fault(path, f"row {number}: {fault}") from None
+
+
+def _from_toml(text: str, path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
+    from mdr.case_files import parse_toml
+
+    content = parse_toml(text, fsdecode(path))
     table = content.get("material", content)
     if not isinstance(table, dict):
-        raise ValueError(f"{name}: material must be a table of keys, got {table!r}")
+        raise table_fault(path, f"material must be a table of keys, got {short(str(table))}")
     table = dict(table)
     model = table.pop("model", "Prony")
     known = ("E_inf", "arms", "nu", "tau")
     unknown = [key for key in table if key not in known]
     if model != "Prony" or unknown:
-        what = f'model "{model}" is not Prony' if model != "Prony" else f"{unknown[0]} is no key of Prony"
-        raise ValueError(f"{name}: {what}; there are {', '.join(known)}")
+        other = f'model "{short(str(model))}" is not Prony'
+        what = other if model != "Prony" else f"{short(unknown[0])} is no key of Prony"
+        raise table_fault(path, f"{what}; there are {', '.join(known)}")
     if nu is not None:
         table["nu"] = nu
     missing = [key for key in ("E_inf", "arms", "nu") if key not in table]
     if missing:
-        raise ValueError(f"{name}: {missing[0]} is missing")
+        raise table_fault(path, f"{missing[0]} is missing")
     return table

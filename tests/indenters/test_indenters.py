@@ -34,6 +34,12 @@ def truncated(r):
     return np.maximum(r - B, 0) * T
 
 
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_the_depth_about_is_of_the_size_of_the_depth(shape):
+    for d in depths(shape, 1e-9, 1e-3, 5):
+        assert 0.1 * d < shape.depth_about(float(shape.force(d, 1.0))) < 10 * d
+
+
 def discs(a):
     return np.array([0.05, 0.3, 0.7, 0.99]) * a
 
@@ -53,6 +59,14 @@ def test_g_is_the_quadrature_of_f(shape):
     g = x * sum(quad(lambda t: slope(x * math.sin(t)), *two, epsabs=1e-12, epsrel=1e-11)[0] for two in ends)
     # fourth-order differences, h = 1e-4 r, leave 1e-12 of rounding, 1e-9 next to a kink; the start cut off is the rest
     assert_allclose(shape.profile_1d(x), g, rtol=2e-9 if not shape.kinks else 2e-8)
+
+
+@pytest.mark.parametrize("n", [1.0, 2.5, 300.0, 1000.0])
+def test_powers_of_any_size_are_mapped(n):
+    """κ_n κ_(n-1) = n π/2, as Γ(y + 1) = y Γ(y); beyond n = 340 Γ itself leaves the range of floats."""
+    below = PowerLaw(n - 1, 1.0).kappa_n if n > 1 else 1.0
+    # the logarithms of Γ near 1e3 are rounded by some 1e-13
+    assert_allclose(PowerLaw(n, 1.0).kappa_n * below, n * np.pi / 2, rtol=1e-12)
 
 
 @pytest.mark.parametrize("shape", CURVED, ids=name)

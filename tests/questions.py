@@ -1,0 +1,351 @@
+"""What any record is asked, and what any answer must be: finite, within its bounds, or a refusal that says why.
+
+A question takes a contact and a dice and returns how it was answered, in a word. An answer that is wrong is an
+AssertionError, and any error or warning that is no refusal comes through.
+"""
+
+import math
+import pickle
+import re
+import traceback
+import warnings
+from pathlib import Path
+
+import anything
+import numpy as np
+
+import mdr
+from mdr.pull import RigidPull, SpringPull
+
+LIBRARY = {str(path): path.read_text("utf-8").splitlines() for path in Path(mdr.__file__).parent.rglob("*.py")}
+ROUNDING = 1e-9  #: of mu_0, or of an answer
+LONGEST = 400  #: characters of a refusal
+
+
+class Refused(Exception):
+    """The library will not answer, and says why."""
+
+
+def asked(call, *args, **knobs):
+    """The answer, or Refused; a warning is an error, and so is whatever else is raised."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.filterwarnings("ignore", "Profile is mapped")  # an answer too: how good its digits are
+        try:
+            return call(*args, **knobs)
+        except ValueError as refusal:
+            require_own_words(refusal)
+            raise Refused(str(refusal)) from refusal
+
+
+def require_own_words(refusal):
+    """A refusal is raised by a line of the library that says so, and its words fit on a line."""
+    last = traceback.extract_tb(refusal.__traceback__)[-1]
+    where = f"{refusal!r} at {last.filename}:{last.lineno}"
+    assert last.filename in LIBRARY, f"not the library's own words: {where}"
+    assert "raise" in LIBRARY[last.filename][last.lineno - 1], f"not the library's own words: {where}"
+    message = str(refusal)
+    assert message.strip(), "a refusal without words"
+    assert len(message) <= LONGEST or isinstance(refusal, mdr.CaseFileError), f"{len(message)} characters: {message}"
+    assert not re.search(r"\bnan\b", message.lower()), message
+
+
+def finite(*answers):
+    for one in answers:
+        assert np.all(np.isfinite(one)), f"not finite: {one!r}"
+
+
+# --- questions, the quick ones first ---
+
+
+def identity(case, dice):
+    """Records compare, hash, print and pickle; a file brings an equal case back."""
+    assert case == case
+    assert hash(case) == hash(case)
+    assert repr(case)
+    again = pickle.loads(pickle.dumps(case))
+    if isinstance(case.indenter, mdr.Profile):
+        try:
+            mdr.write_case(case)
+        except mdr.CaseFileError:
+            return "no file for a function"
+        raise AssertionError("a Profile was written to a file")
+    assert again == case
+    assert hash(again) == hash(case)
+    text = mdr.write_case(case)
+    assert mdr.parse_case(text) == case
+    return "equal"
+
+
+def numbers(case, dice):
+    """What the record itself knows."""
+    knows = ("k_zc", "k_xc", "gamma_zc", "gamma_xc", "T", "unit_velocity", "u_z_max", "kept_gap", "working_depth")
+    for name in knows:
+        finite(getattr(case, name))
+    assert case.u_z_max > 0
+    assert case.unit_velocity > 0
+    assert case.k_zc >= 0
+    omega = case.oscillation.omega
+    finite(case.dynamic_stiffness([omega, 2 * omega]))
+    one, two = (case.material.dynamic_modulus(n * omega) for n in (1, 2))
+    assert one.real > 0
+    assert one.imag >= 0
+    assert two.real >= one.real * (1 - ROUNDING)
+    return "answered"
+
+
+def shape(case, dice):
+    """a, F_N, k_zc and g rise with depth; p is finite and presses."""
+    one, deepest, E_star = case.indenter, case.u_z_max, case.material.E_star
+    d = np.unique(np.maximum(deepest * np.geomspace(1e-6, 1, 9), one.least_depth))
+    a, F = one.contact_radius(d), one.force(d, E_star)
+    k = one.stiffness(d, E_star)
+    finite(a, F, k)
+    assert np.all(np.diff(a) >= -ROUNDING * a[-1])
+    assert np.all(np.diff(F) >= -ROUNDING * F[-1])
+    assert np.all(F >= 0)
+    assert F[-1] > 0
+    np.testing.assert_allclose(k, 2 * E_star * a, rtol=1e-12)
+    x = a[-1] * np.linspace(0, 1, 9)
+    g, f = one.profile_1d(x), one.profile_3d(x)
+    p = one.pressure(x, deepest, E_star)
+    finite(g, f, p)
+    assert np.all(p >= 0), p
+    if not one.least_depth:
+        assert np.all(np.diff(g) >= -ROUNDING * g[-1])
+        assert np.all(g <= deepest * (1 + ROUNDING))
+        assert np.all(f >= -ROUNDING * deepest)
+    return "answered"
+
+
+def velocities(case, dice):
+    """Critical velocities are numbers, infinite only on an undamped resonance, or where a light body jolts."""
+    eq_15 = mdr.critical_velocity(case)
+    assert eq_15 >= 0
+    assert not math.isinf(eq_15) or on_resonance(case)
+    full = mdr.full_slip_critical_velocity(case)
+    assert full >= 0
+    assert not math.isinf(full) or on_resonance(case) or jolts(case)
+    return "infinite" if math.isinf(eq_15) or math.isinf(full) else "finite"
+
+
+def on_resonance(case):
+    """An undamped body whose natural frequency is that of a harmonic, or a mass that the load moves on the contact."""
+    pull, omega = case.pull, case.oscillation.omega
+    if isinstance(pull, SpringPull) and pull.m > 0 and pull.c_x == 0:
+        ratio = pull.omega_0 / omega
+        if round(ratio) >= 1 and abs(ratio / round(ratio) - 1) < 1e-11:
+            return True
+    m_z = getattr(case.oscillation, "m_z", 0.0)
+    return m_z > 0 and abs(case.dynamic_stiffness(omega) - m_z * omega**2) <= 1e-12 * case.k_zc
+
+
+def jolts(case):
+    """Neither mass nor damper, and dashpots that touch."""
+    pull = case.pull
+    return isinstance(pull, SpringPull) and pull.m == pull.c_x == 0 and case.T > 0 and not case.keeps_contact
+
+
+def static(case, dice):
+    """The static limit lies between nothing and mu_0."""
+    cof = mdr.static_cof(case)
+    assert 0 <= cof <= case.mu_0 * (1 + ROUNDING), cof / case.mu_0
+    return "answered"
+
+
+def curve(case, dice):
+    """Under a rigid pull, in closed form: between the static limit and mu_0, and never falling with velocity."""
+    if not isinstance(case.pull, RigidPull) or not case.is_of_the_paper:
+        return "no closed form"
+    v = case.unit_velocity * np.array([0, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999, 1.0, 1.1, 1e3])
+    found = mdr.cof_curve(case, v)
+    finite(found.cof, found.cof_error, found.stick_share, found.v_c)
+    slack = found.cof_error.max() + ROUNDING * case.mu_0
+    assert np.all(found.cof >= found.static_cof - slack), found.cof / case.mu_0
+    assert np.all(found.cof <= case.mu_0 + slack), found.cof / case.mu_0
+    assert np.all(np.diff(found.cof) >= -slack), found.cof / case.mu_0
+    assert np.all((found.stick_share >= -ROUNDING) & (found.stick_share <= 1 + ROUNDING)), found.stick_share
+    return "answered"
+
+
+def held(case, dice):
+    """Pulled at rest: friction between nothing and mu_0 F_z, a loop that loses energy, fields that press."""
+    d = case.u_z_max
+    U = case.mu_0 * case.material.mindlin_ratio * d * dice.size(1e-6, 10.0)
+    found = mdr.partial_slip(case.indenter, case.material, case.mu_0, d, [0.0, U / 2, U])
+    most = case.mu_0 * found.F_z * (1 + ROUNDING)
+    finite(found.F_x, found.F_z, found.stick_radius)
+    assert np.all((found.F_x >= -ROUNDING * most) & (found.F_x <= most))
+    assert np.all(np.diff(found.F_x) >= -ROUNDING * most)
+    assert np.all(np.diff(found.stick_radius) <= ROUNDING * found.stick_radius[0])
+    loop = mdr.tangential_loop(case.indenter, case.material, case.mu_0, d, U, n=9)
+    finite(loop.u_x, loop.F_x, loop.loss)
+    assert np.all(np.abs(loop.F_x) <= most)
+    assert loop.loss >= -ROUNDING * most * U
+    if dice.happens(0.2):
+        fields = mdr.surface_fields(found, i=-1)
+        finite(fields.pressure, fields.traction, fields.u_z, fields.u_x)
+        assert np.all(fields.pressure >= 0)
+        slack = ROUNDING * fields.pressure.max()
+        assert np.all(np.abs(fields.traction) <= case.mu_0 * (fields.pressure + slack))
+    return "answered"
+
+
+def pressed(case, dice):
+    """Normal contact alone, under any history of depth or of force."""
+    n, t = 2 + dice.below(8), dice.size(1e-3, 1e3) / case.oscillation.omega
+    instants = t * np.cumsum([dice.share() for _ in range(n)])
+    heights = np.array([dice.between(-0.3, 1) for _ in range(n)])
+    if dice.happens(0.5):
+        found = mdr.indent(case.indenter, case.material, instants, case.u_z_max * heights)
+    else:
+        F_z = float(case.indenter.force(case.u_z_max, case.material.E_star)) * np.maximum(heights, 0)
+        found = mdr.indent(case.indenter, case.material, instants, F_z=F_z)
+    finite(found.u_z, found.F_z, found.contact_radius)
+    assert np.all(found.F_z >= 0)
+    assert np.all(found.contact_radius >= 0)
+    return "answered"
+
+
+# --- runs ---
+
+
+def velocity(case, dice):
+    """A pulling velocity of any size, most of them about the critical one."""
+    return case.unit_velocity * dice.one_of([dice.size(1e-6, 1e6), dice.size(0.01, 3.0), dice.size(0.01, 3.0), 1.0])
+
+
+def coarse_run(case, dice):
+    """A run of few springs and steps until it settles."""
+    n, steps = dice.one_of([32, 48, 64]), dice.one_of([64, 96, 128])
+    # of companions with half the steps, which bound the error, each harmonic must have some, or they agree by chance
+    steps *= len(getattr(case.oscillation, "cos", "x"))
+    start = "rest" if dice.happens(0.2) else "full_slip"
+    knobs = {"n_springs": n, "steps_per_period": steps, "start": start, "lump": not dice.happens(0.2)}
+    run = mdr.slide(case, velocity(case, dice), record=int(dice.happens(0.3)), **knobs)
+    return judged(case, run)
+
+
+def short_run(case, dice):
+    """A run of a few periods from any start, whether it settles or not."""
+    run = mdr.slide(
+        case,
+        velocity(case, dice),
+        n_springs=16 + dice.below(50),
+        steps_per_period=16 + dice.below(100),
+        n_periods=1 + dice.below(12),
+        start=dice.one_of(["rest", "full_slip"]),
+        record=dice.below(2),
+    )
+    return judged(case, run)
+
+
+def fine_run(case, dice):
+    """A run by default."""
+    run = mdr.slide(case, velocity(case, dice), record=int(dice.happens(0.2)))
+    return judged(case, run)
+
+
+def judged(case, run):
+    """Within the bounds of physics, and frank where it did not settle."""
+    mu_0, balance = case.mu_0, run.energy_balance
+    finite(run.cof, run.cof_error, run.stick_share, run.least_slip, run.mean_F_x, run.mean_F_z)
+    energies = [value for name, value in vars(balance).items()]
+    finite(*energies)
+    assert run.mean_F_z > 0
+    assert run.cof_error > 0
+    assert 0 <= run.stick_share <= 1 + ROUNDING, run.stick_share
+    assert balance.friction_loss >= -ROUNDING * max(map(abs, energies))
+    assert balance.viscous_loss >= -ROUNDING * max(map(abs, energies))
+    assert balance.damper_loss >= 0
+    if run.state is not None:
+        recorded(case, run)
+    if not run.settled:
+        assert run.why, "unsettled without a reason"
+        return "unsettled"
+    slack = run.cof_error + ROUNDING * mu_0
+    assert -slack <= run.cof <= mu_0 + slack, f"cof/mu_0 = {run.cof / mu_0}, error/mu_0 = {run.cof_error / mu_0}"
+    return "settled"
+
+
+def recorded(case, run):
+    """Springs within the cone of friction, in modes that there are."""
+    finite(run.t, run.u_x, run.u_z, run.F_x, run.F_z, run.x, run.width, run.e, run.s, run.f_x, run.f_z)
+    assert set(np.unique(run.state)) <= set(mdr.State)
+    most = np.abs(run.f_z).max()
+    assert np.all(run.f_z >= -ROUNDING * most)
+    assert np.all(np.abs(run.f_x) <= case.mu_0 * (run.f_z + ROUNDING * most))
+    assert np.all((run.f_z == 0) | (run.state != mdr.State.FREE))
+    np.testing.assert_allclose(run.f_z.sum(axis=1), run.F_z, rtol=0, atol=ROUNDING * np.abs(run.F_z).max())
+
+
+def other_units(case, dice):
+    """Lengths, times and forces in other units leave friction alone.
+
+    The units are powers of two, so that all numbers keep their digits and only a power or a logarithm rounds
+    differently. A run that is chaotic may not settle, and is not compared.
+    """
+    length, time, force = (2.0 ** (dice.below(41) - 20) for _ in range(3))
+    other = anything.in_units(case, length, time, force)
+    v_0, knobs = velocity(case, dice), {"n_springs": 32, "steps_per_period": 64}
+    ours, theirs = (
+        mdr.slide(one, v, **knobs) for one, v in ((case, v_0), (other, v_0 * length / time))
+    )
+    assert abs(mdr.static_cof(case) - mdr.static_cof(other)) <= ROUNDING * case.mu_0
+    if not (ours.settled and theirs.settled):
+        return "unsettled"
+    assert abs(ours.cof - theirs.cof) <= ROUNDING * case.mu_0 + min(ours.cof_error, theirs.cof_error)
+    return "the same"
+
+
+# --- the dear ones ---
+
+
+def measured(case, dice):
+    """The critical velocity from runs: within its bracket, or none and why."""
+    found = mdr.measure_critical_velocity(case, start=dice.one_of(["full_slip", "rest"]))
+    assert found.why
+    if found.v_c is None:
+        assert found.kind == "none"
+        return "none"
+    finite(found.v_c, found.low, found.high)
+    assert 0 <= found.low <= found.high
+    return found.kind
+
+
+def judged_by_name(case, dice):
+    """The verdict speaks."""
+    found = mdr.verdict(case)
+    assert str(found)
+    assert found.why
+    return f"holds: {found.holds}"
+
+
+def swept(case, dice):
+    """A study of four points, and back from its file."""
+    import tempfile
+
+    axes = {"v_0/v_c": [0.3, 0.9], "mu_0": [case.mu_0, 2 * case.mu_0]}
+    study = mdr.sweep(case, axes, n_springs=32, steps_per_period=64)
+    assert np.all(np.isfinite(study["cof"]) | (study.status != 0))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "study.nc"
+        study.to_netcdf(path)
+        again = mdr.read_study(path)
+        np.testing.assert_array_equal(again["cof"], study["cof"])
+    return "all points" if np.all(np.isfinite(study["cof"])) else "some points failed"
+
+
+def fitted(case, dice):
+    """Friction that a contact of the kind shows is fitted, if by many words."""
+    v = case.unit_velocity * np.array([0.1, 0.3, 0.6, 0.9, 1.3])
+    cof = case.mu_0 * np.array([dice.between(0.2, 1.0) for _ in v])
+    found = mdr.fit(case, mdr.FrictionData(v, np.sort(cof)), ["mu_0"])
+    finite(*found.values.values(), *found.low.values(), *found.high.values(), found.rms)
+    assert str(found)
+    return "fitted"
+
+
+QUICK = (identity, numbers, shape, velocities, static, curve, held)
+RUNS = (coarse_run, short_run, other_units)
+DEAR = (fine_run, measured, judged_by_name, swept, fitted)
