@@ -33,6 +33,7 @@ N_HARMONICS = 256  #: of the depth; its instants are eight times as many
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
 ENOUGH = 1e-4  #: the same with which it may end when it gets no further
 NOISE = 1e-6  #: of a depth, from which on a search may end at the rounding of the shape
+PATIENCE = 40  #: iterations without half the error, after which the search ends
 MOST, MEMORY = 150, 10  #: iterations, and how many of them are combined
 
 
@@ -166,7 +167,7 @@ def _anderson(
         since += 1
         if off < least:
             best, least = u, off
-        if least <= CLOSE or (since > 40 and least <= ENOUGH):
+        if least <= CLOSE or since > PATIENCE:
             break
         if off > 1e3 * least or not np.isfinite(off):
             tried, moves, u = [], [], best

@@ -291,10 +291,13 @@ def other_units(case, dice):
     ours, theirs = (
         mdr.slide(one, v, **knobs) for one, v in ((case, v_0), (other, v_0 * length / time))
     )
-    assert abs(mdr.static_cof(case) - mdr.static_cof(other)) <= ROUNDING * case.mu_0
+    slack = ROUNDING
+    if isinstance(case.oscillation, mdr.LoadOscillation) and (case.oscillation.m_z or case.rheology.remembers):
+        slack = 1e-3  # this depth is sought until 1e-4 of the load is missing, or less
+    assert abs(mdr.static_cof(case) - mdr.static_cof(other)) <= slack * case.mu_0
     if not (ours.settled and theirs.settled):
         return "unsettled"
-    assert abs(ours.cof - theirs.cof) <= ROUNDING * case.mu_0 + min(ours.cof_error, theirs.cof_error)
+    assert abs(ours.cof - theirs.cof) <= slack * case.mu_0 + min(ours.cof_error, theirs.cof_error)
     return "the same"
 
 

@@ -216,3 +216,14 @@ def test_cases_without_a_closed_form_are_refused():
 def test_a_contact_of_an_instant_sticks_for_no_more_than_all_of_it(T, dip):
     share = friction(contact("cone", dip - 1, T), np.geomspace(1e-9, 10, 40))[2]
     assert np.all((share >= 0) & (share <= 1))
+
+
+def test_the_error_of_a_shape_in_pieces_is_owned_up_to():
+    """A force curve is a spline, between whose knots the rule does not converge as fast as its error is squared."""
+    d = 0.08 * np.linspace(0, 1, 25)
+    shape = mdr.FromForce(d, d + 30 * d**2, 1.0)
+    case = mdr.SlidingContact(shape, mdr.Elastic(1.0, 0.3), 0.5, mdr.NormalOscillation(-0.035, 0.061, 300.0))
+    v_0 = case.unit_velocity * np.array([1e-9, 1e-3, 0.1, 0.5])
+    found = average_friction(case, v_0)
+    exact = 0.5 * (1 - rigid_pull._integrals(case, v_0 / case.unit_velocity, 0.01)[0])
+    assert np.all(np.abs(found.cof - exact) <= found.cof_error)
