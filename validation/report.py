@@ -15,8 +15,6 @@ from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mdr.provenance import versions
-
 VERDICTS = ("holds", "holds if …", "fails when …")  #: a verdict reads or starts like one of these
 SIDES = ("within", "at most", "at least")  #: of the expected number a check allows
 NOT_TESTED = "not tested"  #: the verdict on a claim whose module raised
@@ -198,6 +196,8 @@ def text_table(claims: Iterable[Claim]) -> str:
 def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
     """Give the whole report as one page that needs no other file; a tap on a figure enlarges it or undoes that."""
     glance = [(c, f) for c in claims for f in c.figures if f.name == "glance"][:1]
+    from mdr.provenance import versions
+
     n_checks, n_held = sum(len(c.checks) for c in claims), sum(c.n_held for c in claims)
     parts = [
         _HEAD,
