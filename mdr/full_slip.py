@@ -111,10 +111,12 @@ def _force(case: SlidingContact, phase: Array, edge: Array) -> Array:
     return np.maximum(elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above, 0)
 
 
-def edge_marks(case: SlidingContact) -> tuple[float, ...]:
-    """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth."""
+def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
+    """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth; with joints
+    also those at which pieces of a curve meet, where it is as smooth as a spline.
+    """
     shape, cycle = case.indenter, case.cycle
-    radii = [*shape.kinks, *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
+    radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
     depths = {0.0, *(float(shape.profile_1d(r)) for r in radii)}
     gaps = {(depth - cycle.u_z0) / cycle.du_z for depth in depths}
     return tuple(sorted(gap for gap in gaps if kept_gap(case.T) < gap < 1))
@@ -128,7 +130,7 @@ def mean_normal_force(case: SlidingContact) -> float:
     if not require_case(case).is_of_the_paper:
         return float(force_of(case, followed(case, N_STEPS)).mean())
     T, rule = case.T, double_exponential()
-    turn, marks = turning_phase(T), edge_marks(case)
+    turn, marks = turning_phase(T), edge_marks(case, joints=True)
     ends = [0.0, *(float(leaving_phase(gap, T)) for gap in marks), turn, *(touching_phase(gap, T) for gap in marks)]
     total = 0.0
     for low, high in pairwise(sorted([*ends, 2 * np.pi])):

@@ -57,7 +57,7 @@ from mdr.unilateral import contact_edge, edge_rate, kept_gap, touching_phase
 
 Array = NDArray[np.float64]
 
-STEPS = (0.11, 0.22, 0.44)  #: of the double-exponential rule, and of those that it is compared with
+STEPS = (0.11, 0.22)  #: of the double-exponential rule, and of the one that it is compared with
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,10 +99,9 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
     v = v_0.ravel() / case.unit_velocity
-    fine, coarse, coarser = (_integrals(case, v, step) for step in STEPS)
-    # halving the step would square the error of the rule, and does where the shape is smooth; 1e-13 is rounding
-    last, before = np.abs(fine[0] - coarse[0]), np.abs(coarse[0] - coarser[0])
-    error = np.where(last < before**1.5, last**1.5, last) + 1e-13
+    fine, coarse = (_integrals(case, v, step) for step in STEPS)
+    # halving the step would square the error of the rule; 1e-13 is rounding
+    error = np.abs(fine[0] - coarse[0]) ** 1.5 + 1e-13
     shape = v_0.shape
     return RigidPullFriction(
         cof=case.mu_0 * (1 - fine[0]).reshape(shape),
@@ -134,7 +133,7 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     if T > 0:
         raise ValueError("the leading term of a Kelvin contact that is lost entirely is not known in closed form")
     rule = double_exponential(STEPS[0])
-    marks = [0.0, *(float(np.arccos(c)) for c in sorted(edge_marks(case), reverse=True)), np.pi]
+    marks = [0.0, *(float(np.arccos(c)) for c in sorted(edge_marks(case, joints=True), reverse=True)), np.pi]
     total = 0.0
     for low, high in pairwise(marks):
         phi = rule.between(np.array(low), np.array(high))
@@ -171,7 +170,8 @@ def _integrals(case: SlidingContact, v: Array, step: float) -> Array:
 def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
     T, cycle, rule = case.T, case.cycle, double_exponential(step)
     longest = _longest_stick(v, T)
-    marks = sorted(edge_marks(case), reverse=True)  # the greater the gap, the later the touch and the shorter the stick
+    # the greater the gap, the later the touch and the shorter the stick
+    marks = sorted(edge_marks(case, joints=True), reverse=True)
     ends = [np.zeros_like(v), *(_stick_of_touch(touching_phase(gap, T), v, T, longest) for gap in marks), longest]
     lag, sticks = np.zeros_like(v), np.zeros_like(v)
     for low, high in pairwise(ends):

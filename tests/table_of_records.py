@@ -28,7 +28,7 @@ SHARES = (
     dict.fromkeys(questions.QUICK, 1.0)
     | dict.fromkeys((questions.pressed, questions.short_run), 0.15)
     | {questions.coarse_run: 0.2, questions.other_units: 0.02, questions.fine_run: 0.01}
-    | {questions.swept: 0.002, questions.fitted: 0.002, questions.measured: 0.002, questions.judged_by_name: 0.001}
+    | {questions.swept: 0.002, questions.fitted: 0.002, questions.measured: 0.001, questions.judged_by_name: 0.0005}
 )
 FOLLOWED = 0.25  #: the same share, of questions that follow every spring where there is no closed form
 

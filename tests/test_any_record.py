@@ -34,14 +34,14 @@ def answer(question, drawn):
 
 
 @pytest.mark.parametrize("question", questions.QUICK, ids=lambda one: one.__name__)
-@settings(max_examples=25, suppress_health_check=EVERYTHING)
+@settings(max_examples=12, suppress_health_check=EVERYTHING)
 @given(drawn=contacts())
 def test_any_record_answers_or_says_why_not(question, drawn):
     answer(question, drawn)
 
 
 @pytest.mark.parametrize("question", [questions.pressed, *questions.RUNS], ids=lambda one: one.__name__)
-@settings(max_examples=8, suppress_health_check=EVERYTHING)
+@settings(max_examples=4, suppress_health_check=EVERYTHING)
 @given(drawn=contacts())
 def test_any_record_runs_within_the_bounds_of_physics_or_says_why_not(question, drawn):
     answer(question, drawn)

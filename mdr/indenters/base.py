@@ -51,6 +51,11 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         return ()
 
     @property
+    def joints(self) -> tuple[float, ...]:
+        """Kinks, and the radii at which the pieces of a curve meet as smoothly as those of a spline [m]."""
+        return self.kinks
+
+    @property
     def max_radius(self) -> float:
         """Largest contact radius the shape can have [m]; inf for a shape without end."""
         return np.inf

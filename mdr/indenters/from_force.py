@@ -14,7 +14,7 @@ from mdr.checks import FloatArray, finite_array, not_negative, plain, positive, 
 from mdr.indenters import roots
 from mdr.indenters.base import EPS, Indenter
 from mdr.indenters.quadrature import double_exponential, in_chunks
-from mdr.indenters.sampled_profile import column, require_ascent, require_pairs
+from mdr.indenters.sampled_profile import MOST_JOINTS, column, require_ascent, require_pairs
 from mdr.indenters.splines import fit
 
 N_POINTS = 7  #: fewer make no spline
@@ -69,6 +69,14 @@ class FromForce(Indenter):
     def kinks(self) -> tuple[float, ...]:
         """The edge of a flat face [m]."""
         return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - SLACK) else ()
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """The contact radii at the measured depths [m], unless these are so many that what they miss is little."""
+        if len(self.d) > MOST_JOINTS:
+            return self.kinks
+        inner = self._radius(np.array(self.d[1:-1]))
+        return tuple(np.unique([*self.kinks, *inner[(inner > 0) & (inner < self.max_radius)]]).tolist())
 
     @property
     def max_radius(self) -> float:

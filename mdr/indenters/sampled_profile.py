@@ -14,6 +14,7 @@ from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.quadrature import in_chunks
 from mdr.indenters.splines import SplineImage, fit
 
+MOST_JOINTS = 100
 N_POINTS = 6  #: fewer make no spline
 TIPS = ("round", "sharp")
 
@@ -55,6 +56,11 @@ class SampledProfile(Indenter):
             refuse_falling(self, self._image.ends, self._image.image_at_ends())
         except ValueError as ring:
             raise ValueError(f"{ring}; if it is noise that makes it fall, give its size as smoothing=") from None
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """The radii of the points [m], or the kinks where there are so many points that what they miss is little."""
+        return self.r[1:-1] if len(self.r) <= MOST_JOINTS else self.kinks
 
     @property
     def max_radius(self) -> float:

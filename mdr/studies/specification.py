@@ -18,7 +18,7 @@ from mdr.words import short
 
 #: of the numbers that the compiled kernels give: raise it with every change of a kernel, a closed form or a default
 #: that moves a digit without a new version, so that no store mixes two of them
-FORMAT = 1
+FORMAT = 2
 MOST_TOLD = 4  #: differences
 
 
