@@ -1,4 +1,5 @@
-"""The command line: `mdr velocity`, `curve`, `measure` and `verdict` of a case file, `mdr sweep` of a study file.
+"""The command line: `mdr velocity`, `curve`, `measure` and `verdict` of a case file, `mdr sweep` of a study file,
+`mdr shapes` and `mdr case` to begin with.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input; 130 interrupted. Results go to standard output (with --json one JSON object: what is undefined is null,
@@ -26,7 +27,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
     given = list(sys.argv[1:] if argv is None else argv)
     args = parser().parse_args(given)
-    args.command = shlex.join(["mdr", *given])
+    args.command = shlex.join(["mdr", *given]).encode("utf-8", "backslashreplace").decode("utf-8")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a letter the terminal lacks must not cost the result
             stream.reconfigure(errors="backslashreplace")

@@ -53,10 +53,14 @@ class CofCurve(ArrayRecord):
 
     def to_csv(self, path: str | Path) -> None:
         """Write v_0, cof, cof_error, settled, stick_share, with units in the header."""
+        Path(path).write_text(self.table(), encoding="utf-8")
+
+    def table(self) -> str:
+        """The text of the CSV file."""
         columns = (self.v_0, self.cof, self.cof_error, self.settled.astype(int), self.stick_share)
         lines = ["v_0 [m/s],cof [-],cof_error [-],settled,stick_share [-]"]
         lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
-        Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return "\n".join(lines) + "\n"
 
 
 def cof_curve(

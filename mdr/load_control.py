@@ -158,15 +158,15 @@ def _anderson(
     """Zero of `missing`, by corrections missing/weight of which the last are combined; None where there is none."""
     tried: list[NDArray[np.complex128]] = []
     moves: list[NDArray[np.complex128]] = []
-    best, least, since = u, np.inf, 0
+    best, least, known, since = u, np.inf, np.inf, 0
     for _ in range(MOST):
         rest = missing(u)
         off = float(np.abs(rest).max()) / F_z0
-        if off < 0.5 * least:
-            since = 0
-        since += 1
         if off < least:
             best, least = u, off
+        since += 1
+        if least < 0.5 * known:
+            known, since = least, 0
         if least <= CLOSE or since > PATIENCE:
             break
         if off > 1e3 * least or not np.isfinite(off):

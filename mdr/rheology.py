@@ -50,7 +50,7 @@ class Rheology:
         if not omega * slowest <= SLOWEST:
             raise ValueError(
                 f"{name} = {slowest:.6g} s is more than {SLOWEST:g}/omega: what relaxes in a period is lost in "
-                f"rounding; lower it to {SLOWEST / omega:.6g} s"
+                f"rounding; lower it to {SLOWEST / omega:.6g} s, which a period does not tell from it"
             )
         ratios = tuple(E_j / material.E_star for E_j, _ in arms)
         return cls(omega * material.tau, ratios, tuple(omega * tau_j for _, tau_j in arms))

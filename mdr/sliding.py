@@ -93,7 +93,7 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         knobs = _that_touch(case, knobs, free[1])
         main = march(case, v_0, knobs)
         if not main.sees_contact and free[1] and knobs.steps < MOST_STEPS:
-            knobs = replace(knobs, steps=2 * knobs.steps)
+            knobs = replace(knobs, steps=min(2 * knobs.steps, MOST_STEPS))
             continue
         if not main.settling.settled:
             return finish(main)
@@ -122,7 +122,7 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
     while not all(touches(case, knobs.coarser(n)) for n in (knobs.steps, knobs.steps // 2, 3 * knobs.steps // 4)):
         if not free or knobs.steps >= MOST_STEPS:
             raise too_coarse(knobs.steps)
-        knobs = replace(knobs, steps=2 * knobs.steps)
+        knobs = replace(knobs, steps=min(2 * knobs.steps, MOST_STEPS))
     return knobs
 
 

@@ -230,6 +230,17 @@ def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
     blocked.write_text("")
     assert main(["curve", EXAMPLE, "-o", str(blocked)]) == 2
     assert f"mdr: {blocked}: no folder to write to: " in capsys.readouterr().err
+    (tmp_path / "out" / "curve.csv").mkdir(parents=True)
+    assert main(["curve", EXAMPLE, "-o", str(tmp_path / "out")]) == 2
+    assert "curve.csv: is a folder, where a file is to be written" in capsys.readouterr().err
+    assert main(["curve", EXAMPLE, "-o", "/proc/self"]) in (1, 2)  # root may write anywhere, but not there
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_command_in_no_encoding_is_kept_all_the_same(punch, tmp_path):
+    folder = tmp_path / "m\udcff"
+    assert main(["curve", punch, "-o", str(folder), "--points", "2"]) == 0
+    assert "m\\udcff" in (folder / "curve.csv").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

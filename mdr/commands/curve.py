@@ -15,11 +15,13 @@ from mdr.commands.output import (
     complain,
     made_by,
     print_json,
+    require_free,
     velocity_text,
     write_figure,
 )
 from mdr.contact import SlidingContact
 from mdr.provenance import commented
+from mdr.studies.files import write_whole
 from mdr.theory import critical_velocity
 
 if TYPE_CHECKING:
@@ -42,6 +44,7 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
 
     if args.output is not None:
         _make_folder(args.output)  # before the work, not after it
+        require_free([args.output / name for name in ("curve.csv", "curve.png", "curve.svg")])
     from mdr.friction import cof_curve
 
     found = cof_curve(case, velocity_scale(case) * np.linspace(0, args.up_to, args.points))
@@ -114,12 +117,8 @@ def _make_folder(folder: Path) -> None:
 
 def _write_csv(args: argparse.Namespace, case: SlidingContact, curve: CofCurve) -> None:
     """curve.csv with versions, command and case at its head, each line behind a #."""
-    target = args.output / "curve.csv"
-    partial = target.with_suffix(".csv.part")
-    curve.to_csv(partial)
     head = commented(made_by(args), "", write_case(case))
-    partial.write_text(head + partial.read_text(encoding="utf-8"), encoding="utf-8")
-    partial.replace(target)  # a file that is there is whole
+    write_whole(args.output / "curve.csv", (head + curve.table()).encode("utf-8"))
 
 
 def _write_figures(args: argparse.Namespace, curve: CofCurve) -> None:

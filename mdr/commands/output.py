@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os
 import sys
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,7 @@ import mdr
 from mdr.case_files import write_case
 from mdr.contact import SlidingContact
 from mdr.provenance import figure_metadata, versions
+from mdr.studies.files import write_whole
 
 DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130  #: exit statuses
 
@@ -60,7 +63,20 @@ def made_by(args: argparse.Namespace) -> str:
 def write_figure(args: argparse.Namespace, figure: Any, folder: Path, stem: str) -> None:
     """Write stem.png and stem.svg, which keep versions and command."""
     for kind in ("png", "svg"):
-        figure.savefig(folder / f"{stem}.{kind}", dpi=150, metadata=figure_metadata(kind, args.command))
+        drawn = BytesIO()
+        figure.savefig(drawn, format=kind, dpi=150, metadata=figure_metadata(kind, args.command))
+        write_whole(folder / f"{stem}.{kind}", drawn.getvalue())
+
+
+def require_free(paths: Sequence[Path]) -> None:
+    """Refuse, before the work, places where no file can be written."""
+    for path in paths:
+        if path.is_dir():
+            raise WrongInput(f"{path}: is a folder, where a file is to be written")
+        if not path.parent.is_dir():
+            raise WrongInput(f"{path}: there is no folder {path.parent}")
+        if not os.access(path.parent, os.W_OK):
+            raise WrongInput(f"{path}: no file can be written there")
 
 
 def _plain(value: Any) -> Any:

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import mdr
-from mdr.commands.output import DONE, FAILED, WrongInput, complain, made_by, print_json, write_figure
+from mdr.commands.output import (
+    DONE,
+    FAILED,
+    INTERRUPTED,
+    WrongInput,
+    complain,
+    made_by,
+    print_json,
+    require_free,
+    write_figure,
+)
 from mdr.provenance import commented
 
 if TYPE_CHECKING:
@@ -43,7 +52,11 @@ def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
     except ValueError as fault:  # of shard and chunks; the file has been read
         raise WrongInput(str(fault)) from None
     if args.output is not None and study.complete:
-        _write(args, study)
+        try:
+            _write(args, study)
+        except KeyboardInterrupt:
+            kept = f"all of it is safe in {args.store}; the same call writes it" if args.store else "nothing is kept"
+            return complain(f"interrupted while the study was written; {kept}", INTERRUPTED)
     if args.json:
         print_json(args, _told(study), asked.case)
     else:
@@ -53,14 +66,15 @@ def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
 
 def _require_a_place(args: argparse.Namespace) -> None:
     """Refuse, before the work, what would lose its outcome."""
+    if args.store is not None and args.store.exists() and not args.store.is_dir():
+        raise WrongInput(f"{args.store}: is a file; a store is a folder")
     if args.output is None:
         if args.store is None and not args.json:
             raise WrongInput("the study would be lost: give -o file.nc or file.csv, --store folder, or --json")
         return
     if args.output.suffix not in (".nc", ".csv"):
         raise WrongInput(f"{args.output}: a study is written as .nc or .csv")
-    if args.output.is_dir() or not os.access(args.output.parent, os.W_OK):
-        raise WrongInput(f"{args.output}: no file can be written there")
+    require_free([args.output, *(args.output.with_suffix(f".{kind}") for kind in ("png", "svg"))])
 
 
 def _write(args: argparse.Namespace, study: Study) -> None:

@@ -29,7 +29,7 @@ from mdr.checks import count, finite
 from mdr.contact import KINDS, SlidingContact
 from mdr.friction import LEAST_KNOB
 from mdr.pull import RigidPull
-from mdr.studies.axes import GROUPS, VELOCITIES, read_axes
+from mdr.studies.axes import GROUPS, read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.words import offer, short
 
@@ -157,11 +157,10 @@ def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
 
 
 def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[str]:
-    """Faults of the axes that show although the case is refused: of those that set what is sound in it."""
+    """Faults of the axes that show although the case is refused: of all but those that set what is wrong in it."""
     case, unsound = stand_in(content)
     slots = {path: GROUPS.get(path, path).partition(".")[0] for path in axes}
-    known = {*KINDS, *VELOCITIES, "mu_0"} - unsound
-    seen = {path: axes[path] for path, slot in slots.items() if slot in known or not unsound}
+    seen = {path: axes[path] for path, slot in slots.items() if slot not in unsound}
     return _faults_of_axes(case, seen) if case is not None else []
 
 

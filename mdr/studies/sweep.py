@@ -66,7 +66,7 @@ def sweep(
     _require_executor(executor)
     if store is None:
         if shard is not None:
-            raise ValueError("a shard needs a store that the others are kept in; give store=")
+            raise ValueError("a shard needs a store that the others are kept in: store= in Python, --store in a shell")
         return _in_memory(work, executor)
     if not isinstance(store, str | PathLike):
         raise TypeError(f"store must be a folder, got {short(repr(store))}")
@@ -88,10 +88,12 @@ def _in_memory(work: Work, executor: Any) -> Study:
         run(work, cut, range(cut.n_chunks), executor, take)
     except KeyboardInterrupt:
         meter.close()
-        print("sweep: interrupted, and nothing is kept; with store= finished chunks are", file=sys.stderr)
+        print(
+            "sweep: interrupted, and nothing is kept; in a store (store=, --store) finished chunks are", file=sys.stderr
+        )
         raise
     except WorkersLost as error:
-        raise StudyError(f"{error}; nothing is kept, as there is no store=") from error
+        raise StudyError(f"{error}; nothing is kept, as there is no store") from error
     finally:
         meter.close()
     return results.study(Frame.of(work, _identity_or_none(work)))

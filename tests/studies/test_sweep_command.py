@@ -107,7 +107,8 @@ def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
     [
         ([], "the study would be lost: give -o file.nc or file.csv, --store folder, or --json"),
         (["-o", "study.txt"], "study.txt: a study is written as .nc or .csv"),
-        (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: no file can be written there"),
+        (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: there is no folder /nowhere"),
+        (["--store", "study.toml"], "study.toml: is a file; a store is a folder"),
         (["--json", "--shard", "1/2"], "a shard needs a store"),
         (["--store", "store", "--shard", "3/2"], "shard must be k/n"),
     ],
@@ -144,6 +145,18 @@ def test_an_interrupt_is_status_130(file, tmp_path, capsys, monkeypatch):
     told = capsys.readouterr().err
     assert "sweep: interrupted; 0 of 4 chunks are safe in" in told
     assert "mdr: interrupted before it was done" in told
+
+
+@pytest.mark.parametrize("stored", [True, False])
+def test_an_interrupt_while_the_study_is_written_says_what_is_safe(file, tmp_path, capsys, monkeypatch, stored):
+    def interrupted(*args):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mdr.commands.sweep.write_figure", interrupted)
+    store = ["--store", str(tmp_path / "store")] if stored else []
+    assert main(["sweep", file, "-o", str(tmp_path / "study.nc"), *store]) == 130
+    told = "all of it is safe in" if stored else "nothing is kept"
+    assert told in capsys.readouterr().err
 
 
 def test_the_study_comes_back_without_numbers_lost(file, tmp_path):
