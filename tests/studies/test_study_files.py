@@ -139,7 +139,8 @@ def test_faults_of_case_and_study_are_told_at_once():
 
 def test_axes_are_judged_behind_a_case_that_is_refused():
     unsound = CASE.replace("E = 3e6", "E = -1")
-    found = faults('"oscillation.u_z" = [1e-6]\n"pull.m" = [0.1, 0.1]\n"material.tua" = [1]\n"alfa" = [1]', case=unsound)
+    axes = '"oscillation.u_z" = [1e-6]\n"pull.m" = [0.1, 0.1]\n"material.tua" = [1]\n"alfa" = [1]'
+    found = faults(axes, case=unsound)
     assert [line.split(";")[0] for line in found] == [
         "[material] E must be positive, got -1.0 (Young's modulus in Pa)",
         "[axes] oscillation.u_z is no path of this case",

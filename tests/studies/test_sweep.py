@@ -184,7 +184,8 @@ def test_ctrl_c_without_a_store(capsys, monkeypatch):
     monkeypatch.setattr(sys.modules["mdr.studies.sweep"], "run", interrupted)
     with pytest.raises(KeyboardInterrupt):
         mdr.sweep(RIGID, {"mu_0": [0.1]}, quantities=["v_c"])
-    assert "sweep: interrupted, and nothing is kept; in a store (store=, --store) finished chunks are" in capsys.readouterr().err
+    told = "sweep: interrupted, and nothing is kept; in a store (store=, --store) finished chunks are"
+    assert told in capsys.readouterr().err
 
 
 def test_ctrl_c_before_the_plan(tmp_path, capsys, monkeypatch):
