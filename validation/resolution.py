@@ -154,8 +154,8 @@ def claim(effort: str) -> Claim:
         f"most "
         f"{100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
         verdict="holds",
-        sentence="The COF converges at least with the second power of step and spring spacing, and every run states an "
-        "error that bounds the true one.",
+        sentence="The COF converges at least with the second power of step and spring spacing, and the error that a "
+        "run states bounded the true one in every run tested.",
         checks=tuple(checks),
         figures=(_figure(studies),),
     )
