@@ -72,7 +72,7 @@ def test_lost_processes_are_an_error_that_says_what_is_kept(tmp_path):
     assert "of 9 chunks are safe in" in str(caught.value)
     assert "the same call goes on from there" in str(caught.value)
     assert mdr.read_study(tmp_path / "store").count(0) >= 1
-    with spawned(1) as processes, pytest.raises(mdr.StudyError, match="nothing is kept, as there is no store="):
+    with spawned(1) as processes, pytest.raises(mdr.StudyError, match="nothing is kept, as there is no store"):
         mdr.sweep(RIGID, axes, executor=processes, quantities=quantities)
 
 
