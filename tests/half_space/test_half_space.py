@@ -1,0 +1,230 @@
+"""The judge before it judges: coefficients, contact and friction on the half-space against closed forms."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import dblquad
+
+import mdr
+from validation.half_space import springs
+from validation.half_space.__main__ import main
+from validation.half_space.friction import Knobs, contact_of, in_three_dimensions, of_springs
+from validation.half_space.influence import HalfSpace, X, Y, Z
+from validation.half_space.march import Contact
+from validation.half_space.normal import NotConverged, pressure
+from validation.half_space.tangential import traction
+
+NU, G = 0.3, 2.0
+E_STAR, G_STAR, BETA = 2 * G / (1 - NU), 4 * G / (2 - NU), (1 - 2 * NU) / (2 * (1 - NU))
+BODY = HalfSpace(6, 0.3, E_STAR, G_STAR, BETA)
+
+
+def point_load(i, j, x, y):
+    """u_i under a unit force along j, of Boussinesq and Cerruti (Johnson 1985, 3.2 and 3.6)."""
+    r = np.hypot(x, y)
+    sideways = (1 - 2 * NU) / 2 / r**2
+    u = [
+        [(1 - NU) / r + NU * x * x / r**3, NU * x * y / r**3, -sideways * x],
+        [NU * x * y / r**3, (1 - NU) / r + NU * y * y / r**3, -sideways * y],
+        [sideways * x, sideways * y, (1 - NU) / r],
+    ]
+    return u[i][j] / (2 * np.pi * G)
+
+
+@pytest.mark.parametrize(("a", "b"), [(1, 0), (2, -3), (-4, 1)])
+def test_coefficients_are_integrals_of_point_loads(a, b):
+    h, n = BODY.h, BODY.n
+    for i in (X, Y, Z):
+        for j in (X, Y, Z):
+
+            def load_at(s, t, i=i, j=j):
+                return point_load(i, j, a * h - t, b * h - s)
+
+            load = dblquad(load_at, -h / 2, h / 2, -h / 2, h / 2)[0]
+            assert_allclose(BODY.coefficients(i, j)[a + n - 1, b + n - 1], load, atol=1e-9 * h / G)
+
+
+def test_a_product_is_the_sum_over_cells():
+    rng = np.random.default_rng(0)
+    n, t = BODY.n, rng.normal(size=(3, 6, 6))
+    u = np.zeros_like(t)
+    at = np.arange(n)
+    for i in (X, Y, Z):
+        for j in (X, Y, Z):
+            c = BODY.coefficients(i, j)
+            seen = c[at[:, None, None, None] - at[:, None] + n - 1, at[:, None, None] - at + n - 1]
+            u[i] += np.einsum("abcd,cd->ab", seen, t[j])
+    assert_allclose(BODY.displacement(t), u, atol=1e-14)
+
+
+def test_work_is_the_same_both_ways():
+    one, two = np.random.default_rng(1).normal(size=(2, 3, 6, 6))
+    assert_allclose(np.sum(one * BODY.displacement(two)), np.sum(two * BODY.displacement(one)), rtol=1e-13)
+
+
+def grid(n, side):
+    h = side / n
+    places = (np.arange(n) - (n - 1) / 2) * h
+    return h, np.hypot(places[:, None], places[None, :])
+
+
+def hertz(n, nu=0.0, d=1e-3):
+    """Pressure of a paraboloid of R = 1 on a body of E* = 1, its cells, and the grid."""
+    h, r = grid(n, 2 * 1.06 * np.sqrt(d))
+    body = HalfSpace(n, h, 1.0, 2 * (1 - nu) / (2 - nu))
+    product = lambda p: body.displacement(p[None], (Z,), (Z,))[0]  # noqa: E731
+    return pressure(product, d - r**2 / 2, np.zeros((n, n)), 1e-10), body, r
+
+
+def test_hertz():
+    d = 1e-3
+    for n, tolerance in ((32, 5e-4), (64, 1e-4)):
+        p, body, r = hertz(n)
+        assert_allclose(p.sum() * body.h**2, 4 / 3 * d**1.5, rtol=tolerance)
+    exact = 2 / np.pi * np.sqrt(d) * np.sqrt(np.maximum(1 - r**2 / d, 0))
+    assert np.max(np.abs(p - exact)[r < 0.9 * np.sqrt(d)]) < 0.002 * exact.max()
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.5])
+def test_cattaneo_and_mindlin(nu):
+    d, mu = 1e-3, 0.3
+    p, body, _ = hertz(64, nu)
+    kappa, F_z = body.E_star / body.G_star, p.sum() * body.h**2
+    q = np.zeros((2, *p.shape))
+    for part in (0.2, 0.5, 0.8):
+        c = np.zeros_like(q)
+        c[X] = part * mu * kappa * d
+        q = traction(lambda t: body.displacement(t, (X, Y), (X, Y)), c, mu * p, q, 1e-9)
+        assert np.all(np.hypot(*q) <= mu * p * (1 + 1e-12))
+        # q_y, which the closed form leaves out, is of order nu/(4 - 2 nu)
+        assert_allclose(q[X].sum() * body.h**2, mu * F_z * (1 - (1 - part) ** 1.5), rtol=1e-3 if nu == 0 else 5e-3)
+        assert np.max(np.abs(q[Y])) < (1e-12 if nu == 0 else nu / (4 - 2 * nu)) * mu * p.max()
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.45])
+def test_a_bonded_punch_is_stiffer(nu):
+    """ln(3 - 4 nu)(1 - nu)/(1 - 2 nu) (Mossakovskii 1954), cells extrapolated in the first power of their size."""
+    ratios = []
+    for n in (32, 64):
+        h, r = grid(n, 2.0)
+        body = HalfSpace(n, h, 2 / (1 - nu), 4 / (2 - nu), (1 - 2 * nu) / (2 * (1 - nu)))
+        inside = (r < 1).astype(float)
+        asked = np.zeros((3, n, n))
+        asked[Z] = inside
+        bonded = solved(lambda t, b=body, i=inside: b.displacement(t) * i, asked)
+        smooth = solved(lambda t, b=body, i=inside: b.displacement(t, (Z,), (Z,)) * i, asked[Z:])
+        ratios.append(bonded[Z].sum() / smooth[0].sum())
+    assert_allclose(2 * ratios[1] - ratios[0], np.log(3 - 4 * nu) * (1 - nu) / (1 - 2 * nu), rtol=1e-3)
+
+
+def solved(product, asked):
+    """Plain conjugate gradients."""
+    x, r = np.zeros_like(asked), asked.copy()
+    direction, norm = r, np.sum(r * r)
+    while norm > 1e-20 * np.sum(asked * asked):
+        image = product(direction)
+        along = norm / np.sum(direction * image)
+        x, r = x + along * direction, r - along * image
+        new = np.sum(r * r)
+        direction, norm = r + new / norm * direction, new
+    return x
+
+
+# --- friction ---
+
+BALL = mdr.SlidingContact(
+    mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.3, mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
+)
+V = 0.4 * mdr.critical_velocity(BALL)
+COARSE = Knobs(cells=25, steps=24, cycles=2)
+
+
+def test_springs_in_coarse_steps_tend_to_the_closed_form():
+    exact = mdr.cof_curve(BALL, [V]).cof[0]
+    off = [of_springs(BALL, V, replace(COARSE, steps=n)).cof - exact for n in (50, 100, 200)]
+    assert abs(off[2]) < 2e-4
+    assert_allclose(off[1] / off[0], 0.5, atol=0.15)  # of first order
+
+
+@pytest.mark.parametrize("motion", [(20e-6, 6e-6), (20e-6, 30e-6)], ids=["kept", "lost"])
+@pytest.mark.parametrize("tau", [0.0, 3e-3], ids=["elastic", "Kelvin"])
+def test_without_coupling_the_half_space_has_the_friction_of_the_springs(motion, tau):
+    material = mdr.KelvinVoigt(E=3e6, nu=0.0, tau=tau)
+    case = replace(BALL, material=material, oscillation=mdr.NormalOscillation(*motion, omega=300.0))
+    knobs = replace(COARSE, coupled=False, cells=31)
+    v = 0.4 * mdr.critical_velocity(case)
+    off = in_three_dimensions(case, v, knobs).cof - of_springs(case, v, knobs).cof
+    assert abs(off) < 5e-4 * case.mu_0  # of 31 cells
+
+
+def test_an_incompressible_body_knows_no_coupling():
+    one, two = (in_three_dimensions(BALL, V, replace(COARSE, coupled=on)) for on in (True, False))
+    assert_allclose(one.cof, two.cof, rtol=1e-9)
+
+
+def test_coupling_lowers_friction():
+    found = {}
+    for nu in (0.15, 0.3, 0.45):
+        case = replace(BALL, material=mdr.Elastic(E=3e6, nu=nu))
+        v = 0.4 * mdr.critical_velocity(case)
+        found[nu] = (of_springs(case, v, COARSE).cof - in_three_dimensions(case, v, COARSE).cof) / case.mu_0
+    assert found[0.15] > found[0.3] > found[0.45] > 1e-3
+
+
+def test_what_is_neither_stick_nor_slip_is_not_there():
+    """In every cell |q| <= mu_0 p; where it is less nothing slips, and where it is equal slip is along q."""
+    case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
+    contact = contact_of(case, COARSE)
+    depth = 20e-6 + 6e-6 * np.linspace(-1, 1, 5)
+    for step in contact.march(contact.full_slip(14e-6), depth, V * np.arange(5) * 1e-3, 1.0):
+        p, q = step.pressure, step.tractions[:2]
+        size, slip = np.hypot(*q), np.hypot(*step.slip)
+        assert np.all(p >= 0)
+        assert np.all(size <= 0.3 * p * (1 + 1e-9))
+        way = 6e-6 * 0.3
+        assert np.max(slip[(p > 0) & (size < 0.3 * p * (1 - 1e-4))]) < 1e-4 * way
+        slides = slip > 1e-2 * way
+        assert_allclose((q * step.slip).sum(axis=0)[slides], (size * slip)[slides], rtol=1e-3)
+
+
+def test_a_step_that_does_not_converge_stops_the_run():
+    with pytest.raises(NotConverged, match="normal problem is off by"):
+        pressure(lambda p: BODY.displacement(p[None], (Z,), (Z,))[0], np.ones((6, 6)), np.zeros((6, 6)), 1e-12, most=2)
+    with pytest.raises(NotConverged, match="friction is off by"):
+        traction(
+            lambda q: BODY.displacement(q, (X, Y), (X, Y)),
+            np.ones((2, 6, 6)), np.ones((6, 6)), np.zeros((2, 6, 6)), 0, most=1,
+        )  # fmt: skip
+
+
+def test_the_command(tmp_path, capsys):
+    file = tmp_path / "case.toml"
+    file.write_text(mdr.write_case(BALL))
+    few = [str(file), "--v-0", str(V), "--cells", "17", "--steps", "16", "--json"]
+    assert main(few) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert set(told) == {"cof", "mean_F_x", "mean_F_z", "converged", "errors"}
+    assert told["converged"] is True
+    assert 0 < told["cof"] < 0.3
+    assert all(0 <= error < 0.01 for error in told["errors"].values())
+    assert_allclose(told["cof"], told["mean_F_x"] / told["mean_F_z"], rtol=1e-12)
+    file.write_text(mdr.write_case(replace(BALL, pull=mdr.SpringPull(k_x=1e4))))
+    assert main(few) == 2
+    assert "takes a rigid pull" in capsys.readouterr().err
+
+
+def test_springs_of_a_punch_are_one_element():
+    depth = 1.0 + 0.5 * np.cos(np.linspace(0, 2 * np.pi, 33))
+    F_x, F_z = springs.forces(np.zeros_like, 1.0, depth, np.zeros(33), 0.1, 0.4, 1.2, n_springs=8)
+    assert_allclose(F_z, 2 * depth)
+    assert np.all(np.abs(F_x) <= 0.4 * F_z * (1 + 1e-12))
+
+
+def test_a_contact_is_what_its_parts_are():
+    contact = contact_of(BALL, COARSE)
+    assert isinstance(contact, Contact)
+    assert contact.half_space.beta == 0  # incompressible
+    assert contact.shape.shape == (25, 25)

@@ -1,0 +1,128 @@
+"""The elastic half-space as a matrix: displacement of the surface under tractions that are constant on square cells.
+
+The nine influence coefficients of Boussinesq and Cerruti, integrated over a rectangle in closed form (Love 1929 for
+the normal one; Pohrt and Li, Physical Mesomechanics 17 (2014) 334, for all), evaluated at the centres of the cells,
+and products with them by FFT on a padded grid (Stanley and Kato 1997), exact for a contact that is not periodic.
+
+z points into the half-space, x along the pull. Tractions (3, n, n) act on the half-space: q_x, q_y along the surface,
+p = q_z > 0 presses. Displacements (3, n, n) are those of its surface. The matrix is symmetric (Betti).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+Array = NDArray[np.float64]
+
+X, Y, Z = 0, 1, 2
+
+
+@dataclass(frozen=True, eq=False)
+class HalfSpace:
+    """n x n square cells of side h of the surface, of two half-spaces or of one under a rigid body.
+
+    All that counts of their materials are the contact moduli E* and G* and Dundurs' beta: for one body of shear
+    modulus G and Poisson's ratio nu, (1 - nu)/G = 2/E*, nu/G = 4/G* - 4/E* and (1 - 2 nu)/G = 4 beta/E*; two add.
+    beta = 0 leaves out what tangential tractions do to u_z and pressure to u_x and u_y; transverse=False what q_x does
+    to u_y and q_y to u_x.
+    """
+
+    n: int
+    h: float
+    E_star: float
+    G_star: float
+    beta: float = 0.0
+    transverse: bool = True
+
+    @cached_property
+    def size(self) -> int:
+        """Of the padded grid."""
+        return int(fft.next_fast_len(2 * self.n - 1, real=True))
+
+    @cached_property
+    def spectra(self) -> dict[tuple[int, int], NDArray[np.complex128]]:
+        """Transforms of the coefficients that are not zero: (i, j) for u_i under q_j."""
+        found = {}
+        for pair in ((X, X), (Y, Y), (Z, Z), (X, Y), (X, Z), (Y, Z)):
+            kernel = self.coefficients(*pair)
+            if np.any(kernel):
+                found[pair] = fft.rfft2(self._wrapped(kernel))
+                if pair[0] != pair[1]:
+                    found[pair[::-1]] = fft.rfft2(self._wrapped(self.coefficients(*pair[::-1])))
+        return found
+
+    def coefficients(self, i: int, j: int) -> Array:
+        """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
+        if {i, j} == {X, Y} and not self.transverse:
+            return np.zeros((2 * self.n - 1, 2 * self.n - 1))
+        places = np.arange(-self.n + 1, self.n) * self.h
+        x, y = places[:, None], places[None, :]
+        plain, directed = 1 / (np.pi * self.E_star), 2 / np.pi * (1 / self.G_star - 1 / self.E_star)
+        if i == j == Z:
+            return plain * _over_cell(_one_over_r, x, y, self.h)
+        if i == j:
+            along = (x, y) if i == X else (y, x)
+            return plain * _over_cell(_one_over_r, x, y, self.h) + directed * _over_cell(_x2_over_r3, *along, self.h)
+        if {i, j} == {X, Y}:
+            return directed * _over_cell(_xy_over_r3, x, y, self.h)
+        along = (x, y) if X in (i, j) else (y, x)
+        toward = self.beta * plain * _over_cell(_x_over_r2, *along, self.h)
+        return toward if i == Z else -toward
+
+    def displacement(
+        self, tractions: Array, of: tuple[int, ...] = (X, Y, Z), under: tuple[int, ...] = (X, Y, Z)
+    ) -> Array:
+        """The components `of` of the displacement, (len(of), n, n), under the components `under` of the tractions."""
+        spectra = [fft.rfft2(one, (self.size, self.size)) for one in tractions]
+        out = np.zeros((len(of), self.n, self.n))
+        for row, i in zip(out, of, strict=True):
+            terms = [
+                self.spectra[i, j] * part for j, part in zip(under, spectra, strict=True) if (i, j) in self.spectra
+            ]
+            if terms:
+                row += fft.irfft2(sum(terms), (self.size, self.size))[: self.n, : self.n]
+        return out
+
+    def _wrapped(self, kernel: Array) -> Array:
+        """The coefficients around the corner of the padded grid, as a circular convolution takes them."""
+        wide = np.zeros((self.size, self.size))
+        wide[: 2 * self.n - 1, : 2 * self.n - 1] = kernel
+        return np.roll(wide, (1 - self.n, 1 - self.n), axis=(0, 1))
+
+
+# --- integrals over a cell ---
+
+
+def _over_cell(antiderivative: Callable[[Array, Array], Array], x: Array, y: Array, h: float) -> Array:
+    """The integral over a square cell of side h about the origin, seen from (x, y)."""
+    left, right, below, above = x - h / 2, x + h / 2, y - h / 2, y + h / 2
+    whole = antiderivative(right, above) - antiderivative(left, above)
+    return whole - antiderivative(right, below) + antiderivative(left, below)
+
+
+def _one_over_r(x: Array, y: Array) -> Array:
+    r = np.hypot(x, y)
+    return x * _log(y, r, x) + y * _log(x, r, y)
+
+
+def _x2_over_r3(x: Array, y: Array) -> Array:
+    return y * _log(x, np.hypot(x, y), y)
+
+
+def _xy_over_r3(x: Array, y: Array) -> Array:
+    return -np.hypot(x, y)
+
+
+def _x_over_r2(x: Array, y: Array) -> Array:
+    return y * np.log(np.hypot(x, y)) + x * np.arctan(y / x)
+
+
+def _log(a: Array, r: Array, b: Array) -> Array:
+    """log(a + r) with r = hypot(a, b), without cancellation for a < 0."""
+    return np.where(a >= 0, np.log(a + r), 2 * np.log(np.abs(b)) - np.log(r - a))

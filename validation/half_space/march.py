@@ -1,0 +1,125 @@
+"""A rigid indenter pressed and pulled over the half-space step by step, every cell with its own history.
+
+Depth and tangential way are given at the instants of the steps. In each step the pressure, under the tractions, and the
+tractions, under the pressure, take turns until the forces no longer change. A Kelvin material is u + tau u' in the
+place of u, with u' over the step: as implicit as the rest, of first order in the step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.half_space.influence import HalfSpace, X, Y, Z
+from validation.half_space.normal import NotConverged, pressure
+from validation.half_space.tangential import traction
+
+Array = NDArray[np.float64]
+
+TURNS = 60  #: of pressure and tractions in a step, at most
+
+
+@dataclass(frozen=True)
+class Step:
+    """What a step ended with: tractions (3, n, n) on and displacement (3, n, n) of the surface, and slip (2, n, n)."""
+
+    tractions: Array
+    displacement: Array
+    slip: Array  #: of the indenter over the surface in the step; zero where there is no contact
+    turns: int
+
+    @property
+    def pressure(self) -> Array:
+        """Normal traction (n, n)."""
+        return self.tractions[Z]
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """An indenter of shape f (n, n) [m] at the centres of the cells of a half-space, friction and relaxation time."""
+
+    half_space: HalfSpace
+    shape: Array
+    mu_0: float
+    tau: float = 0.0
+    tolerance: float = 1e-6  #: to which forces change no more
+
+    @property
+    def cell(self) -> float:
+        """Area of a cell."""
+        return self.half_space.h**2
+
+    def full_slip(self, depth: float, friction: float = 1.0) -> Step:
+        """The state at rest at this depth with all cells at their limit along x: where a march begins."""
+        n = self.half_space.n
+        tractions = np.zeros((3, n, n))
+        last = np.zeros(3)
+        for turn in range(1, TURNS + 1):  # noqa: B007
+            pulled = self._pulled_down(tractions)
+            tractions[Z] = pressure(self._normal, depth - self.shape - pulled, tractions[Z], self.tolerance * 1e-2)
+            tractions[X] = friction * self.mu_0 * tractions[Z]
+            forces = self.forces(tractions)
+            if np.max(np.abs(forces - last)) <= self.tolerance * 1e-2 * np.max(np.abs(forces)):
+                break
+            last = forces
+        u = self.half_space.displacement(tractions)
+        return Step(tractions, u, np.zeros((2, n, n)), turn)
+
+    def forces(self, tractions: Array) -> Array:
+        """F_x, F_y, F_z."""
+        return np.sum(tractions, axis=(1, 2)) * self.cell
+
+    def march(self, start: Step, depth: Array, way: Array, dt: float) -> Iterator[Step]:
+        """One step after the other: depth and way (n_steps + 1,) at the instants, from that of `start` on."""
+        state = start
+        for i in range(1, len(depth)):
+            state = self.step(state, float(depth[i]), float(way[i] - way[i - 1]), dt)
+            yield state
+
+    def step(self, state: Step, depth: float, moved: float, dt: float) -> Step:
+        """The state after one step. Raises NotConverged."""
+        theta = self.tau / dt
+        before = state.displacement
+        tractions, last = state.tractions.copy(), np.zeros(3)
+        down = (1 + theta) * (depth - self.shape) - theta * before[Z]  # what C p must be where it touches
+        stick = before[:2] + (1 + theta) * np.array([moved, 0.0])[:, None, None]  # what C q must be where it sticks
+        for turn in range(1, TURNS + 1):  # noqa: B007
+            fine = self.tolerance * 1e-2
+            tractions[Z] = pressure(self._normal, down - self._pulled_down(tractions), tractions[Z], fine)
+            dragged = self._dragged(tractions)
+            bound = self.mu_0 * tractions[Z]
+            tractions[:2] = traction(self._tangential, stick - dragged, bound, tractions[:2], fine)
+            forces = self.forces(tractions)
+            scale = np.max(np.abs(forces))
+            if not self.half_space.beta or np.max(np.abs(forces - last)) <= self.tolerance * scale:
+                break
+            last = forces
+        else:
+            change = np.max(np.abs(forces - last)) / scale
+            raise NotConverged(f"pressure and friction still change the forces by {change:.1e} after {TURNS} turns")
+        u = (self.half_space.displacement(tractions) + theta * before) / (1 + theta)
+        slip = np.where(tractions[Z] > 0, np.array([moved, 0.0])[:, None, None] - (u - before)[:2], 0.0)
+        return Step(tractions, u, slip, turn)
+
+    # --- products ---
+
+    def _normal(self, p: Array) -> Array:
+        return self.half_space.displacement(p[None], (Z,), (Z,))[0]
+
+    def _tangential(self, q: Array) -> Array:
+        return self.half_space.displacement(q, (X, Y), (X, Y))
+
+    def _pulled_down(self, tractions: Array) -> Array:
+        """u_z that tangential tractions make."""
+        if not self.half_space.beta:
+            return np.zeros_like(self.shape)
+        return self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
+
+    def _dragged(self, tractions: Array) -> Array:
+        """u_x, u_y that pressure makes."""
+        if not self.half_space.beta:
+            return np.zeros_like(tractions[:2])
+        return self.half_space.displacement(tractions[Z:], (X, Y), (Z,))
