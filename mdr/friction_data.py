@@ -10,7 +10,6 @@ are left out. What `CofCurve.to_csv` writes is read too.
 
 from __future__ import annotations
 
-import csv
 import re
 from dataclasses import dataclass
 from os import PathLike, fsdecode
@@ -21,7 +20,8 @@ from numpy.typing import NDArray
 from mdr.case_files import read_text
 from mdr.checks import finite_array
 from mdr.records import ArrayRecord
-from mdr.words import one_line, short
+from mdr.tables import cells_of, fault
+from mdr.words import short
 
 Array = NDArray[np.float64]
 
@@ -65,9 +65,9 @@ def read_friction_data(path: str | PathLike[str]) -> FrictionData:
     lines = [(n, line) for n, line in enumerate(read_text(path).splitlines(), start=1)]
     lines = [(n, line) for n, line in lines if line.strip() and not line.lstrip().startswith("#")]
     if len(lines) < 2:
-        raise _fault(source, "holds no table; a header such as v_0 [m/s], cof, error, and a row a measurement")
+        raise fault(source, "holds no table; a header such as v_0 [m/s], cof, error, and a row a measurement")
     separator = max(",;\t", key=lines[0][1].count)
-    rows = [_cells(line, separator, f"{source}: line {number}") for number, line in lines]
+    rows = [cells_of(line, f"{source}: line {number}", separator) for number, line in lines]
     places, scale = _columns(rows[0], source)
     values: dict[str, list[float]] = {name: [] for name in places}
     for (number, _), row in zip(lines[1:], rows[1:], strict=True):
@@ -76,21 +76,8 @@ def read_friction_data(path: str | PathLike[str]) -> FrictionData:
     try:
         error = np.array(values["error"]) if "error" in values else None
         return FrictionData(np.array(values["v_0"]) * scale, np.array(values["cof"]), error)
-    except ValueError as fault:
-        raise _fault(source, str(fault)) from None
-
-
-def _fault(where: str, what: str) -> ValueError:
-    """The error of one line, whatever the file holds."""
-    return ValueError(one_line(f"{where}: {what}"))
-
-
-def _cells(line: str, separator: str, where: str) -> list[str]:
-    """The cells of one line; a quote that is left open ends with it."""
-    try:
-        return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-    except csv.Error as fault:
-        raise _fault(where, str(fault)) from None
+    except ValueError as refusal:
+        raise fault(source, str(refusal)) from None
 
 
 def _columns(header: list[str], source: str) -> tuple[dict[str, int], float]:
@@ -104,19 +91,19 @@ def _columns(header: list[str], source: str) -> tuple[dict[str, int], float]:
         if meant is None:
             continue
         if meant in places:
-            raise _fault(source, f"the header names {meant} twice: {short(', '.join(header))}")
+            raise fault(source, f"the header names {meant} twice: {short(', '.join(header))}")
         places[meant] = place
         unit = (found["unit"] or "").strip() if found else ""
         if meant == "v_0":
             if unit not in UNITS:
                 wrong = f"the unit {short(unit)!r} of v_0 is none of"
                 what = wrong if unit else "v_0 needs a unit in its header, one of"
-                raise _fault(source, f"{what} {', '.join(dict.fromkeys(UNITS))}: v_0 [mm/s]")
+                raise fault(source, f"{what} {', '.join(dict.fromkeys(UNITS))}: v_0 [mm/s]")
             scale = UNITS[unit]
         elif unit not in ("", "-", "1"):
-            raise _fault(source, f"{meant} is a pure number, got the unit {short(unit)!r}")
+            raise fault(source, f"{meant} is a pure number, got the unit {short(unit)!r}")
     if missing := [name for name in ("v_0", "cof") if name not in places]:
-        raise _fault(source, f"the header names no {missing[0]}: {short(', '.join(header))}; write v_0 [m/s], cof")
+        raise fault(source, f"the header names no {missing[0]}: {short(', '.join(header))}; write v_0 [m/s], cof")
     return places, scale
 
 
@@ -126,4 +113,4 @@ def _number(row: list[str], place: int, where: str) -> float:
         return float(text)
     except ValueError:
         what = short(text) if text else "nothing"
-        raise _fault(where, f"{what} is no number") from None
+        raise fault(where, f"{what} is no number") from None

@@ -119,6 +119,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
 
 def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
     """The knobs, with more steps where they are free and the contact too brief for them or for their companions."""
+    if case.keeps_contact:
+        return knobs
     while not all(touches(case, knobs.coarser(n)) for n in (knobs.steps, knobs.steps // 2, 3 * knobs.steps // 4)):
         if not free or knobs.steps >= MOST_STEPS:
             raise too_coarse(knobs.steps)

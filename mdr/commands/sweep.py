@@ -19,6 +19,7 @@ from mdr.commands.output import (
     write_figure,
 )
 from mdr.provenance import commented
+from mdr.studies.files import write_whole
 
 if TYPE_CHECKING:
     from mdr.studies import Study
@@ -80,7 +81,6 @@ def _require_a_place(args: argparse.Namespace) -> None:
 def _write(args: argparse.Namespace, study: Study) -> None:
     """The file, and beside it the picture of its first quantity, where the study has few enough axes for one."""
     from mdr.studies.csv_files import table
-    from mdr.studies.files import write_whole
     from mdr.studies.netcdf import packed
 
     if args.output.suffix == ".csv":

@@ -14,7 +14,7 @@ from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.quadrature import in_chunks
 from mdr.indenters.splines import SplineImage, fit
 
-MOST_JOINTS = 100
+MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 N_POINTS = 6  #: fewer make no spline
 TIPS = ("round", "sharp")
 

@@ -15,12 +15,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
+from os import PathLike, fsdecode
 
 from numpy.typing import ArrayLike
 
 from mdr.checks import not_negative, positive
 from mdr.materials.base import OneBody, poisson_ratio
+from mdr.tables import fault
 
 Arms = tuple[tuple[float, float], ...]
 
@@ -144,8 +145,8 @@ class Prony(_WithArms):
         fields = prony_fit.from_table(path, nu)
         try:
             return cls(**fields)
-        except (TypeError, ValueError) as fault:
-            raise prony_fit.table_fault(path, str(fault)) from None
+        except (TypeError, ValueError) as refusal:
+            raise fault(fsdecode(path), str(refusal)) from None
 
     def misfit(self, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
         """Greatest relative deviation |E(omega) - E' - i E''|/|E' + i E''| [-] from data [Pa], arrays (n,)."""

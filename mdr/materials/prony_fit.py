@@ -6,7 +6,6 @@ relative deviation of E(omega) (Lawson and Hanson 1974, in scipy.optimize.nnls),
 
 from __future__ import annotations
 
-import csv
 from itertools import product
 from os import PathLike, fsdecode
 from typing import TYPE_CHECKING, Any
@@ -15,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, between, count, finite_array, positive, positive_array
-from mdr.words import one_line, short
+from mdr.tables import cells_of, fault
+from mdr.words import short
 
 if TYPE_CHECKING:
     from mdr.materials.prony import Prony
@@ -79,17 +79,12 @@ def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
 
     name = fsdecode(path)
     if not name.lower().endswith((".csv", ".toml")):
-        raise table_fault(path, "a table of arms must end in .csv or .toml")
+        raise fault(name, "a table of arms must end in .csv or .toml")
     if name.lower().endswith(".toml"):
-        return _from_toml(read_text(path), path, nu)
+        return _from_toml(read_text(path), name, nu)
     if nu is None:
-        raise table_fault(path, "a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(read_text(path), path), "nu": nu}
-
-
-def table_fault(path: str | PathLike[str], what: str) -> ValueError:
-    """What is wrong with a file, in one line."""
-    return ValueError(one_line(f"{fsdecode(path)}: {what}"))
+        raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
+    return {**_from_csv(read_text(path), name), "nu": nu}
 
 
 def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, FloatArray]:
@@ -134,24 +129,26 @@ def _range(omega: tuple[float, float]) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
-def _from_csv(text: str, path: str | PathLike[str]) -> dict[str, Any]:
+def _from_csv(text: str, name: str) -> dict[str, Any]:
     rows = [
-        (number, _cells(line, number, path)) for number, line in enumerate(text.splitlines(), start=1) if line.strip()
+        (number, cells_of(line, f"{name}: row {number}"))
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip()
     ]
     heads = [cell.split("[")[0].strip() for cell in rows[0][1]] if rows else []
     if not {"E_j", "tau_j"} <= set(heads):
         got = short(", ".join(heads)) or "nothing"
-        raise table_fault(path, f"the first line must name the columns E_j and tau_j, got {got}")
+        raise fault(name, f"the first line must name the columns E_j and tau_j, got {got}")
     E_inf, arms = 0.0, []
     for number, row in rows[1:]:
         cells = dict(zip(heads, (cell.strip() for cell in row), strict=False))
         try:
             E_j, tau_j = float(cells["E_j"]), float(cells.get("tau_j") or "inf")
         except (KeyError, ValueError):
-            raise table_fault(path, f"row {number} is no pair of numbers: {short(', '.join(row))}") from None
+            raise fault(name, f"row {number} is no pair of numbers: {short(', '.join(row))}") from None
         if not 0 <= E_j < np.inf or not tau_j > 0:
             what = f"row {number} must have a finite E_j >= 0 Pa and tau_j > 0 s, got {short(', '.join(row))}"
-            raise table_fault(path, what)
+            raise fault(name, what)
         if np.isinf(tau_j):
             E_inf += E_j
         else:
@@ -159,20 +156,13 @@ def _from_csv(text: str, path: str | PathLike[str]) -> dict[str, Any]:
     return {"E_inf": E_inf, "arms": tuple(arms)}
 
 
-def _cells(line: str, number: int, path: str | PathLike[str]) -> list[str]:
-    try:
-        return next(csv.reader([line]), [])
-    except csv.Error as fault:
-        raise table_fault(path, f"row {number}: {fault}") from None
-
-
-def _from_toml(text: str, path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
+def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
     from mdr.case_files import parse_toml
 
-    content = parse_toml(text, fsdecode(path))
+    content = parse_toml(text, name)
     table = content.get("material", content)
     if not isinstance(table, dict):
-        raise table_fault(path, f"material must be a table of keys, got {short(str(table))}")
+        raise fault(name, f"material must be a table of keys, got {short(str(table))}")
     table = dict(table)
     model = table.pop("model", "Prony")
     known = ("E_inf", "arms", "nu", "tau")
@@ -180,10 +170,10 @@ def _from_toml(text: str, path: str | PathLike[str], nu: float | None) -> dict[s
     if model != "Prony" or unknown:
         other = f'model "{short(str(model))}" is not Prony'
         what = other if model != "Prony" else f"{short(unknown[0])} is no key of Prony"
-        raise table_fault(path, f"{what}; there are {', '.join(known)}")
+        raise fault(name, f"{what}; there are {', '.join(known)}")
     if nu is not None:
         table["nu"] = nu
     missing = [key for key in ("E_inf", "arms", "nu") if key not in table]
     if missing:
-        raise table_fault(path, f"{missing[0]} is missing")
+        raise fault(name, f"{missing[0]} is missing")
     return table

@@ -22,6 +22,22 @@ RUNS = (
     COARSE,
 )
 
+#: tables of a case file, of a contact under a rigid pull
+TABLES = """
+[indenter]
+shape = "Paraboloid"
+R = 5e-3
+[material]
+model = "KelvinVoigt"
+E = 3e6
+nu = 0.5
+tau = 1e-3
+[oscillation]
+u_z0 = 6e-6
+du_z = 2e-6
+omega = 300.0
+"""
+
 LOG = "MDR_TEST_LOG"  # the file that computed units are written to
 LONG = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 240).tolist()}
 
@@ -74,19 +90,3 @@ if __name__ == "__main__":  # python grids.py store
     if hasattr(os, "sched_setaffinity"):  # on many cores it would be over before it can be killed
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:2])
     grids.long_study(sys.argv[1])
-
-#: tables of a case file, of a contact under a rigid pull
-TABLES = """
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
-"""

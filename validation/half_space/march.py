@@ -52,19 +52,21 @@ class Contact:
         """Area of a cell."""
         return self.half_space.h**2
 
-    def full_slip(self, depth: float, friction: float = 1.0) -> Step:
-        """The state at rest at this depth with all cells at their limit along x: where a march begins."""
+    def full_slip(self, depth: float) -> Step:
+        """The state at rest at this depth with all cells at their limit along x, to begin with. Raises NotConverged."""
         n = self.half_space.n
         tractions = np.zeros((3, n, n))
         last = np.zeros(3)
         for turn in range(1, TURNS + 1):  # noqa: B007
             pulled = self._pulled_down(tractions)
             tractions[Z] = pressure(self._normal, depth - self.shape - pulled, tractions[Z], self.tolerance * 1e-2)
-            tractions[X] = friction * self.mu_0 * tractions[Z]
+            tractions[X] = self.mu_0 * tractions[Z]
             forces = self.forces(tractions)
             if np.max(np.abs(forces - last)) <= self.tolerance * 1e-2 * np.max(np.abs(forces)):
                 break
             last = forces
+        else:
+            raise NotConverged(f"full slip at a depth of {depth:g} m is not found in {TURNS} turns")
         u = self.half_space.displacement(tractions)
         return Step(tractions, u, np.zeros((2, n, n)), turn)
 

@@ -49,7 +49,5 @@ def pressure(product: Callable[[Array], Array], g: Array, start: Array, toleranc
         if pulled.any() and step > 0:  # cells that overlap come into contact
             new[pulled] = -step * residual[pulled]
             before = np.inf
-        if np.any((new == 0) & contact):
-            before = np.inf if pulled.any() else before
         p, residual = new, product(new) - g
     raise NotConverged(f"the normal problem is off by {wrong / scale:.1e} of its depth after {most} iterations")

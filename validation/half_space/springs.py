@@ -27,7 +27,7 @@ def forces(
     """F_x and F_z over E* at the instants of depth and way (n_steps + 1,), from full slip at the first one.
 
     profile(x) is the one-dimensional g, of a contact that never grows beyond `radius`.
-    """  # fmt: skip
+    """
     width = radius / n_springs
     x = width * (np.arange(n_springs) + 0.5)
     g, theta, limit = profile(x), tau / dt, mu_0 * kappa

@@ -29,7 +29,7 @@ def traction(
 ) -> Array:
     """The tractions (2, n, n) that satisfy Coulomb's law, and are zero where the bound (n, n) is.
 
-    Converged when no cell can be improved by more than tolerance times the mean bound, in units of traction.
+    Converged when no cell can be improved by more than tolerance times the greatest bound, in units of traction.
     Raises NotConverged after `most` Newton steps.
     """
     stiff = 1 / max(float(np.max(np.abs(product(_delta(c))))), 1e-300)  # traction per displacement of one cell
