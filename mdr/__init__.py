@@ -38,6 +38,7 @@ from mdr.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.theory import critical_velocity
 from mdr.full_slip import static_cof
 from mdr.full_slip_body import full_slip_critical_velocity
+from mdr.coupling import coupled_critical_velocity, coupling_loss, radial_rub
 from mdr.runs import EnergyBalance, SlidingRun, State
 from mdr.sliding import slide
 from mdr.fields import SurfaceFields, surface_fields
@@ -104,6 +105,8 @@ __all__ = [
     "TruncatedParaboloid",
     "Verdict",
     "cof_curve",
+    "coupled_critical_velocity",
+    "coupling_loss",
     "critical_velocity",
     "fit",
     "full_slip_critical_velocity",
@@ -111,6 +114,7 @@ __all__ = [
     "measure_critical_velocity",
     "parse_case",
     "partial_slip",
+    "radial_rub",
     "read_case",
     "read_friction_data",
     "read_study",

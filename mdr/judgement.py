@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mdr.contact import SlidingContact, require_case
+from mdr.coupling import FARTHEST, coupling_loss, radial_rub, unlike
 from mdr.full_slip_body import full_slip_critical_velocity
 from mdr.measurement import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.motion import DepthMotion, LoadOscillation
@@ -15,6 +16,7 @@ from mdr.pull import RigidPull, SpringPull
 from mdr.theory import critical_velocity, formula_of
 
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
+STRONG = 0.02  #: Dundurs' beta, or lambda of mdr.coupling where its effect was computed, from which it is said
 
 
 @dataclass(frozen=True)
@@ -102,9 +104,14 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
 
 def _left_out(case: SlidingContact) -> Iterator[str]:
     """What the springs leave out where it matters."""
-    beta = case.material.dundurs_beta
-    if abs(beta) > 0.02:
+    beta, rub = case.material.dundurs_beta, radial_rub(case)
+    left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
+    if unlike(case):
+        if abs(beta) > STRONG:
+            yield f"{left_out} friction is lower than here, and part of the contact may still stick above this velocity"
+    elif rub > STRONG:
+        most = "" if rub <= FARTHEST else " or more"
         yield (
-            f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions "
-            "friction is lower than here, and part of the contact may still stick above this velocity"
+            f"{left_out} friction is lower than here by up to about {coupling_loss(case):.1g} of mu_0{most}, and part "
+            f"of the contact sticks up to about {1 + rub:.2f} times the full-slip velocity"
         )
