@@ -10,9 +10,22 @@ import pytest
 
 import mdr
 from mdr.settling import Settling
-from validation import CLAIMS, finite_amplitude, indentation, lost_contact, static_cof, uniqueness
+from validation import (
+    CLAIMS,
+    coupling_law,
+    end_of_stick,
+    finite_amplitude,
+    indentation,
+    judge,
+    lost_contact,
+    static_cof,
+    transverse_slip,
+    uncoupled,
+    uniqueness,
+)
 from validation.__main__ import run_all
 from validation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure, system
+from validation.half_space import benchmarks, tables
 from validation.report import plain
 from validation.written import RECORD
 
@@ -118,3 +131,52 @@ def test_the_full_grid_loses_contact_with_every_shape():
         assert {s for s, alpha, loss, _ in known if alpha == 1.3 and loss == T} == set(finite_amplitude.SHAPES)
     assert {ratio for *_, ratio in known} == {*RATIOS, 2.0}
     assert all(system(*knobs).oscillation.du_z > 0 for knobs in known)
+
+
+def test_a_half_space_whose_coupling_is_off_is_seen(monkeypatch):
+    """Dundurs' beta two parts in a hundred off: a bonded punch is too stiff by two parts in a thousand."""
+    right = benchmarks.body
+
+    def wrong(n, nu, side):
+        body, r = right(n, nu, side)
+        return replace(body, beta=1.02 * body.beta), r
+
+    monkeypatch.setattr(benchmarks, "body", wrong)
+    monkeypatch.setattr(judge, "punch", benchmarks.punch.__wrapped__)
+    missed = [check.name for check in judge._normal_checks(quick=True) if not check.held]
+    assert [name for name in missed if "bonded" in name] == missed != []
+
+
+def test_springs_that_are_off_would_be_seen_beside_three_dimensions():
+    rows = tables.read("uncoupled")
+    off = [replace(row, springs=row.springs + 4.5e-4) for row in rows]
+    assert all(check.held for check in uncoupled._table_checks(rows))
+    assert not any(check.held for check in uncoupled._table_checks(off))
+
+
+def test_a_radial_velocity_that_is_off_is_seen(monkeypatch):
+    right = end_of_stick.radial_rub
+    monkeypatch.setattr(end_of_stick, "radial_rub", lambda case: 1.1 * right(case))
+    assert not any(check.held for check in end_of_stick._tail_checks(quick=True))
+    ends = dict.fromkeys(end_of_stick.ENDS[:2], 1.0)  # that of the springs
+    assert not any(check.held for check in end_of_stick._end_checks(ends, 17))
+
+
+def test_a_law_that_is_off_is_seen(monkeypatch):
+    columns = coupling_law.columns_of([*tables.read("coupled"), *tables.read("coupling_held_out")])
+    training = [column for column in columns if coupling_law._is_training(column[0].point)]
+    constants = coupling_law.fitted(training, None)
+    assert all(check.held for check in coupling_law._constant_checks(constants))
+    assert not any(check.held for check in coupling_law._constant_checks(1.02 * constants))
+    every = dict.fromkeys((*coupling_law.FITTED, None), 1.6 * constants)
+    trials = [trial for trial in coupling_law.tried(columns, every) if trial.groups.rub <= 1.1]
+    checks = coupling_law._trial_checks(trials, coupling_law.tried(columns, every))
+    assert sum("greatest loss" in check.name and not check.held for check in checks) == 5
+
+
+def test_slip_across_that_does_something_by_itself_would_be_seen():
+    right = transverse_slip.Losses(0.3, 1.6, 3e-3, 0.0, 1e-5, 0.0)
+    below = transverse_slip.Losses(0.3, 0.6, 0.03, 0.018, 1e-5, 0.0)
+    assert all(check.held for check in transverse_slip._checks([right, below]))
+    wrong = [replace(right, along=1e-4, coupled=1e-4), replace(below, uncoupled=1e-3, along=0.029)]
+    assert not any(check.held for check in transverse_slip._checks(wrong))

@@ -398,7 +398,7 @@ def test_the_longest_claim_begins_first_and_the_page_keeps_its_order(claims):
     assert command.main(["--jobs", "1"], "ordered") == 0
     record = json.loads(Path("report/checks.json").read_text(encoding="utf-8"))
     assert [claim["name"] for claim in record["claims"]] == ["one", "resonances"]
-    assert command.LONGEST in validation.CLAIMS
+    assert set(command.LONGEST) <= set(validation.CLAIMS)
 
 
 def test_claims_are_listed_once():

@@ -38,6 +38,12 @@ CLAIMS = (
     "maps",
     "resolution",
     "energy",
+    "judge",
+    "uncoupled",
+    "coupled",
+    "end_of_stick",
+    "coupling_law",
+    "transverse_slip",
 )
 
 

@@ -389,4 +389,4 @@ damper in contact,</p>
 <p>and argues that it “is valid not only for the simple considered model with a single spring-damper
 combination, but also for quite general contacts (so long as the amplitude of oscillation remains
 small)”. Here each step of that argument is tested with arrays of springs, each of which sticks, slips
-and leaves contact on its own.</p>"""
+and leaves contact on its own; at the end a half-space in three dimensions judges the springs.</p>"""

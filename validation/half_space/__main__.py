@@ -21,16 +21,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         case = mdr.read_case(args.case)
         found = in_three_dimensions(case, args.v_0, knobs)
         coarse = in_three_dimensions(case, args.v_0, replace(knobs, steps=args.steps // 2))
-        wide = in_three_dimensions(case, args.v_0, replace(knobs, cells=3 * args.cells // 4))
+        wide = in_three_dimensions(case, args.v_0, replace(knobs, cells=(args.cells + 1) // 2))
     except NotConverged as fault:
         return _told(args, {"converged": False, "why": str(fault)}, 1)
     except ValueError as fault:
         print(f"half_space: {fault}", file=sys.stderr)
         return 2
     errors = {
-        "step": abs(found.cof - coarse.cof),  # of first order: the difference to half the steps
-        "grid": abs(found.cof - wide.cof),  # of three quarters of the cells
-        "cycles": abs(found.drift),
+        "step": abs(found.cof - coarse.cof),  # to half the steps: its own, where it is of first order
+        "grid": abs(found.cof - wide.cof),  # to half the cells, in the same way
+        "cycles": found.settling,
     }
     answer = {"cof": found.cof, "mean_F_x": found.mean_F_x, "mean_F_z": found.mean_F_z, "converged": True}
     return _told(args, {**answer, "errors": errors}, 0)

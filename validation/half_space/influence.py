@@ -29,8 +29,7 @@ class HalfSpace:
 
     All that counts of their materials are the contact moduli E* and G* and Dundurs' beta: for one body of shear
     modulus G and Poisson's ratio nu, (1 - nu)/G = 2/E*, nu/G = 4/G* - 4/E* and (1 - 2 nu)/G = 4 beta/E*; two add.
-    beta = 0 leaves out what tangential tractions do to u_z and pressure to u_x and u_y; transverse=False what q_x does
-    to u_y and q_y to u_x.
+    beta = 0 leaves out what tangential tractions do to u_z and pressure to u_x and u_y.
     """
 
     n: int
@@ -38,7 +37,6 @@ class HalfSpace:
     E_star: float
     G_star: float
     beta: float = 0.0
-    transverse: bool = True
 
     @cached_property
     def size(self) -> int:
@@ -59,8 +57,6 @@ class HalfSpace:
 
     def coefficients(self, i: int, j: int) -> Array:
         """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
-        if {i, j} == {X, Y} and not self.transverse:
-            return np.zeros((2 * self.n - 1, 2 * self.n - 1))
         places = np.arange(-self.n + 1, self.n) * self.h
         x, y = places[:, None], places[None, :]
         plain, directed = 1 / (np.pi * self.E_star), 2 / np.pi * (1 / self.G_star - 1 / self.E_star)
@@ -79,15 +75,14 @@ class HalfSpace:
         self, tractions: Array, of: tuple[int, ...] = (X, Y, Z), under: tuple[int, ...] = (X, Y, Z)
     ) -> Array:
         """The components `of` of the displacement, (len(of), n, n), under the components `under` of the tractions."""
-        spectra = [fft.rfft2(one, (self.size, self.size)) for one in tractions]
-        out = np.zeros((len(of), self.n, self.n))
-        for row, i in zip(out, of, strict=True):
-            terms = [
-                self.spectra[i, j] * part for j, part in zip(under, spectra, strict=True) if (i, j) in self.spectra
-            ]
-            if terms:
-                row += fft.irfft2(sum(terms), (self.size, self.size))[: self.n, : self.n]
-        return out
+        loads = fft.rfft2(tractions, (self.size, self.size))
+        answers = np.zeros((len(of), *loads.shape[1:]), complex)
+        for i, answer in zip(of, answers, strict=True):
+            for j, load in zip(under, loads, strict=True):
+                if (i, j) in self.spectra:
+                    answer += self.spectra[i, j] * load
+        shifts: Array = fft.irfft2(answers, (self.size, self.size))
+        return shifts[:, : self.n, : self.n]
 
     def _wrapped(self, kernel: Array) -> Array:
         """The coefficients around the corner of the padded grid, as a circular convolution takes them."""

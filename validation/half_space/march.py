@@ -46,6 +46,7 @@ class Contact:
     mu_0: float
     tau: float = 0.0
     tolerance: float = 1e-6  #: to which forces change no more
+    transverse: bool = True  #: False: tractions and slip along the pull only, as springs have them
 
     @property
     def cell(self) -> float:
@@ -91,9 +92,10 @@ class Contact:
         for turn in range(1, TURNS + 1):  # noqa: B007
             fine = self.tolerance * 1e-2
             tractions[Z] = pressure(self._normal, down - self._pulled_down(tractions), tractions[Z], fine)
-            dragged = self._dragged(tractions)
-            bound = self.mu_0 * tractions[Z]
-            tractions[:2] = traction(self._tangential, stick - dragged, bound, tractions[:2], fine)
+            asked = stick - self._dragged(tractions)
+            if not self.transverse:
+                asked[Y] = 0.0
+            tractions[:2] = traction(self._tangential, asked, self.mu_0 * tractions[Z], tractions[:2], fine)
             forces = self.forces(tractions)
             scale = np.max(np.abs(forces))
             if not self.half_space.beta or np.max(np.abs(forces - last)) <= self.tolerance * scale:
@@ -112,7 +114,10 @@ class Contact:
         return self.half_space.displacement(p[None], (Z,), (Z,))[0]
 
     def _tangential(self, q: Array) -> Array:
-        return self.half_space.displacement(q, (X, Y), (X, Y))
+        u = self.half_space.displacement(q, (X, Y), (X, Y))
+        if not self.transverse:
+            u[Y] = 0.0
+        return u
 
     def _pulled_down(self, tractions: Array) -> Array:
         """u_z that tangential tractions make."""

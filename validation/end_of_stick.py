@@ -1,0 +1,276 @@
+"""With coupling: where stick ends, and what is left of the loss above.
+
+A rate d' of the depth adds the pressure of a flat punch, E*/pi d'/sqrt(a² - r²), to any elastic contact, and the
+pressure within a circle pulls the surface to its middle (Gauss's law in Boussinesq's 1/r). So pressure alone moves the
+surface radially, for beta > 0 inward as the depth grows, at
+
+    2 beta/pi d' R(r/a),    R(x) = (1 - sqrt(1 - x²))/x,    0 in the middle and 1 at the edge.
+
+In full slip friction along the pull moves it along at mu_0 kappa d' as ever: the punch's pressure, turned along x,
+shifts the whole disc evenly, and not across, for any nu. Together: at r, theta from the pull, the surface moves along
+the pull at d' [mu_0 kappa - 2 beta/pi R cos theta], most at the trailing edge while the depth grows, so that the
+indenter, at v_0, comes to rest on it last at
+
+    v_s ~ (mu_0 kappa + 2 |beta|/pi) du_z omega = v_c (1 + lambda),    lambda = 2 |beta|/(pi mu_0 kappa).          (*)
+
+That is an estimate, for small mu_0. Two things are left out of it: friction, which is of order beta mu_0 in the
+pressure, raises v_s with mu_0; and slip across the pull, where friction keeps its direction. Both are in the linear
+problem of validation/half_space/last_stick.py, whose two limits hold the runs between them on the same cells. At the
+edge itself R is reached with an infinite slope: finer cells stick somewhat longer.
+
+Far above, friction is turned out of the line of the pull by the radial slip, and is short of mu_0 F_z by
+
+    1 - mu/mu_0 -> lambda² M/8 (v_c/v_0)²,    M = mean of R² over the pressure,                                   (**)
+
+as v_0 grows: M is 2 ln 2 - 1 of a flat punch, 6 ln 2 - 4 of a paraboloid. To turn takes friction a way of the order of
+mu_0 kappa u_z0, so that (**) asks for v_0 well above v_c/alpha, and less is lost before.
+
+Symbols: kappa = E*/G*, beta Dundurs' constant, alpha = du_z/u_z0, v_c Eq. (1). Elastic, rigid pull.
+"""
+
+from collections.abc import Sequence
+from functools import cache
+from math import log
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr
+from mdr.coupling import radial_rub
+from mdr.plots import style
+from validation.cases import LOOKS, contact, shape_label
+from validation.half_space import pictures, tables
+from validation.half_space.friction import Knobs, March, contact_of, in_three_dimensions, march, path, stuck
+from validation.half_space.last_stick import fastest
+from validation.half_space.tables import Row
+from validation.report import Check, Claim, Figure
+
+Array = NDArray[np.float64]
+Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
+
+MEANS = {"paraboloid": 6 * log(2) - 4, "flat punch": 2 * log(2) - 1}  # M
+ENDS: tuple[Known, ...] = (
+    ("flat punch", 0.3, 0.3, 0.3),
+    ("paraboloid", 0.3, 0.6, 0.3),
+    ("flat punch", 0.3, 0.1, 0.3),
+    ("flat punch", 0.3, 0.6, 0.3),
+    ("flat punch", 0.0, 0.3, 0.3),
+    ("flat punch", 0.0, 0.6, 0.3),
+    ("flat punch", 0.45, 0.3, 0.3),
+    ("flat punch", 0.3, 0.3, 0.05),
+    ("paraboloid", 0.3, 0.3, 0.3),
+    ("paraboloid", 0.0, 0.3, 0.3),
+    ("paraboloid", 0.3, 0.3, 1.5),
+    ("cone", 0.3, 0.3, 0.3),
+)
+STEPS, FOUND = 64, 0.02  # of a period; share of lambda to which an end is found
+ABOVE = 1.2  # v_0/v_c of the map
+FAST = 6.0  # alpha v_0/v_c at which (**) is asked for
+
+
+def claim(effort: str) -> Claim:
+    """Search the end of stick, set it beside the linear problem, and go far beyond."""
+    quick = effort == "quick"
+    cells = 17 if quick else 31
+    ends = {known: end(*known, cells) for known in (ENDS[:2] if quick else ENDS)}
+    seen = _map(21 if quick else 41, 24 if quick else 60)
+    slow = _slow(tables.read("coupling_held_out"))
+    return Claim(
+        name="end_of_stick",
+        title="On a compressible body stick ends above Eq. (1), and friction is full at no velocity",
+        quote=(
+            "Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
+            " some critical velocity. (Section 3)"
+        ),
+        range=(
+            f"{len(ends)} elastic contacts under a rigid pull, ν from {min(k[1] for k in ends):g} to"
+            f" {max(k[1] for k in ends):g}, μ_0 from {min(k[2] for k in ends):g} to {max(k[2] for k in ends):g},"
+            f" Δu_z/u_z0 from {min(k[3] for k in ends):g} to {max(k[3] for k in ends):g}, on {cells}² cells and"
+            f" {STEPS} steps; stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α"
+        ),
+        measured=_measured(ends, slow, cells),
+        verdict="holds if β = 0",
+        sentence=(
+            "Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω, at the trailing edge (to"
+            f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %); above, radial slip turns"
+            " friction aside, and there is no velocity at which it is full."
+        ),
+        checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
+        figures=(_end_figure(ends, cells), _map_figure(seen)),
+    )
+
+
+def _measured(ends: dict[Known, float], slow: float, cells: int) -> str:
+    by_mu = {mu_0: [_share(k, v) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})}
+    listed = "; ".join(f"{min(one):.2f} to {max(one):.2f} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
+    finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
+    return (
+        "Eq. (1) is not where stick ends. The last of it is a crescent at the trailing edge, at the instant when the"
+        " depth grows fastest: there the surface, drawn to the middle, keeps up with the pull. It shrinks with"
+        f" velocity, and is gone on these cells at (v_s/v_c − 1)/λ = {listed}; found to {FOUND:g}, in steps that change"
+        " it by as much. On twice as many cells a side the linear problem has v_s/v_c"
+        f" {100 * (finer[1] / finer[0] - 1):.0f} % higher. To lowest order in μ_0 it is v_c(1 + λ), from the radial"
+        " velocity of the surface at the edge;"
+        " friction adds to it by what it does to the pressure. Above, nothing sticks, and friction is still short of"
+        " μ_0, as radial slip turns it away from the pull: by λ^2 <i>M</i>/8 (v_c/v_0)^2 for velocities well above"
+        f" v_c/α, with <i>M</i> = {MEANS['paraboloid']:.2f} of a paraboloid and {MEANS['flat punch']:.2f} of a punch,"
+        f" and by less before ({slow:.2f} of it at 2 v_c, Δu_z/u_z0 = 0.1, punch), since it has not the way to turn."
+    )
+
+
+def _share(known: Known, ratio: float) -> float:
+    """(v_s/v_c - 1)/lambda."""
+    return (ratio - 1) / _rub(known)
+
+
+def _over_estimate(known: Known, ratio: float) -> float:
+    """v_s over (*)."""
+    return ratio / (1 + _rub(known))
+
+
+def _rub(known: Known) -> float:
+    return radial_rub(_case(known))
+
+
+def _case(known: Known) -> mdr.SlidingContact:
+    shape, nu, mu_0, alpha = known
+    return contact(shape, alpha, mu_0=mu_0, nu=nu)
+
+
+# --- runs ---
+
+
+@cache
+def end(shape: str, nu: float, mu_0: float, alpha: float, cells: int) -> float:
+    """Greatest v_0/v_c at which any cell sticks while the depth grows: from full slip on, in half a period."""
+    case = _case((shape, nu, mu_0, alpha))
+    low, high = 1.0, 1 + 2 * radial_rub(case)
+    while high - low > FOUND * radial_rub(case):
+        v = (low + high) / 2
+        low, high = (v, high) if _sticks(case, v, Knobs(cells, STEPS)) else (low, v)
+    return (low + high) / 2
+
+
+def _sticks(case: mdr.SlidingContact, v: float, knobs: Knobs) -> bool:
+    judged, half = contact_of(case, knobs), knobs.steps // 2 + 1
+    depth, way, dt = path(case, v * mdr.critical_velocity(case), knobs)
+    steps = judged.march(judged.full_slip(float(depth[0])), depth[:half], way[:half], dt)
+    return any(stuck(judged, step).any() for step in steps)
+
+
+def _map(cells: int, steps: int) -> March:
+    case = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3)
+    return march(case, ABOVE * mdr.critical_velocity(case), Knobs(cells, steps, cycles=2))
+
+
+def _slow(rows: Sequence[Row]) -> float:
+    """Loss over (**) of a punch whose friction has not the way to turn."""
+    row = next(r for r in rows if (r.point.shape, r.point.alpha, r.point.v) == ("flat punch", 0.1, 2.0))
+    return row.loss / (radial_rub(row.point.case) ** 2 * MEANS["flat punch"] / 8 / row.point.v**2)
+
+
+# --- checks ---
+
+
+def _end_checks(ends: dict[Known, float], cells: int) -> list[Check]:
+    checks = []
+    for known, ratio in ends.items():
+        shape, nu, mu_0, alpha = known
+        name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, Δu_z/u_z0 = {alpha:g}"
+        why = "an estimate for small μ_0 on cells of this size"
+        checks.append(Check(f"{name}: end of stick over v_c(1 + λ)", _over_estimate(known, ratio), 1, 0.12, why))
+        if shape == "flat punch":
+            turned, fixed = (fastest(cells, nu, mu_0, turned) for turned in (True, False))
+            low, high = turned - 0.08 * _rub(known), fixed + FOUND * _rub(known)
+            why = f"friction free to turn, {turned:.4g}, less λ² of a slip that is not small, to fixed, {fixed:.4g}"
+            checks.append(Check.between(f"{name}: end of stick over v_c by the linear problem", ratio, low, high, why))
+    return checks
+
+
+def _table_checks() -> list[Check]:
+    rows = [row for name in ("coupled", "coupling_held_out") for row in tables.read(name)]
+    beyond = [row.stick for row in rows if row.point.v > 1 + 1.6 * radial_rub(row.point.case)]
+    below = [row.stick for row in rows if row.point.v < 1 + 0.4 * radial_rub(row.point.case)]
+    what = "share that sticks in the tables"
+    return [
+        Check.at_most(
+            f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c", max(beyond), 0, "beyond all ends"
+        ),
+        Check.at_least(f"least {what}, {len(below)} points below (1 + 0.4 λ) v_c", min(below), 1e-3, "below all ends"),
+    ]
+
+
+def _place_checks(found: March) -> list[Check]:
+    """Above Eq. (1): what sticks does so at the trailing edge, while the depth grows fastest."""
+    shares = found.stick
+    i = int(np.nanargmax(shares))
+    x, y = pictures.places(found)
+    sticks = stuck(found.contact, found.steps[i])
+    phase, along, across = (i + 1) / shares.size, np.mean(x[sticks]), np.mean(y[sticks])
+    what = f"{ABOVE:g} v_c, greatest stick"
+    return [
+        Check.between(f"{what}: when, in periods after the least depth", phase, 0.15, 0.35, "the depth grows fastest"),
+        Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge"),
+        Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric"),
+    ]
+
+
+def _tail_checks(quick: bool) -> list[Check]:
+    checks = []
+    known = ((0.3, 0.1, 0.3),) if quick else ((0.3, 0.1, 0.3), (0.0, 0.1, 0.3), (0.3, 0.3, 0.3), (0.3, 0.3, 0.1))
+    for shape, mean in MEANS.items():
+        for nu, mu_0, alpha in known:
+            v, case = FAST / alpha, _case((shape, nu, mu_0, alpha))
+            knobs = Knobs(17 if quick else 31, 32, cycles=1)
+            cof = in_three_dimensions(case, v * mdr.critical_velocity(case), knobs).cof
+            scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
+            name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
+            why = "(v_c/α v_0)² and α² of it, and cells"
+            checks.append(Check(name, scaled / mean, 1, 0.08 if quick else 0.05, why))
+    return checks
+
+
+# --- figures ---
+
+
+def _end_figure(ends: dict[Known, float], cells: int) -> Figure:
+    """Where stick ends against the estimate."""
+    import matplotlib.pyplot as plt
+
+    with style():
+        fig, ax = plt.subplots(figsize=(6.2, 4.4))
+        line = np.array([1.0, 2.7])
+        ax.plot(line, line, "-", color="0.6", lw=0.9, label=r"$(1 + \lambda) v_c$")
+        for known, ratio in ends.items():
+            colour, marker = LOOKS[known[0]]
+            if known[0] == "flat punch":
+                limits = [fastest(cells, known[1], known[2], turned) for turned in (True, False)]
+                ax.plot([1 + _rub(known)] * 2, limits, "-", color=colour, lw=6, alpha=0.3)
+            ax.plot(1 + _rub(known), ratio, marker, color=colour, mfc="w", ms=7)
+        for shape in dict.fromkeys(known[0] for known in ends):
+            ax.plot([], [], LOOKS[shape][1], color=LOOKS[shape][0], mfc="w", label=shape_label(shape))
+        ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
+        ax.set_xlabel(r"$1 + \lambda$")
+        ax.set_ylabel("velocity at which stick ends, over Eq. (1)")
+        ax.legend()
+    return Figure(
+        name="ends",
+        caption="The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
+        " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end). Above"
+        " the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends.",
+        drawing=fig,
+        alt="Scatter of the end of stick against one plus lambda, along the diagonal.",
+    )
+
+
+def _map_figure(found: March) -> Figure:
+    """Stick and slip at four instants."""
+    return Figure(
+        name="map",
+        caption=f"The contact of a paraboloid from above at {ABOVE:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3)."
+        " Dark: stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. A"
+        " crescent at the trailing edge sticks as the depth grows fastest (first): there the surface, drawn to the"
+        " middle, keeps up with the pull. No spring sticks at this velocity.",
+        drawing=pictures.period(found),
+        alt="Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip.",
+    )

@@ -1,0 +1,138 @@
+"""Tables of friction in three dimensions beside that of springs: how they are computed, kept as CSV and read again.
+
+A row is a contact of validation/cases.py at one velocity, and `loss` what the springs are too high by, over mu_0, both
+in the same steps. Its errors stand beside it: `step` and `grid` are what half of the steps and half of the cells change
+it by (of first order or better, so that the row itself is off by less), `settling` what further periods would.
+
+A contact is marched from its highest velocity down, each velocity from the end of the one before: so the settled state
+is near, and few periods suffice.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+
+import numpy as np
+
+import mdr
+from mdr.provenance import commented, versions
+from validation.cases import E, contact
+from validation.half_space.friction import Knobs, march, of_springs
+
+FOLDER = Path(__file__).with_name("tables")
+KNOBS = Knobs(cells=25, steps=40, cycles=30, settled=3e-4)
+SPRING_CYCLES = 40  #: of the springs, which cost nothing
+
+
+@dataclass(frozen=True)
+class Point:
+    """A contact by its groups, pulled rigidly at v times the velocity of Eq. (1)."""
+
+    shape: str  #: of validation/cases.py
+    nu: float  #: Poisson's ratio of the body
+    mu_0: float
+    alpha: float  #: du_z/u_z0
+    T: float  #: omega tau
+    v: float
+    nu_2: float | None = None  #: of the other body, as soft as the first; None for a rigid indenter
+
+    @property
+    def case(self) -> mdr.SlidingContact:
+        """The case of the library."""
+        case = contact(self.shape, self.alpha, self.T, mu_0=self.mu_0, nu=self.nu)
+        return case if self.nu_2 is None else replace(case, material=mdr.ElasticPair(E, self.nu, E, self.nu_2))
+
+
+@dataclass(frozen=True)
+class Row:
+    """A point, what was found at it, and the errors of that; all over mu_0."""
+
+    point: Point
+    cof: float  #: in three dimensions
+    springs: float
+    step: float
+    grid: float
+    settling: float
+    cycles: int
+    stick: float  #: greatest share of the area in contact that sticks in a step
+
+    @property
+    def loss(self) -> float:
+        """What the springs are too high by."""
+        return self.springs - self.cof
+
+    @property
+    def error(self) -> float:
+        """Step, grid and settling together."""
+        return self.step + self.grid + self.settling
+
+
+def compute(columns: Iterable[Sequence[Point]], knobs: Knobs) -> list[Row]:
+    """The rows of all columns, each the points of one contact. Raises NotConverged."""
+    return [row for points in columns for row in column(points, knobs)]
+
+
+def column(points: Sequence[Point], knobs: Knobs) -> list[Row]:
+    """The rows of one contact, fastest first."""
+    points = sorted(points, key=lambda point: -point.v)
+    fine = _marched(points, knobs)
+    halved = _marched(points, replace(knobs, steps=knobs.steps // 2))
+    wide = _marched(points, replace(knobs, cells=(knobs.cells + 1) // 2))
+    rows = []
+    for point, one, slow, coarse in zip(points, fine, halved, wide, strict=True):
+        loss = one[1] - one[0]
+        errors = (abs(loss - (other[1] - other[0])) for other in (slow, coarse))
+        rows.append(Row(point, one[0], one[1], *errors, *one[2:]))
+    return rows
+
+
+def _marched(points: Sequence[Point], knobs: Knobs) -> list[tuple[float, float, float, int, float]]:
+    """COF and that of springs, what is not settled, all over mu_0, periods, and the greatest share that sticks."""
+    found, state = [], None
+    for point in points:
+        case, mu_0 = point.case, point.mu_0
+        v_0 = point.v * mdr.critical_velocity(case)
+        last = march(case, v_0, knobs, state)
+        state = last.steps[-1]
+        springs = of_springs(case, v_0, replace(knobs, cycles=SPRING_CYCLES))
+        stick = float(np.nanmax(last.stick))
+        friction = last.friction
+        found.append((friction.cof / mu_0, springs.cof / mu_0, friction.settling / mu_0, friction.cycles, stick))
+    return found
+
+
+# --- files ---
+
+
+def write(name: str, rows: Sequence[Row], knobs: Knobs, what: str) -> Path:
+    """Keep rows as FOLDER/name.csv, with what made them in its head."""
+    FOLDER.mkdir(exist_ok=True)
+    path = FOLDER / f"{name}.csv"
+    made = f"{what}; {knobs.cells} x {knobs.cells} cells, {knobs.steps} steps a period, {knobs.cycles} periods at most"
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.write(commented(made, versions()))
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow([field.name for field in fields(Point)] + [field.name for field in fields(Row)[1:]])
+        for row in rows:
+            values = [*asdict(row.point).values(), *list(asdict(row).values())[1:]]
+            table.writerow([f"{value:.7g}" if isinstance(value, float) else value for value in values])
+    return path
+
+
+def read(name: str) -> list[Row]:
+    """The rows of FOLDER/name.csv."""
+    with (FOLDER / f"{name}.csv").open(newline="", encoding="utf-8") as file:
+        table = csv.DictReader(line for line in file if not line.startswith("#"))
+        return [_row(values) for values in table]
+
+
+def _row(values: dict[str, str]) -> Row:
+    known = [float(values[f.name]) for f in fields(Point)[1:-1]]
+    point = Point(values["shape"], *known, nu_2=float(values["nu_2"]) if values["nu_2"] else None)
+    cof, springs, step, grid, settling, stick = (
+        float(values[name]) for name in ("cof", "springs", "step", "grid", "settling", "stick")
+    )
+    return Row(point, cof, springs, step, grid, settling, int(values["cycles"]), stick)

@@ -1,0 +1,118 @@
+"""Three dimensions without coupling: an elastic half-space, friction as a vector, and the springs beside it.
+
+The Method of Dimensionality Reduction promises that a row of independent springs has the forces of the axisymmetric
+contact, whatever its history, as long as pressure and friction leave each other alone (Dundurs' beta = 0) and nothing
+slips across the pull (exact for nu = 0). Here a half-space of nu = 0 without coupling takes the very steps of the
+springs, its cells sticking and slipping with their neighbours in view, through loss and return of contact, elastic and
+Kelvin. What transverse slip does for nu > 0 is another claim (validation/transverse_slip.py).
+
+The table (validation/half_space/tables/uncoupled.csv) is computed by `python -m validation --long --only uncoupled`.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from mdr.plots import style
+from validation.cases import LOOKS, SHAPES, loss, shape_label
+from validation.half_space import tables
+from validation.half_space.friction import Knobs
+from validation.half_space.tables import Point, Row
+from validation.report import Check, Claim, Figure
+
+KEPT, LOST = 0.3, 1.5  # du_z/u_z0
+TIMES = (0.0, 1.0)
+VELOCITIES = (0.8, 0.4, 0.1)  # over Eq. (1)
+ALLOWED = 2e-4  # of mu_0
+KNOBS = Knobs(cells=48, steps=50, cycles=20, coupled=False, settled=1e-6)
+FINER = replace(KNOBS, cells=96)  # where contact is lost, and small for a part of the period
+
+
+def claim(effort: str) -> Claim:
+    """Read the table, and compute some of it again."""
+    if effort == "long":
+        kept = tables.compute(_columns(SHAPES, KEPT, VELOCITIES), KNOBS)
+        lost = tables.compute(_columns(SHAPES, LOST, VELOCITIES), FINER)
+        tables.write("uncoupled", [*kept, *lost], FINER, "no coupling; 48 x 48 where contact is kept")
+    rows = tables.read("uncoupled")
+    if effort == "quick":
+        columns = _columns(("paraboloid", "flat punch"), KEPT, VELOCITIES[1:2])
+        again = tables.compute(columns, replace(KNOBS, cells=32, steps=24))
+    else:
+        again = tables.compute(_columns(SHAPES, KEPT, VELOCITIES[1:2]), KNOBS)
+        again += tables.compute(_columns(("cone",), LOST, VELOCITIES[1:2])[:1], FINER)
+    checks = (*_table_checks(rows), *_again_checks(again, rows))
+    worst = max(abs(row.loss) for row in rows)
+    return Claim(
+        name="uncoupled",
+        title="Without coupling, three dimensions have the friction of the springs",
+        quote=(
+            "According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
+            " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)"
+        ),
+        range=(
+            f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1, contact"
+            f" kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
+            f" {max(VELOCITIES):g}; {KNOBS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
+            f" {KNOBS.steps} steps a period (validation/half_space/tables/uncoupled.csv)"
+        ),
+        measured=(
+            f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in the"
+            " same steps; half the steps and half the cells change that by at most"
+            f" {max(row.step for row in rows):.0e} and {max(row.grid for row in rows):.0e}. So independent springs do"
+            " what neighbours that feel each other do, cell by cell with stick, slip and loss of contact."
+        ),
+        verdict="holds",
+        sentence="Where pressure and friction do not act on each other, the springs are the half-space.",
+        checks=checks,
+        figures=(_figure(rows),),
+    )
+
+
+def _columns(shapes: Iterable[str], alpha: float, velocities: Iterable[float]) -> list[list[Point]]:
+    return [[Point(shape, 0.0, 0.3, alpha, T, v) for v in velocities] for shape in shapes for T in TIMES]
+
+
+def _table_checks(rows: list[Row]) -> list[Check]:
+    checks = []
+    for shape in SHAPES:
+        for alpha, contact in ((KEPT, "kept"), (LOST, "lost")):
+            own = [row for row in rows if row.point.shape == shape and row.point.alpha == alpha]
+            found = max((row.loss for row in own), key=abs)
+            why = f"2e-4 asked; half the steps and cells change it by {max(row.step + row.grid for row in own):.0e}"
+            name = f"{shape}, contact {contact}: worst COF(springs) − COF(3D), over μ_0, of {len(own)}"
+            checks.append(Check(name, found, 0, ALLOWED, why))
+    return checks
+
+
+def _again_checks(again: list[Row], rows: list[Row]) -> list[Check]:
+    """The same computed now; a coarser grid must come as close as it says of itself."""
+    known = {row.point: row for row in rows}
+    shares = [abs(row.loss - known[row.point].loss) / (row.error + known[row.point].error) for row in again]
+    name = f"{len(again)} of the table computed again: greatest change over the errors of both"
+    return [Check.at_most(name, max(shares), 1, "steps, cells and settling")]
+
+
+def _figure(rows: list[Row]) -> Figure:
+    """COF of both over velocity."""
+    import matplotlib.pyplot as plt
+
+    with style():
+        fig, panels = plt.subplots(1, 4, figsize=(10.4, 3.4), sharey=True)
+        for ax, (alpha, T) in zip(panels, ((a, t) for a in (KEPT, LOST) for t in TIMES), strict=True):
+            for shape, (colour, marker) in LOOKS.items():
+                own = [r for r in rows if (r.point.shape, r.point.alpha, r.point.T) == (shape, alpha, T)]
+                v = [row.point.v for row in own]
+                ax.plot(v, [row.springs for row in own], "-", color=colour, label=shape_label(shape))
+                ax.plot(v, [row.cof for row in own], marker, color=colour, mfc="w", ms=7)
+            ax.set_title(f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}")
+            ax.set_xlabel("$v_0/v_c$")
+            ax.set_xlim(0, 0.9)
+        panels[0].set_ylabel(r"$\mu/\mu_0$")
+        panels[0].legend()
+    return Figure(
+        name="cof",
+        caption="Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no"
+        " difference can be seen, with contact kept and lost.",
+        drawing=fig,
+        alt="Four panels of friction against velocity; marks of four shapes lie on their lines.",
+    )
