@@ -102,7 +102,7 @@ def claim(effort: str) -> Claim:
 
 def _measured(ends: dict[Known, float], slow: float, cells: int) -> str:
     by_mu = {mu_0: [_share(k, v) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})}
-    listed = "; ".join(f"{min(one):.2f} to {max(one):.2f} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
+    listed = "; ".join(f"{_span(one)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
     finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
     return (
         "Eq. (1) is not where stick ends. The last of it is a crescent at the trailing edge, at the instant when the"
@@ -116,6 +116,11 @@ def _measured(ends: dict[Known, float], slow: float, cells: int) -> str:
         f" v_c/α, with <i>M</i> = {MEANS['paraboloid']:.2f} of a paraboloid and {MEANS['flat punch']:.2f} of a punch,"
         f" and by less before ({slow:.2f} of it at 2 v_c, Δu_z/u_z0 = 0.1, punch), since it has not the way to turn."
     )
+
+
+def _span(values: Sequence[float]) -> str:
+    low, high = f"{min(values):.2f}", f"{max(values):.2f}"
+    return low if low == high else f"{low} to {high}"
 
 
 def _share(known: Known, ratio: float) -> float:
