@@ -1,7 +1,8 @@
 """Normal-tangential coupling, which the springs leave out: what it does to friction under a rigid pull, and how much.
 
-On a compressible body pressing drags the surface to the middle of the contact. Its edge moves radially at 2 |beta|/pi
-times the rate of the depth, with Dundurs' beta, for any shape that is elastic; over the velocity of Eq. (1) that is
+On a compressible body pressing drags the surface to the middle of the contact. At the edge the surface moves radially
+at 2 |beta|/pi times the rate of the depth, with Dundurs' beta, under any shape on an elastic body; over the velocity of
+Eq. (1) that is, at most,
 
     lambda = 2 |beta| / (pi mu_0 kappa),    kappa = E*/G*.
 
@@ -39,9 +40,9 @@ def coupled_critical_velocity(case: SlidingContact) -> float:
     """Pulling velocity [m/s] up to which about something sticks, with normal-tangential coupling.
 
     (1 + lambda) times the full-slip critical velocity, (mu_0 kappa + 2 |beta|/pi) omega du_z where that is Eq. (1): an
-    estimate for small mu_0, from the radial velocity of the surface at the edge. In three dimensions (elastic, mu_0
-    from 0.1 to 0.6, lambda up to 1.5) stick ended within 12 % of it. Friction is not full above, only free of stick.
-    Raises ValueError for a case unlike those that were computed (`coupling_loss`).
+    estimate of lowest order in mu_0 and lambda, from the radial velocity of the surface at the edge. In three
+    dimensions (elastic, mu_0 from 0.1 to 0.6, lambda up to 1.5) stick ended within 12 % of it. Friction is not full
+    above, only free of stick. Raises ValueError for a case unlike those that were computed (`coupling_loss`).
     """
     _require_known(case)
     return (1 + radial_rub(case)) * full_slip_critical_velocity(case)
@@ -51,8 +52,8 @@ def coupling_loss(case: SlidingContact) -> float:
     """About how much of mu_0 [-] the springs are too high by, at the velocity where it is most.
 
     (1 - static_cof/mu_0) [0.210 lambda²/(0.313 + lambda) + 0.122 beta²/kappa], to some 25 % of itself for lambda up to
-    1.1; beyond, a flat face had up to 2.5 times of it. Raises ValueError unless the pull is rigid, the depth harmonic
-    about u_z0 > 0, the material elastic or Kelvin, |beta| <= 0.5 and lambda <= 3.2.
+    1.1; beyond, a flat punch lost 1.9 to 2.4 times as much, at the lowest velocity tried. Raises ValueError unless the
+    pull is rigid, the depth harmonic about u_z0 > 0, the material elastic or Kelvin, |beta| <= 0.5 and lambda <= 3.2.
     """
     _require_known(case)
     rub, material = radial_rub(case), case.material

@@ -110,7 +110,7 @@ def _left_out(case: SlidingContact) -> Iterator[str]:
         if abs(beta) > STRONG:
             yield f"{left_out} friction is lower than here, and part of the contact may still stick above this velocity"
     elif rub > STRONG:
-        most = "" if rub <= FARTHEST else " or more"
+        most = "" if rub <= FARTHEST else " (more than half as much again under a flat face)"
         yield (
             f"{left_out} friction is lower than here by up to about {coupling_loss(case):.1g} of mu_0{most}, and part "
             f"of the contact sticks up to about {1 + rub:.2f} times the full-slip velocity"

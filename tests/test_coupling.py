@@ -79,7 +79,7 @@ def test_what_is_no_case_is_refused():
     (0.3, 0.3, 0.3, "by up to about 0.03 of mu_0, and part of the contact sticks up to about 1.50 times"),
     (0.45, 0.3, 0.3, "by up to about 0.004 of mu_0, and part of the contact sticks up to about 1.14 times"),
     (0.3, 0.3, 0.001, "by up to about 0.0001 of mu_0, and part of the contact sticks up to about 1.50 times"),
-    (0.0, 0.1, 0.3, "of mu_0 or more, and"),
+    (0.0, 0.1, 0.3, "of mu_0 (more than half as much again under a flat face), and"),
     (0.495, 0.3, 0.3, None),
     (0.5, 0.3, 0.3, None),
 ])  # fmt: skip

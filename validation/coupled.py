@@ -54,16 +54,18 @@ def claim(effort: str) -> Claim:
         ),
         range=(
             f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
-            f" 0.45 and 0.5, μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from {min(VELOCITIES):g} to"
-            f" {max(VELOCITIES):g}; {tables.KNOBS.cells}² cells and {tables.KNOBS.steps} steps, errors beside each"
+            f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
+            f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.KNOBS.cells}² cells and {tables.KNOBS.steps} steps,"
+            " errors beside each"
             " (validation/half_space/tables/coupled.csv)"
         ),
         measured=_measured(rows),
         verdict="holds if Dundurs' β is zero: an incompressible body (ν = 0.5), or two of a kind",
         sentence=(
-            "With ν < 0.5 pressing rubs the contact radially, and friction is lower than that of the springs:"
-            f" by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3, and up to {100 * most.loss:.0f} % at"
-            f" ν = {most.point.nu:g}, μ_0 = {most.point.mu_0:g}."
+            "With ν < 0.5 under a rigid indenter pressing rubs the contact radially, and friction is lower than that of"
+            " the springs:"
+            f" by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3, and {100 * most.loss:.0f} % at"
+            f" ν = {most.point.nu:g}, μ_0 = {most.point.mu_0:g} and {most.point.v:g} v_c, the lowest velocity tried."
         ),
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
         figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),
@@ -73,7 +75,7 @@ def claim(effort: str) -> Claim:
 def _measured(rows: list[Row]) -> str:
     return (
         "Dundurs' β couples the two: where it vanishes, coupled and uncoupled runs agree. Where it does not, the"
-        " contact grows and shrinks with the surface rubbing radially under it, at up to λ = 2β/(π μ_0 κ) times the"
+        " contact grows and shrinks with the surface rubbing radially under it, at up to λ = 2|β|/(π μ_0 κ) times the"
         " velocity of Eq. (1), and friction is lower than that of the springs. At most, by"
         f" {_percent(rows, 0.45, 0.3)} of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and"
         f" {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 = 0.3; paraboloid and punch). The loss is greatest at"

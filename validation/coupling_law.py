@@ -158,18 +158,18 @@ def claim(effort: str) -> Claim:
             f" {_typical(rest):.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)"
         ),
         measured=(
-            "Divided by what the springs lose at rest, 1 − μ<sub>s</sub>/μ_0, the losses of all shapes, amplitudes and"
-            " rheologies fall together, contact kept or lost. What is left depends on λ = 2β/(π μ_0 κ) and, where μ_0"
-            " is large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ<sub>s</sub>/μ_0)"
+            "Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
+            " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0"
+            " is large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0)"
             f" [{a:.3g} λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)}"
             f" with λ ≤ {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * worst:.0f} %)."
             f" Beyond, {_beyond(beyond)}"
         ),
         verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
         sentence=(
-            f"Springs overstate friction by about (1 − μ<sub>s</sub>/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
-            f" of μ_0 where it is most, λ = 2β/(π μ_0 κ), μ<sub>s</sub> at rest; good to {100 * rms:.0f} % (rms) up to"
-            f" λ = {coupling.FARTHEST:g}, and too low for a flat face beyond."
+            f"Springs overstate friction by about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
+            f" of μ_0 where it is most, λ = 2|β|/(π μ_0 κ), with μ_s the COF of the springs at rest; good to"
+            f" {100 * rms:.0f} % (rms) up to λ = {coupling.FARTHEST:g}, and too low for a flat face beyond."
         ),
         checks=(
             *_constant_checks(constants[None]),

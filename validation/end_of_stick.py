@@ -13,17 +13,18 @@ indenter, at v_0, comes to rest on it last at
 
     v_s ~ (mu_0 kappa + 2 |beta|/pi) du_z omega = v_c (1 + lambda),    lambda = 2 |beta|/(pi mu_0 kappa).          (*)
 
-That is an estimate, for small mu_0. Two things are left out of it: friction, which is of order beta mu_0 in the
-pressure, raises v_s with mu_0; and slip across the pull, where friction keeps its direction. Both are in the linear
-problem of validation/half_space/last_stick.py, whose two limits hold the runs between them on the same cells. At the
-edge itself R is reached with an infinite slope: finer cells stick somewhat longer.
+That is an estimate, of lowest order in mu_0 and lambda. Two things are left out of it: friction, which is of order
+beta mu_0 in the pressure, raises v_s with mu_0; and slip across the pull, where friction keeps its direction. Both are
+in the linear problem of validation/half_space/last_stick.py, whose two limits hold the runs between them on the same
+cells. At the edge itself R is reached with an infinite slope: finer cells stick somewhat longer.
 
 Far above, friction is turned out of the line of the pull by the radial slip, and is short of mu_0 F_z by
 
     1 - mu/mu_0 -> lambda² M/8 (v_c/v_0)²,    M = mean of R² over the pressure,                                   (**)
 
 as v_0 grows: M is 2 ln 2 - 1 of a flat punch, 6 ln 2 - 4 of a paraboloid. To turn takes friction a way of the order of
-mu_0 kappa u_z0, so that (**) asks for v_0 well above v_c/alpha, and less is lost before.
+mu_0 kappa u_z0, so that (**) asks for v_0 well above v_c/alpha and v_c. Before, less is lost at small alpha, more at
+large (0.2 to 1.6 times (**) in the tables).
 
 Symbols: kappa = E*/G*, beta Dundurs' constant, alpha = du_z/u_z0, v_c Eq. (1). Elastic, rigid pull.
 """
@@ -42,7 +43,7 @@ from validation.cases import LOOKS, contact, shape_label
 from validation.half_space import pictures, tables
 from validation.half_space.friction import Knobs, March, contact_of, in_three_dimensions, march, path, stuck
 from validation.half_space.last_stick import fastest
-from validation.half_space.tables import Row
+from validation.half_space.tables import Point
 from validation.report import Check, Claim, Figure
 
 Array = NDArray[np.float64]
@@ -74,7 +75,6 @@ def claim(effort: str) -> Claim:
     cells = 17 if quick else 31
     ends = {known: end(*known, cells) for known in (ENDS[:2] if quick else ENDS)}
     seen = _map(21 if quick else 41, 24 if quick else 60)
-    slow = _slow(tables.read("coupling_held_out"))
     return Claim(
         name="end_of_stick",
         title="On a compressible body stick ends above Eq. (1), and friction is full at no velocity",
@@ -88,11 +88,12 @@ def claim(effort: str) -> Claim:
             f" Δu_z/u_z0 from {min(k[3] for k in ends):g} to {max(k[3] for k in ends):g}, on {cells}² cells and"
             f" {STEPS} steps; stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α"
         ),
-        measured=_measured(ends, slow, cells),
+        measured=_measured(ends, cells),
         verdict="holds if β = 0",
         sentence=(
-            "Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω, at the trailing edge (to"
-            f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %); above, radial slip turns"
+            "Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to"
+            f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %), last at the trailing edge if"
+            " β > 0; above, radial slip turns"
             " friction aside, and there is no velocity at which it is full."
         ),
         checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
@@ -100,7 +101,7 @@ def claim(effort: str) -> Claim:
     )
 
 
-def _measured(ends: dict[Known, float], slow: float, cells: int) -> str:
+def _measured(ends: dict[Known, float], cells: int) -> str:
     by_mu = {mu_0: [_share(k, v) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})}
     listed = "; ".join(f"{_span(one)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
     finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
@@ -114,7 +115,8 @@ def _measured(ends: dict[Known, float], slow: float, cells: int) -> str:
         " friction adds to it by what it does to the pressure. Above, nothing sticks, and friction is still short of"
         " μ_0, as radial slip turns it away from the pull: by λ^2 <i>M</i>/8 (v_c/v_0)^2 for velocities well above"
         f" v_c/α, with <i>M</i> = {MEANS['paraboloid']:.2f} of a paraboloid and {MEANS['flat punch']:.2f} of a punch,"
-        f" and by less before ({slow:.2f} of it at 2 v_c, Δu_z/u_z0 = 0.1, punch), since it has not the way to turn."
+        f" and otherwise before: {_before(0.1, 'flat punch'):.2f} of it at 2 v_c for a punch at Δu_z/u_z0 = 0.1, where"
+        f" friction has not the way to turn, and {_before(0.9, 'paraboloid'):.2f} times it for a paraboloid at 0.9."
     )
 
 
@@ -168,10 +170,12 @@ def _map(cells: int, steps: int) -> March:
     return march(case, ABOVE * mdr.critical_velocity(case), Knobs(cells, steps, cycles=2))
 
 
-def _slow(rows: Sequence[Row]) -> float:
-    """Loss over (**) of a punch whose friction has not the way to turn."""
-    row = next(r for r in rows if (r.point.shape, r.point.alpha, r.point.v) == ("flat punch", 0.1, 2.0))
-    return row.loss / (radial_rub(row.point.case) ** 2 * MEANS["flat punch"] / 8 / row.point.v**2)
+def _before(alpha: float, shape: str) -> float:
+    """Loss at 2 v_c over (**) in the tables, for nu = mu_0 = 0.3."""
+    rows = tables.read("coupling_held_out")
+    point = Point(shape, 0.3, 0.3, alpha, 0.0, 2.0)
+    row = next(row for row in rows if row.point == point)
+    return row.loss / (radial_rub(point.case) ** 2 * MEANS[shape] / 8 / point.v**2)
 
 
 # --- checks ---
@@ -214,7 +218,13 @@ def _place_checks(found: March) -> list[Check]:
     phase, along, across = (i + 1) / shares.size, np.mean(x[sticks]), np.mean(y[sticks])
     what = f"{ABOVE:g} v_c, greatest stick"
     return [
-        Check.between(f"{what}: when, in periods after the least depth", phase, 0.15, 0.35, "the depth grows fastest"),
+        Check.between(
+            f"{what}: when, in periods after the least depth",
+            phase,
+            0.15,
+            0.35,
+            "the depth grows, at least at 0.8 of its fastest",
+        ),
         Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge"),
         Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric"),
     ]

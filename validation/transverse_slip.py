@@ -44,7 +44,7 @@ class Losses:
 
 
 def rub(nu: float) -> float:
-    """Lambda of validation/coupled.py: nothing sticks above 1 + lambda."""
+    """Lambda of validation/coupled.py: stick ends at about 1 + lambda."""
     return radial_rub(contact("paraboloid", ALPHA, mu_0=FRICTION, nu=nu))
 
 
@@ -98,8 +98,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds if β = 0",
         sentence=(
-            f"Transverse slip alone is a matter of {itself:.0e} of μ_0; with coupling it makes a part of the loss"
-            " below v_c and all of it above the end of stick."
+            f"Without coupling slip across changes the COF of a paraboloid by {itself:.0e} of μ_0 at most; with it, it"
+            " makes a part of the loss below v_c and all of it above the end of stick."
         ),
         checks=_checks(found),
         figures=(_figure(found),),
@@ -141,8 +141,8 @@ def _figure(found: list[Losses]) -> Figure:
     return Figure(
         name="loss",
         caption="What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
-        " only, which stays below and ends with stick; the tail above 1.5 v_c is friction turned aside by radial slip."
-        " Dotted, on the axis: without coupling, where transverse slip alone does nothing.",
+        " only, which stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by"
+        " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing.",
         drawing=fig,
         alt="Curves of the loss of friction against velocity, full above dashed, dotted at zero.",
     )

@@ -62,7 +62,10 @@ def claim(effort: str) -> Claim:
             " what neighbours that feel each other do, cell by cell with stick, slip and loss of contact."
         ),
         verdict="holds",
-        sentence="Where pressure and friction do not act on each other, the springs are the half-space.",
+        sentence=(
+            "Where pressure and friction do not act on each other, the springs have the friction of the half-space, to"
+            f" {worst:.0e} of μ_0."
+        ),
         checks=checks,
         figures=(_figure(rows),),
     )
