@@ -79,15 +79,15 @@ def _measured(rows: list[Row]) -> str:
         " velocity of Eq. (1), and friction is lower than that of the springs. At most, by"
         f" {_percent(rows, 0.45, 0.3)} of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and"
         f" {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 = 0.3; paraboloid and punch). The loss is greatest at"
-        f" {_where(rows, 0.0, 1.2)} for λ up to 1.2; for the largest λ it goes on growing down to {min(VELOCITIES):g}"
+        f" {_where(rows, 1.2)} for λ up to 1.2; for the largest λ it goes on growing down to {min(VELOCITIES):g}"
         " v_c, the lowest velocity that was tried. A core that is shifted to the trailing edge sticks, and what slips"
         " around it slips outward as the contact grows."
     )
 
 
-def _where(rows: list[Row], low: float, high: float) -> str:
-    """Velocities of the greatest losses for lambda between two values."""
-    within = [row for row in rows if low <= radial_rub(row.point.case) < high]
+def _where(rows: list[Row], most: float) -> str:
+    """Velocities of the greatest losses for lambda below a value."""
+    within = [row for row in rows if radial_rub(row.point.case) < most]
     contacts = {(r.point.shape, r.point.nu, r.point.mu_0) for r in within}
     tops = [
         max((r for r in within if (r.point.shape, r.point.nu, r.point.mu_0) == one), key=lambda row: row.loss).point.v
@@ -108,7 +108,7 @@ def _column(shape: str, nu: float, mu_0: float) -> list[Point]:
     return [Point(shape, nu, mu_0, ALPHA, 0.0, v) for v in VELOCITIES]
 
 
-def _rub_of(nu: float, mu_0: float = 0.3) -> float:
+def _rub_of(nu: float, mu_0: float) -> float:
     return radial_rub(contact("paraboloid", ALPHA, mu_0=mu_0, nu=nu))
 
 

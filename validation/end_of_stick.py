@@ -30,7 +30,6 @@ Symbols: kappa = E*/G*, beta Dundurs' constant, alpha = du_z/u_z0, v_c Eq. (1). 
 """
 
 from collections.abc import Sequence
-from functools import cache
 from math import log
 
 import numpy as np
@@ -147,7 +146,6 @@ def _case(known: Known) -> mdr.SlidingContact:
 # --- runs ---
 
 
-@cache
 def end(shape: str, nu: float, mu_0: float, alpha: float, cells: int) -> float:
     """Greatest v_0/v_c at which any cell sticks while the depth grows: from full slip on, in half a period."""
     case = _case((shape, nu, mu_0, alpha))

@@ -13,7 +13,6 @@ Cerruti's influence coefficients, friction as a vector. It is asked first for
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -29,7 +28,6 @@ from validation.report import Check, Claim, Figure
 
 SHARES = (0.2, 0.5, 0.8)  #: of the way to full slip
 SPENCE = ((0.0, 0.3), (0.0, 0.6), (0.15, 0.3), (0.3, 0.3))  #: nu, mu_0
-STEPPED = Knobs(cells=17, steps=80, cycles=2)
 
 
 def claim(effort: str) -> Claim:
@@ -131,7 +129,7 @@ def _slip_checks(slips: dict[float, list[PartialSlip]], n: int) -> list[Check]:
 def _spence_checks(cases: Any, quick: bool) -> list[Check]:
     checks = []
     for nu, mu_0 in cases:
-        known = rings.stick_radius((1 - 2 * nu) / (2 * (1 - nu)), mu_0)
+        known = rings.stick_radius(_beta(nu), mu_0)
         got = {"flat punch": np.mean([spence(n, nu, mu_0) for n in ((32,) if quick else (48, 64))])}
         if not quick:
             got["paraboloid, loaded in 40 steps"] = spence(45, nu, mu_0, 40)
@@ -140,7 +138,7 @@ def _spence_checks(cases: Any, quick: bool) -> list[Check]:
             name = f"Spence, {shape}, ν = {nu:g}, μ_0 = {mu_0:g}: stick radius over that of the equations"
             checks.append(Check(name, float(radius) / known, 1, 0.02, why))
     for nu, mu_0 in SPENCE:
-        beta = (1 - 2 * nu) / (2 * (1 - nu))
+        beta = _beta(nu)
         name = f"the equations, u_z by friction left out, ν = {nu:g}, μ_0 = {mu_0:g}: over the closed form"
         checks.append(
             Check(name, rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0), 1, 1e-5, "100 nodes")
@@ -148,16 +146,19 @@ def _spence_checks(cases: Any, quick: bool) -> list[Check]:
     return checks
 
 
+def _beta(nu: float) -> float:
+    return mdr.Elastic(E=1.0, nu=float(nu)).dundurs_beta
+
+
 @cache
-def _coarse(cells: int, steps: int) -> float:
-    case = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3)
-    knobs = replace(STEPPED, cells=cells, steps=steps)
+def _stepped(steps: int) -> float:
+    case, knobs = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3), Knobs(cells=17, steps=steps, cycles=2)
     return in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), knobs).cof / case.mu_0
 
 
 def _order_checks(quick: bool) -> list[Check]:
     n = 20 if quick else 40
-    first, second = (_coarse(STEPPED.cells, m) - _coarse(STEPPED.cells, 2 * m) for m in (n, 2 * n))
+    first, second = (_stepped(m) - _stepped(2 * m) for m in (n, 2 * n))
     name = f"COF with coupling, change from {n} to {2 * n} steps over that from {2 * n} to {4 * n}"
     return [Check.between(name, first / second, 1.5, 4.5, "implicit steps: 2 for the first order, 4 for the second")]
 
@@ -171,7 +172,7 @@ def _figure(quick: bool) -> Figure:
 
     cells = (16, 32) if quick else (16, 24, 32, 48, 64)
     nus = np.linspace(0, 0.49, 15)
-    betas = (1 - 2 * nus) / (2 * (1 - nus))
+    betas = [_beta(nu) for nu in nus]
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.9))
         known = np.log(3)

@@ -44,7 +44,7 @@ class Losses:
 
 
 def rub(nu: float) -> float:
-    """Lambda of validation/coupled.py: stick ends at about 1 + lambda."""
+    """Lambda of validation/end_of_stick.py: stick ends at about 1 + lambda."""
     return radial_rub(contact("paraboloid", ALPHA, mu_0=FRICTION, nu=nu))
 
 

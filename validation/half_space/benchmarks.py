@@ -112,7 +112,7 @@ def spence(n: int, nu: float, mu_0: float, steps: int = 0) -> float:
     half_space, r = body(n, nu, 2 * MARGIN if steps else 2.0)
     shape = r**2 / 2 if steps else np.where(r < 1, 0.0, 1e3)
     contact = Contact(half_space, shape, mu_0)
-    step = Step(np.zeros((3, n, n)), np.zeros((3, n, n)), np.zeros((2, n, n)), 0)
+    step = Step(np.zeros((3, n, n)), np.zeros((3, n, n)), np.zeros((2, n, n)))
     for depth in np.linspace(0, 1, (steps or 1) + 1)[1:]:
         step = contact.step(step, float(depth), 0.0, 1.0)
     size, touching = np.hypot(*step.tractions[:2]), step.pressure > 0

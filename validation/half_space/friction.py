@@ -41,7 +41,6 @@ class Friction:
     cof: float
     mean_F_x: float
     mean_F_z: float
-    drift: float  #: change of the COF from the period before; NaN with a single period
     settling: float  #: what further periods would still change, were changes to fall as the last two did
     cycles: int
 
@@ -124,8 +123,7 @@ def path(case: mdr.SlidingContact, v_0: float, knobs: Knobs) -> tuple[Array, Arr
 
 
 def _friction(F_x: Array, F_z: Array, ratios: list[float]) -> Friction:
-    drift = ratios[-1] - ratios[-2] if len(ratios) > 1 else np.nan
-    return Friction(ratios[-1], float(F_x.mean()), float(F_z.mean()), drift, _settling(ratios), len(ratios))
+    return Friction(ratios[-1], float(F_x.mean()), float(F_z.mean()), _settling(ratios), len(ratios))
 
 
 def _settling(ratios: list[float]) -> float:

@@ -7,8 +7,8 @@ is nothing and q_y follows) or free to turn at once (q_y = 0), rates p' and q_y'
     u_z' = d',    u_y' = 0 or q_y' = 0        in the contact,
 
 and the surface moves along the pull at u_x'. What moves fastest is what sticks last: at max u_x'. Alone, the pressure
-makes mu_0 kappa d' of it everywhere and adds 2 |beta|/pi R(r/a) d' at the trailing edge (validation/coupled.py); here
-friction's own doing on the pressure, and between the two directions, is included.
+makes mu_0 kappa d' of it everywhere and adds 2 |beta|/pi R(r/a) d' at the trailing edge (validation/end_of_stick.py);
+here friction's own doing on the pressure, and between the two directions, is included.
 """
 
 from __future__ import annotations

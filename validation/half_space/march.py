@@ -29,7 +29,6 @@ class Step:
     tractions: Array
     displacement: Array
     slip: Array  #: of the indenter over the surface in the step; zero where there is no contact
-    turns: int
 
     @property
     def pressure(self) -> Array:
@@ -58,7 +57,7 @@ class Contact:
         n = self.half_space.n
         tractions = np.zeros((3, n, n))
         last = np.zeros(3)
-        for turn in range(1, TURNS + 1):  # noqa: B007
+        for _ in range(TURNS):
             pulled = self._pulled_down(tractions)
             tractions[Z] = pressure(self._normal, depth - self.shape - pulled, tractions[Z], self.tolerance * 1e-2)
             tractions[X] = self.mu_0 * tractions[Z]
@@ -69,7 +68,7 @@ class Contact:
         else:
             raise NotConverged(f"full slip at a depth of {depth:g} m is not found in {TURNS} turns")
         u = self.half_space.displacement(tractions)
-        return Step(tractions, u, np.zeros((2, n, n)), turn)
+        return Step(tractions, u, np.zeros((2, n, n)))
 
     def forces(self, tractions: Array) -> Array:
         """F_x, F_y, F_z."""
@@ -89,7 +88,7 @@ class Contact:
         tractions, last = state.tractions.copy(), np.zeros(3)
         down = (1 + theta) * (depth - self.shape) - theta * before[Z]  # what C p must be where it touches
         stick = before[:2] + (1 + theta) * np.array([moved, 0.0])[:, None, None]  # what C q must be where it sticks
-        for turn in range(1, TURNS + 1):  # noqa: B007
+        for _ in range(TURNS):
             fine = self.tolerance * 1e-2
             tractions[Z] = pressure(self._normal, down - self._pulled_down(tractions), tractions[Z], fine)
             asked = stick - self._dragged(tractions)
@@ -106,7 +105,7 @@ class Contact:
             raise NotConverged(f"pressure and friction still change the forces by {change:.1e} after {TURNS} turns")
         u = (self.half_space.displacement(tractions) + theta * before) / (1 + theta)
         slip = np.where(tractions[Z] > 0, np.array([moved, 0.0])[:, None, None] - (u - before)[:2], 0.0)
-        return Step(tractions, u, slip, turn)
+        return Step(tractions, u, slip)
 
     # --- products ---
 
