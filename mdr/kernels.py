@@ -94,12 +94,35 @@ def surge_of(du, ud_0, ud_1, h):
 
     A spring that touches for the last share of a step sees the body travel share * (du + (1 - share) * surge).
     """
-    most = abs(du)  # without inertia the velocity may jump, and no growth can be read off it
+    most = abs(du)  # no more than reversal within the step
     return min(max(0.5 * h * (ud_1 - ud_0), -most), most)
 
 
 @_inline
-def elastic_spring(e, gap, z_1, du, surge, inverse_dz, bend, late):
+def growth_of(du, ud_0, ud_1, h, jumps):
+    """How the velocity of the body changes within a step: steadily (surge), or all at once as it touches (jump).
+
+    A body without mass takes at once the velocity that a flat face gives it as it touches. Until then it goes on as
+    before: springs that touch for the last share of a step see it travel du - (1 - share) ud_0 h, which is
+    share * du + (1 - share) * jump.
+    """
+    return (0.0, du - ud_0 * h) if jumps else (surge_of(du, ud_0, ud_1, h), 0.0)
+
+
+@_inline
+def touches_flat(gap, w, z):
+    """Whether at least half of the springs that the indenter has reached at z stand alike, and so touch at once."""
+    flat = reached = 0.0
+    for i in range(gap.size):
+        if gap[i] >= z:
+            break
+        reached += w[i]
+        flat += w[i] if gap[i] <= gap[0] + 1e-12 else 0.0
+    return flat > 0.5 * reached
+
+
+@_inline
+def elastic_spring(e, gap, z_1, du, surge, jump, inverse_dz, bend, late):
     """One elastic spring over one step: new extension, compression, share of the step in contact, trial extension.
 
     late: what a spring that turned from slip to stick within the step falls behind.
@@ -107,7 +130,7 @@ def elastic_spring(e, gap, z_1, du, surge, inverse_dz, bend, late):
     s = max(z_1 - gap, 0.0)
     way = min(s * inverse_dz, 1.0)
     travelled = way * ((1.0 - bend) + bend * way)
-    trial = e + travelled * ((du + surge) - travelled * surge)
+    trial = e + travelled * ((du + surge) - travelled * surge) + (1.0 - travelled) * jump
     return max(min(trial, s - travelled * late), -s), s, travelled, trial
 
 
@@ -134,7 +157,7 @@ def slip_or_stick(
 
 @_inline
 def viscous_spring(
-    e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
+    e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, dashpot, stiffness, damping,
     s_free, s_rate, s_end, s_shed, lag_free, lag_rate, lag_end, lag_shed,
 ):  # fmt: skip
     """One spring with memory over one step: new extension, compression, share of the step in contact, trial extension.
@@ -152,7 +175,7 @@ def viscous_spring(
     way = rise / (rise + max(ahead, 0.0) + 1e-300)
     travelled = way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
     flown = 1.0 - travelled
-    trial = e + flown * (s_free - lag_free - e) + travelled * (du + flown * surge)
+    trial = e + flown * (s_free - lag_free - e + jump) + travelled * (du + flown * surge)
     e_1 = slip_or_stick(
         s, trial, travelled, zd_0 - ud_0, zd_1 - ud_1, h, dashpot, stiffness, damping,
         s_free, lag_free, lag_rate, lag_end, lag_shed,
@@ -161,12 +184,12 @@ def viscous_spring(
 
 
 @_inline
-def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay):
+def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, rate, decay):
     """The same for a Kelvin spring, whose free motion is one exponential. rate = 1/T, decay = exp(-h/T)."""
     lag = s_0 - e
     s_free, lag_free = s_0 * decay, lag * decay
     return viscous_spring(
-        e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, True, rate, rate,
+        e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, True, rate, rate,
         s_free, s_0 * rate, s_free * rate, 0.0, lag_free, lag * rate, lag_free * rate, 0.0,
     )  # fmt: skip
 
@@ -198,7 +221,7 @@ def elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z_0, z_1, zd_0, zd_
         e[0, i] = max(min(e[0, i] + du, s - late), -s)
         total += w[i] * e[0, i]
     for i in springs(n_in, n_out):
-        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, du, 0.0, inverse_dz, bend, late)[0]
+        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, du, 0.0, 0.0, inverse_dz, bend, late)[0]
         total += w[i] * e[0, i]
     for i in springs(n_out, n_at_rest):
         e[0, i] = 0.0
@@ -206,12 +229,12 @@ def elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z_0, z_1, zd_0, zd_
 
 
 @_jit
-def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h):
+def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, jumps=False):
     """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
     bend = bend_of(zd_0, zd_1)
     late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
-    surge = surge_of(du, ud_0, ud_1, h)
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
     total = 0.0
     stuck = 0.0
     for i in springs(0, n_in):
@@ -221,19 +244,21 @@ def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, 
         total += w[i] * e
         stuck += w[i] if (e == e_0[0, i] + du or (late > 0.0 and e > 0.0)) else 0.0
     for i in springs(n_in, n_out):
-        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, inverse_dz, bend, late)
+        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, jump, inverse_dz, bend, late)
         e_1[0, i] = e
         total += w[i] * e
-        stuck += w[i] * travelled if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+        stuck += w[i] * (1.0 if jumps else travelled) if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
     for i in springs(n_out, gap.size):
         e_1[0, i] = 0.0
     return total, stuck
 
 
 @_jit
-def kelvin_step(e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay):
+def kelvin_step(
+    e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay, jumps=False
+):  # fmt: skip
     """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
-    surge = surge_of(du, ud_0, ud_1, h)
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
     lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
     total = 0.0
     stuck = 0.0
@@ -252,12 +277,12 @@ def kelvin_step(e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, d
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in springs(n_in, n_out):
         e, s, travelled, trial = kelvin_spring(
-            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, rate, decay
+            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, rate, decay
         )
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
-        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+        stuck += w[i] * (1.0 if jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in springs(n_out, gap.size):
         e_1[0, i] = e_0[0, i] * decay
         s_1[0, i] = s_0[0, i] * decay
@@ -286,10 +311,11 @@ def foresee(e, s, table, look):
 
 @_jit
 def arms_step(
-    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping
+    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping,
+    jumps=False,
 ):  # fmt: skip
     """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck."""
-    surge = surge_of(du, ud_0, ud_1, h)
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
     lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
     dashpot = stiffness > 0.0
     total = 0.0
@@ -307,14 +333,15 @@ def arms_step(
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in springs(n_in, n_out):
         e, s, travelled, trial = viscous_spring(
-            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, ud_0, ud_1, h, dashpot, stiffness, damping,
+            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1,
+            du, surge, jump, ud_0, ud_1, h, dashpot, stiffness, damping,
             look[S_FREE, i], look[S_RATE, i], look[S_END, i], look[S_SHED, i],
             look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
         )  # fmt: skip
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
-        stuck += w[i] * travelled if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+        stuck += w[i] * (1.0 if jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in springs(n_out, gap.size):
         e_1[0, i] = look[S_FREE, i] - look[LAG_FREE, i]
         s_1[0, i] = look[S_FREE, i]
@@ -346,11 +373,11 @@ def damping_of(table):
 
 
 @_jit
-def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
+def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
     """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
 
-    force, touches (n_z,), or empty: its normal force at z[0] ... z[n_z - 1], and the share of the step before in which
-    it was in contact; -1 where it follows the indenter without pressing, 0 where it is free.
+    force, touches, path (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before in which
+    it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), and its compression.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
@@ -365,7 +392,7 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
             end += table[L_END, j] * x[j]
             shed += table[L_SHED, j] * x[j]
         _, value, share, _ = viscous_spring(
-            0.0, x[0], gap, z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h,
+            0.0, x[0], gap, z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, 0.0, h,
             stiffness > 0.0, stiffness, damping, free, rate, end, shed, 0.0, 0.0, 0.0, 0.0,
         )  # fmt: skip
         for j in range(1, x.size):
@@ -380,11 +407,12 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches):
             presses = follows and normal > 0.0
             force[(k + 1) % n_z] = normal if presses else 0.0
             touches[(k + 1) % n_z] = share if presses else (-1.0 if follows else 0.0)
+            path[(k + 1) % n_z] = value
     return total
 
 
 @_jit
-def settle_spring(x, guess, gap, z, zd, table, force, touches):
+def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
     """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions, NaN if none is
     found, and what it still changes by over a period.
 
@@ -403,7 +431,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches):
     trust, before, change, size = 1.0, np.inf, 0.0, 0.0
     for turn in range(MOST_PASSES):
         start[:] = x
-        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches)
+        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches, path)
         change, size = 0.0, 0.0
         for j in range(x.size):
             change = max(change, abs(x[j] - start[j]))
@@ -427,26 +455,28 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches):
     if not change <= SETTLED:
         total = np.nan
     guess[:] = x
-    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0))
+    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0), np.empty(0))
     return total, change
 
 
 @_jit
-def normal_forces(gap, w, z, zd, table, F, outermost, at_edge, begins):
-    """All springs, from the centre outwards, in their periodic normal motion: adds to F (n_z,) their force.
+def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
+    """All springs, from the centre outwards, in their periodic normal motion: adds to F (n_z,) their force and to S
+    (n_z,) the sum of w s.
 
     Fills outermost (n_z,) with the last spring that presses (-1 for none), at_edge (n_z,) with its force over its
     stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
     """
     x, guess = np.empty(table.shape[1]), np.zeros(table.shape[1])
-    force, touches = np.empty(F.size), np.empty(F.size)
+    force, touches, path = np.empty(F.size), np.empty(F.size), np.empty(F.size)
     outermost[:] = -1
     at_edge[:] = 0.0
     for i in range(gap.size):
-        settle_spring(x, guess, gap[i], z, zd, table, force, touches)
+        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
         n_touches = 0
         for k in range(F.size):
             F[k] += w[i] * force[k]
+            S[k] += w[i] * path[k]
             if touches[k] > 0.0:
                 outermost[k], at_edge[k] = i, force[k]
                 if touches[k - 1] <= 0.0:
@@ -472,9 +502,9 @@ def settle_normal(s, gap, w, z, zd, table, spans):
     mean, steady = 0.0, True
     inner, outer = np.full(n_z + 1, n), np.zeros(n_z + 1, dtype=np.int64)  # at z[0] ... z[n_z]
     if n_x > 1:
-        force, touches, guess = np.empty(n_z), np.empty(n_z), np.zeros(n_x)
+        force, touches, path, guess = np.empty(n_z), np.empty(n_z), np.empty(n_z), np.zeros(n_x)
         for i in range(n):
-            total, change = settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches)
+            total, change = settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches, path)
             mean += w[i] * total
             steady = steady and change <= STEADY
             for k in range(n_z):
@@ -498,8 +528,9 @@ def settle_normal(s, gap, w, z, zd, table, spans):
                         value = max(z[k + 1] - gap[i], 0.0)
                     else:
                         _, value, _, _ = kelvin_spring(
-                            0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, h, rate, decay
-                        )
+                            0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1],
+                            0.0, 0.0, 0.0, 0.0, 0.0, h, rate, decay,
+                        )  # fmt: skip
                     s[0, i] = value
                     total += w[i] * value
                     follows = value > 0.0 and value <= z[k + 1] - gap[i]
@@ -550,7 +581,10 @@ def glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s
 
 
 @_jit
-def march(e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out):
+def march(
+    e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out,
+    light=False,
+):  # fmt: skip
     """March n_steps from step k_0 of the period; e, s and history are updated in place.
 
     e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. table: of the material
@@ -559,7 +593,7 @@ def march(e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_st
     gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. spans: (2, n_z)
     of springs that press, or are free, throughout a step (`settle_normal`); 0 and n take all through all rules.
     lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative
-    switches the watch off. y_out, S_out: (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
+    switches the watch off. light: whether the velocity of the body jumps when a flat face touches (`growth_of`). y_out, S_out: (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
     Returns whether the core moved as one all the way.
     """
     n_z = z.size - 1
@@ -582,6 +616,7 @@ def march(e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_st
         k = (k_0 + j) % n_z
         z_0, z_1 = z[k], z[k + 1]
         n_in, n_out = span_of(spans, k, gap.size)
+        jumps = light and spans[1, k - 1] == 0 and touches_flat(gap, w, z_1)  # nothing was in contact before
         pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
         for a in range(2 * n_arms):
             pull -= body[5 + a] * history[5 + a]
@@ -594,16 +629,18 @@ def march(e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_st
             du = v * h + (y_1 - y_0)
             ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             if elastic:
-                S_1, stuck = elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h)
+                S_1, stuck = elastic_step(
+                    e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, jumps
+                )  # fmt: skip
             elif n_arms == 0:
                 S_1, stuck = kelvin_step(
                     e_0, s_0, e_1, s_1, gap, w, n_in, n_out,
-                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay,
+                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay, jumps,
                 )  # fmt: skip
             else:
                 S_1, stuck = arms_step(
                     e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out,
-                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, stiffness, damping,
+                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, stiffness, damping, jumps,
                 )  # fmt: skip
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
@@ -713,7 +750,9 @@ def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
 
 
 @_inline
-def close_look(e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, du, surge, h, T, dashpot):
+def close_look(
+    e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, du, surge, jump, h, T, dashpot
+):  # fmt: skip
     """One spring in one step, of which it spends the share `touched` in contact; per_time is 1/(touched h).
 
     force, trial: what would press it and what it would take to stick, over its long-time stiffness. Returns its
@@ -723,7 +762,7 @@ def close_look(e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, tri
     normal = max(force, 0.0)
     stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
     squeezed = s_1 - s_0 - (1.0 - touched) * (s_free - s_0)
-    slip_rate = (touched * (du + (1.0 - touched) * surge) - stretched) * per_time
+    slip_rate = (touched * (du + (1.0 - touched) * surge) + (1.0 - touched) * jump - stretched) * per_time
     # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
     # extension, else its trial force
     pace = (1e-9 * abs(du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
@@ -747,7 +786,7 @@ def least_of(values, n):
 
 
 @_jit
-def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z):
+def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z, light=False):
     """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
 
     e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot:
@@ -763,7 +802,9 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
     arms = np.zeros((8, n))
     free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
     S_0, P_0 = 0.0, 0.0  # sums of w e and of w s
+    presses_0 = False  # whether any spring is in contact as the step begins
     for i in range(n):
+        presses_0 = presses_0 or 0.0 < s[0, 0, i] <= z[0] - gap[i]
         S_0 += w[i] * e[0, 0, i]
         P_0 += w[i] * s[0, 0, i]
     for k in range(e.shape[0] - 1):
@@ -771,7 +812,7 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
         ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
         ux_dot_0 = v + (3.0 * y[k + 2] - 4.0 * y[k + 1] + y[k]) / (2.0 * h)
         z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
-        surge = surge_of(du, ux_dot_0, ux_dot, h)
+        surge, jump = growth_of(du, ux_dot_0, ux_dot, h, light and not presses_0 and touches_flat(gap, w, z_1))
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
         S_1 = P_1 = sum_x = sum_z = stick = friction = shear_viscous = normal_viscous = shear_arms = press_arms = 0.0
         if n_x > 1:
@@ -785,7 +826,7 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]
             normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
-                e_0, e_1, s_0, s_1, e_0, s_0, 1.0, 1.0 / h, force, trial, arms[7, i], du, surge, h, T, dashpot
+                e_0, e_1, s_0, s_1, e_0, s_0, 1.0, 1.0 / h, force, trial, arms[7, i], du, surge, jump, h, T, dashpot
             )
             sum_x += w[i] * tangential
             sum_z += w[i] * normal
@@ -807,7 +848,7 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
             trial = e_1 + T * ux_dot + arms[5, i]
             normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
                 e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
-                du, surge, h, T, dashpot,
+                du, surge, jump, h, T, dashpot,
             )  # fmt: skip
             flight = (1.0 - touched) / h
             sum_x += w[i] * tangential
@@ -841,7 +882,7 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
                 trial = e_1 + T * ux_dot + arms[5, i]
                 f_z[k, i], f_x[k, i], mode[k, i], _, _, _, _ = close_look(
                     e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
-                    du, surge, h, T, dashpot,
+                    du, surge, jump, h, T, dashpot,
                 )  # fmt: skip
         shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
         press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
@@ -857,3 +898,4 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
         sums[NORMAL_VISCOUS] += normal_viscous
         sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least)
         S_0, P_0 = S_1, P_1
+        presses_0 = sum_z > 0.0

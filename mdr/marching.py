@@ -232,6 +232,7 @@ class Line:
             S,
             e_out,
             s_out,
+            scaled.light,
         )
         self.as_one = self.as_one and bool(as_one)
         return y, S
@@ -427,6 +428,7 @@ class Line:
                 mode[now],
                 f_x[now],
                 f_z[now],
+                scaled.light,
             )
             if keep:
                 e_kept[now], s_kept[now] = e[1:, 0], s[1:, 0]

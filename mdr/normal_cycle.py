@@ -31,6 +31,7 @@ class NormalCycle(ArrayRecord):
     """One period of normal contact at equidistant instants, arrays of shape (n_t,)."""
 
     F_N: Array  #: normal force over E* [m²]
+    compression: Array  #: sum over the springs of width times compression [m²]
     contact_radius: Array  #: half the width of the springs that press [m]
     in_contact: NDArray[np.bool_]  #: whether the deepest spring presses
     touches: Array  #: phases at which it touches, (n,); none where it keeps contact
@@ -43,16 +44,17 @@ def normal_cycle(
     kept = cycle.kept_gap(rheology.response)
     x, gap, width, n_core = cells(shape, cycle, kept, n_edge)
     gap = gap / cycle.du_z
-    F, radius = np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
+    F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
     if n_core:
-        harmonics = cycle.harmonics * rheology.response(np.arange(1.0, cycle.cos.size + 1))
-        F += 2 * radius[0] * of_harmonics(harmonics, n_t) - float(width[:n_core] @ gap[:n_core])
+        response, depth = rheology.response(np.arange(1.0, cycle.cos.size + 1)), float(width[:n_core] @ gap[:n_core])
+        F += 2 * radius[0] * of_harmonics(cycle.harmonics * response, n_t) - depth
+        S += 2 * radius[0] * of_harmonics(cycle.harmonics, n_t) - depth
     in_contact, touches = np.ones(n_t, dtype=bool), np.empty(0)
     if n_core < gap.size:
-        F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, radius, rheology, cycle)
+        F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, S, radius, rheology, cycle)
         if not n_core:
             in_contact, touches = _tip(rheology, cycle, n_t)
-    return NormalCycle(F * cycle.du_z, radius, in_contact, touches)
+    return NormalCycle(F * cycle.du_z, S * cycle.du_z, radius, in_contact, touches)
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +65,8 @@ class _Band:
     gap: Array
     width: Array
 
-    def press(self, F: Array, radius: Array, rheology: Rheology, cycle: Cycle) -> tuple[Array, Array]:
-        """Force and radius of contact with the band, (n_t,).
+    def press(self, F: Array, S: Array, radius: Array, rheology: Rheology, cycle: Cycle) -> tuple[Array, Array]:
+        """Force and radius of contact with the band, (n_t,); adds to S (n_t,) what the band is compressed by.
 
         A spring stands for its whole cell. Where contact grows the edge has come part of the way to the next spring,
         and that part of the cells between them presses like the last one: dashpots would jump without it.
@@ -73,7 +75,7 @@ class _Band:
         z, rate = cycle.over_a_period(n_t)
         outermost, at_edge, begins = np.empty(n_t, dtype=np.int64), np.empty(n_t), np.empty(self.x.size)
         table = rheology.over_step(2 * np.pi / n_t)
-        kernels.normal_forces(self.gap, self.width, z, rate, table, F, outermost, at_edge, begins)
+        kernels.normal_forces(self.gap, self.width, z, rate, table, F, S, outermost, at_edge, begins)
         if np.isnan(F).any():
             raise ValueError(
                 "the normal motion of springs with these arms does not become periodic: an arm relaxes within less "
@@ -94,10 +96,10 @@ class _Band:
 def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array]:
     """When the tip itself presses (n_t,), a little longer than the first spring; phases of its touches."""
     z, rate = cycle.over_a_period(n_t)
-    force, shares = np.empty((2, n_t))
+    force, shares, path = np.empty((3, n_t))
     table = rheology.over_step(2 * np.pi / n_t)
     state, guess = np.zeros((2, table.shape[1]))
-    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares)
+    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares, path)
     begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) <= 0))
     return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
 

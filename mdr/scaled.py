@@ -85,6 +85,11 @@ class ScaledContact:
         return self.rheology.T
 
     @property
+    def light(self) -> bool:
+        """Whether the body takes at once, for these steps, the velocity that a spring gives it as it touches."""
+        return bool(self.K and _is_light(self.M, self.K, self.h))
+
+    @property
     def n_arms(self) -> int:
         """Maxwell arms of the material."""
         return len(self.rheology.rho)
@@ -270,6 +275,11 @@ def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int
     return np.r_[gap_core, gap[n_core:]], np.r_[w_core, w[n_core:]], margin, n_core
 
 
+def _is_light(M: float, K: float, h: float) -> bool:
+    """Whether steps of h do not resolve the oscillation of a body on the contact, or it has no mass."""
+    return bool(M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED)
+
+
 def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Array:
     """The numbers of the body; see the module's docstring."""
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
@@ -277,7 +287,7 @@ def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Ar
         return np.zeros(5 + 2 * rho.size)
     table = rheology.over_step(h)
     decay, gain = table[kernels.L_DECAY, 1:], table[kernels.L_GAIN, 1:]
-    if M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED:
+    if _is_light(M, K, h):
         inertia = M / h**2 + 1.5 * C / h + K
         # the end of an arm whose rate changes within the step, by the second difference of S
         bend = rho * theta / h * (0.5 * (1 + decay) - theta / h * (1 - decay))
