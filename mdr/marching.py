@@ -25,6 +25,12 @@ from mdr.springs import SpringArray
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
+BEATS = 2.0  #: of an undamped body that a settled run has seen
+E_FOLDS = 8.0  #: of a damped oscillation after which no beat is left
+NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is missing in the COF
+FULL = 1e-12  #: what is missing in the COF in full slip: rounding
+AGES = 1e6  #: periods that full slip is to last
+SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
@@ -194,7 +200,7 @@ class Line:
         if start == "full_slip":
             self.e[:] = self.s
             if scaled.K:
-                self.history = scaled.full_slip_history(scaled.full_slip_force)
+                self.history = scaled.full_slip_history(scaled.full_slip_force, v)
                 self.driven = scaled.resonant_history(scaled.full_slip_force, v)
             else:
                 now, *arms = self.s @ scaled.w
@@ -263,43 +269,76 @@ class Line:
         self.cofs = np.concatenate([self.cofs, mean / self.mean_F_z])
 
     def wait(self, most: int) -> Settling:
-        """March until the windows agree, but not before every spring has been pulled as far as it has to go."""
+        """March until the windows agree, but not before every spring has been pulled as far as it has to go.
+
+        Now and then, where they do not, the periodic state is solved for from where the march has come to.
+        """
         if self.on_the_way > most:
             self.advance(self.scaled.first_look)
             return replace(self.judge(), settled=False, kind="unsettled")
         self.advance(max(self.scaled.first_look, int(self.on_the_way)))
-        while not (settling := self.judge()).settled and self._may_settle_by(most) and self.as_one:
+        solve_at = self.n_periods
+        while not (settling := self.judge()).settled and self.as_one:
+            if self.scaled.K and self.n_periods >= solve_at:
+                solve_at = SOLVE_AGAIN * self.n_periods
+                if (solved := self.solve((self._state(),))) is not None:
+                    return solved
+            if not self._may_settle_by(most):
+                break
             self.advance(max(4, self.n_periods // 2))
         return settling
 
-    def solve(self) -> Settling | None:
-        """Put the line into the periodic state that a march would end in, if there is one; else leave it as it was."""
-        first = self._state()
-        starts = [first]
+    def solve(self, starts: tuple[Array, ...] | None = None) -> Settling | None:
+        """Put the line into the periodic state that a march would end in, if one is found; else leave it as it was.
+
+        starts: states to search from; None for that of full slip, before it that of a driven resonance.
+        """
+        before = self._state(), self.n_periods, self.cofs, self.swings
+        if starts is None:
+            driven = () if self.driven is None else (np.concatenate([self.e.ravel(), self.driven]),)
+            starts = (*driven, before[0])
         scaled = self.scaled
         slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
         if slow and scaled.C:
             slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
-        if self.driven is not None:
-            starts.insert(0, np.concatenate([self.e.ravel(), self.driven]))
+        guaranteed_stable = bool(slow) and (not scaled.K or scaled.C > 0)
         for start in starts:
-            found = periodic.find(
-                self._period_from,
-                start,
-                self._size,
-                self._kicks(),
-                slow,
-                sure=bool(slow) and (not scaled.K or scaled.C > 0),
-            )
-            if found is not None:
-                self._put(found.x)
-                self.advance(1)
-                # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
-                spread = 2 * found.distance * float(np.linalg.norm(self._size(found.x))) / self.mean_F_z
-                return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
-        self._put(first)
-        self.n_periods, self.cofs, self.swings = 0, np.empty(0), np.empty(0)
+            for close in (periodic.CLOSE, periodic.CLOSEST):
+                found = periodic.find(
+                    self._period_from, start, self._size, self._pushes(), slow, guaranteed_stable, close
+                )
+                if found is None:
+                    break
+                settling = self._repeated(found)
+                if settling.settled or slow:
+                    return settling
+                start = found.x
+        self._put(before[0])
+        _, self.n_periods, self.cofs, self.swings = before
         return None
+
+    def _repeated(self, found: periodic.FixedPoint) -> Settling:
+        """The COF of the periodic state, after one period in it, and how far it may be from the exact one."""
+        self._put(found.x)
+        self.as_one = True  # whether the core moves as one in this state; on the way to it it need not
+        self.advance(1)
+        # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
+        size = float(np.linalg.norm(self._size(found.x)))
+        spread = 2 * found.distance * size / self.mean_F_z
+        if spread > TOLERANCE and self._slips_for_good(found.change * size):
+            spread = 0.0
+        return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
+
+    def _slips_for_good(self, change: float) -> bool:
+        """Whether the last period was full slip, by so much that a change of this size a period takes ages to end it.
+
+        Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
+        """
+        if abs(1 - self.cofs[-1]) > FULL:
+            return False
+        sums = self.observe(keep=False).sums
+        drift = change / np.sqrt(self.scaled.M or self.scaled.K)
+        return bool(sums[kernels.STICK_TIME] == 0 and AGES * drift < sums[kernels.LEAST_SLIP] < np.inf)
 
     def _state(self) -> Array:
         return np.concatenate([self.e.ravel(), self.history])
@@ -338,27 +377,56 @@ class Line:
             out[..., n + 1] = np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h
         return out
 
-    def _kicks(self) -> tuple[Array, ...]:
-        """Pushes of unit size: to each arm of all springs, and to the body, in its position and in its velocity."""
+    def _pushes(self) -> tuple[Array, ...]:
+        """Displacements of unit size: of each arm of all springs, and of the body, in its position and in its velocity."""
         scaled, n = self.scaled, self.e.size
-        kicks = []
+        pushes = []
         for j, rho in enumerate(scaled.rheology.rho, start=1):
             arm, history = np.zeros(self.e.shape), np.zeros(self.history.size)
             arm[j] = 1 / np.sqrt(rho)
-            kicks.append(np.concatenate([arm.ravel(), history]))
+            pushes.append(np.concatenate([arm.ravel(), history]))
         if scaled.K:
             position, velocity = np.zeros((2, n + self.history.size))
             position[n : n + 3] = 1 / np.sqrt(scaled.K)
             velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
-            kicks += [position, velocity]
-        return tuple(kicks)
+            pushes += [position, velocity]
+        return tuple(pushes)
 
     def judge(self) -> Settling:
-        """Whether the COF has settled, and the body too: on a resonance its swing grows long before stick begins."""
+        """Whether the COF has settled, and the body too: beside a resonance its swing changes long before the COF."""
         settling = judge(self.cofs, TOLERANCE)
-        if settling.settled and (self.growth * self.n_periods > SWING_TOLERANCE or self._dies_away(settling.mean)):
-            return replace(settling, settled=False, kind="unsettled")
+        if settling.settled and (why := self._still_moves(settling.mean)):
+            return replace(settling, settled=False, kind="unsettled", why=why)
         return settling
+
+    def _still_moves(self, cof: float) -> str:
+        """Why a COF that has settled is not the end of the motion; nothing if it is."""
+        scaled, n = self.scaled, self.n_periods
+        if not scaled.M:
+            return ""
+        changes = (abs(self.growth) if scaled.C == 0 else self.growth) * n > SWING_TOLERANCE
+        if changes or self._dies_away(cof):
+            return f"the swing of the body still grows or dies away after {n} periods"
+        if n < self.beat:
+            return f"after {n} periods the body may still be in a beat, which lasts {self.beat:.3g} of them"
+        full = abs(1 - cof) <= TOLERANCE
+        if full and 0 < self._off_multiple and self.v < (1 - NEARLY) * scaled.end_of_full_slip:
+            return f"full slip cannot last at this velocity: after {n} periods the body has not yet come to stick"
+        return ""
+
+    @cached_property
+    def _off_multiple(self) -> float:
+        """How far omega_0/omega is from a whole number; zero where it is one."""
+        ratio = float(np.sqrt(self.scaled.K / self.scaled.M))
+        off = abs(ratio - round(ratio))
+        return off if off > 1e-12 * ratio else 0.0
+
+    @cached_property
+    def beat(self) -> float:
+        """Periods that a beat of the free oscillation with the drive lasts, or its dying away if that is shorter."""
+        scaled = self.scaled
+        beat = 1 / self._off_multiple if self._off_multiple else 0.0
+        return min(BEATS * beat, E_FOLDS * scaled.M / (np.pi * scaled.C) if scaled.C else np.inf)
 
     def _dies_away(self, cof: float) -> bool:
         """Whether a body that rings for many periods still loses a swing that friction depends on: springs that it

@@ -1,16 +1,20 @@
-"""The periodic state of body and springs, solved for instead of awaited.
+"""The periodic state of body and springs by shooting: solved for instead of awaited.
 
-One period of the march is a map x -> P(x) of the state of body and springs; a periodic motion is its fixed point. A
-body with little damping rings for hundreds of periods, while its springs forget their past in one or a few: what has
-to be found lies close to a plane. Anderson's method (1965; Walker & Ni 2011) does that: from the last few periods it
-takes the combination whose change over a period is least, and marches on from there.
+One period of the march is a map x -> P(x) of the state of body and springs; a periodic motion is its fixed point.
+Friction under a given normal motion is monotone, so two motions never move apart (validation/uniqueness.py): P is
+non-expansive in the norm of energy. Three things follow.
 
-A fixed point need not be where a march ends. So its multipliers are measured: the body is pushed in its position and
-in its velocity, and two periods later the two displacements of the state are followed through one period more. They map
-on a combination of themselves, whose eigenvalues are the multipliers of the slowest motions. All must lie within the
-unit circle; their distance from it also turns the change over one period into a bound on what is missing to the limit.
-Where this fails (no convergence, a multiplier near or beyond one: a beat, a period of two, an undamped body in full
-slip) there is no answer here, and the motion is awaited.
+* Where any motion stays bounded there is a fixed point (Browder 1965), and the COF of all of them is one.
+* No Floquet multiplier, an eigenvalue of P', lies outside the unit circle: a fixed point need not be tested for
+  stability before it is an answer. What the multipliers tell is how far from it a small change over a period can be.
+* Along a march the change over a period never grows. So a step of a search that makes it smaller is a gain for good.
+
+A body with little damping rings for hundreds of periods, or beats without end, while its springs forget their past in
+one or a few: what has to be found lies close to a plane. Anderson's method (1965; Walker & Ni 2011) takes of the last
+few periods the combination whose change over a period is least, and marches on from there. Where instants of stick make
+it go astray, a Newton-Picard method follows (Lust, Roose, Spence & Champneys 1998): the body is pushed in its position
+and in its velocity, and the combination of the two displacements that leaves the least change is added, as much of it
+as makes the change smaller; the springs follow by marching.
 """
 
 from __future__ import annotations
@@ -27,63 +31,79 @@ Measure = Callable[[Array], Array]
 
 MEMORY = 8  #: periods that are combined
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
-MOST = 80  #: periods after which the search gives up
+MOST = 80  #: periods after which Anderson's method gives up
 A_TIME = (3, 20)  #: how much more memory, and how many more periods, each slow time of a material gets
-CLOSE = 1e-10  #: change over a period, over the size of the state, at which it has arrived
+CLOSE = 1e-10  #: change over a period, over the size of the state, at which a search has mostly arrived
+CLOSEST = 1e-13  #: the same where a change adds up over many periods: some roundings
 AWAY = 1e-6  #: distance, over the size of the state, to which a slow time lets a change over a period add up
 GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
-KICK = 1e-4  #: of the body, over the size of the state
-AFTER = 2  #: periods between kick and measurement, in which springs fall in with the body
-FORGOTTEN = 1e-5  #: of a kick: what is left of it is not told from the change over a period
-STABLE = 0.9999  #: largest multiplier that is told from one
+PUSH = 1e-4  #: displacement of the body, over the size of the state
+AFTER = 2  #: periods between a push and the measurement, in which springs fall in with the body
+FORGOTTEN = 1e-5  #: of a push: what is left of it is not told from the change over a period
 CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
+EXPANDS = 1.01  #: multiplier from which on a map is not one of friction
+STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms make hard to tell apart
+TURNS = 30  #: corrections of the Newton-Picard method
+SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes on without it
+LOST = 3  #: corrections in a row of which no share is a gain, after which it ends
 
 
 @dataclass(frozen=True, eq=False)
 class FixedPoint:
-    """A state that returns after a period, and returns when pushed."""
+    """A state that returns after a period."""
 
     x: Array  #: the state
     change: float  #: what is left of its change over a period, over its size
-    multiplier: float  #: largest of the slowest motions around it, in absolute value, below 1
+    gain: float  #: bound on its distance to the exact fixed point, over that change
 
     @property
     def distance(self) -> float:
         """Bound on the distance to the exact fixed point, over the size of the state."""
-        return (self.change + 1e-15) / (1 - self.multiplier)  # 1e-15: rounding
+        return (self.change + 1e-15) * self.gain  # 1e-15: rounding
 
 
 def find(
     step: Step,
     start: Array,
     measure: Measure,
-    kicks: tuple[Array, ...],
+    pushes: tuple[Array, ...],
     slow: tuple[float, ...] = (),
-    sure: bool = False,
+    guaranteed_stable: bool = False,
+    close: float = CLOSE,
 ) -> FixedPoint | None:
-    """The stable fixed point of `step` near `start`, shape (n,), or None.
+    """The fixed point of `step` near `start`, shape (n,), or None.
 
-    measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. kicks: pushes of unit length.
-    slow: times of the material, in periods, that the springs remember. sure: that with them the motion cannot be
-    unstable, and forgets with these times.
+    measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
+    length along the slow motions. slow: times of the material, in periods, that the springs remember.
+    guaranteed_stable: that with them no multiplier reaches 1. close: change over a period, over the size of the state,
+    at which it has arrived.
     """
-    found = _anderson(step, start, measure, slow)
+    close = min(close, AWAY / max(slow)) if slow else close
+    found = _anderson(step, start, measure, slow, close)
     if found is None:
         return None
-    x, change = found
-    multiplier, missed = _multiplier(step, x, measure, kicks)
-    if not slow:  # few arms are told apart from one another in so short a time
-        multiplier += missed
-    if multiplier >= STABLE and sure:
-        multiplier = float(np.exp(-1 / (CREEP * max(slow))))
-    return FixedPoint(x, change, multiplier) if sure or multiplier < STABLE else None
+    if found.change > close:
+        found = _newton_picard(step, found, measure, pushes, close)
+    if found.change > close:
+        return None
+    gain = _gain(step, found.x, measure, pushes, slow, guaranteed_stable)
+    return FixedPoint(found.x, found.change, gain) if gain is not None else None
 
 
-def _anderson(step: Step, x: Array, measure: Measure, slow: tuple[float, ...] = ()) -> tuple[Array, float] | None:
+@dataclass(frozen=True, eq=False)
+class _Iterate:
+    x: Array
+    change: float
+
+
+def _anderson(
+    step: Step, x: Array, measure: Measure, slow: tuple[float, ...], close: float
+) -> _Iterate | None:
+    """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     memory, most = (n + more * len(slow) for n, more in zip((MEMORY, MOST), A_TIME, strict=True))
-    close = min(CLOSE, AWAY / max(slow)) if slow else CLOSE
     images: list[Array] = []
     changes: list[Array] = []
+    best = _Iterate(x, np.inf)
     least = np.inf
     for turn in range(most):
         image = step(x)
@@ -91,14 +111,16 @@ def _anderson(step: Step, x: Array, measure: Measure, slow: tuple[float, ...] = 
         if not np.isfinite(size):
             return None
         change = float(np.linalg.norm(measure(image - x))) / size
+        if change < best.change:
+            best = _Iterate(image, change)
         if change <= close:
-            return image, change
+            break
         if change > GROWTH * least:
             images, changes, least = [], [], np.inf
         least = min(least, change)
         images, changes = [*images, image][-memory:], [*changes, image - x][-memory:]
         x = image if turn < PLAIN or len(images) < 2 else _combined(images, changes, measure)
-    return None
+    return best
 
 
 def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Array:
@@ -108,21 +130,77 @@ def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Ar
     return np.asarray(images[-1] - share @ np.diff(np.array(images), axis=0))
 
 
-def _multiplier(step: Step, x: Array, measure: Measure, kicks: tuple[Array, ...]) -> tuple[float, float]:
-    """Largest multiplier of the pushed motions, and what their combinations do not explain."""
-    size = KICK * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
-    before, after = [], []
-    for kick in kicks:
-        pushed = x + size * kick
+def _newton_picard(
+    step: Step, start: _Iterate, measure: Measure, pushes: tuple[Array, ...], close: float
+) -> _Iterate:
+    """The state of least change that corrections along the pushed motions lead to."""
+    best, push, lost = start, PUSH, 0
+    for _ in range(TURNS):
+        x, image, before, after = _displaced(step, best.x, measure, pushes, push)
+        size = float(np.linalg.norm(measure(image))) + 1e-300
+        best = _Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
+        turn = measure(after - before).T
+        share = -np.linalg.lstsq(turn, measure(image - x), rcond=1e-12)[0]
+        move = share @ after
+        part = 1.0
+        while part >= SHORTEST:
+            tried = image + part * move
+            reached = step(tried)
+            change = float(np.linalg.norm(measure(reached - tried))) / size
+            if change < (1 - 0.1 * part) * best.change:
+                break
+            part *= 0.5
+        lost = 0 if part >= SHORTEST else lost + 1
+        if part >= SHORTEST:
+            best = _Iterate(reached, change)
+            push = float(np.clip(part * np.linalg.norm(measure(move)) / size, 1e-9, PUSH))
+        if best.change <= close or lost == LOST or not np.isfinite(best.change):
+            break
+    return best
+
+
+def _displaced(
+    step: Step, x: Array, measure: Measure, pushes: tuple[Array, ...], push: float
+) -> tuple[Array, Array, Array, Array]:
+    """A state and its image after some periods, and the displacements (k, n) of both that the pushes leave."""
+    size = push * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
+    displaced = []
+    for one in (0 * x, *(size * each for each in pushes)):
+        state = x + one
         for _ in range(AFTER):
-            pushed = step(pushed)
-        before.append(measure(pushed - x) / size)
-        after.append(measure(step(pushed) - x) / size)
-    left, lengths, right = np.linalg.svd(np.array(before).T, full_matrices=False)
+            state = step(state)
+        displaced.append((state, step(state)))
+    (here, image), *others = displaced
+    before, after = (np.array([other[k] - displaced[0][k] for other in others]) for k in (0, 1))
+    return here, image, before, after
+
+
+def _gain(
+    step: Step,
+    x: Array,
+    measure: Measure,
+    pushes: tuple[Array, ...],
+    slow: tuple[float, ...],
+    guaranteed_stable: bool,
+) -> float | None:
+    """Bound on the distance to the fixed point over the change over a period; None for a map that expands."""
+    _, _, before, after = _displaced(step, x, measure, pushes, PUSH)
+    size = PUSH * (float(np.linalg.norm(measure(x))) or 1.0)
+    left, lengths, right = np.linalg.svd(measure(before).T / size, full_matrices=False)
     lasts = lengths > FORGOTTEN
     if not lasts.any():
-        return float(lengths[0] ** (1 / AFTER)), 0.0
-    images = np.array(after).T @ right[lasts].T / lengths[lasts]
+        return 1 / (1 - float(lengths[0] ** (1 / AFTER)))
+    images = measure(after).T / size @ right[lasts].T / lengths[lasts]
     onto = left[:, lasts].T @ images
-    missed = np.linalg.norm(images - left[:, lasts] @ onto, axis=0).max()
-    return float(np.abs(np.linalg.eigvals(onto)).max()), float(missed)
+    missed = float(np.linalg.norm(images - left[:, lasts] @ onto, axis=0).max())
+    largest = float(np.abs(np.linalg.eigvals(onto)).max())
+    if largest > EXPANDS:
+        return None
+    if slow and largest < STABLE:
+        return 1 / (1 - largest)
+    least = float(np.linalg.svd(np.eye(len(onto)) - onto, compute_uv=False)[-1])
+    along = 1 / max(least - missed, 1e-300)
+    if not slow:
+        return along
+    creep = -1 / float(np.expm1(-1 / (CREEP * max(slow))))  # few arms are told apart in so short a time
+    return creep if guaranteed_stable else max(along, creep)

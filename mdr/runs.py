@@ -143,9 +143,8 @@ def _why_not(march: March) -> str:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
     if march.knobs.start == "rest" and n < march.on_the_way:
         return f"a start from rest takes {march.on_the_way:.3g} periods to stretch the springs: start from full slip"
-    if settling.spread <= TOLERANCE:
-        how = "the swing of the body still grows or dies away"
-        return f"{how} after {n} periods, as on a resonance: raise n_periods or c_x"
+    if settling.why:
+        return f"{settling.why}: raise n_periods or c_x"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.M and march.scaled.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"

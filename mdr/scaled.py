@@ -34,6 +34,7 @@ from mdr.springs import SpringArray
 
 Array = NDArray[np.float64]
 
+FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
 RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
 
 
@@ -163,42 +164,79 @@ class ScaledContact:
         )  # fmt: skip
         return np.roll(S, 1)
 
-    def full_slip_history(self, S: Array) -> Array:
+    def full_slip_history(self, S: Array, v: float = np.inf) -> Array:
         """State (5 + 2J,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
 
         Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
-        free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it.
+        free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it. Beside a
+        resonance a harmonic that would carry the body back faster than FASTEST_START v is cut to that velocity.
         """
-        S_n, turn = np.fft.rfft(S), self._turn()
-        arms_n = [self._of_arm(decay, gain, turn) * S_n for decay, gain in self._arms()]
-        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in arms_n]
-        history = [0.0, 0.0, 0.0, S[0], S[-1], *(now for now, _ in arms), *(old for _, old in arms)]
-        if self.K:
-            _, _, b_1, b_0, b_m = self.body[:5]
-            inertia = self._inertia()
-            resonant = self._resonant(inertia)
-            force_n = (b_1 * turn + b_0 + b_m / turn) * S_n
-            for b, old, arm_n in zip(*self.body[5:].reshape(2, -1), arms_n, strict=True):
-                force_n += (b + old / turn) * arm_n
-            y = np.fft.irfft(np.where(resonant, 0, -force_n / np.where(resonant, 1, inertia)), self.steps)
-            history[:3] = y[0], y[-1], y[-2]
-        return np.array(history)
+        if not self.K:
+            return self._history(S, np.zeros(self.steps // 2 + 1, dtype=complex))
+        y_n = self._full_slip_motion(S)
+        return self._history(S, y_n * np.minimum(1, FASTEST_START * v / (self._velocities(y_n) + 1e-300)))
 
     def resonant_history(self, S: Array, v: float) -> Array | None:
-        """The same on an undamped resonance, with the free oscillation that the n-th harmonic drives until stick
-        stops it: y' reaches -v, once in each of its own periods, when that harmonic of the force is greatest. None off
-        resonance, and where the force does not contain it.
+        """The same on an undamped resonance or beside one, with the oscillation that the n-th harmonic drives until
+        stick stops it: y' reaches -v, once in each of its own periods, when that harmonic of the force is greatest.
+        None off resonance, and where the force does not contain it.
         """
-        history = self.full_slip_history(S)
-        if not self.K or not (resonant := self._resonant(self._inertia())).any():
+        if not self.K:
             return None
-        n = int(np.flatnonzero(resonant)[0])
+        y_n, resonant = self._full_slip_motion(S), self._resonant(self._inertia())
+        swings = self._velocities(y_n)
+        n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(swings))
         F_n = complex(np.fft.rfft(S)[n]) / self.steps * complex(self.rheology.response(n))
-        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())):
+        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not (resonant[n] or swings[n] > FASTEST_START * v):
             return None
+        y_n[n] = 0
+        history = self._history(S, y_n)
         phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
         history[:3] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
         return history
+
+    @cached_property
+    def end_of_full_slip(self) -> float:
+        """Velocity below which the periodic motion of full slip would stick, to the accuracy of the steps; infinite on
+        a resonance that the force drives.
+
+        In full slip for good the body has this motion and a free oscillation. That is in another phase in every period,
+        so that it cannot keep all of them from stick: below this velocity full slip does not last (but where the free
+        oscillation is a whole multiple of the drive).
+        """
+        if not self.K:
+            return 0.0
+        S = self.full_slip_force
+        y_n = self._full_slip_motion(S)
+        driven = np.abs(np.fft.rfft(S)) > 1e-10 * abs(float(S.sum()))
+        if (self._resonant(self._inertia()) & driven)[1:].any():
+            return np.inf
+        y = np.fft.irfft(y_n, self.steps)
+        y_dot = (np.roll(y, -1) - np.roll(y, 1)) / (2 * self.h)
+        spans = self.normal.spans
+        touching = (spans[1] > 0) & (np.roll(spans[1], 1) > 0)  # contact at the node between two steps
+        return float((self.z_dot[:-1] - y_dot)[touching].max(initial=0.0))
+
+    def _history(self, S: Array, y_n: NDArray[np.complex128]) -> Array:
+        """State (5 + 2J,) at phase 0 of a body with the harmonics y_n under the full-slip force S (n_steps,)."""
+        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in self._arms_n(np.fft.rfft(S), self._turn())]
+        y = np.fft.irfft(y_n, self.steps)[[0, -1, -2]]
+        return np.array([*y, S[0], S[-1], *(now for now, _ in arms), *(old for _, old in arms)])
+
+    def _full_slip_motion(self, S: Array) -> NDArray[np.complex128]:
+        """Harmonics of the periodic motion under the full-slip force S (n_steps,), as of rfft; none on a resonance."""
+        S_n, turn = np.fft.rfft(S), self._turn()
+        _, _, b_1, b_0, b_m = self.body[:5]
+        inertia = self._inertia()
+        resonant = self._resonant(inertia)
+        force_n = (b_1 * turn + b_0 + b_m / turn) * S_n
+        for b, old, arm_n in zip(*self.body[5:].reshape(2, -1), self._arms_n(S_n, turn), strict=True):
+            force_n += (b + old / turn) * arm_n
+        return np.asarray(np.where(resonant, 0, -force_n / np.where(resonant, 1, inertia)))
+
+    def _velocities(self, y_n: NDArray[np.complex128]) -> Array:
+        """Amplitude of the velocity that each harmonic of the motion has."""
+        return np.asarray(2 * np.arange(y_n.size) * np.abs(y_n) / self.steps)
 
     def mean_force(self, ends: Array, inner: Array, arms: Array, time: float) -> Array:
         """Mean of L[e] over times in which S runs from ends[:-1] to ends[1:], (n,), with the mean `inner` of S itself
@@ -225,6 +263,9 @@ class ScaledContact:
     def _arms(self) -> list[tuple[float, float]]:
         """Decay and gain of each arm over a step."""
         return [(float(row[0]), float(row[1])) for row in self.table[[kernels.L_DECAY, kernels.L_GAIN], 1:].T]
+
+    def _arms_n(self, S_n: NDArray[np.complex128], turn: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
+        return [self._of_arm(decay, gain, turn) * S_n for decay, gain in self._arms()]
 
     def _of_arm(self, decay: float, gain: float, turn: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """What an arm makes of every harmonic of S: nothing of its mean, however slow it is."""

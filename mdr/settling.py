@@ -33,6 +33,7 @@ class Settling:
     settled: bool  #: whether the spread is below the tolerance
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
     solved: bool = False  #: whether the periodic state was solved for (periodic.py), not awaited
+    why: str = ""  #: what still moves where the windows agree
 
 
 def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
