@@ -32,6 +32,7 @@ class Cycle(ArrayRecord):
     sin: Array  #: s_n, over du_z
     least: float  #: least z
     greatest: float  #: greatest z
+    missing: float = 0.0  #: of the balance of forces that the depth was solved from, over the mean load
 
     @classmethod
     def harmonic(cls, u_z0: float, du_z: float, omega: float) -> Cycle:

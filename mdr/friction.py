@@ -20,6 +20,7 @@ from mdr.pull import RigidPull
 from mdr.records import ArrayRecord
 from mdr.rigid_pull import average_friction
 from mdr.sliding import slide
+from mdr.theorems import disordered
 from mdr.theory import critical_velocity
 
 Array = NDArray[np.float64]
@@ -129,10 +130,9 @@ def _runs(case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_per
         slide(case, v, n_springs=n_springs, steps_per_period=steps_per_period)
         for v in progress(v_0.tolist(), "cof_curve")
     ]
-    return (
-        np.array([run.cof for run in runs]),
-        np.array([run.cof_error for run in runs]),
-        np.array([run.settled for run in runs], dtype=bool),
-        np.array([run.stick_share for run in runs]),
-        np.array([run.why for run in runs], dtype=object),
-    )
+    cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
+    settled = np.array([run.settled for run in runs], dtype=bool)
+    why = np.array([run.why for run in runs], dtype=object)
+    wrong = disordered(v_0, cof, error, settled)
+    why[wrong] = "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
+    return cof, error, settled & ~wrong, sticks, why

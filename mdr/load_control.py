@@ -17,6 +17,7 @@ amplitude, or near its resonance on the contact, several periodic motions may ex
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -136,13 +137,13 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
         F_n = rheology.response(n) * np.fft.rfft(compression)[: N_HARMONICS + 1] / compression.size
         return np.asarray(load - F_n + motion.m_z * (n * omega) ** 2 * u)
 
-    u = _anderson(missing, weight, start, motion.F_z0)
-    if u is None:
+    u, off = _anderson(missing, weight, start, motion.F_z0)
+    if not off <= ENOUGH:
         raise ValueError(
             "no depth of the period of the load was found: the mass m_z bounces in another rhythm, or is near its "
             "resonance on the contact; lower dF_z, move omega, or prescribe the depth with PeriodicMotion"
         )
-    return _cycle_of(u, omega)
+    return replace(_cycle_of(u, omega), missing=off)
 
 
 def _cycle_of(u: NDArray[np.complex128], omega: float) -> Cycle:
@@ -155,8 +156,8 @@ def _anderson(
     weight: NDArray[np.complex128],
     u: NDArray[np.complex128],
     F_z0: float,
-) -> NDArray[np.complex128] | None:
-    """Zero of `missing`, by corrections missing/weight of which the last are combined; None where there is none."""
+) -> tuple[NDArray[np.complex128], float]:
+    """Where least is missing, by corrections missing/weight of which the last are combined; and how much, over F_z0."""
     tried: list[NDArray[np.complex128]] = []
     moves: list[NDArray[np.complex128]] = []
     best, least, known, since = u, np.inf, np.inf, 0
@@ -181,4 +182,4 @@ def _anderson(
         flat = np.concatenate([dm.real, dm.imag], axis=1)
         share = np.linalg.lstsq(flat.T, np.concatenate([moves[-1].real, moves[-1].imag]), rcond=1e-8)[0]
         u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + dm)
-    return best if least <= ENOUGH else None
+    return best, least

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from mdr import kernels, periodic
 from mdr.contact import SlidingContact
-from mdr.progress import Ticker
+from mdr.progress import Ticker, time_is_over
 from mdr.remembered import remembered
 from mdr.scaled import ScaledContact
 from mdr.settling import Settling, judge, smooth_mean
 from mdr.springs import SpringArray
+from mdr.theorems import outside
 
 Array = NDArray[np.float64]
 
@@ -142,6 +143,8 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     if settling is None:
         settling = line.judge()
     account = seen[0] if n_periods is None else seen[-1]  # the same period however many are kept
+    if settling.settled and (why := _contradiction(line, account, settling)):
+        settling = replace(settling, settled=False, kind="unsettled", why=why)
     return March(
         case,
         v_0,
@@ -155,6 +158,13 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
         account,
         tuple(seen),
     )
+
+
+def _contradiction(line: Line, seen: Seen, settling: Settling) -> str:
+    """Why the COF that a march has settled at cannot be one; nothing if it can."""
+    least = float(seen.F_z.min()) / line.mean_F_z
+    # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
+    return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * line.scaled.h**2)
 
 
 def touches(case: SlidingContact, knobs: Knobs) -> bool:
@@ -187,6 +197,10 @@ def _prepared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> t
     return springs, ScaledContact.of(case, springs, steps, lump)
 
 
+class _OutOfTime(Exception):
+    """The time limit of the caller is over in the middle of a search."""
+
+
 class Line:
     """The state of a march between calls of the kernel."""
 
@@ -214,7 +228,7 @@ class Line:
         self.n_periods = 0  # marched so far
         self.cofs = np.empty(0)  # of each period that was not marched in search of the periodic state
         self.swings = np.empty(0)  # of the body in it, greatest less least y
-        self.ticker = Ticker("slide, periods")
+        self.ticker = Ticker("slide, waiting for a steady state, periods")
 
     def _call(self, n_steps: int, k_0: int, e_out: Array, s_out: Array) -> tuple[Array, Array]:
         scaled = self.scaled
@@ -252,8 +266,10 @@ class Line:
             start = self.history[3:].copy()
             y, S = self._call(part * self.scaled.steps, 0, nothing, nothing)
             self._append(start, y, S)
+            self.n_periods += part
             self.ticker.tick(part)
-        self.n_periods += n_periods
+            if time_is_over():
+                break
 
     def _append(self, start: Array, y: Array, S: Array) -> None:
         """COF of each whole period in S: the mean of L[e], which is the mean of e but for the ends; and swing of y.
@@ -283,6 +299,8 @@ class Line:
                 solve_at = SOLVE_AGAIN * self.n_periods
                 if (solved := self.solve((self._state(),))) is not None:
                     return solved
+            if time_is_over():
+                return replace(settling, why=f"the time limit is over after {self.n_periods} periods")
             if not self._may_settle_by(most):
                 break
             self.advance(max(4, self.n_periods // 2))
@@ -304,9 +322,12 @@ class Line:
         guaranteed_stable = bool(slow) and (not scaled.K or scaled.C > 0)
         for start in starts:
             for close in (periodic.CLOSE, periodic.CLOSEST):
-                found = periodic.find(
-                    self._period_from, start, self._size, self._pushes(), slow, guaranteed_stable, close
-                )
+                try:
+                    found = periodic.find(
+                        self._period_from, start, self._size, self._pushes(), slow, guaranteed_stable, close
+                    )
+                except _OutOfTime:
+                    found = None
                 if found is None:
                     break
                 settling = self._repeated(found)
@@ -354,6 +375,8 @@ class Line:
         self.history[5 : 5 + n_arms] = self.e[1:] @ self.scaled.w
 
     def _period_from(self, x: Array) -> Array:
+        if time_is_over():
+            raise _OutOfTime
         self._put(x)
         nothing = np.empty((0, *self.e.shape))
         self._call(self.scaled.steps, 0, nothing, nothing)

@@ -17,6 +17,7 @@ T = TypeVar("T")
 PATIENCE = 2.0  #: s before the first word
 BETWEEN = 10.0  #: s between plain lines
 
+_deadline: ContextVar[float] = ContextVar("deadline", default=float("inf"))
 _watch: ContextVar[Callable[[], None] | None] = ContextVar("watch", default=None)
 
 
@@ -39,6 +40,21 @@ def silent(watch: Callable[[], None]) -> Iterator[None]:
         yield
     finally:
         _watch.reset(token)
+
+
+@contextmanager
+def time_limit(seconds: float | None) -> Iterator[None]:
+    """Within it `time_is_over` after so many seconds, or when that of an outer limit is over; None sets no limit."""
+    token = _deadline.set(min(_deadline.get(), float("inf") if seconds is None else time.monotonic() + seconds))
+    try:
+        yield
+    finally:
+        _deadline.reset(token)
+
+
+def time_is_over() -> bool:
+    """Whether the time that was given for this work is over."""
+    return time.monotonic() > _deadline.get()
 
 
 class Meter:

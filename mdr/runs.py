@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mdr import kernels
 from mdr.marching import TOLERANCE, March, too_coarse
+from mdr.motion import LoadOscillation
 from mdr.records import ArrayRecord
 from mdr.settling import MIN_PERIODS
 
@@ -114,6 +115,7 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
     if not march.sees_contact:
         raise too_coarse(scaled.steps)
     mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
+    error += _missing_load(march, mean_F_z)
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     return SlidingRun(
@@ -137,14 +139,22 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
     )
 
 
+def _missing_load(march: March, mean_F_z: float) -> float:
+    """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
+    motion = march.case.oscillation
+    if not isinstance(motion, LoadOscillation):
+        return 0.0
+    return max(march.case.cycle.missing, abs(mean_F_z / motion.F_z0 - 1))
+
+
 def _why_not(march: March) -> str:
     settling, n = march.settling, march.n_periods
+    if settling.why:
+        return f"{settling.why}: raise limit_s, n_periods or c_x"
     if n < MIN_PERIODS:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
     if march.knobs.start == "rest" and n < march.on_the_way:
         return f"a start from rest takes {march.on_the_way:.3g} periods to stretch the springs: start from full slip"
-    if settling.why:
-        return f"{settling.why}: raise n_periods or c_x"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.scaled.M and march.scaled.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"

@@ -86,6 +86,11 @@ class ScaledContact:
         return self.rheology.T
 
     @property
+    def remembers(self) -> bool:
+        """Whether springs have a memory, dashpots or arms."""
+        return self.rheology.remembers
+
+    @property
     def light(self) -> bool:
         """Whether the body takes at once, for these steps, the velocity that a spring gives it as it touches."""
         return bool(self.K and _is_light(self.M, self.K, self.h))
@@ -97,10 +102,8 @@ class ScaledContact:
 
     @property
     def first_look(self) -> int:
-        """Periods after which it makes sense to ask whether a run has settled: four e-folds of a free oscillation."""
-        if not self.M:
-            return 8
-        return int(np.clip(np.ceil(4 * self.M / (np.pi * self.C)), 8, 256)) if self.C else 32
+        """Periods after which it makes sense to ask whether a run has settled, or to look for its periodic state."""
+        return 32 if self.M else 8
 
     @property
     def speed(self) -> float:
