@@ -73,13 +73,15 @@ def parser() -> argparse.ArgumentParser:
         ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run"),
         ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation"),
         ("measure", judge.measure, "critical velocity from simulation alone"),
-        ("verdict", judge.verdict, "whether the closed-form critical velocity holds, and by how much not"),
+        ("verdict", judge.verdict, "how good the closed-form critical velocity is, and what to use in its place"),
     ]
     for name, work, summary in with_case:
         command = _command(commands, name, work, summary)
         _takes_file(command, "case.toml", "the case file; docs/example.toml is one", read_case)
         if name == "curve":
             curve.add_options(command)
+        elif name == "verdict":
+            judge.add_options(command)
     study = "a grid of cases, from a study file; the same call goes on after any end"
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)

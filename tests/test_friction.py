@@ -239,8 +239,10 @@ def test_eq_15_holds_for_a_flat_punch_and_a_body():
     assert_allclose(verdict.full_slip, verdict.eq_15, rtol=1e-8)
     assert_allclose(verdict.deviation, verdict.measured / verdict.eq_15 - 1, rtol=1e-9)
     assert verdict.measured == verdict.measurement.v_c
+    assert verdict.good
     text = str(verdict)
-    assert text.startswith("Eq. (15) holds: measured v_c = ")
+    assert text.startswith("Eq. (15) is good to 1 % here (0.")
+    assert "it holds: measured v_c = " in text
     assert f"{verdict.eq_15:.6g} m/s" in text
     assert "all slip from the velocity of one element on" in text
 
@@ -261,8 +263,12 @@ def test_eq_15_fails_for_a_curved_contact_of_finite_amplitude():
     assert_allclose(verdict.measured, expected, rtol=BUDGET)
     assert_allclose(verdict.full_slip, expected, rtol=1e-7)
     assert "contact stiffness changes within the period" in verdict.why
-    assert str(verdict).startswith("Eq. (15) fails: measured v_c = ")
-    assert f"({100 * verdict.deviation:+.3g} %). {verdict.why[0].upper()}{verdict.why[1:]}" in str(verdict)
+    assert not verdict.good
+    off = verdict.eq_15 / verdict.measured - 1
+    size = f"{100 * abs(off):.2g} % too {'high' if off > 0 else 'low'}"
+    assert str(verdict).startswith(f"Eq. (15) is {size} here; use {verdict.measured:.4g} m/s. ")
+    assert "it fails: measured v_c = " in str(verdict)
+    assert str(verdict).endswith(f"{verdict.eq_15:.6g} m/s. {verdict.why[0].upper()}{verdict.why[1:]}")
 
 
 @pytest.mark.parametrize(("nu", "said"), [(0.3, True), (0.5, False)])
@@ -278,7 +284,7 @@ def test_on_resonance_the_verdict_names_the_pole():
     verdict = mdr.verdict(case)
     assert verdict.eq_15 == verdict.full_slip == math.inf
     assert verdict.measured is None
-    assert verdict.deviation is None
+    assert (verdict.deviation, verdict.good) == (None, None)
     assert verdict.holds, "no critical velocity, and the formula says so"
     assert "undamped natural frequency" in verdict.why
     assert "no critical velocity, against inf m/s" in str(verdict)
@@ -315,7 +321,10 @@ def test_a_velocity_beyond_reach_is_not_judged():
     verdict = mdr.verdict(case)
     assert mdr.critical_velocity(case) > 1e5 * unit_of_velocity(case)
     assert (verdict.holds, verdict.measured) == (None, None)
-    assert str(verdict).startswith("Eq. (15) cannot be judged: no critical velocity, against")
+    assert str(verdict).startswith(
+        f"Eq. (15) cannot be judged: no settled run confirmed the full-slip value {verdict.full_slip:.6g} m/s, against"
+    )
+    assert verdict.measurement.why in verdict.why
 
 
 def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():

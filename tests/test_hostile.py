@@ -221,6 +221,9 @@ HOSTILE = [
     (lambda: mdr.cof_curve(CASE, [[V_C]]), ValueError, "v_0 must be a list of velocities"),
     (lambda: mdr.cof_curve(CASE, V_C, method="exact"), ValueError, "method must be"),
     (lambda: mdr.measure_critical_velocity(CASE, start="full"), ValueError, "start must be"),
+    (lambda: mdr.verdict(CASE, within=NAN), ValueError, "within must be a finite number"),
+    (lambda: mdr.verdict(CASE, within=1), ValueError, "within must lie between 0 and 1, got 1.0"),
+    (lambda: mdr.verdict(CASE, within="1%"), TypeError, "within must be a real number"),
     # studies
     (lambda: mdr.sweep(BALL, {"v_0": [V_C]}), TypeError, "case must be a SlidingContact"),
     (lambda: mdr.sweep(CASE, {}), ValueError, "axes must name at least one path"),

@@ -152,15 +152,17 @@ NOTHING = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced
 
 class MadeUpVerdict:
     eq_15, full_slip, measured, deviation, holds, why = 0.1, 0.1, 0.1, 0.0, True, "one element"
+    within, good, least = 0.01, True, 1e-5
 
     def __str__(self):
-        return "Eq. (15) holds: one element"
+        return "Eq. (15) is good: one element"
 
 
 def test_the_names_of_the_records():
     names = {field.name for field in fields(mdr.Verdict)}
     assert {"v_c", "low", "high", "kind", "why"} <= {field.name for field in fields(mdr.MeasuredVelocity)}
-    assert {"eq_15", "full_slip", "measured", "deviation", "holds", "why"} <= names
+    assert {"eq_15", "full_slip", "measured", "deviation", "within", "holds", "why"} <= names
+    assert isinstance(mdr.Verdict.good, property)
 
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
@@ -173,31 +175,73 @@ def test_measure(capsys, monkeypatch, found, status):
 
 
 def test_verdict(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.judgement.verdict", lambda case: MadeUpVerdict())
+    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: MadeUpVerdict())
     assert main(["verdict", EXAMPLE]) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "Eq. (15) holds: one element",
+        "Eq. (15) is good: one element",
         "Eq. (15)   0.1 m/s     contact stiffness at the mean depth",
         "full slip  0.1 m/s     any amplitude, all harmonics of the force",
         "measured   0.1 m/s     from simulation alone",
         "deviation  +0.000e+00  measured over Eq. (15), less 1",
-        "holds      yes",
+        "good       yes         to 1 %",
+        "holds      yes         to the bracket of the measurement",
     ]
     assert main(["verdict", EXAMPLE, "--json"]) == 0
     answer = strict_json(capsys.readouterr().out)
-    assert answer["holds"] is True
-    assert answer["sentence"] == "Eq. (15) holds: one element"
+    assert (answer["holds"], answer["good"], answer["within"]) == (True, True, 0.01)
+    assert answer["sentence"] == "Eq. (15) is good: one element"
+
+
+def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(capsys, monkeypatch):
+    found = MadeUpVerdict()
+    found.eq_15, found.deviation = 1e-9, 3e3
+    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: found)
+    assert main(["verdict", EXAMPLE]) == 0
+    assert "deviation  +3.000e+03  measured less Eq. (15), over 1e-4 of Eq. (1)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "within"),
+    [([], 0.01), (["--within", "1%"], 0.01), (["--within", "2.5 %"], 0.025), (["--within", "0.003"], 0.003),
+     (["--within=1e-4"], 1e-4), (["--within", "99%"], 0.99)],
+)  # fmt: skip
+def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, within):
+    asked = []
+    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: asked.append(within) or MadeUpVerdict())
+    assert main(["verdict", EXAMPLE, *options]) == 0
+    assert asked == [pytest.approx(within, rel=1e-15)]
+
+
+@pytest.mark.parametrize(
+    "share", ["0", "-0.01", "-1%", "nan", "inf", "1", "100%", "nan%", "1%%", "%", "", "one", "0,01"]
+)
+def test_a_tolerance_that_is_none_is_status_2_and_says_why(capsys, monkeypatch, share):
+    monkeypatch.setattr("mdr.judgement.verdict", None)
+    with pytest.raises(SystemExit) as end:
+        main(["verdict", EXAMPLE, f"--within={share}"])
+    assert end.value.code == 2
+    said = f"argument --within: must be a share above 0 and below 1, such as 1% or 0.01, got {share!r}"
+    assert said in capsys.readouterr().err
+
+
+def test_the_help_of_a_verdict_shows_the_tolerance(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["verdict", "--help"])
+    assert end.value.code == 0
+    assert "(default: 1%)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("measured", "holds", "status"), [(0.2, False, 0), (None, False, 1), (None, True, 0)])
 def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monkeypatch, measured, holds, status):
     found = MadeUpVerdict()
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
-    monkeypatch.setattr("mdr.judgement.verdict", lambda case: found)
+    found.good = None
+    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: found)
     assert main(["verdict", EXAMPLE]) == status
+    assert "good       undefined" in capsys.readouterr().out
     assert main(["verdict", EXAMPLE, "--json"]) == status
-    answer = strict_json(capsys.readouterr().out.split("{", 1)[1].join(["{", ""]))
-    assert (answer["eq_15"], answer["full_slip"], answer["measured"]) == ("inf", None, measured)
+    answer = strict_json(capsys.readouterr().out)
+    assert (answer["eq_15"], answer["full_slip"], answer["measured"], answer["good"]) == ("inf", None, measured, None)
 
 
 # --- what goes wrong ---
@@ -251,7 +295,7 @@ def test_a_command_in_no_encoding_is_kept_all_the_same(punch, tmp_path):
     ids=["refused", "memory", "interrupt"],
 )  # fmt: skip
 def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status, message):
-    def fail(case):
+    def fail(case, within):
         raise failure
 
     monkeypatch.setattr("mdr.judgement.verdict", fail)

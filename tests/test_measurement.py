@@ -1,5 +1,6 @@
 """How a search reads its runs, made up so that the answer is known; runs of contacts are in test_friction.py."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -115,3 +116,135 @@ def test_a_verdict_repeats_the_hysteresis(world):
     assert told.holds is False
     assert told.measurement.kind == "hysteresis"
     assert "a run from rest keeps friction reduced" in told.why
+
+
+# --- the first words of a verdict: how good the formula is, and what to use in its place ---
+
+EQ_15 = mdr.critical_velocity(CASE) / UNIT
+ZERO = contact("flat", 10.0, 0.0, 0.5, math.sqrt(1 / 3))  # m omega² = k_x + k_xc
+RESONANT = contact("flat", 10.0, 0.0, 0.7, 1.0)
+
+
+@pytest.mark.parametrize(("formula_over_measured", "within", "begins", "good"), [
+    (1.0055, 0.01, "Eq. (15) is good to 1 % here (0.55 % too high). Strictly", True),
+    (1.0055, 0.005, "Eq. (15) is 0.55 % too high here; use {use} m/s. Strictly", False),
+    (0.9945, 0.005, "Eq. (15) is 0.55 % too low here; use {use} m/s. Strictly", False),
+    (0.98, 0.05, "Eq. (15) is good to 5 % here (2 % too low). Strictly", True),
+    (1.023, 0.01, "Eq. (15) is 2.3 % too high here; use {use} m/s. Strictly", False),
+    (12.0, 0.01, "Eq. (15) is too high by a factor of 12 here; use {use} m/s. Strictly", False),
+    (1 / 1200, 0.01, "Eq. (15) is too low by a factor of 1200 here; use {use} m/s. Strictly", False),
+])  # fmt: skip
+def test_a_verdict_begins_with_how_good_the_formula_is(world, formula_over_measured, within, begins, good):
+    world(lambda *_: EQ_15 / formula_over_measured)
+    told = mdr.verdict(CASE, within=within)
+    assert str(told).startswith(begins.format(use=f"{told.measured:.4g}"))
+    assert (told.good, told.holds, told.within) == (good, False, within)
+    assert told.deviation == pytest.approx(1 / formula_over_measured - 1, rel=1e-2)
+    found = told.measurement
+    bracket = f"measured v_c = {found.v_c:.6g} m/s (between {found.low:.8g} and {found.high:.8g})"
+    assert f"it fails: {bracket}, against {told.eq_15:.6g} m/s. {told.why[0].upper()}" in str(told)
+    assert "%)" not in str(told).split("Strictly")[1]
+
+
+def test_a_formula_inside_the_bracket_holds_strictly_too(world):
+    world(lambda *_: EQ_15 * (1 + 2e-6))
+    told = mdr.verdict(CASE)
+    assert (told.good, told.holds) == (True, True)
+    assert str(told).startswith("Eq. (15) is good to 1 % here (0.0002 % too low). Strictly")
+    assert "it holds: measured v_c = " in str(told)
+
+
+def test_a_formula_off_by_less_than_the_bracket_is_not_replaced(world):
+    world(lambda *_: EQ_15 * (1 + 1e-5))  # half the half width of the bracket
+    told = mdr.verdict(CASE, within=1e-6)
+    assert (told.good, told.holds) == (False, True)
+    assert str(told).startswith("Eq. (15) is 0.001 % too low here, no more than the measurement leaves open. Strictly")
+
+
+def test_another_tolerance_needs_no_other_measurement(world):
+    world(lambda *_: EQ_15 / 1.02)
+    told = mdr.verdict(CASE)
+    assert (told.good, replace(told, within=0.03).good) == (False, True)
+    with pytest.raises(ValueError, match=r"within must lie between 0 and 1, got 3\.0"):
+        replace(told, within=3)
+
+
+@pytest.mark.parametrize("within", [0.0, -0.01, 1.0, 5, math.nan, math.inf, "1%", None, True])
+def test_a_tolerance_that_is_none_is_refused_before_any_run(monkeypatch, within):
+    monkeypatch.setattr(measurement, "slide", None)
+    with pytest.raises((ValueError, TypeError), match=r"within must"):
+        mdr.verdict(CASE, within=within)
+
+
+def test_a_formula_that_vanishes_beside_eq_1_has_no_percentage(world):
+    world(lambda *_: 0.3)
+    told = mdr.verdict(ZERO)
+    assert told.eq_15 < measurement.LEAST * UNIT
+    assert told.deviation == pytest.approx(0.3 / measurement.LEAST, rel=1e-3)
+    assert str(told).startswith(f"Eq. (15) is almost zero here; use {told.measured:.4g} m/s. Strictly")
+    assert "%" not in str(told)
+    assert (told.good, told.holds) == (False, False)
+
+
+def test_a_formula_and_a_v_c_that_both_vanish_agree(world):
+    world(lambda *_: 5e-5)
+    told = mdr.verdict(ZERO)
+    assert told.holds
+    assert str(told).startswith("Eq. (15) is almost zero here, and so is the measured v_c. Strictly")
+    assert "%" not in str(told)
+
+
+@pytest.mark.parametrize("end", [0.0, 1e-6])
+def test_a_formula_where_v_c_vanishes_is_too_high_by_no_number(world, end):
+    world(lambda *_: end)
+    told = mdr.verdict(CASE)
+    assert str(told).startswith(f"Eq. (15) is too high here, where v_c is almost zero; use {told.measured:.4g} m/s. ")
+    assert "%" not in str(told)
+    assert "factor" not in str(told)
+    assert not told.good
+
+
+def test_a_formula_at_its_pole_is_infinite_where_runs_find_a_velocity(world):
+    world(lambda *_: 3.0)
+    told = mdr.verdict(RESONANT)
+    assert str(told).startswith(f"Eq. (15) is infinite here; use {told.measured:.4g} m/s. Strictly")
+    assert "%" not in str(told)
+    assert (told.good, told.deviation, told.holds) == (None, None, False)
+
+
+def test_without_a_free_run_a_finite_full_slip_value_is_not_denied(world):
+    """The runs did not confirm it, and that is all they say: friction need not stay reduced for ever."""
+    world(lambda *_: 1e9)
+    told = mdr.verdict(CASE)
+    full = mdr.full_slip_critical_velocity(CASE)
+    assert (told.measured, told.deviation, told.good, told.holds) == (None, None, None, None)
+    said = f"no settled run confirmed the full-slip value {full:.6g} m/s, against {told.eq_15:.6g} m/s by the formula"
+    assert str(told).startswith(f"Eq. (15) cannot be judged: {said}. ")
+    assert "no critical velocity" not in str(told)
+    assert told.measurement.why in told.why
+
+
+def test_a_friction_that_stays_low_from_rest_denies_no_full_slip_value(world):
+    world(lambda start, *_: 1e9 if start == "rest" else 0.83)
+    told = mdr.verdict(CASE)
+    assert (told.measured, told.holds) == (None, None)
+    assert "from rest, friction stays reduced up to the highest velocity" in told.why
+
+
+def test_only_a_resonance_may_say_that_there_is_no_critical_velocity(world):
+    world(lambda *_: 1e9)
+    told = mdr.verdict(RESONANT)
+    assert (told.holds, told.good) == (True, None)
+    assert str(told).startswith("Eq. (15) holds: no critical velocity, against inf m/s. ")
+    whole = mdr.verdict(contact("paraboloid", 3.0, 0.0, 1.5, 2.0))  # its second harmonic drives the body
+    assert (whole.holds, whole.good) == (False, None)
+    assert str(whole).startswith(f"Eq. (15) fails: no critical velocity, against {whole.eq_15:.6g} m/s. ")
+
+
+def test_a_body_thrown_for_an_instant_has_no_resonance(world):
+    light = replace(contact("paraboloid", 1.2, 1.0), pull=mdr.SpringPull(k_x=CASE.pull.k_x))
+    world(lambda *_: 0.83, deficit=1e-3, error=5e-4)
+    told = mdr.verdict(light)
+    assert told.full_slip == math.inf
+    assert (told.measured, told.holds) == (None, None)
+    assert str(told).startswith("Eq. (15) cannot be judged: no critical velocity was found, against ")

@@ -53,7 +53,7 @@ SIGNATURES = {
     "read_study": "path",
     "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
     "measure_critical_velocity": 'case, *, start="full_slip"',
-    "verdict": "case",
+    "verdict": "case, *, within=0.01",
 }
 RECORDS = {
     "SlidingRun": "cof cof_error settled kind why stick_share mean_F_x mean_F_z energy_balance t u_x F_x F_z x state",
@@ -61,7 +61,7 @@ RECORDS = {
     "PartialSlip": "F_x F_z stick_radius",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "MeasuredVelocity": "v_c low high kind why",
-    "Verdict": "eq_15 full_slip measured deviation holds why",
+    "Verdict": "eq_15 full_slip measured deviation holds why within",
 }
 ANSWERS = {
     "indenter": "profile_3d(r) profile_1d(x) contact_radius(d) "

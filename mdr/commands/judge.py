@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 from typing import Any
 
 from mdr.commands.output import DONE, FAILED, print_json, print_rows, velocity_text
 from mdr.commands.velocity import equation_of
 from mdr.contact import SlidingContact
+from mdr.judgement import WITHIN
 
 
 def measure(args: argparse.Namespace, case: SlidingContact) -> int:
@@ -22,25 +24,50 @@ def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE if found.v_c is not None else FAILED
 
 
+def add_options(command: argparse.ArgumentParser) -> None:
+    """How far off a good formula may be."""
+    meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {100 * WITHIN:g}%%)"
+    command.add_argument("--within", metavar="share", type=_share, default=WITHIN, help=meaning)
+
+
 def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print the sentence and the numbers behind it."""
     from mdr import judgement
 
-    found, (equation, how) = judgement.verdict(case), equation_of(case)
+    found, (equation, how) = judgement.verdict(case, within=args.within), equation_of(case)
     if args.json:
-        names = ("eq_15", "full_slip", "measured", "deviation", "holds", "why")
+        names = ("eq_15", "full_slip", "measured", "deviation", "within", "good", "holds", "why")
         print_json(args, {name: getattr(found, name) for name in names} | {"sentence": str(found)}, case)
     else:
         print(found)
         off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
+        vanishes = found.eq_15 <= found.least
+        against = f"measured less {equation}, over 1e-4 of Eq. (1)" if vanishes else f"measured over {equation}, less 1"
         print_rows([
             (equation, velocity_text(found.eq_15), how),
             ("full slip", velocity_text(found.full_slip), "any amplitude, all harmonics of the force"),
             ("measured", velocity_text(found.measured), "from simulation alone"),
-            ("deviation", off, f"measured over {equation}, less 1"),
-            ("holds", {True: "yes", False: "no", None: "cannot be judged"}[found.holds], ""),
+            ("deviation", off, against),
+            ("good", _yes_or_no(found.good, "undefined"), f"to {100 * found.within:.4g} %"),
+            ("holds", _yes_or_no(found.holds, "cannot be judged"), "to the bracket of the measurement"),
         ])  # fmt: skip
     return DONE if found.holds or found.measured is not None else FAILED  # no v_c on a resonance is an answer
+
+
+def _yes_or_no(answer: bool | None, neither: str) -> str:
+    return neither if answer is None else "yes" if answer else "no"
+
+
+def _share(text: str) -> float:
+    """A share of v_c, given as such or as a percentage."""
+    number = text.strip()
+    try:
+        share = float(number.removesuffix("%")) / (100 if number.endswith("%") else 1)
+    except ValueError:
+        share = math.nan
+    if not 0 < share < 1:
+        raise argparse.ArgumentTypeError(f"must be a share above 0 and below 1, such as 1% or 0.01, got {text!r}")
+    return share
 
 
 def _bracket(found: Any) -> list[tuple[str, str, str]]:

@@ -21,6 +21,7 @@ from mdr.indenters import (
     SampledProfile,
     Sphere,
     TruncatedCone,
+    TruncatedParaboloid,
 )
 from mdr.indenters.base import Indenter
 
@@ -127,6 +128,30 @@ def test_noise_is_smoothed_or_refused():
     residual = shape.profile_3d(GRID) - (f - f[0])
     assert np.std(residual) == pytest.approx(noise, rel=0.3)
     assert worst(shape.force(np.array([1e-5, 1e-4]), 1), Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
+
+
+@pytest.mark.parametrize("shape", [TruncatedCone(B, THETA), TruncatedParaboloid(B, R)])
+def test_a_kink_that_makes_the_spline_fall_is_found(shape):
+    f = shape.profile_3d(GRID)
+    with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing=") as refused:
+        SampledProfile(GRID, f)
+    assert f"if its slope jumps at r = {B!r} m, where it changes most, give kinks=({B!r},); if" in str(refused.value)
+    assert SampledProfile(GRID, f, kinks=(B,)).kinks == (B,)
+
+
+def test_a_second_kink_is_found_beside_one_that_is_named():
+    first, second = float(GRID[50]), float(GRID[150])
+    f = np.interp(GRID, [0, first, second, GRID[-1]], [0, 0, 1e-5, 1e-4])
+    with pytest.raises(ValueError, match=r"jumps at r") as refused:
+        SampledProfile(GRID, f, kinks=(first,))
+    assert f"r = {second!r} m, where it changes most, give kinks=({first!r}, {second!r}); if" in str(refused.value)
+    assert SampledProfile(GRID, f, kinks=(first, second)).kinks == (first, second)
+
+
+@pytest.mark.parametrize("f", [-GRID, -(GRID**2), 1e-7 * np.random.default_rng(3).standard_normal(GRID.size)])
+def test_a_slope_that_jumps_nowhere_is_not_said_where_to_jump(f):
+    with pytest.raises(ValueError, match=r"if its slope jumps at one of the r, name that in kinks=; if it is noise"):
+        SampledProfile(GRID, f)
 
 
 def test_a_slope_that_jumps_and_is_not_named_is_off():
