@@ -376,8 +376,8 @@ def damping_of(table):
 def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
     """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
 
-    force, touches, path (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before in which
-    it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), and its compression.
+    force, touches, path (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before in
+    which it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), its compression.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
@@ -592,8 +592,9 @@ def march(
     one step before. body: (5 + 2J,) a_1, a_2, b_1, b_0, b_m and the weights of those sums, all zero for a rigid pull.
     gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. spans: (2, n_z)
     of springs that press, or are free, throughout a step (`settle_normal`); 0 and n take all through all rules.
-    lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative
-    switches the watch off. light: whether the velocity of the body jumps when a flat face touches (`growth_of`). y_out, S_out: (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
+    lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative switches
+    the watch off. light: whether the velocity of the body jumps when a flat face touches (`growth_of`). y_out, S_out:
+    (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
     Returns whether the core moved as one all the way.
     """
     n_z = z.size - 1

@@ -2,10 +2,11 @@
 
 F_N follows from the history of depth by the contact law, viscoelastic and unilateral (normal_cycle.py); friction has no
 part in it. Its harmonics are those of the compression of all springs times the dynamic modulus, in flight too, where a
-spring relaxes without force: the compression has no jumps, while F_N jumps where dashpots touch. Without mass an elastic contact is at each instant at the depth that carries the load, and this is solved
-exactly. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
-divided by the dynamic stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's
-method (1965) combines the last of them. A small amplitude arrives in one step: there
+spring relaxes without force: the compression has no jumps, while F_N jumps where dashpots touch. Without mass an
+elastic contact is at each instant at the depth that carries the load, and this is solved exactly. Else the depth is
+sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic divided by the dynamic
+stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's method (1965) combines
+the last of them. A small amplitude arrives in one step: there
 
     du_z = dF_z/(K_z(omega) - m_z omega²),    K_z(omega) = 2 a E*(omega),
 

@@ -401,7 +401,7 @@ class Line:
         return out
 
     def _pushes(self) -> tuple[Array, ...]:
-        """Displacements of unit size: of each arm of all springs, and of the body, in its position and in its velocity."""
+        """Displacements of unit size: of each arm of all springs, and of the position and velocity of the body."""
         scaled, n = self.scaled, self.e.size
         pushes = []
         for j, rho in enumerate(scaled.rheology.rho, start=1):
@@ -433,7 +433,7 @@ class Line:
         if n < self.beat:
             return f"after {n} periods the body may still be in a beat, which lasts {self.beat:.3g} of them"
         full = abs(1 - cof) <= TOLERANCE
-        if full and 0 < self._off_multiple and self.v < (1 - NEARLY) * scaled.end_of_full_slip:
+        if full and self._off_multiple > 0 and self.v < (1 - NEARLY) * scaled.end_of_full_slip:
             return f"full slip cannot last at this velocity: after {n} periods the body has not yet come to stick"
         return ""
 

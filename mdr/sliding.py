@@ -2,9 +2,9 @@
 
 Beside a run go companions, with half the springs, with half the steps and with three quarters of the steps (for two of
 them may agree by chance). Where dashpots touch a body that no mass holds, its velocity jumps, the error falls at first
-order and erratically, and companions of steps in no simple ratio are added. The scheme is of second order, so the difference to one of half the resolution is three times
-the error, and to one of three quarters 7/9 of it; the greater of the two, springs and spread of the windows bound the
-error of the COF.
+order and erratically, and companions of steps in no simple ratio are added. The scheme is of second order, so the
+difference to one of half the resolution is three times the error, and to one of three quarters 7/9 of it; the greater
+of the two, springs and spread of the windows bound the error of the COF.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ def slide(
     n_periods: None goes on until settled; a number runs exactly that many and makes no companion runs, so that
     cof_error holds settling only. start: "full_slip", from which the periodic state of a body is solved for, or "rest"
     (unloaded in the plane), from which it is awaited. record: number of last periods kept as arrays. lump: let springs
-    that provably move as one be computed once. limit_s: seconds after which a run that has not settled is given up, with
-    that as its reason (None: no limit; what it waits for is told on standard error after two seconds).
+    that provably move as one be computed once. limit_s: seconds after which a run that has not settled is given
+    up, with that as its reason (None: no limit; what it waits for is told on standard error after two seconds).
 
     Raises TypeError and ValueError for arguments out of range; v_0 = 0 is `static_cof`.
     """
