@@ -13,16 +13,25 @@ reads v_c low. Two sharper signs give the digits:
 Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
 has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes zero. Such a
 rest of a free oscillation, with a full COF, is no friction reduction and is named, not counted.
+
+A run further down looks whether stick means less friction at all. An undamped body whose omega_0 is a whole multiple of
+omega can keep a free oscillation in step with the drive, such that it never sticks although the motion without it
+would: there the COF, full within its error, says where friction reduction ends. With a little damping, or a little off
+the multiple, a little friction is missing, and the velocity from which that is less than NEARLY_FULL is named.
+
+A run that has not settled is no evidence of either. Where one stands in the way, others close by are asked; where these
+do not settle either, that is the answer.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mdr.checks import positive
 from mdr.contact import SlidingContact, require_case
-from mdr.progress import Ticker
+from mdr.progress import Ticker, time_is_over, time_limit
 from mdr.pull import SpringPull
 from mdr.runs import SlidingRun
 from mdr.sliding import N_SPRINGS, default_steps, slide
@@ -30,9 +39,13 @@ from mdr.sliding import N_SPRINGS, default_steps, slide
 MARGIN = 2e-5  #: half width of the bracket, of v_c
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; at MARGIN below v_c it is above 1e-3
 APART = 0.01  #: step between velocities at which the deficit of the COF is read
+CLOSER = 0.004  #: the same where its error allows
+BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
+GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
+NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
-FAR = 1e6  #: times Eq. (1): a run this fast is free of stick wherever there is a v_c that can be told
+FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
 HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
 
 
@@ -42,15 +55,18 @@ class MeasuredVelocity:
 
     kind: "end of stick" (least slip velocity, stick and COF name one velocity), "free oscillation" (so
     too, but above it a body that starts from rest keeps one, which grazes stick now and then, at full COF), "end of
-    friction reduction" (read off the COF, a bracket of per cents), "hysteresis" (v_c is that of the start that keeps
-    friction reduced) or "none".
+    friction reduction" (read off the COF, a bracket of per cents), "lock-in" (so too, as a free oscillation in step
+    with the drive keeps springs from sticking down to v_c), "hysteresis" (v_c is that of the start that keeps friction
+    reduced), "none" (friction stays reduced up to the highest velocity) or "unsettled" (runs that would tell do not
+    settle).
     """
 
     v_c: float | None  #: [m/s]; None where there is none
     low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
     high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
-    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "hysteresis" or "none"
+    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "lock-in", "hysteresis", ...
     why: str  #: in words
+    nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
 
     def contains(self, v_0: float) -> bool:
@@ -58,15 +74,27 @@ class MeasuredVelocity:
         return self.low is not None and self.high is not None and self.low <= v_0 <= self.high
 
 
-def measure_critical_velocity(case: SlidingContact, *, start: str = "full_slip") -> MeasuredVelocity:
+def measure_critical_velocity(
+    case: SlidingContact, *, start: str = "full_slip", limit_s: float | None = None
+) -> MeasuredVelocity:
     """Measure v_c of a case from simulated runs alone; `start` is that of the runs that locate it.
 
     The bracket is some 4e-5 of v_c wide, and wider where steps or springs still move it. The answer does not depend on
-    where the search begins. It takes 10 to 40 runs, seconds to a minute. Raises ValueError for an unknown start.
+    where the search begins. It takes 10 to 40 runs, a second to a minute; after limit_s seconds (None: no limit) it
+    ends unsettled. Raises ValueError for an unknown start.
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    return _Search(require_case(case), start).measure()
+    search = _Search(require_case(case), start)
+    with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
+        try:
+            return search.measure()
+        except _Undecided as at:
+            return search.undecided(float(at.args[0]))
+
+
+class _Undecided(Exception):
+    """No run near a velocity settles that would have to."""
 
 
 class _Search:
@@ -82,6 +110,8 @@ class _Search:
     def run(self, v_0: float, start: str | None = None) -> SlidingRun:
         self.n_runs += 1
         self.ticker.tick()
+        if time_is_over():
+            raise _Undecided(v_0)
         start = start or self.start
         return slide(self.case, v_0, start=start, n_springs=self.n_springs, steps_per_period=self.steps)
 
@@ -102,29 +132,55 @@ class _Search:
             return self._none("friction stays reduced, or stick goes on, up to the highest velocity tried")
         v_c, low, high = self._locate(free)
         if jumps:
-            return self._by_friction(high)
+            why = (
+                f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body "
+                "without inertia jumps when single springs touch; "
+                "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero"
+            )
+            return self._by_friction(high, high, why)
         low, high = max(low - self.doubt, 0.0), high + self.doubt
         if v_c <= LEAST * self.scale:
             why = f"stick ends below {LEAST:g} of Eq. (1), which is not told from zero"
-            return MeasuredVelocity(v_c, low, high, "end of stick", why, self.n_runs)
-        return self._look_above(v_c, low, high)
+            return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
+        return self._look_below(v_c, low, high)
 
     def _none(self, why: str) -> MeasuredVelocity:
-        return MeasuredVelocity(None, None, None, "none", why, self.n_runs)
+        return MeasuredVelocity(None, None, None, "none", why, n_runs=self.n_runs)
+
+    def undecided(self, v_0: float) -> MeasuredVelocity:
+        """The answer where runs that would tell do not settle."""
+        why = f"runs near {v_0:.6g} m/s do not settle, so that nothing is known of friction there"
+        return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
+
+    def _decided(self, v_0: float) -> SlidingRun:
+        """A run at this velocity that has settled, or one close by."""
+        for off in (0.0, 0.25, -0.25):
+            if (run := self.run(v_0 * (1 + off * MARGIN))).settled:
+                return run
+        raise _Undecided(v_0)
 
     def _first_free_run(self) -> SlidingRun | None:
         """A settled run without stick, not far above v_c, by factors that do not land on it by construction.
 
         In full slip the body moves alike at any v_0: one free run, however fast, tells where stick begins.
         """
-        far = self.run(FAR * self.scale, "full_slip")  # from rest it would swing as fast
-        guess = far.v_0 - far.least_slip if _is_free(far) else self.scale
+        guess, unsettled = self.scale, None
+        for times in FAR:
+            far = self.run(times * self.scale, "full_slip")  # from rest it would swing as fast
+            if _is_free(far):
+                guess = far.v_0 - far.least_slip
+                break
+            if far.settled:
+                break
         v_0 = 1.37 * max(guess, LEAST * self.scale)
         while v_0 < HIGHEST * max(guess, self.scale):
             run = self.run(v_0)
             if _is_free(run):
                 return run
+            unsettled = unsettled if run.settled else v_0
             v_0 *= 6.85
+        if unsettled is not None:
+            raise _Undecided(unsettled)
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun | None:
@@ -137,7 +193,7 @@ class _Search:
                 slips = [free.least_slip]
                 for finer in (3 * known // 2, 2 * known):
                     setattr(self, knob, finer)
-                    run = self.run(free.v_0)
+                    run = self._decided(free.v_0)
                     if not _is_free(run):  # free in coarse steps only: begin anew, further up
                         further = self._first_free_run()
                         return None if further is None else self._resolve(further)
@@ -155,14 +211,14 @@ class _Search:
         if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         for width in (MARGIN, 4 * MARGIN, 16 * MARGIN, 64 * MARGIN):
-            above, below = self.run(guess * (1 + width)), self.run(guess * (1 - width))
+            above, below = self._decided(guess * (1 + width)), self._decided(guess * (1 - width))
             if _is_free(above) and not _is_free(below):
                 return guess, below.v_0, above.v_0
             low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
             high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
             guess = high * (1 - 1e-12) if not low < guess < high else guess
         while high - low > 2 * MARGIN * high:
-            run = self.run(0.5 * (low + high))
+            run = self._decided(0.5 * (low + high))
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
         return 0.5 * (low + high), low, high
 
@@ -176,25 +232,57 @@ class _Search:
         light = isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0
         return bool(light and case.T > 0 and moving_edge)
 
-    def _by_friction(self, high: float) -> MeasuredVelocity:
-        """Let the COF speak: its deficit to the power 2/3 falls smoothly to zero at v_c for a Kelvin contact."""
-        v_0 = high * (1 - APART)
+    def _by_friction(
+        self, full: float, high: float, why: str, kind: str = "end of friction reduction", apart: float = APART
+    ) -> MeasuredVelocity:
+        """Let the COF speak: its deficit to the power 2/3 falls smoothly to zero at v_c for a Kelvin contact, to the
+        power 1/2 for an elastic one. full: a velocity at which it is full; apart: step between those that are read.
+        """
+        power = 2 / 3 if self.case.T > 0 else 1 / 2
+        v_0 = full * (1 - apart)
         roots: list[tuple[float, float]] = []
         while v_0 > 1e-6 * self.scale and len(roots) < 3:
             run = self.run(v_0)
             if _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
-                roots.append((v_0, (run.mu_0 - run.cof) ** (2 / 3)))
-            v_0 *= 1 - APART
+                roots.append((v_0, (run.mu_0 - run.cof) ** power))
+            v_0 *= 1 - apart
         if len(roots) < 3:
             return self._none("stick never reduces friction by more than its numerical error")
         velocities, deficits = np.array(roots).T
         v_c = float(np.polyfit(deficits, velocities, 2)[-1])
+        return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
+
+    def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
+        """A run below the end of stick: is friction reduced there, and by how much?"""
+        near = self.look(BELOW[0] * v_c, self.start)
+        if _only_grazes(near) and _only_grazes(self.run(near.v_0)):
+            return self._lock_in(near.v_0, high)
+        found = self._look_above(v_c, low, high)
+        if found.v_c != v_c or not _is_nearly_full(near) or not _is_nearly_full(self.look(BELOW[1] * v_c, self.start)):
+            return found
+        nearly, less = BELOW[1] * v_c, 0.0
+        while nearly - less > 0.02 * nearly:
+            middle = 0.5 * (nearly + less)
+            nearly, less = (middle, less) if _is_nearly_full(self.look(middle, self.start)) else (nearly, middle)
+        why = f"{found.why}; the COF is within {NEARLY_FULL:g} of mu_0 from {nearly:.3g} m/s on already"
+        return replace(found, nearly_full=nearly, why=why, n_runs=self.n_runs)
+
+    def _lock_in(self, full: float, stick: float) -> MeasuredVelocity:
+        """The end of friction reduction below the end of stick of the motion without free oscillation."""
+        reduced = 0.0
+        for _ in range(12):
+            if _is_reduced(run := self._decided(0.9 * full)):
+                reduced = run.v_0
+                break
+            full = run.v_0
+        while full - reduced > CLOSER * full:
+            run = self._decided(0.5 * (full + reduced))
+            full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
         why = (
-            f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body "
-            "without inertia jumps when single springs touch; "
-            "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero"
+            "a free oscillation in step with the drive keeps every spring from sticking down to this velocity, and the "
+            f"COF is mu_0; the periodic motion without it would stick up to {stick:.6g} m/s; v_c is read off the COF"
         )
-        return MeasuredVelocity(v_c, roots[0][0], high, "end of friction reduction", why, self.n_runs)
+        return self._by_friction(full, full * (1 + CLOSER), why, "lock-in", CLOSER)
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs beyond v_c from both starts: does friction stay full?"""
@@ -217,7 +305,8 @@ class _Search:
             why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
-        return MeasuredVelocity(v_c, low, high, "free oscillation" if swinging else "end of stick", why, self.n_runs)
+        kind = "free oscillation" if swinging else "end of stick"
+        return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
 
     def _lasts(self, run: SlidingRun, start: str) -> bool:
         """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""
@@ -248,12 +337,21 @@ class _Search:
             f"a run from {start} keeps friction reduced"
         )
         v_c, doubt = 0.5 * (low + high), self.doubt
-        return MeasuredVelocity(v_c, low - doubt, high + doubt, "hysteresis", why, self.n_runs)
+        return MeasuredVelocity(v_c, low - doubt, high + doubt, "hysteresis", why, n_runs=self.n_runs)
 
 
 def _is_free(run: SlidingRun) -> bool:
     """No spring sticks: a positive slip velocity throughout, in a settled run of full COF."""
     return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
+
+
+def _only_grazes(run: SlidingRun) -> bool:
+    """Whether stick is there in a run, if at all, as in the rest of a free oscillation, and takes nothing away."""
+    return run.settled and not _is_reduced(run) and run.stick_share < GRAZING
+
+
+def _is_nearly_full(run: SlidingRun) -> bool:
+    return run.settled and run.mu_0 - run.cof < NEARLY_FULL * run.mu_0
 
 
 def _is_reduced(run: SlidingRun) -> bool:
