@@ -11,7 +11,7 @@ from mdr.checks import between
 from mdr.contact import SlidingContact, require_case
 from mdr.coupling import FARTHEST, coupling_loss, radial_rub, unlike
 from mdr.full_slip_body import full_slip_critical_velocity
-from mdr.measurement import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
+from mdr.measurement import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
 from mdr.motion import DepthMotion, LoadOscillation
 from mdr.pull import RigidPull, SpringPull
 from mdr.theory import critical_velocity, formula_of
@@ -93,10 +93,11 @@ class Verdict:
         return f"{WORDS[self.holds]}: {none}, against {self.eq_15:.6g} m/s"
 
 
-def verdict(case: SlidingContact, *, within: float = WITHIN) -> Verdict:
+def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | None = None) -> Verdict:
     """Measure v_c [m/s] of a case and set it beside Eq. (15) (Eq. (1) for a rigid pull) and the full-slip value.
 
     within: largest |measured/Eq. (15) - 1| [-] at which the formula is called good, 0.01 for 1 %; it changes no run.
+    limit_s: seconds after which the measurement ends unsettled (None: no limit).
     Returns a `Verdict`: `.good` to that tolerance, `.holds` to the bracket of the measurement, some 4e-5 of v_c wide,
     where small deviations count.
 
@@ -104,11 +105,11 @@ def verdict(case: SlidingContact, *, within: float = WITHIN) -> Verdict:
     """
     eq_15, full = critical_velocity(require_case(case)), full_slip_critical_velocity(case)
     within = _tolerance(within)  # before the runs, not after them
-    found, least = measure_critical_velocity(case), LEAST * case.unit_velocity
+    found, least = measure_critical_velocity(case, limit_s=limit_s), LEAST * case.unit_velocity
     deviation: float | None = None
     holds: bool | None
     if found.v_c is None:
-        holds = _holds_without_velocity(case, eq_15, full)
+        holds = None if found.kind == "unsettled" else _holds_without_velocity(case, eq_15, full)
     elif not np.isfinite(eq_15):
         holds = False
     else:
@@ -122,6 +123,8 @@ def verdict(case: SlidingContact, *, within: float = WITHIN) -> Verdict:
         reasons = [found.why]
     if found.v_c is None or not reasons:
         reasons.append(found.why)
+    if found.nearly_full is not None:
+        reasons.append(f"the COF is within {NEARLY_FULL:g} of mu_0 from {found.nearly_full:.3g} m/s on already")
     formula = formula_of(case)
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula, within, least)
@@ -178,7 +181,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
             f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
             "with them the full-slip condition gives the measured value"
         )
-    if found.kind == "hysteresis":
+    if found.kind in ("hysteresis", "lock-in"):
         yield found.why
 
 

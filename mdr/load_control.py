@@ -1,12 +1,14 @@
 """The depth that an oscillating load brings about: m_z u_z'' = F_z0 + dF_z cos(omega t) - F_N, periodic.
 
 F_N follows from the history of depth by the contact law, viscoelastic and unilateral (normal_cycle.py); friction has no
-part in it. Its harmonics are those of the compression of all springs times the dynamic modulus, in flight too, where a
-spring relaxes without force: the compression has no jumps, while F_N jumps where dashpots touch. Without mass an
-elastic contact is at each instant at the depth that carries the load, and this is solved exactly. Else the depth is
-sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic divided by the dynamic
-stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's method (1965) combines
-the last of them. A small amplitude arrives in one step: there
+part in it. Without mass an elastic contact is at each instant at the depth that carries the load, and this is solved
+exactly. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
+divided by the dynamic stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's
+method (1965) combines the last of them. Where contact is lost, F_N jumps as dashpots touch, between two instants; its
+harmonics are then taken from the compression of all springs, which has no jumps, times the dynamic modulus: that holds
+in flight too, where a spring relaxes without force.
+
+A small amplitude arrives in one step: there
 
     du_z = dF_z/(K_z(omega) - m_z omega²),    K_z(omega) = 2 a E*(omega),
 
@@ -134,8 +136,12 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
         cycle = _cycle_of(u, omega)
         if cycle.u_z0 + cycle.du_z * cycle.greatest <= 0:
             return load
-        compression = E_star * normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, 256).compression
-        F_n = rheology.response(n) * np.fft.rfft(compression)[: N_HARMONICS + 1] / compression.size
+        known = normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, 256)
+        if known.in_contact.all():
+            F_n = np.fft.rfft(known.F_N)[: N_HARMONICS + 1]
+        else:  # F_N jumps
+            F_n = rheology.response(n) * np.fft.rfft(known.compression)[: N_HARMONICS + 1]
+        F_n = E_star * F_n / known.F_N.size
         return np.asarray(load - F_n + motion.m_z * (n * omega) ** 2 * u)
 
     u, off = _anderson(missing, weight, start, motion.F_z0)

@@ -38,6 +38,7 @@ CLOSEST = 1e-13  #: the same where a change adds up over many periods: some roun
 AWAY = 1e-6  #: distance, over the size of the state, to which a slow time lets a change over a period add up
 GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
 PUSH = 1e-4  #: displacement of the body, over the size of the state
+FARTHEST = 0.1  #: the same, where the motion has kinks
 AFTER = 2  #: periods between a push and the measurement, in which springs fall in with the body
 FORGOTTEN = 1e-5  #: of a push: what is left of it is not told from the change over a period
 CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
@@ -45,7 +46,7 @@ EXPANDS = 1.01  #: multiplier from which on a map is not one of friction
 STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms make hard to tell apart
 TURNS = 30  #: corrections of the Newton-Picard method
 SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes on without it
-LOST = 3  #: corrections in a row of which no share is a gain, after which it ends
+LOST = 5  #: corrections in a row of which no share is a gain, after which it ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,10 +134,16 @@ def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Ar
 def _newton_picard(
     step: Step, start: _Iterate, measure: Measure, pushes: tuple[Array, ...], close: float
 ) -> _Iterate:
-    """The state of least change that corrections along the pushed motions lead to."""
-    best, push, lost = start, PUSH, 0
+    """The state of least change that corrections along the pushed motions lead to.
+
+    The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go the
+    same way and as far, to see the slope on both sides of it.
+    """
+    best, push, lost, ways = start, PUSH, 0, np.ones(len(pushes))
     for _ in range(TURNS):
-        x, image, before, after = _displaced(step, best.x, measure, pushes, push)
+        x, image, before, after = _displaced(
+            step, best.x, measure, tuple(way * one for way, one in zip(ways, pushes, strict=True)), push
+        )
         size = float(np.linalg.norm(measure(image))) + 1e-300
         best = _Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
         turn = measure(after - before).T
@@ -153,7 +160,11 @@ def _newton_picard(
         lost = 0 if part >= SHORTEST else lost + 1
         if part >= SHORTEST:
             best = _Iterate(reached, change)
-            push = float(np.clip(part * np.linalg.norm(measure(move)) / size, 1e-9, PUSH))
+        if lost:  # no share was a gain: what these pushes saw was not of here
+            push *= 0.1
+        else:
+            push = float(np.clip(part * np.linalg.norm(measure(move)) / size, 1e-9, PUSH if part == 1 else FARTHEST))
+        ways = ways * np.where(share < 0, -1, 1)
         if best.change <= close or lost == LOST or not np.isfinite(best.change):
             break
     return best

@@ -622,3 +622,24 @@ def table(depth_ratio=3.0, relaxation=(0.0, 0.3, 1.0, 3.0), shares=(0.2, 0.5, 0.
 if __name__ == "__main__":
     for record in table():
         print(json.dumps(record), flush=True)
+
+
+def massless_punch(depth, v, T, k, n, n_periods=12):
+    """COF over mu_0 of one Kelvin spring under a body without mass on a spring k, by n implicit steps of first order.
+
+    depth: u_z0/du_z; v: over Eq. (1); k: over that of the contact. In units where mu_0, kappa and stiffness are one.
+    """
+    h, s, e, y = 2 * math.pi / n, 0.0, 0.0, 0.0
+    decay, held = math.exp(-h / T), k + 1 + T / h
+    for _ in range(n_periods):
+        sum_x = sum_z = 0.0
+        for i in range(1, n + 1):
+            z, free = depth + math.cos(i * h), s * decay
+            s, before = max(z, free), s
+            f_z = max(s + T * (s - before) / h, 0.0) if s > free else 0.0
+            moved = v * h - y
+            f_x = k * ((1 + T / h) * (e + moved) - T / h * e) / held  # sticks: k y = -f_x
+            f_x = min(max(f_x, -f_z), f_z)
+            y, e = -f_x / k, (f_x + T / h * e) / (1 + T / h)
+            sum_x, sum_z = sum_x + f_x, sum_z + f_z
+    return sum_x / sum_z

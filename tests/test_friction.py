@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import reference
-from conftest import SHAPES, contact, unit_of_velocity
+from conftest import SHAPES, by_groups, contact, unit_of_velocity
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -225,6 +225,52 @@ def test_csv_carries_every_bit(curve, tmp_path):
     assert header == ["v_0 [m/s]", "cof [-]", "cof_error [-]", "settled", "stick_share [-]"]
     for i, name in enumerate(("v_0", "cof", "cof_error", "settled", "stick_share")):
         assert_array_equal([float(row[i]) for row in rows], getattr(curve, name), err_msg=name)
+
+
+#: lightly damped curved contacts beside 2 omega: the full-slip v_c is 240 to 2500 times Eq. (1)
+BESIDE = {
+    "cone": ("cone", 0.3, 0.0, 0.65, 2.0001, 0.115, 1e-3),
+    "paraboloid": ("paraboloid", 0.3, 0.0, 1.456, 1.9996, 2.52, 3e-4),
+    "another cone": ("cone", 0.16648, 0.0, 1.38037, 1.9996843, 0.129343, 1e-3),
+}
+
+
+@pytest.mark.parametrize("name", BESIDE)
+def test_beside_a_resonance_there_is_a_critical_velocity(name):
+    """A run that had not settled by 1.5e-6 counted as reduced friction, and the search began again from Eq. (1)."""
+    case = by_groups(*BESIDE[name])
+    full = mdr.full_slip_critical_velocity(case)
+    told = mdr.verdict(case)
+    assert_allclose(told.measured, full, rtol=BUDGET)
+    assert told.measurement.kind == "end of stick"
+    assert "no critical velocity" not in str(told)
+    above, below = (mdr.slide(case, factor * full) for factor in (1.03, 0.97))
+    assert abs(above.mu_0 - above.cof) <= above.cof_error
+    assert below.stick_share > 0.01
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+@pytest.mark.parametrize("T", [0.0, 1.0])
+def test_a_free_oscillation_in_step_with_the_drive_ends_friction_reduction_early(T, n):
+    """omega_0 = n omega, which the force of a punch does not drive: v + B cos(n phase) can keep off stick from
+    cos(pi/2n) of Eq. (15) on, the least maximum of sin(phase) + b sin(n phase)."""
+    case = by_groups("flat", 0.5, T, 0.3, float(n), 1.0)
+    eq_15 = mdr.critical_velocity(case)
+    found = mdr.measure_critical_velocity(case)
+    assert found.kind == "lock-in"
+    assert found.contains(math.cos(math.pi / (2 * n)) * eq_15)
+    assert_allclose(found.v_c / eq_15, math.cos(math.pi / (2 * n)), rtol=1e-3)  # read off the COF, by a fit
+    assert f"would stick up to {eq_15:.3g}"[:-1] in found.why
+    assert "in step with the drive" in mdr.verdict(case).why
+
+
+def test_where_little_friction_is_missing_below_the_end_of_stick_both_velocities_are_named():
+    case = by_groups("flat", 0.5, 0.0, 0.3, 2.0, 1.0, 1e-5)
+    found = mdr.measure_critical_velocity(case)
+    assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
+    assert 0.7 < found.nearly_full / found.v_c < 0.85
+    assert "within 0.0001 of mu_0" in found.why
+    assert "within 0.0001 of mu_0" in mdr.verdict(case).why
 
 
 # --- the verdict ------------------------------------------------------------------------------------------------

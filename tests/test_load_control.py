@@ -163,3 +163,17 @@ def test_a_search_goes_on_while_its_error_falls_slowly():
     body = mdr.KelvinVoigt(3e6, 0.5, tau=0.010172149149214788)
     cycle = mdr.SlidingContact(mdr.Cone(theta=0.05), body, 0.5, motion).cycle
     assert_allclose(cycle.u_z0, 5.2136e-05, rtol=1e-3)  # of a search that ends at 1e-4
+
+
+@pytest.mark.parametrize(("T", "share", "ratio"), [(1.0, 1.1, 0.9232), (2.0, 1.1, 1.5049), (1.0, 1.5, 1.4914)])
+def test_the_mean_load_is_carried_where_a_punch_on_dashpots_lifts_off(T, share, ratio):
+    """F_N jumps as the dashpots touch; a search that saw it at instants missed 1.5e-4 to 3.5e-4 of the load."""
+    punch, kelvin = mdr.FlatPunch(a=1e-3), mdr.KelvinVoigt(3e6, 0.5, T / OMEGA)
+    F_z0 = float(punch.force(2e-5, kelvin.E_star))
+    m_z = float(punch.stiffness(2e-5, kelvin.E_star)) / (ratio * OMEGA) ** 2
+    case = mdr.SlidingContact(punch, kelvin, 0.5, mdr.LoadOscillation(F_z0, share * F_z0, OMEGA, m_z))
+    run = mdr.slide(case, 0.5 * case.unit_velocity)
+    missing = abs(run.mean_F_z / F_z0 - 1)
+    assert not case.keeps_contact
+    assert missing < 2e-6  # second order of 1024 steps
+    assert run.cof_error >= case.mu_0 * missing
