@@ -44,6 +44,7 @@ BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what i
 GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
 NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
+SWINGS = 64  #: periods after which a free oscillation that is left is one that stays
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
 HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
@@ -297,9 +298,10 @@ class _Search:
                 elif _is_reduced(run) and self._lasts(run, start):
                     return self._hysteresis(run, start, v_c)
                 full = full or run.settled
-                # in full slip the body moves alike at any v_0, but for the error of a step
-                swings = abs(run.least_slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
-                swinging = swinging or (undamped and run.settled and swings)
+                if undamped and run.settled and start == "rest" and factor == ABOVE[1]:
+                    # in full slip the body moves alike at any v_0, but for the error of a step
+                    slip = self._awaited(run).least_slip
+                    swinging = abs(slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
         why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
         if swinging:
             why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"
@@ -307,6 +309,19 @@ class _Search:
             why += f"; not settled: {', '.join(unsettled)}"
         kind = "free oscillation" if swinging else "end of stick"
         return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
+
+    def _awaited(self, run: SlidingRun) -> SlidingRun:
+        """The same from rest for SWINGS periods, without a search for its periodic state."""
+        self.n_runs += 1
+        self.ticker.tick()
+        return slide(
+            self.case,
+            run.v_0,
+            start="rest",
+            n_springs=run.n_springs,
+            steps_per_period=run.steps_per_period,
+            n_periods=SWINGS,
+        )
 
     def _lasts(self, run: SlidingRun, start: str) -> bool:
         """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""
