@@ -153,10 +153,10 @@ class _Search:
         why = f"runs near {v_0:.6g} m/s do not settle, so that nothing is known of friction there"
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
-    def _decided(self, v_0: float) -> SlidingRun:
-        """A run at this velocity that has settled, or one close by."""
-        for off in (0.0, 0.25, -0.25):
-            if (run := self.run(v_0 * (1 + off * MARGIN))).settled:
+    def _decided(self, v_0: float, apart: float = MARGIN / 4) -> SlidingRun:
+        """A run at this velocity that has settled, or one close by; apart: how close, over v_0."""
+        for off in (0.0, apart, -apart):
+            if (run := self.run(v_0 * (1 + off))).settled:
                 return run
         raise _Undecided(v_0)
 
@@ -272,12 +272,12 @@ class _Search:
         """The end of friction reduction below the end of stick of the motion without free oscillation."""
         reduced = 0.0
         for _ in range(12):
-            if _is_reduced(run := self._decided(0.9 * full)):
+            if _is_reduced(run := self._decided(0.9 * full, CLOSER)):
                 reduced = run.v_0
                 break
             full = run.v_0
         while full - reduced > CLOSER * full:
-            run = self._decided(0.5 * (full + reduced))
+            run = self._decided(0.5 * (full + reduced), CLOSER / 4)
             full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
         why = (
             "a free oscillation in step with the drive keeps every spring from sticking down to this velocity, and the "
