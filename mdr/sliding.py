@@ -25,6 +25,7 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
 N_SPRINGS, _STEPS = 384, 1024  # first choice; doubled while cof_error exceeds the budget
 MOST_STEPS = 16384  #: of a period, that are chosen
+MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
 UNEVEN = (0.53, 0.61, 0.69, 0.83, 0.91)  #: of the steps, of companions of motions that jump as dashpots touch
 
 
@@ -119,6 +120,7 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         if main.scaled.light and main.scaled.remembers and not case.keeps_contact:
             others = (march(case, v_0, knobs.coarser(int(share * knobs.steps)), as_long, main) for share in UNEVEN)
             error_steps = max(error_steps, *(2 * _difference(main, other) for other in others))
+            free = (free[0], free[1] and knobs.steps < MOST_UNEVEN)
         error_steps += _of_fast_relaxation(main)
         if time_is_over():
             why = "the time limit is over before the runs beside it, which bound cof_error, were done"

@@ -29,6 +29,7 @@ from mdr.progress import progress
 
 OMEGA, U_Z0, MU_0 = 300.0, 2e-5, 0.5
 LONGER = 10  #: times the periods of a run, for which it is continued
+MOST_STEPS = 3e6  #: of it
 FASTER = 1.05  #: velocity of the neighbour
 
 
@@ -137,7 +138,7 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     settling = line.solve() or line.wait(MAX_PERIODS["spring"])
     if not (settling.settled and line.as_one):
         return []
-    n = min(max(64, LONGER * line.n_periods), int(3e7 / scaled.steps))
+    n = min(max(64, LONGER * line.n_periods), int(MOST_STEPS / scaled.steps))
     line.advance(n)
     mean = float(line.cofs[-n:].mean())
     off = abs(mean - settling.mean)

@@ -1,0 +1,96 @@
+"""The measured critical velocity beside its definition: `python tests/table_of_velocities.py 300`; takes some minutes.
+
+The systems of table_of_theorems.py: a third undamped, a third beside a whole multiple of the drive. Of each of them is
+asked whether runs at 0.97 and 1.03 of it, and the full-slip value, contradict what it says. A contradiction is
+
+* a settled run 3 % above a measured v_c, from either start, whose COF misses mu_0 by more than its error;
+* one 3 % below that neither sticks nor misses anything, where stick is what the measurement went by;
+* "no critical velocity" where a settled run above the finite full-slip value has the full COF;
+* an end of stick that is not the full-slip value to 1e-4 of it, or to the bracket.
+
+Prints what contradicts, the kinds of answers, and how long they took.
+"""
+
+import math
+import sys
+import time
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+
+import numpy as np
+from table_of_theorems import drawn
+
+import mdr
+from mdr.progress import progress
+
+NEAR = 1e-4  #: of v_c, to which it is measured away from resonances
+LONGEST = 120.0  #: seconds for one measurement
+
+
+@dataclass(frozen=True)
+class Row:
+    """What became of one measurement."""
+
+    name: str
+    kind: str
+    contradictions: tuple[str, ...]
+    seconds: float
+
+
+def row(seed: int) -> Row:
+    """Measure one system, and run beside the answer."""
+    try:
+        system = drawn(seed)
+    except ValueError:
+        return Row(f"{seed}: refused", "refused", (), 0.0)
+    case, full = system.case, mdr.full_slip_critical_velocity(system.case)
+    begin = time.perf_counter()
+    found = mdr.measure_critical_velocity(case, limit_s=LONGEST)
+    seconds = time.perf_counter() - begin
+    told = list(_against(case, found, full))
+    return Row(f"{system.name}; full slip {full:.8g}: {found.kind}, {found.v_c}", found.kind, tuple(told), seconds)
+
+
+def _against(case, found, full):
+    if found.v_c is None:
+        if found.kind == "none" and math.isfinite(full) and full < 1e2 * case.unit_velocity:
+            run = mdr.slide(case, 1.03 * full, limit_s=LONGEST)
+            if run.settled and case.mu_0 - run.cof <= run.cof_error:
+                yield f"none, but the COF is full at 1.03 of {full:.8g}"
+        return
+    if found.v_c < 1e-3 * case.unit_velocity:
+        return
+    for start in ("full_slip", "rest"):
+        above = mdr.slide(case, 1.03 * max(found.v_c, found.high), start=start, limit_s=LONGEST)
+        if above.settled and case.mu_0 - above.cof > above.cof_error + 1e-9:
+            yield f"above, from {start}: {above.mu_0 - above.cof:.2g} +- {above.cof_error:.1g} is missing"
+    below = mdr.slide(case, 0.97 * min(found.v_c, found.low), limit_s=LONGEST)
+    ends_stick = found.kind in ("end of stick", "free oscillation")
+    if ends_stick and below.settled and below.stick_share == 0 and case.mu_0 - below.cof <= below.cof_error:
+        yield "below: nothing sticks"
+    width = max(NEAR * found.v_c, found.high - found.low)
+    if ends_stick and math.isfinite(full) and abs(found.v_c - full) > width:
+        yield f"{found.v_c:.8g} is not the full-slip value"
+
+
+def main(n: int, first: int = 0) -> int:
+    """Print the table; 0 if nothing contradicts."""
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        waiting = [pool.submit(row, seed) for seed in range(first, first + n)]
+        rows = [one.result() for one in progress(waiting, "table_of_velocities")]
+    seconds = np.array([r.seconds for r in rows])
+    print(f"{n} systems: {dict(Counter(r.kind for r in rows))}")
+    print(f"seconds a measurement: median {np.median(seconds):.3g}, worst {seconds.max():.3g}")
+    against = [r for r in rows if r.contradictions]
+    print(f"{len(against)} contradict")
+    for r in against:
+        print(f"  {r.name}", *r.contradictions, sep="\n      ")
+    for r in (r for r in rows if r.kind == "unsettled"):
+        print(f"  unsettled after {r.seconds:.3g} s: {r.name}")
+    return 1 if against else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*(int(one) for one in sys.argv[1:])))
