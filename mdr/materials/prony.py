@@ -19,9 +19,9 @@ from os import PathLike, fsdecode
 
 from numpy.typing import ArrayLike
 
-from mdr.checks import not_negative, positive
 from mdr.materials.base import OneBody, poisson_ratio
-from mdr.tables import fault
+from mdr.tools.checks import not_negative, positive
+from mdr.tools.csv_table import fault
 
 Arms = tuple[tuple[float, float], ...]
 

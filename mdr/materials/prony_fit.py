@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, between, count, finite_array, positive, positive_array
-from mdr.tables import cells_of, fault
-from mdr.words import short
+from mdr.tools.checks import FloatArray, between, count, finite_array, positive, positive_array
+from mdr.tools.csv_table import cells_of, fault
+from mdr.tools.messages import short
 
 if TYPE_CHECKING:
     from mdr.materials.prony import Prony
@@ -75,7 +75,7 @@ def misfit(material: Prony, omega: ArrayLike, storage: ArrayLike, loss: ArrayLik
 
 def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
     """The fields of a Prony in a file."""
-    from mdr.case_files import read_text
+    from mdr.files.case_files import read_text
 
     name = fsdecode(path)
     if not name.lower().endswith((".csv", ".toml")):
@@ -157,7 +157,7 @@ def _from_csv(text: str, name: str) -> dict[str, Any]:
 
 
 def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
-    from mdr.case_files import parse_toml
+    from mdr.files.case_files import parse_toml
 
     content = parse_toml(text, name)
     table = content.get("material", content)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 import mdr
-from mdr.case_files import CaseFileError, write_case
-from mdr.contact import SlidingContact
+from mdr.case.contact import SlidingContact
+from mdr.files.case_files import CaseFileError, write_case
 from mdr.studies.axes import Axis, without_addresses
 from mdr.studies.quantities import CurveQuantity, Quantity
 from mdr.studies.work import Work

@@ -14,7 +14,7 @@ import mdr
 from mdr.studies.axes import without_addresses
 from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
 from mdr.studies.work import Work
-from mdr.words import short
+from mdr.tools.messages import short
 
 #: of the numbers that the compiled kernels give: raise it with every change of a kernel, a closed form or a default
 #: that moves a digit without a new version, so that no store mixes two of them
