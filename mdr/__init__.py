@@ -4,8 +4,6 @@ The names below stand in the order of the chain: from an indenter and a material
 a sliding contact; from there to closed forms, runs, curves and the verdict on the closed-form critical velocity.
 """
 
-from importlib.metadata import PackageNotFoundError, version
-
 from mdr.indenters import (
     CappedCone,
     CappedParaboloid,
@@ -35,7 +33,7 @@ from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
-from mdr.closed_forms.paper import critical_velocity
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
@@ -49,10 +47,7 @@ from mdr.friction.friction_data import FrictionData, read_friction_data
 from mdr.friction.fit import Fit, fit
 from mdr.studies import Quantity, Study, StudyError, read_study, sweep
 
-try:
-    __version__ = version("mdr-friction")
-except PackageNotFoundError:  # run from a folder that was never installed
-    __version__ = "0+unknown"
+from mdr.tools.version import __version__ as __version__
 
 __all__ = [
     "CappedCone",

@@ -109,7 +109,12 @@ def test_measuring_sees_runs_only(monkeypatch):
     def refuse(*args, **kwargs):
         raise AssertionError("a closed form was asked")
 
-    closed = ("paper.critical_velocity", "paper.eq_1", "paper.eq_15", "full_slip_body.full_slip_critical_velocity")
+    closed = (
+        "critical_velocity.critical_velocity",
+        "paper.eq_1",
+        "paper.eq_15",
+        "full_slip_body.full_slip_critical_velocity",
+    )
     for name in closed:
         monkeypatch.setattr(f"mdr.closed_forms.{name}", refuse)
     assert not {"critical_velocity", "full_slip_critical_velocity", "eq_1", "eq_15"} & set(vars(measurement))

@@ -10,9 +10,9 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import mdr
-from mdr.march import kernels as k
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.stepper import Line
+from mdr.materials import operator as k
 from mdr.materials.operator import Rheology, over_step
 
 ARMS = {"one": ((2.0,), (0.7,)), "two": ((1.5, 0.5), (0.3, 4.0)), "fast and slow": ((20.0, 3.0), (1e-3, 50.0))}

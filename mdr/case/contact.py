@@ -20,7 +20,6 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
 from mdr.materials.operator import Rheology
-from mdr.normal.load_control import depth_under_load, static_depth
 from mdr.tools.checks import positive
 from mdr.tools.memoise import remembered
 
@@ -162,11 +161,17 @@ def _prescribed(oscillation: DepthMotion) -> Cycle:
     return oscillation.cycle
 
 
-_rests_at = remembered(maxsize=256)(static_depth)
+@remembered(maxsize=256)
+def _rests_at(indenter: Indenter, material: Material, F_z0: float) -> float:
+    from mdr.normal.load_control import static_depth
+
+    return static_depth(indenter, material, F_z0)
 
 
 @remembered(maxsize=64)
 def _under_load(indenter: Indenter, material: Material, oscillation: LoadOscillation) -> Cycle:
+    from mdr.normal.load_control import depth_under_load
+
     return depth_under_load(indenter, material, oscillation)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.paper import critical_velocity
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.commands.output import (
     DONE,
     FAILED,

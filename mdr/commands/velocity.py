@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.paper import critical_velocity, formula_of
+from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
 
 

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.pull import RigidPull
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
-from mdr.closed_forms.paper import critical_velocity
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.slide import slide
 from mdr.march.theorems import disordered

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mdr.case.contact import KINDS, SlidingContact, require_case
 from mdr.case.units import UNITS_AND_MEANINGS
 from mdr.case.vary import GROUPS, case_at, fields_of
-from mdr.friction.cof_curve import cof_curve
+from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.friction_data import FrictionData
 from mdr.tools.messages import offer, short
 from mdr.tools.progress import Ticker
@@ -42,6 +42,12 @@ class Fit:
     confidence: float
     rms: float  #: root mean square of the deviations, in units of the errors given, else of the COF
     warnings: tuple[str, ...]  #: what the data do not tell
+
+    @property
+    def curve(self) -> CofCurve:
+        """The curve of the fitted contact from rest to a little beyond the highest velocity measured; computed anew."""
+        v_0 = np.linspace(0, 1.05 * float(self.data.v_0.max()), 60)
+        return cof_curve(self.case, v_0, n_springs=N_SPRINGS, steps_per_period=STEPS)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the data with their errors and the fitted curve; returns the matplotlib Axes."""

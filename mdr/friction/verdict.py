@@ -11,8 +11,8 @@ from mdr.case.contact import SlidingContact, require_case
 from mdr.case.motion import DepthMotion, LoadOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
+from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.closed_forms.paper import critical_velocity, formula_of
 from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
 from mdr.tools.checks import between
 

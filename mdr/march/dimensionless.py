@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import SpringPull
 from mdr.march import kernels
-from mdr.materials.operator import Rheology
+from mdr.materials.operator import L_DECAY, L_GAIN, Rheology
 from mdr.normal.springs import SpringArray
 
 Array = NDArray[np.float64]
@@ -265,7 +265,7 @@ class ScaledContact:
 
     def _arms(self) -> list[tuple[float, float]]:
         """Decay and gain of each arm over a step."""
-        return [(float(row[0]), float(row[1])) for row in self.table[[kernels.L_DECAY, kernels.L_GAIN], 1:].T]
+        return [(float(row[0]), float(row[1])) for row in self.table[[L_DECAY, L_GAIN], 1:].T]
 
     def _arms_n(self, S_n: NDArray[np.complex128], turn: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
         return [self._of_arm(decay, gain, turn) * S_n for decay, gain in self._arms()]
@@ -330,7 +330,7 @@ def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Ar
     if not K:
         return np.zeros(5 + 2 * rho.size)
     table = rheology.over_step(h)
-    decay, gain = table[kernels.L_DECAY, 1:], table[kernels.L_GAIN, 1:]
+    decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
     if _is_light(M, K, h):
         inertia = M / h**2 + 1.5 * C / h + K
         # the end of an arm whose rate changes within the step, by the second difference of S

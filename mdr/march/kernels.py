@@ -43,25 +43,26 @@ import numpy as np
 from numba import njit
 from numba.extending import register_jitable
 
+from mdr.materials.operator import (
+    L_DECAY,
+    L_END,
+    L_FREE,
+    L_GAIN,
+    L_RATE,
+    L_RATIO,
+    L_SHED,
+    L_STIFFNESS,
+    L_TIME,
+)
 from mdr.tools.jit import compiled
 
 _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
 _jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
 _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 
-# rows of the table of a linear operator L over one step (operator.py): a column for x itself and one for each arm
-L_ROWS = 9
-(
-    L_FREE,  # x at the end of a step without force, a functional of the state (x, x_1 ... x_J)
-    L_RATE,  # -x' at its start, another
-    L_END,  # -x' at its end
-    L_SHED,  # x that the arms would leave without static force at the end of the step
-    L_DECAY,  # exp(-h/theta_j); exp(-h/T) for x itself
-    L_GAIN,  # what a linear step of x leaves in the arm; 1 for x itself
-    L_RATIO,  # modulus over the long-time one; 1 for x itself
-    L_TIME,  # theta_j; T for x itself
-    L_STIFFNESS,  # of the static force over a step, over T (0 without dashpot); then zeros
-) = range(L_ROWS)
+# The rows of the operator's table are compiled in, and the cache of compiled code sees edits of this file only: who
+# changes them in operator.py is stopped here, and by changing this line has everything compiled anew.
+assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
 
 VECTOR = 16  #: springs that a loop takes at once, or a multiple of it
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state

@@ -20,6 +20,7 @@ from mdr.march import periodic_orbit as periodic
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import Settling, judge, smooth_mean
 from mdr.march.theorems import outside
+from mdr.materials.operator import L_DECAY, L_RATIO
 from mdr.normal.springs import SpringArray
 from mdr.tools.memoise import remembered
 from mdr.tools.progress import Ticker, time_is_over
@@ -388,7 +389,7 @@ class Line:
     @cached_property
     def _roots(self) -> Array:
         """Square roots of the stiffness of every spring, and of every arm of it, (e.size,)."""
-        return np.sqrt(np.outer(self.scaled.table[kernels.L_RATIO], self.scaled.w)).ravel()
+        return np.sqrt(np.outer(self.scaled.table[L_RATIO], self.scaled.w)).ravel()
 
     def _size(self, x: Array) -> Array:
         """States (..., n) as vectors (..., m) whose squares are energies of springs, arms, system spring and mass."""
@@ -536,7 +537,7 @@ class Line:
     def _compression(self, step: int) -> Array:
         """Compressions now; the elastic march does not keep them."""
         scaled = self.scaled
-        if scaled.n_arms or scaled.table[kernels.L_DECAY, 0] > 0:
+        if scaled.n_arms or scaled.table[L_DECAY, 0] > 0:
             return np.asarray(self.s[0])
         return np.asarray(np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0))
 
@@ -546,7 +547,7 @@ class Line:
         """
         scaled, (y, y_old, y_older) = self.scaled, self.history[:3]
         u_dot = self.v + (1.5 * y - 2 * y_old + 0.5 * y_older) / scaled.h
-        ratios = scaled.table[kernels.L_RATIO]
+        ratios = scaled.table[L_RATIO]
         springs = 0.5 * float(ratios @ (self.e**2 @ scaled.w))
         normal = 0.5 * float(scaled.w @ self._compression(0) ** 2 + ratios[1:] @ (self.s[1:] ** 2 @ scaled.w))
         ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)

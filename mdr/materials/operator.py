@@ -22,11 +22,24 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.march import kernels as k
 from mdr.materials.base import Material
 from mdr.tools.checks import FloatArray
 
 Table = NDArray[np.float64]
+
+# rows of the table, compiled into kernels.py
+L_ROWS = 9
+(
+    L_FREE,  # x at the end of a step without force, a functional of the state (x, x_1 ... x_J)
+    L_RATE,  # -x' at its start, another
+    L_END,  # -x' at its end
+    L_SHED,  # x that the arms would leave without static force at the end of the step
+    L_DECAY,  # exp(-h/theta_j); exp(-h/T) for x itself
+    L_GAIN,  # what a linear step of x leaves in the arm; 1 for x itself
+    L_RATIO,  # modulus over the long-time one; 1 for x itself
+    L_TIME,  # theta_j; T for x itself
+    L_STIFFNESS,  # of the static force over a step, over T (0 without dashpot); then zeros
+) = range(L_ROWS)
 
 SLOWEST = 1e10  #: omega tau, from which on rounding costs the mean force of a period more than 1e-7
 
@@ -83,28 +96,28 @@ def over_step(T: float, rho: ArrayLike, theta: ArrayLike, h: float) -> Table:
 @lru_cache(maxsize=64)
 def _table(T: float, rho: tuple[float, ...], theta: tuple[float, ...], h: float) -> Table:
     times, ratios = np.array([T, *theta]), np.array([1.0, *rho])
-    table = np.zeros((k.L_ROWS, 1 + len(rho)))
+    table = np.zeros((L_ROWS, 1 + len(rho)))
     with np.errstate(divide="ignore"):
-        table[k.L_DECAY] = np.exp(-h / times)
-    table[k.L_GAIN] = np.concatenate([[1.0], -np.expm1(-h / times[1:]) * times[1:] / h])
-    table[k.L_RATIO], table[k.L_TIME] = ratios, times
-    stiffness = float(ratios @ table[k.L_GAIN])
-    table[k.L_SHED] = -ratios * table[k.L_DECAY] / stiffness
-    table[k.L_SHED, 0] = (stiffness - 1) / stiffness
-    if T > 0 and table[k.L_DECAY, 0] > 0:
-        table[k.L_STIFFNESS, 0] = stiffness / T
-        table[k.L_RATE] = ratios / T
+        table[L_DECAY] = np.exp(-h / times)
+    table[L_GAIN] = np.concatenate([[1.0], -np.expm1(-h / times[1:]) * times[1:] / h])
+    table[L_RATIO], table[L_TIME] = ratios, times
+    stiffness = float(ratios @ table[L_GAIN])
+    table[L_SHED] = -ratios * table[L_DECAY] / stiffness
+    table[L_SHED, 0] = (stiffness - 1) / stiffness
+    if T > 0 and table[L_DECAY, 0] > 0:
+        table[L_STIFFNESS, 0] = stiffness / T
+        table[L_RATE] = ratios / T
     if len(rho) == 0:  # one exponential
-        table[k.L_FREE] = table[k.L_DECAY]
-        table[k.L_END] = table[k.L_RATE] * table[k.L_DECAY]
+        table[L_FREE] = table[L_DECAY]
+        table[L_END] = table[L_RATE] * table[L_DECAY]
         return _read_only(table)
-    shed, rates = _free_motion(T if table[k.L_STIFFNESS, 0] else 0.0, ratios, times)
+    shed, rates = _free_motion(T if table[L_STIFFNESS, 0] else 0.0, ratios, times)
     from scipy.linalg import expm
 
     move = expm(h * rates) @ shed
-    table[k.L_FREE] = move[0]
-    table[k.L_RATE] = -rates[0]
-    table[k.L_END] = -(rates @ move)[0]
+    table[L_FREE] = move[0]
+    table[L_RATE] = -rates[0]
+    table[L_END] = -(rates @ move)[0]
     return _read_only(table)
 
 

@@ -72,17 +72,12 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
 
 def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
     """Measured coefficients of friction with their errors, and the curve of the fitted contact through them."""
-    from mdr.friction.cof_curve import cof_curve
-    from mdr.friction.fit import N_SPRINGS, STEPS
-
-    data = fitted.data
-    v = np.linspace(0, 1.05 * float(data.v_0.max()), 60)
-    curve = cof_curve(fitted.case, v, n_springs=N_SPRINGS, steps_per_period=STEPS)
+    data, curve = fitted.data, fitted.curve
     factor, unit = prefix(data.v_0, "m/s")
     with style():
         ax = axes_of(ax)
         ax.errorbar(data.v_0 * factor, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
-        ax.plot(v * factor, curve.cof, color=COLOURS[0], label="fitted contact")
+        ax.plot(curve.v_0 * factor, curve.cof, color=COLOURS[0], label="fitted contact")
         ax.axhline(fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
         ax.set(xlabel=f"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
         ax.legend()

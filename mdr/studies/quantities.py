@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import mean_normal_force, static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.closed_forms.paper import critical_velocity
 from mdr.friction.cof_curve import CofCurve
 from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.studies.axes import VELOCITIES

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.paper import critical_velocity
+from mdr.closed_forms.critical_velocity import critical_velocity
 
 Array = NDArray[np.float64]
 
