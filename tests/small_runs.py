@@ -70,9 +70,9 @@ def cycles():
         mean = kernels.settle_normal(s, gap, w, *motion, table, spans)
         yield f"{name}, start", [mean, *s.ravel(), *spans[:, :n_z].ravel()]
         if table.shape[1] > 1:
-            F, at_edge, outermost, begins = np.zeros(n_z), np.empty(n_z), np.empty(n_z, dtype=np.int64), np.empty(9)
-            kernels.normal_forces(gap, w, *motion, table, F, outermost, at_edge, begins)
-            yield f"{name}, force", [*F, *outermost, *at_edge, *begins]
+            (F, S, at_edge), outermost, begins = np.zeros((3, n_z)), np.empty(n_z, dtype=np.int64), np.empty(9)
+            kernels.normal_forces(gap, w, *motion, table, F, S, outermost, at_edge, begins)
+            yield f"{name}, force", [*F, *S, *outermost, *at_edge, *begins]
 
 
 def results():

@@ -149,7 +149,7 @@ def test_the_free_oscillation_of_an_undamped_body_is_named_and_is_no_hysteresis(
     assert found.kind == "free oscillation"
     assert "keeps a free oscillation from rest" in found.why
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
-    above = mdr.slide(case, 1.3 * found.v_c, start="rest", record=40, n_springs=64)
+    above = mdr.slide(case, 1.3 * found.v_c, start="rest", record=40, n_springs=64, n_periods=600)
     assert 0 < np.mean(above.state == mdr.State.STICK) < 0.01  # without the free oscillation none sticks
     assert abs(above.mu_0 - above.cof) <= above.cof_error
 
@@ -356,8 +356,12 @@ def test_loss_of_contact_is_said():
 
 @pytest.mark.parametrize(
     "case",
-    [contact("flat", 10.0, 0.0, 5e-4, math.inf), contact("flat", 10.0, 0.0, 0.01, 1.0, 2e-4)],
-    ids=["soft spring", "damped resonance"],
+    [
+        contact("flat", 10.0, 0.0, 5e-4, math.inf),
+        contact("flat", 10.0, 0.0, 0.01, 1.0, 2e-4),
+        contact("flat", 10.0, 0.0, 0.01, 1.0, reference.damping_for(1e-4, 0.01, 1.0)),
+    ],
+    ids=["soft spring", "damped resonance", "hardly damped"],
 )
 def test_a_critical_velocity_thousands_of_times_eq_1_is_found(case):
     eq_15 = mdr.critical_velocity(case)  # exact for the punch that keeps contact
@@ -368,9 +372,9 @@ def test_a_critical_velocity_thousands_of_times_eq_1_is_found(case):
 
 
 def test_a_velocity_beyond_reach_is_not_judged():
-    case = contact("flat", 10.0, 0.0, 0.01, 1.0, reference.damping_for(1e-4, 0.01, 1.0))
+    case = contact("flat", 10.0, 0.0, 0.01, 1.0, reference.damping_for(1e-6, 0.01, 1.0))
     verdict = mdr.verdict(case)
-    assert mdr.critical_velocity(case) > 1e5 * unit_of_velocity(case)
+    assert mdr.critical_velocity(case) > 1e7 * unit_of_velocity(case)
     assert (verdict.holds, verdict.measured) == (None, None)
     assert str(verdict).startswith(
         f"Eq. (15) cannot be judged: no settled run confirmed the full-slip value {verdict.full_slip:.6g} m/s, against"

@@ -80,4 +80,4 @@ def test_a_long_march_says_how_many_periods_are_done(capsys, monkeypatch):
     motion = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
     case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, motion)
     mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64, n_periods=12)
-    assert capsys.readouterr().err == "slide, periods: 11\n"  # the last one is looked at by itself
+    assert capsys.readouterr().err == "slide, waiting for a steady state, periods: 11\n"  # the last is looked at

@@ -46,14 +46,14 @@ SIGNATURES = {
     "critical_velocity": "case",
     "static_cof": "case",
     "slide": "case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, "
-    'start="full_slip", record=0, lump=True',
+    'start="full_slip", record=0, lump=True, limit_s=None',
     "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None",
     "read_study": "path",
     "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
-    "measure_critical_velocity": 'case, *, start="full_slip"',
-    "verdict": "case, *, within=0.01",
+    "measure_critical_velocity": 'case, *, start="full_slip", limit_s=None',
+    "verdict": "case, *, within=0.01, limit_s=None",
 }
 RECORDS = {
     "SlidingRun": "cof cof_error settled kind why stick_share mean_F_x mean_F_z energy_balance t u_x F_x F_z x state",

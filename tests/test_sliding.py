@@ -13,6 +13,7 @@ import mdr
 from mdr import State
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms import rigid_pull
+from mdr.march import dimensionless as scaled
 from mdr.march import slide as sliding
 from mdr.march import stepper as marching
 
@@ -533,16 +534,20 @@ def test_a_contact_that_begins_and_ends_within_a_step_is_refused_and_by_default_
     assert math.isfinite(run.least_slip)
 
 
-@pytest.mark.parametrize("knobs", [{}, {"n_periods": 12}])
-def test_a_swing_that_rings_for_ages_is_not_settled_however_steady_friction_is(knobs):
+def test_a_swing_that_rings_for_ages_is_not_settled_however_steady_friction_is(monkeypatch):
     """On a resonance of Q = 5e5 a body that set out in full slip presses only while it swings back: mu = -mu_0 until
-    the swing has died away, long after the run.
+    the swing has died away, long after the run. The periodic state is solved for from elsewhere.
     """
+    monkeypatch.setattr(scaled, "FASTEST_START", np.inf)
     case = contact("cone", 0.01, k_ratio=1e4, omega_0_ratio=1.0, c_ratio=0.02)
-    run = run_at(case, 1.0, n_springs=32, steps_per_period=64, **knobs)
+    knobs = {"n_springs": 32, "steps_per_period": 64}
+    run = run_at(case, 1.0, n_periods=12, **knobs)
     assert run.cof < 0
     assert not run.settled
-    assert "dies away" in run.why or run.n_periods == 12
+    monkeypatch.undo()
+    solved = run_at(case, 1.0, **knobs)
+    assert solved.settled
+    assert mdr.static_cof(case) <= solved.cof <= case.mu_0
 
 
 # --- settled means periodic ---------------------------------------------------------------------------------

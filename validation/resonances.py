@@ -23,6 +23,16 @@ Close to a resonance, or damped, v_c is finite, and on its poles of first order:
 
 so that the window in which v_c exceeds Eq. (15) by its own amount is mu_0 |F_n|/(m omega v_c15) wide on either side.
 
+A force without an n-th harmonic, as a punch has it, does not drive the body at omega_0 = n omega. But there a free
+oscillation keeps its phase to the drive for ever, and what instants of stick leave of it is such that it never sticks,
+if there is such a one: with the slip velocity v_0 - V sin(phase) of Eq. (15), V = v_c, and a free oscillation of
+velocity b sin(n phase), the least maximum of V sin(phase) + b sin(n phase) over b is
+
+    V cos(pi/2n),                                                                                               (***)
+
+so friction is full from this share of Eq. (15) on: the body locks in. Off the multiple, or damped, a little stick is
+needed in every period to hold the oscillation, and a little friction is missing up to Eq. (15).
+
 Symbols: F_n complex harmonics of the normal force in full slip, F_0 its mean; alpha = du_z/u_z0, T = omega tau.
 """
 
@@ -127,6 +137,9 @@ def claim(effort: str) -> Claim:
             + "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: {_percent(share(s, T, n))}" for s, T, n in driven)
             + " less than μ_0. With a damper of 1 % there is a critical velocity again, that of full slip with all"
             f" harmonics; it is off Eq. (15) by up to {100 * ((worst[1][0] or np.nan) - 1):+.0f} % ({_name(worst[0])})."
+            + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
+            " drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on"
+            f" ({'; '.join(f'{_name(knobs)}: {ends[knobs][0] or np.nan:.4f}' for knobs in idle)})."
             + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
             + (f" Too faint to be told from the error of a run: {unseen}." if unseen else "")
         ),
@@ -166,8 +179,11 @@ def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> lis
     whole = sum(not np.isinf(mdr.full_slip_critical_velocity(system(*knobs))) for knobs in driven)
     checks.append(Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why))
     for knobs in idle:
-        why = "the force has no such harmonic; bracket and second order in the step"
-        checks.append(Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], 1.0, TOLERANCE, why))
+        why = "law of lock-in, (***); read off the COF, by a fit through three velocities"
+        law = float(np.cos(np.pi / (2 * knobs[2])))
+        checks.append(Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why))
+    locked = sum(ends[knobs][2] == "lock-in" for knobs in idle)
+    checks.append(Check(f"of {len(idle)} undriven resonances those that lock in", locked, len(idle), 0, "(***)"))
     return checks
 
 

@@ -44,6 +44,7 @@ BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what i
 GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
 NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
+SWINGS = 64  #: periods after which a free oscillation that is left is one that stays
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
 HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
@@ -152,10 +153,10 @@ class _Search:
         why = f"runs near {v_0:.6g} m/s do not settle, so that nothing is known of friction there"
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
-    def _decided(self, v_0: float) -> SlidingRun:
-        """A run at this velocity that has settled, or one close by."""
-        for off in (0.0, 0.25, -0.25):
-            if (run := self.run(v_0 * (1 + off * MARGIN))).settled:
+    def _decided(self, v_0: float, apart: float = MARGIN / 4) -> SlidingRun:
+        """A run at this velocity that has settled, or one close by; apart: how close, over v_0."""
+        for off in (0.0, apart, -apart):
+            if (run := self.run(v_0 * (1 + off))).settled:
                 return run
         raise _Undecided(v_0)
 
@@ -271,12 +272,12 @@ class _Search:
         """The end of friction reduction below the end of stick of the motion without free oscillation."""
         reduced = 0.0
         for _ in range(12):
-            if _is_reduced(run := self._decided(0.9 * full)):
+            if _is_reduced(run := self._decided(0.9 * full, CLOSER)):
                 reduced = run.v_0
                 break
             full = run.v_0
         while full - reduced > CLOSER * full:
-            run = self._decided(0.5 * (full + reduced))
+            run = self._decided(0.5 * (full + reduced), CLOSER / 4)
             full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
         why = (
             "a free oscillation in step with the drive keeps every spring from sticking down to this velocity, and the "
@@ -297,9 +298,10 @@ class _Search:
                 elif _is_reduced(run) and self._lasts(run, start):
                     return self._hysteresis(run, start, v_c)
                 full = full or run.settled
-                # in full slip the body moves alike at any v_0, but for the error of a step
-                swings = abs(run.least_slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
-                swinging = swinging or (undamped and run.settled and swings)
+                if undamped and run.settled and start == "rest" and factor == ABOVE[1]:
+                    # in full slip the body moves alike at any v_0, but for the error of a step
+                    slip = self._awaited(run).least_slip
+                    swinging = abs(slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
         why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
         if swinging:
             why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"
@@ -307,6 +309,19 @@ class _Search:
             why += f"; not settled: {', '.join(unsettled)}"
         kind = "free oscillation" if swinging else "end of stick"
         return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
+
+    def _awaited(self, run: SlidingRun) -> SlidingRun:
+        """The same from rest for SWINGS periods, without a search for its periodic state."""
+        self.n_runs += 1
+        self.ticker.tick()
+        return slide(
+            self.case,
+            run.v_0,
+            start="rest",
+            n_springs=run.n_springs,
+            steps_per_period=run.steps_per_period,
+            n_periods=SWINGS,
+        )
 
     def _lasts(self, run: SlidingRun, start: str) -> bool:
         """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""

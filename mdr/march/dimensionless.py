@@ -177,7 +177,8 @@ class ScaledContact:
         if not self.K:
             return self._history(S, np.zeros(self.steps // 2 + 1, dtype=complex))
         y_n = self._full_slip_motion(S)
-        return self._history(S, y_n * np.minimum(1, FASTEST_START * v / (self._velocities(y_n) + 1e-300)))
+        most = FASTEST_START * v
+        return self._history(S, y_n * (most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1))
 
     def resonant_history(self, S: Array, v: float) -> Array | None:
         """The same on an undamped resonance or beside one, with the oscillation that the n-th harmonic drives until

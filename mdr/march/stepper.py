@@ -464,8 +464,8 @@ class Line:
 
     def _may_settle_by(self, most: int) -> bool:
         """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""
-        driven = self.n_periods > 64 and self.growth * self.n_periods > SWING_TOLERANCE and self.scaled.C == 0
-        if driven and self.scaled.M and abs(1 - self.cofs[-1]) < TOLERANCE:
+        driven = self.n_periods > 64 and self.growth * self.n_periods > SWING_TOLERANCE
+        if driven and np.isinf(self.scaled.end_of_full_slip) and self.scaled.M and abs(1 - self.cofs[-1]) < TOLERANCE:
             at_stick = 2 * self.v * np.sqrt(self.scaled.M / self.scaled.K)  # swing of a body that reaches -v
             return float(at_stick / (self.growth * self.swings[-1])) < most and self.n_periods < most
         return self.n_periods < most
