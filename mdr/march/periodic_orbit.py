@@ -32,6 +32,7 @@ Measure = Callable[[Array], Array]
 MEMORY = 8  #: periods that are combined
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
 MOST = 80  #: periods after which Anderson's method gives up
+PATIENCE = 30  #: periods without a smaller change, after which it gives up as well
 A_TIME = (3, 20)  #: how much more memory, and how many more periods, each slow time of a material gets
 CLOSE = 1e-10  #: change over a period, over the size of the state, at which a search has mostly arrived
 CLOSEST = 1e-13  #: the same where a change adds up over many periods: some roundings
@@ -77,15 +78,15 @@ def find(
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
     length along the slow motions. slow: times of the material, in periods, that the springs remember.
     guaranteed_stable: that with them no multiplier reaches 1. close: change over a period, over the size of the state,
-    at which it has arrived.
+    at which the search ends; CLOSE is enough for an answer.
     """
-    close = min(close, AWAY / max(slow)) if slow else close
+    close, enough = (min(one, AWAY / max(slow)) if slow else one for one in (close, CLOSE))
     found = _anderson(step, start, measure, slow, close)
     if found is None:
         return None
     if found.change > close:
         found = _newton_picard(step, found, measure, pushes, close)
-    if found.change > close:
+    if found.change > enough:
         return None
     gain = _gain(step, found.x, measure, pushes, slow, guaranteed_stable)
     return FixedPoint(found.x, found.change, gain) if gain is not None else None
@@ -104,7 +105,7 @@ def _anderson(
     memory, most = (n + more * len(slow) for n, more in zip((MEMORY, MOST), A_TIME, strict=True))
     images: list[Array] = []
     changes: list[Array] = []
-    best = _Iterate(x, np.inf)
+    best, since = _Iterate(x, np.inf), 0
     least = np.inf
     for turn in range(most):
         image = step(x)
@@ -113,8 +114,8 @@ def _anderson(
             return None
         change = float(np.linalg.norm(measure(image - x))) / size
         if change < best.change:
-            best = _Iterate(image, change)
-        if change <= close:
+            best, since = _Iterate(image, change), turn
+        if change <= close or turn - since > PATIENCE:
             break
         if change > GROWTH * least:
             images, changes, least = [], [], np.inf

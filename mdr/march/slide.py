@@ -97,24 +97,27 @@ def default_steps(case: SlidingContact) -> int:
 
 def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[bool, bool]) -> SlidingRun:
     """Run with its companions; refine what was left free while the error exceeds the budget."""
+    main: March | None = None
+    run: SlidingRun | None = None
     while True:
         knobs = _that_touch(case, knobs, free[1])
-        main = march(case, v_0, knobs)
+        main = march(case, v_0, knobs, None, main)
         if not main.sees_contact and free[1] and knobs.steps < MOST_STEPS:
             knobs = replace(knobs, steps=min(2 * knobs.steps, MOST_STEPS))
             continue
         if not main.settling.settled:
-            return finish(main)
+            return run or finish(main)  # finer steps make a state that hardly repeats harder to find
         # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
         as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1
-        half = march(case, v_0, knobs.coarser(knobs.steps // 2), as_long)
+        half = march(case, v_0, knobs.coarser(knobs.steps // 2), as_long, main)
         if _clear_of_stick(main, half):
             return finish(main)
-        most = march(case, v_0, knobs.coarser(3 * knobs.steps // 4), as_long)
-        error_springs = _difference(main, march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long))
+        most = march(case, v_0, knobs.coarser(3 * knobs.steps // 4), as_long, main)
+        fewer = march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long, main)
+        error_springs = _difference(main, fewer)
         error_steps = max(_difference(main, half), 2 * _difference(main, most)) * _erratic(case)
         if main.scaled.light and main.scaled.remembers and not case.keeps_contact:
-            others = (march(case, v_0, knobs.coarser(int(share * knobs.steps)), as_long) for share in UNEVEN)
+            others = (march(case, v_0, knobs.coarser(int(share * knobs.steps)), as_long, main) for share in UNEVEN)
             error_steps = max(error_steps, *(2 * _difference(main, other) for other in others))
         error_steps += _of_fast_relaxation(main)
         if time_is_over():
@@ -126,7 +129,7 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             n_springs=knobs.n_springs * (2 if free[0] and error_springs > BUDGET / 2 and knobs.n_springs < 4096 else 1),
             steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < MOST_STEPS else 1),
         )
-        if run.cof_error <= BUDGET * case.mu_0 or finer == knobs:
+        if run.cof_error <= BUDGET * case.mu_0 or finer == knobs or main.settling.spread > BUDGET / 4:
             return run
         knobs = finer
 

@@ -34,6 +34,7 @@ NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is mi
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
 AGES = 1e6  #: periods that full slip is to last
 SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
+SOLVED_TOLERANCE = 1e-5  #: the same for a periodic state that was solved for, whose distance cof_error contains
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
@@ -75,6 +76,7 @@ class March:
     mean_F_z: float
     seen: Seen  # the period that modes and energies are taken from
     record: tuple[Seen, ...]  # all observed periods
+    state: tuple[Array, Array]  # extensions and history of the body at its end, which is a whole period
 
     @property
     def cof(self) -> float:
@@ -112,8 +114,13 @@ class Seen:
     stored: tuple[float, float]
 
 
-def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
-    """March until settled, or exactly n_periods; the last ones observed."""
+def march(
+    case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None, near: March | None = None
+) -> March:
+    """March until settled, or exactly n_periods; the last ones observed.
+
+    near: a march of the case at other resolution, whose periodic state is a good one to search from.
+    """
     cycle = case.cycle
     if cycle.u_z0 > DEEPEST * cycle.du_z:
         raise ValueError(
@@ -132,7 +139,9 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     n_seen = max(1, knobs.record)
     settling = None
     if n_periods is None:
-        if (scaled.K or scaled.n_arms) and knobs.start == "full_slip":
+        if near is not None and near.settling.solved:
+            settling = line.solve((line.state_of(near),))
+        if settling is None and (scaled.K or scaled.n_arms) and knobs.start == "full_slip":
             settling = line.solve()
         settling = settling or line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"])
     else:
@@ -141,7 +150,7 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     if not np.isfinite(line.cofs).all():
         raise ValueError(f"the run left the range of floats at v_0 = {v_0:g} m/s: use units nearer to one")
     if not line.as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
-        return march(case, v_0, replace(knobs, lump=False), n_periods)
+        return march(case, v_0, replace(knobs, lump=False), n_periods, near)
     if settling is None:
         settling = line.judge()
     account = seen[0] if n_periods is None else seen[-1]  # the same period however many are kept
@@ -159,6 +168,7 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
         line.mean_F_z,
         account,
         tuple(seen),
+        (line.e, line.history),
     )
 
 
@@ -333,7 +343,7 @@ class Line:
                 if found is None:
                     break
                 settling = self._repeated(found)
-                if settling.settled or slow:
+                if settling.spread <= TOLERANCE or slow or (settling.settled and close == periodic.CLOSEST):
                     return settling
                 start = found.x
         self._put(before[0])
@@ -350,7 +360,7 @@ class Line:
         spread = 2 * found.distance * size / self.mean_F_z
         if spread > TOLERANCE and self._slips_for_good(found.change * size):
             spread = 0.0
-        return Settling(float(self.cofs[-1]), spread, spread <= TOLERANCE, "periodic", solved=True)
+        return Settling(float(self.cofs[-1]), spread, spread <= SOLVED_TOLERANCE, "periodic", solved=True)
 
     def _slips_for_good(self, change: float) -> bool:
         """Whether the last period was full slip, by so much that a change of this size a period takes ages to end it.
@@ -365,6 +375,19 @@ class Line:
 
     def _state(self) -> Array:
         return np.concatenate([self.e.ravel(), self.history])
+
+    def state_of(self, other: March) -> Array:
+        """The state at the end of a march with other springs or steps, on those of this one."""
+        e, history = other.state
+        gap, step = other.scaled.gap, self.scaled.h / other.scaled.h
+        order = np.argsort(gap, kind="stable")
+        here = np.stack([np.interp(self.scaled.gap, gap[order], row[order]) for row in e])
+        y, y_old, y_older = history[:3]
+        rate, bend = 1.5 * y - 2 * y_old + 0.5 * y_older, y - 2 * y_old + y_older  # per step of the other, and its step
+        at = -step * np.arange(3)
+        S, S_old = history[3:5]
+        body = y + rate * at + 0.5 * bend * at**2
+        return np.concatenate([here.ravel(), body, [S, S + step * (S_old - S)], history[5:]])
 
     def _put(self, x: Array) -> None:
         """Take over a state; a combination of states may leave the cone of friction, which it is clipped to."""
@@ -435,7 +458,7 @@ class Line:
         if n < self.beat:
             return f"after {n} periods the body may still be in a beat, which lasts {self.beat:.3g} of them"
         full = abs(1 - cof) <= TOLERANCE
-        if full and self._off_multiple > 0 and self.v < (1 - NEARLY) * scaled.end_of_full_slip:
+        if full and not self._locks_in and self.v < (1 - NEARLY) * scaled.end_of_full_slip:
             return f"full slip cannot last at this velocity: after {n} periods the body has not yet come to stick"
         return ""
 
@@ -447,11 +470,21 @@ class Line:
         return off if off > 1e-12 * ratio else 0.0
 
     @cached_property
+    def _locks_in(self) -> bool:
+        """Whether a free oscillation of the body stays in step with a drive that does not feed it."""
+        driven = bool(np.isinf(self.scaled.end_of_full_slip))
+        return self.scaled.C == 0 and self._off_multiple == 0 and not driven
+
+    @cached_property
     def beat(self) -> float:
-        """Periods that a beat of the free oscillation with the drive lasts, or its dying away if that is shorter."""
+        """Periods that beats of the free oscillation with the drive last, or its dying away if that is shorter; where
+        the drive feeds it without end, its growth tells.
+        """
         scaled = self.scaled
-        beat = 1 / self._off_multiple if self._off_multiple else 0.0
-        return min(BEATS * beat, E_FOLDS * scaled.M / (np.pi * scaled.C) if scaled.C else np.inf)
+        if scaled.C == 0 and self._off_multiple == 0:
+            return 0.0
+        beats = BEATS / self._off_multiple if self._off_multiple else np.inf
+        return min(beats, E_FOLDS * scaled.M / (np.pi * scaled.C) if scaled.C else np.inf)
 
     def _dies_away(self, cof: float) -> bool:
         """Whether a body that rings for many periods still loses a swing that friction depends on: springs that it
