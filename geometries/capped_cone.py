@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
-from mdr.theory import deficit
+from mdr.closed_forms.paper import deficit
 
 omega, mu_0, du_z, v_0, theta = 2 * np.pi * 75, 1.0, 5e-9, 1e-6, np.deg2rad(90 - 70.3)
 silicone = mdr.KelvinVoigt.from_loss_tangent(E=5e6, nu=0.5, tan_delta=0.05, omega=omega)

@@ -10,7 +10,7 @@ d^1.5 (paraboloid).
 import numpy as np
 
 import mdr
-from mdr.load_control import static_depth
+from mdr.normal.load_control import static_depth
 
 omega, mu_0, du_z, load = 2 * np.pi * 200, 0.5, 40e-9, 2e-6
 elastomer = mdr.KelvinVoigt.from_loss_tangent(E=10e6, nu=0.5, tan_delta=0.1, omega=omega)

@@ -12,7 +12,7 @@ is one curve for every shape, exact for the flat punch that keeps contact. How s
 import numpy as np
 
 import mdr
-from mdr.theory import deficit
+from mdr.closed_forms.paper import deficit
 
 rubber, a, u_z0 = mdr.Elastic(E=5e6, nu=0.5), 1e-3, 40e-6
 

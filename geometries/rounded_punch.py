@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
-from mdr.theory import deficit
+from mdr.closed_forms.paper import deficit
 
 omega, mu_0, dF_z, least = 2 * np.pi * 20, 0.6, 300.0, 500.0
 titanium = mdr.ElasticPair(E_1=115e9, nu_1=0.32, E_2=115e9, nu_2=0.32)

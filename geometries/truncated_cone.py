@@ -9,7 +9,7 @@ dynamic stiffness K_z(omega) = 2a E*(omega), Eq. (15), and so on the contact rad
 import numpy as np
 
 import mdr
-from mdr.load_control import static_depth
+from mdr.normal.load_control import static_depth
 
 omega, mu_0, du_z, load, slope = 2 * np.pi * 100, 0.8, 30e-6, 2.0, np.deg2rad(17)
 rubber = mdr.Prony.power_law(modulus=4e6, exponent=0.2, omega=(100, 3e3), nu=0.5, error=0.02)

@@ -4,8 +4,6 @@ The names below stand in the order of the chain: from an indenter and a material
 a sliding contact; from there to closed forms, runs, curves and the verdict on the closed-form critical velocity.
 """
 
-from importlib.metadata import PackageNotFoundError, version
-
 from mdr.indenters import (
     CappedCone,
     CappedParaboloid,
@@ -27,32 +25,29 @@ from mdr.indenters import (
     TruncatedParaboloid,
 )
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
-from mdr.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
-from mdr.pull import Pull, RigidPull, SpringPull
-from mdr.contact import SlidingContact
-from mdr.springs import SpringArray
-from mdr.indentation import Indentation, indent
-from mdr.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
+from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
+from mdr.case.pull import Pull, RigidPull, SpringPull
+from mdr.case.contact import SlidingContact
+from mdr.normal.springs import SpringArray
+from mdr.normal.indentation import Indentation, indent
+from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
-from mdr.case_files import CaseFileError, parse_case, read_case, write_case
-from mdr.theory import critical_velocity
-from mdr.full_slip import static_cof
-from mdr.full_slip_body import full_slip_critical_velocity
-from mdr.coupling import coupled_critical_velocity, coupling_loss, radial_rub
-from mdr.runs import EnergyBalance, SlidingRun, State
-from mdr.sliding import slide
-from mdr.fields import SurfaceFields, surface_fields
-from mdr.friction import CofCurve, cof_curve
-from mdr.measurement import MeasuredVelocity, measure_critical_velocity
-from mdr.judgement import Verdict, verdict
-from mdr.friction_data import FrictionData, read_friction_data
-from mdr.fitting import Fit, fit
+from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.closed_forms.full_slip import static_cof
+from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
+from mdr.march.run import EnergyBalance, SlidingRun, State
+from mdr.march.slide import slide
+from mdr.friction.surface_fields import SurfaceFields, surface_fields
+from mdr.friction.cof_curve import CofCurve, cof_curve
+from mdr.friction.measured_velocity import MeasuredVelocity, measure_critical_velocity
+from mdr.friction.verdict import Verdict, verdict
+from mdr.friction.friction_data import FrictionData, read_friction_data
+from mdr.friction.fit import Fit, fit
 from mdr.studies import Quantity, Study, StudyError, read_study, sweep
 
-try:
-    __version__ = version("mdr-friction")
-except PackageNotFoundError:  # run from a folder that was never installed
-    __version__ = "0+unknown"
+from mdr.tools.version import __version__ as __version__
 
 __all__ = [
     "CappedCone",

@@ -16,9 +16,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import mdr
-from mdr.case_files import CaseFileError, read_case
 from mdr.commands import begin, curve, judge, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
+from mdr.files.case_files import CaseFileError, read_case
 
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError)
 

@@ -14,9 +14,9 @@ from pathlib import Path
 import anything
 
 import mdr
-from mdr import examples
 from mdr.__main__ import main
-from mdr.case_files import CaseFileError
+from mdr.files import examples
+from mdr.files.case_files import CaseFileError
 from mdr.studies.study_files import read_study_file
 
 ROOT = Path(__file__).parents[1]

@@ -111,7 +111,7 @@ class Run:
 
     def toml(self, block: Block) -> None:
         """A case or a study."""
-        from mdr.case_files import parse_case
+        from mdr.files.case_files import parse_case
         from mdr.studies.study_files import parse_study
 
         (parse_study if "[axes]" in block.text else parse_case)(block.text)

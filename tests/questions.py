@@ -15,7 +15,7 @@ import anything
 import numpy as np
 
 import mdr
-from mdr.pull import RigidPull, SpringPull
+from mdr.case.pull import RigidPull, SpringPull
 
 LIBRARY = {str(path): path.read_text("utf-8").splitlines() for path in Path(mdr.__file__).parent.rglob("*.py")}
 ROUNDING = 1e-9  #: of mu_0, or of an answer

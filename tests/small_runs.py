@@ -7,8 +7,9 @@ import numpy as np
 from conftest import contact
 
 import mdr
-from mdr import indentation, kernels
-from mdr.rheology import Rheology
+from mdr.march import kernels
+from mdr.materials.operator import Rheology
+from mdr.normal import indentation
 
 MATERIALS = {
     "elastic": mdr.Elastic(E=3e6, nu=0.4),

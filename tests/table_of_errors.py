@@ -14,8 +14,8 @@ import numpy as np
 from conftest import SHAPES, contact
 
 import mdr
-from mdr.marching import Knobs, march
-from mdr.progress import progress
+from mdr.march.stepper import Knobs, march
+from mdr.tools.progress import progress
 
 FINER = 16, 4  # times the steps, times the springs
 MOST = 3e8  # spring-steps per period of a reference: a run that has itself refined gets 8 or 4 times the steps

@@ -8,7 +8,7 @@ import sys
 from test_fitting import START, TRUTH, measured
 
 import mdr
-from mdr.progress import progress
+from mdr.tools.progress import progress
 
 
 def main(n: int) -> None:

@@ -16,7 +16,7 @@ from collections import Counter
 
 import damage
 
-from mdr.progress import progress
+from mdr.tools.progress import progress
 
 LATE = 10  #: seconds of processor time
 COMMANDS = 0.03  #: share of the cases that the command line is asked about too

@@ -12,10 +12,10 @@ import numpy as np
 from conftest import SHAPES, contact
 
 import mdr
-from mdr.marching import TOLERANCE, Line
-from mdr.progress import progress
-from mdr.scaled import ScaledContact
-from mdr.settling import Settling, judge
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.steady_state import Settling, judge
+from mdr.march.stepper import TOLERANCE, Line
+from mdr.tools.progress import progress
 
 AWAITED = 20_000
 SPRINGS, STEPS = 48, 256  # of both, so that they have one periodic state

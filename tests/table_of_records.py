@@ -20,7 +20,7 @@ from collections import Counter
 import anything
 import questions
 
-from mdr.progress import Meter
+from mdr.tools.progress import Meter
 
 LATE, LATER = 60, 600  #: seconds of processor time for a question, and for a dear one
 #: share of the records that are asked

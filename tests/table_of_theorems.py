@@ -24,8 +24,8 @@ import numpy as np
 from conftest import SHAPES
 
 import mdr
-from mdr.marching import MAX_PERIODS, Knobs, Line, _at_hand
-from mdr.progress import progress
+from mdr.march.stepper import MAX_PERIODS, Knobs, Line, _at_hand
+from mdr.tools.progress import progress
 
 OMEGA, U_Z0, MU_0 = 300.0, 2e-5, 0.5
 LONGER = 10  #: times the periods of a run, for which it is continued

@@ -9,7 +9,7 @@ from conftest import contact
 from PIL import Image
 
 import mdr
-from mdr.animation import _Springs, animate_springs
+from mdr.plots.animation import _Springs, animate_springs
 
 
 @pytest.fixture(scope="module")

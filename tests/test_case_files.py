@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 
 import mdr
-from mdr import case_files, contact, materials
-from mdr.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr import materials
+from mdr.case import contact
+from mdr.files import case_files
+from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
 
 EXAMPLE = Path(__file__).parents[1] / "docs" / "example.toml"
 GOOD = write_case(read_case(EXAMPLE))

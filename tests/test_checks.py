@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mdr import checks
+from mdr.tools import checks
 
 CHECKS = {
     "finite": checks.finite,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.settling import Settling
+from mdr.march.steady_state import Settling
 from validation import (
     CLAIMS,
     coupling_law,

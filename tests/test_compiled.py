@@ -7,11 +7,11 @@ import sys
 import numba
 import pytest
 
-from mdr.compiled import compiled
+from mdr.tools.jit import compiled
 
 compiles = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
 DOUBLE = """
-from mdr.compiled import compiled
+from mdr.tools.jit import compiled
 
 @compiled(nogil=True)
 def double(x):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.cycle import Cycle, peak, peaks
-from mdr.rheology import Rheology
+from mdr.case.depth_cycle import Cycle, peak, peaks
+from mdr.materials.operator import Rheology
 
 RNG = np.random.default_rng(3)
 SERIES = {

@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from scipy.special import gamma
 
 import mdr
-from mdr import theory
+from mdr.closed_forms import paper as theory
 
 ROOT, DOCS = pages.ROOT, pages.DOCS
 SAME = 12.0  #: root mean square over the pixels, of 255: letters of another font or version make a few
@@ -295,7 +295,7 @@ def test_full_slip_condition():
 def test_static_friction():
     case = contact(T=0.4, alpha=0.5)
     least = float(CONE.force(U_Z0 * (1 - 0.5 * np.sqrt(1 + 0.4**2)), case.material.E_star))
-    from mdr.full_slip import full_slip
+    from mdr.closed_forms.full_slip import full_slip
 
     known = full_slip(case, 4096)
     assert_allclose(known.F_N.min(), least, rtol=1e-6)
@@ -355,7 +355,7 @@ def test_sticks_of_a_kelvin_punch(v):
 
 
 def test_psi_and_both_ends_of_the_curve():
-    from mdr.rigid_pull import near_critical
+    from mdr.closed_forms.rigid_pull import near_critical
 
     punch, v = contact(mdr.FlatPunch(a=1e-3), T=0.0, alpha=0.3), 0.4
     phi_1 = np.pi + np.arcsin(v)

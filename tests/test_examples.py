@@ -6,8 +6,8 @@ import re
 import pytest
 
 import mdr
-from mdr.case_files import nameable
-from mdr.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example, example_file
+from mdr.files.case_files import nameable
+from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example, example_file
 
 
 def test_there_is_an_example_of_every_record_that_a_file_can_name():

@@ -9,9 +9,9 @@ from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.fields import from_displacement, from_line_load, surface_fields
-from mdr.indentation import indent
-from mdr.partial_slip import partial_slip
+from mdr.friction.surface_fields import from_displacement, from_line_load, surface_fields
+from mdr.normal.indentation import indent
+from mdr.normal.partial_slip import partial_slip
 
 BODY = mdr.Elastic(E=3e6, nu=0.3)
 SOFT = mdr.StandardLinearSolid(E_inf=1e6, E_1=9e6, tau_1=1e-2, nu=0.5)

@@ -10,8 +10,8 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr import theory
-from mdr.full_slip import full_slip, mean_normal_force, normal_force_harmonics
+from mdr.closed_forms import paper as theory
+from mdr.closed_forms.full_slip import full_slip, mean_normal_force, normal_force_harmonics
 
 CURVED = ["cone", "paraboloid", "r4"]
 

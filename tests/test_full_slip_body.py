@@ -10,7 +10,7 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.full_slip import full_slip
+from mdr.closed_forms.full_slip import full_slip
 
 CURVED = ["cone", "paraboloid", "r4"]
 DAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15}

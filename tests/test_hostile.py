@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.full_slip import full_slip
+from mdr.closed_forms.full_slip import full_slip
 
 NAN, INF = math.nan, math.inf
 RUBBER = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)

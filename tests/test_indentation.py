@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from ting import Press
 
 import mdr
-from mdr.indentation import Indentation, indent
+from mdr.normal.indentation import Indentation, indent
 
 E_1, TAU = 9e6, 1e-2
 MATERIALS = {

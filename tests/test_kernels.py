@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
-from mdr import kernels
-from mdr.rheology import Rheology
-from mdr.scaled import ScaledContact
+from mdr.march import kernels
+from mdr.march.dimensionless import ScaledContact
+from mdr.materials.operator import Rheology
 
 N = 200
 RELAXATION = [0.1, 1.0, 5.0]

@@ -6,8 +6,8 @@ from conftest import SHAPES, bowl
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.full_slip import followed
-from mdr.load_control import static_depth
+from mdr.closed_forms.full_slip import followed
+from mdr.normal.load_control import static_depth
 
 OMEGA = 300.0
 ELASTIC = mdr.Elastic(3e6, 0.4)

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.rigid_pull import average_friction
+from mdr.closed_forms.rigid_pull import average_friction
 from validation import performance
 from validation.cases import contact
 from validation.loops import Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised

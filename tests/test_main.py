@@ -13,9 +13,9 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
-from mdr.case_files import parse_case, read_case, write_case
 from mdr.commands.curve import velocity_scale
-from mdr.provenance import versions
+from mdr.files.case_files import parse_case, read_case, write_case
+from mdr.tools.provenance import versions
 
 EXAMPLE = str(Path(__file__).parents[1] / "docs" / "example.toml")
 
@@ -114,7 +114,7 @@ def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
 
 def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("mdr.friction.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
     before = set(tmp_path.iterdir())
     assert main(["curve", punch, "--json"]) == 0
     answer = strict_json(capsys.readouterr().out)
@@ -124,7 +124,7 @@ def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypa
 
 
 def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve", lambda case, v_0: made_up_curve(case, v_0, settled=False))
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", lambda case, v_0: made_up_curve(case, v_0, settled=False))
     assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
@@ -135,7 +135,7 @@ def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypa
 
 
 def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
     case = read_case(resonant)
     assert velocity_scale(case) == pytest.approx(0.5 * 400.0 * 2e-6 * 1.5, rel=1e-12)
     assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2"]) == 0
@@ -167,7 +167,7 @@ def test_the_names_of_the_records():
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
-    monkeypatch.setattr("mdr.measurement.measure_critical_velocity", lambda case: found)
+    monkeypatch.setattr("mdr.friction.measured_velocity.measure_critical_velocity", lambda case: found)
     assert main(["measure", EXAMPLE]) == status
     assert found.why in capsys.readouterr().out
     assert main(["measure", EXAMPLE, "--json"]) == status
@@ -175,7 +175,7 @@ def test_measure(capsys, monkeypatch, found, status):
 
 
 def test_verdict(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: MadeUpVerdict())
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: MadeUpVerdict())
     assert main(["verdict", EXAMPLE]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Eq. (15) is good: one element",
@@ -195,7 +195,7 @@ def test_verdict(capsys, monkeypatch):
 def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(capsys, monkeypatch):
     found = MadeUpVerdict()
     found.eq_15, found.deviation = 1e-9, 3e3
-    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: found)
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: found)
     assert main(["verdict", EXAMPLE]) == 0
     assert "deviation  +3.000e+03  measured less Eq. (15), over 1e-4 of Eq. (1)" in capsys.readouterr().out
 
@@ -207,7 +207,7 @@ def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(cap
 )  # fmt: skip
 def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, within):
     asked = []
-    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: asked.append(within) or MadeUpVerdict())
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: asked.append(within) or MadeUpVerdict())
     assert main(["verdict", EXAMPLE, *options]) == 0
     assert asked == [pytest.approx(within, rel=1e-15)]
 
@@ -216,7 +216,7 @@ def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, wi
     "share", ["0", "-0.01", "-1%", "nan", "inf", "1", "100%", "nan%", "1%%", "%", "", "one", "0,01"]
 )
 def test_a_tolerance_that_is_none_is_status_2_and_says_why(capsys, monkeypatch, share):
-    monkeypatch.setattr("mdr.judgement.verdict", None)
+    monkeypatch.setattr("mdr.friction.verdict.verdict", None)
     with pytest.raises(SystemExit) as end:
         main(["verdict", EXAMPLE, f"--within={share}"])
     assert end.value.code == 2
@@ -236,7 +236,7 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
     found = MadeUpVerdict()
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
     found.good = None
-    monkeypatch.setattr("mdr.judgement.verdict", lambda case, within: found)
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: found)
     assert main(["verdict", EXAMPLE]) == status
     assert "good       undefined" in capsys.readouterr().out
     assert main(["verdict", EXAMPLE, "--json"]) == status
@@ -298,7 +298,7 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
     def fail(case, within):
         raise failure
 
-    monkeypatch.setattr("mdr.judgement.verdict", fail)
+    monkeypatch.setattr("mdr.friction.verdict.verdict", fail)
     assert main(["verdict", EXAMPLE]) == status
     assert capsys.readouterr().err == message
 

@@ -8,8 +8,8 @@ import pytest
 from conftest import contact
 
 import mdr
-from mdr import measurement
-from mdr.sliding import default_steps
+from mdr.friction import measured_velocity as measurement
+from mdr.march.slide import default_steps
 
 CASE = contact("paraboloid", 3.0, 0.0, 0.7, 1.6, 0.1)
 UNIT = CASE.unit_velocity

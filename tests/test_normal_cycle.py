@@ -6,9 +6,9 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.full_slip import full_slip
-from mdr.normal_cycle import normal_cycle
-from mdr.rheology import Rheology
+from mdr.closed_forms.full_slip import full_slip
+from mdr.materials.operator import Rheology
+from mdr.normal.followed_force import normal_cycle
 
 
 @pytest.mark.parametrize("T", [0.0, 0.3, 3.0])

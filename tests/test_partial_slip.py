@@ -8,8 +8,8 @@ from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr import kernels
-from mdr.partial_slip import partial_slip, tangential_loop
+from mdr.march import kernels
+from mdr.normal.partial_slip import partial_slip, tangential_loop
 
 BODY = mdr.Elastic(E=3e6, nu=0.3)
 MU_0, DEPTH = 0.4, 2e-5

@@ -9,8 +9,8 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr import periodic
-from mdr.marching import Knobs, Line, march
+from mdr.march import periodic_orbit as periodic
+from mdr.march.stepper import Knobs, Line, march
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -178,7 +178,7 @@ def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
         solved = march(case, v_0, knobs)
         with monkeypatch.context() as patch:
             patch.setattr(Line, "solve", no_solver)
-            patch.setattr("mdr.marching.TOLERANCE", max(solved.settling.spread, 1e-13))
+            patch.setattr("mdr.march.stepper.TOLERANCE", max(solved.settling.spread, 1e-13))
             awaited = march(case, v_0, knobs)
         shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
     assert np.median(shares) <= 0.2

@@ -3,8 +3,8 @@
 import pytest
 
 import mdr
-from mdr import progress as module
-from mdr.progress import Meter, Ticker, in_words, progress, silent
+from mdr.tools import progress as module
+from mdr.tools.progress import Meter, Ticker, in_words, progress, silent
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from importlib.metadata import version
 
-from mdr.provenance import commented, figure_metadata, version_of, versions
+from mdr.tools.provenance import commented, figure_metadata, version_of, versions
 
 
 def test_versions_name_all_that_can_move_a_digit():

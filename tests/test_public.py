@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import mdr
-from mdr.case_files import read_case
+from mdr.files.case_files import read_case
 
 ROOT = Path(__file__).parents[1]
 

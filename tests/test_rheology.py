@@ -10,10 +10,10 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import mdr
-from mdr import kernels as k
-from mdr.marching import Line
-from mdr.rheology import Rheology, over_step
-from mdr.scaled import ScaledContact
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.stepper import Line
+from mdr.materials import operator as k
+from mdr.materials.operator import Rheology, over_step
 
 ARMS = {"one": ((2.0,), (0.7,)), "two": ((1.5, 0.5), (0.3, 4.0)), "fast and slow": ((20.0, 3.0), (1e-3, 50.0))}
 OMEGA = 300.0
@@ -139,7 +139,7 @@ def test_a_slow_arm_is_a_spring():
     # beside a mean load it has relaxed; to the oscillation the body is stiffer by 1 + rho
     soft = case(0.0, [1.5], [1e5], "flat", 3.0)
     for v in (0.3, 0.8):
-        deficit = 2.5 * (1 / 3) * mdr.theory.deficit(v)
+        deficit = 2.5 * (1 / 3) * mdr.closed_forms.paper.deficit(v)
         assert_allclose(1 - mdr.slide(soft, v * soft.unit_velocity).cof / 0.4, deficit, rtol=2e-4)
 
 

@@ -10,8 +10,9 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr import rigid_pull, theory
-from mdr.rigid_pull import average_friction, near_critical, small_velocity
+from mdr.closed_forms import paper as theory
+from mdr.closed_forms import rigid_pull
+from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
 
 KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
 

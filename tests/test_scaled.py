@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import mdr
-from mdr import kernels
-from mdr.scaled import RESOLVED, ScaledContact, fast_ratio
+from mdr.march import kernels
+from mdr.march.dimensionless import RESOLVED, ScaledContact, fast_ratio
 
 STEPS = 256
 BODIES = {

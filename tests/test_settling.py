@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.settling import MIN_PERIODS, UNKNOWN, judge, smooth_mean
+from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, judge, smooth_mean
 
 TOLERANCE = 1e-6
 LIMIT = 0.3

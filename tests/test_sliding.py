@@ -10,7 +10,12 @@ from conftest import SHAPES, by_groups, contact, unit_of_velocity
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
-from mdr import State, marching, rigid_pull, scaled, sliding, theory
+from mdr import State
+from mdr.closed_forms import paper as theory
+from mdr.closed_forms import rigid_pull
+from mdr.march import dimensionless as scaled
+from mdr.march import slide as sliding
+from mdr.march import stepper as marching
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
 UNDAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6}

@@ -7,7 +7,7 @@ from conftest import SHAPES, bowl, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.springs import MIN_SPRINGS, SpringArray
+from mdr.normal.springs import MIN_SPRINGS, SpringArray
 
 U_Z0 = 20e-6
 AMPLITUDES = [1e-9, 1e-6, 1e-3, 0.1, 0.9, 1.7]  # du_z/u_z0

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mdr.tables import cells_of, fault
+from mdr.tools.csv_table import cells_of, fault
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import pytest
 import table_of_theorems as table
 from numpy.testing import assert_array_equal
 
-from mdr.theorems import disordered, outside
+from mdr.march.theorems import disordered, outside
 
 
 def test_a_cof_lies_between_the_static_limit_and_mu_0():

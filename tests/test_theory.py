@@ -12,7 +12,7 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr import theory
+from mdr.closed_forms import paper as theory
 
 MU_0, U_Z0, DU_Z, OMEGA, KAPPA = 0.4, 20e-6, 2e-6, 300.0, 1.25
 K_ZC, V_0 = 4e4, 1e-3

@@ -7,7 +7,7 @@ import pytest
 import reference
 from numpy.testing import assert_allclose
 
-from mdr.unilateral import contact_edge, edge_rate, kept_gap, leaving_phase, touching_phase, turning_phase
+from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, leaving_phase, touching_phase, turning_phase
 
 RELAXATION = [0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5, 1.0, 3.0, 30.0, 100.0]
 

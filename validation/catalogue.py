@@ -21,7 +21,7 @@ import numpy as np
 
 import mdr
 from mdr.plots import style
-from mdr.progress import progress
+from mdr.tools.progress import progress
 from validation.cases import CATALOGUE, OMEGA, POWERS, SHAPES, E, body, depth_of
 from validation.generalisation import first_order
 from validation.measured import TOLERANCE, Measured

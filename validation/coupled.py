@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.coupling import radial_rub
+from mdr.closed_forms.coupling import radial_rub
 from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space import pictures, tables

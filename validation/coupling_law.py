@@ -9,7 +9,7 @@ are in what the oscillation takes from the springs at rest, L_0 = 1 - mu_static/
 
 quadratic in beta where that is small, linear in lambda where all of the contact is rubbed. a, b, c depend on v_0/v_c
 only; they are fitted to the paraboloid at one amplitude, elastic under a rigid indenter, and tried on everything else.
-The greatest loss over all velocities follows the same form; its constants are those of `mdr.coupling`.
+The greatest loss over all velocities follows the same form; its constants are those of `mdr.closed_forms.coupling`.
 
 The held-out table (validation/half_space/tables/coupling_held_out.csv) is computed by
 `python -m validation --long --only coupling_law`.
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy.optimize import curve_fit
 
 import mdr
-from mdr import coupling
+from mdr.closed_forms import coupling
 from mdr.plots import style
 from validation.cases import LOOKS, shape_label
 from validation.half_space import tables

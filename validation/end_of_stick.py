@@ -36,7 +36,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.coupling import radial_rub
+from mdr.closed_forms.coupling import radial_rub
 from mdr.plots import style
 from validation.cases import LOOKS, contact, shape_label
 from validation.half_space import pictures, tables

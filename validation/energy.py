@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.full_slip import full_slip, normal_force_harmonics
+from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
 from mdr.plots import COLOURS, style
 from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure

@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.fields import SurfaceFields, from_line_load, surface_fields
-from mdr.indentation import indent
-from mdr.partial_slip import partial_slip, tangential_loop
+from mdr.friction.surface_fields import SurfaceFields, from_line_load, surface_fields
+from mdr.normal.indentation import indent
+from mdr.normal.partial_slip import partial_slip, tangential_loop
 from mdr.plots import COLOURS, style
 from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, shape_label
 from validation.report import Check, Claim, Figure

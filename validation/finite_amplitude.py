@@ -2,7 +2,7 @@
 
 Eq. (15) keeps one harmonic of the normal force. A curved contact has more at any amplitude, a punch only once it loses
 contact; a body with omega_0 near n omega answers the n-th one most. So the error of Eq. (15) is a map over alpha
-and omega_0/omega, and the full-slip condition with all harmonics (mdr/full_slip_body.py) is the one that is measured.
+and omega_0/omega, and the full-slip condition with all harmonics (full_slip_body.py) is the one that is measured.
 
 Curved shapes. For alpha -> 0 the deviation is C alpha/n (validation/generalisation.py), C = 0 where nothing dissipates;
 alpha² follows. A light damper alone makes C proportional to itself: the error is of first order below, of second above
@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 import mdr
 from mdr.plots import style
-from mdr.progress import progress
+from mdr.tools.progress import progress
 from validation.cases import LOOKS, POWERS, SHAPES, contact, loss, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure

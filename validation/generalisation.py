@@ -31,9 +31,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
+from mdr.normal.kelvin_edges import contact_edge
 from mdr.plots import style
-from mdr.progress import progress
-from mdr.unilateral import contact_edge
+from mdr.tools.progress import progress
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure

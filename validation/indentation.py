@@ -25,9 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
+from mdr.case.pull import SpringPull
 from mdr.plots import COLOURS, style
-from mdr.progress import progress
-from mdr.pull import SpringPull
+from mdr.tools.progress import progress
 from validation import generalisation
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
 from validation.generalisation import PULLS, Point, measure

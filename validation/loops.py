@@ -1,8 +1,8 @@
 """The march under a rigid pull written in other ways, to be timed beside the library's: NumPy, C, an ODE solver.
 
-NumPy and C take the same springs through the same steps by the same rules as mdr/kernels.py and end in the same state,
-which `same_state` checks before any time is taken. The ODE solver knows no step of ours: it gets the law of a Kelvin
-spring, e' = (clip(e + T u', -N, N) - e)/T, with N(t) from the closed form of its normal motion.
+NumPy and C take the same springs through the same steps by the same rules as mdr/march/kernels.py and end in the same
+state, which `same_state` checks before any time is taken. The ODE solver knows no step of ours: it gets the law of a
+Kelvin spring, e' = (clip(e + T u', -N, N) - e)/T, with N(t) from the closed form of its normal motion.
 """
 
 from __future__ import annotations
@@ -19,10 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from mdr import SpringArray, kernels
-from mdr.contact import SlidingContact
-from mdr.scaled import ScaledContact
-from mdr.unilateral import kept_gap, leaving_phase, touching_phase
+from mdr import SpringArray
+from mdr.case.contact import SlidingContact
+from mdr.march import kernels
+from mdr.march.dimensionless import ScaledContact
+from mdr.normal.kelvin_edges import kept_gap, leaving_phase, touching_phase
 
 C_FLAGS = (
     *("-O3", "-march=native", "-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math", "-ffp-contract=fast"),
@@ -124,7 +125,7 @@ def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any]:
 
 
 def _after_change(D_0: Any, D_1: Any, h: float, rate: float) -> Any:
-    """What a new mode adds after a change within the step, see mdr/kernels.py."""
+    """What a new mode adds after a change within the step, see mdr/march/kernels.py."""
     lead = np.maximum(D_1, 0)
     rest = h * lead / (lead + np.maximum(-D_0, 0) + 1e-300)
     return 0.5 * lead * rest / (1 + 0.5 * rate * rest)

@@ -60,10 +60,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
+from mdr.case.pull import SpringPull
+from mdr.normal.kelvin_edges import contact_edge, turning_phase
 from mdr.plots import COLOURS, style
-from mdr.progress import progress
-from mdr.pull import SpringPull
-from mdr.unilateral import contact_edge, turning_phase
+from mdr.tools.progress import progress
 from validation.cases import LOOKS, SHAPES, contact, loss, shape_label
 from validation.finite_amplitude import DAMPING, STIFFNESS, deviation, system
 from validation.measured import Measured, worst

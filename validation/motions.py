@@ -31,7 +31,7 @@ import numpy as np
 
 import mdr
 from mdr.plots import style
-from mdr.progress import progress
+from mdr.tools.progress import progress
 from validation.cases import DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure

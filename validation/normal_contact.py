@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.indentation import Indentation, indent
+from mdr.normal.indentation import Indentation, indent
 from mdr.plots import COLOURS, style
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
 from validation.report import Check, Claim, Figure

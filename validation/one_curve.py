@@ -26,9 +26,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr import theory
-from mdr.full_slip import mean_normal_force
-from mdr.rigid_pull import average_friction
+from mdr.closed_forms import paper as theory
+from mdr.closed_forms.full_slip import mean_normal_force
+from mdr.closed_forms.rigid_pull import average_friction
 from validation.cases import POWERS, SHAPES, contact, shape_label
 from validation.report import Check, Claim, Figure
 

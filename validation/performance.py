@@ -5,7 +5,7 @@
 Quoted are ratios of times taken in turn in one run, medians with the least and the greatest; absolute times are the
 machine's. Before any time is taken, the marches that are compared must end in the same state.
 
-What the loop must do, per spring and step (mdr/kernels.py), in doubles:
+What the loop must do, per spring and step (mdr/march/kernels.py), in doubles:
 
 | springs              | load         | store | operations | divisions |
 | -------------------- | ------------ | ----- | ---------- | --------- |
@@ -43,8 +43,8 @@ import numpy as np
 from numba import njit
 
 import mdr
-from mdr.contact import SlidingContact
-from mdr.rigid_pull import average_friction
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.rigid_pull import average_friction
 from mdr.studies.run import cores
 from validation.cases import contact
 from validation.loops import March, Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised

@@ -196,7 +196,7 @@ def text_table(claims: Iterable[Claim]) -> str:
 def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
     """Give the whole report as one page that needs no other file; a tap on a figure enlarges it or undoes that."""
     glance = [(c, f) for c in claims for f in c.figures if f.name == "glance"][:1]
-    from mdr.provenance import versions
+    from mdr.tools.provenance import versions
 
     n_checks, n_held = sum(len(c.checks) for c in claims), sum(c.n_held for c in claims)
     parts = [

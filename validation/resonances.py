@@ -43,9 +43,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.full_slip import mean_normal_force, normal_force_harmonics
+from mdr.closed_forms.full_slip import mean_normal_force, normal_force_harmonics
 from mdr.plots import COLOURS, style
-from mdr.progress import progress
+from mdr.tools.progress import progress
 from validation.cases import contact, loss
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure

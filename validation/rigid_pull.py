@@ -4,9 +4,9 @@ In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 = mu_0 k
 if any spring touches at phi = -pi/2, where the depth grows fastest. A slow surface that was left may come back later,
 at phi_c, and v_c is then v_1 sin|phi_c|: when, is derived and tested in validation/lost_contact.py.
 
-Below v_c the COF is known in closed form (mdr/rigid_pull.py), and so are both ends of its curve. It is set beside runs,
-which share no code with it. What the curves of different shapes have in common: validation/one_curve.py; how runs leave
-the static value: validation/static_cof.py.
+Below v_c the COF is known in closed form (mdr/closed_forms/rigid_pull.py), and so are both ends of its curve. It is set
+beside runs, which share no code with it. What the curves of different shapes have in common: validation/one_curve.py;
+how runs leave the static value: validation/static_cof.py.
 
 Symbols: alpha = du_z/u_z0, T = omega tau, phi phase, kappa = E*/G*.
 """
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
+from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
 from validation.cases import SHAPES, contact, shape_label
 from validation.lost_contact import SHARP, amplitude_limit, late, slow_limit
 from validation.measured import worst

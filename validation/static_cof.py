@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr import theory
-from mdr.full_slip import full_slip
+from mdr.closed_forms import paper as theory
+from mdr.closed_forms.full_slip import full_slip
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
 

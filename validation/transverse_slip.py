@@ -8,7 +8,7 @@ pull. To see what that does the judge is run once as it is, and once with tracti
 from dataclasses import dataclass, replace
 
 import mdr
-from mdr.coupling import radial_rub
+from mdr.closed_forms.coupling import radial_rub
 from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space.friction import Knobs, in_three_dimensions, of_springs

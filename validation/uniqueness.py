@@ -40,12 +40,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.marching import TOLERANCE, Line
+from mdr.closed_forms.rigid_pull import average_friction
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.steady_state import Settling
+from mdr.march.stepper import TOLERANCE, Line
 from mdr.plots import COLOURS, style
-from mdr.progress import progress
-from mdr.rigid_pull import average_friction
-from mdr.scaled import ScaledContact
-from mdr.settling import Settling
+from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
 from validation.report import Check, Claim, Figure
 

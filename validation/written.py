@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from mdr.provenance import PARTS, version_of
+from mdr.tools.provenance import PARTS, version_of
 
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"

@@ -40,7 +40,7 @@ def shapes(args: argparse.Namespace, _: None) -> int:
 
 def case(args: argparse.Namespace, _: None) -> int:
     """Print a commented case file."""
-    from mdr.examples import example, example_file
+    from mdr.files.examples import example, example_file
 
     try:
         found = example(args.example, args.material, args.motion, args.pull)
@@ -54,8 +54,8 @@ def case(args: argparse.Namespace, _: None) -> int:
 
 def _tables() -> dict[str, dict[str, Any]]:
     """{table of a file: {name: {"is": first line of its docstring, "keys": {key: {"unit", "meaning"}}}}}."""
-    from mdr.case_files import nameable
-    from mdr.field_names import UNITS_AND_MEANINGS
+    from mdr.case.units import UNITS_AND_MEANINGS
+    from mdr.files.case_files import nameable
 
     tables: dict[str, dict[str, Any]] = {}
     for table, records in nameable().items():

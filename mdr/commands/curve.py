@@ -7,7 +7,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mdr.case_files import write_case
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.commands.output import (
     DONE,
     FAILED,
@@ -19,13 +20,12 @@ from mdr.commands.output import (
     velocity_text,
     write_figure,
 )
-from mdr.contact import SlidingContact
-from mdr.provenance import commented
-from mdr.studies.files import write_whole
-from mdr.theory import critical_velocity
+from mdr.files.case_files import write_case
+from mdr.tools.atomic_write import write_whole
+from mdr.tools.provenance import commented
 
 if TYPE_CHECKING:
-    from mdr.friction import CofCurve
+    from mdr.friction.cof_curve import CofCurve
 
 MOST_POINTS = 100_000  #: of a curve
 
@@ -45,7 +45,7 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
     if args.output is not None:
         _make_folder(args.output)  # before the work, not after it
         require_free([args.output / name for name in ("curve.csv", "curve.png", "curve.svg")])
-    from mdr.friction import cof_curve
+    from mdr.friction.cof_curve import cof_curve
 
     found = cof_curve(case, velocity_scale(case) * np.linspace(0, args.up_to, args.points))
     if args.output is not None:

@@ -6,15 +6,15 @@ import argparse
 import math
 from typing import Any
 
+from mdr.case.contact import SlidingContact
 from mdr.commands.output import DONE, FAILED, print_json, print_rows, velocity_text
 from mdr.commands.velocity import equation_of
-from mdr.contact import SlidingContact
-from mdr.judgement import WITHIN
+from mdr.friction.verdict import WITHIN
 
 
 def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print v_c, its bracket and what showed it; status 1 where there is none."""
-    from mdr.measurement import measure_critical_velocity
+    from mdr.friction.measured_velocity import measure_critical_velocity
 
     found = measure_critical_velocity(case)
     if args.json:
@@ -32,7 +32,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print the sentence and the numbers behind it."""
-    from mdr import judgement
+    from mdr.friction import verdict as judgement
 
     found, (equation, how) = judgement.verdict(case, within=args.within), equation_of(case)
     if args.json:

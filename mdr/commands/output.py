@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import mdr
-from mdr.case_files import write_case
-from mdr.contact import SlidingContact
-from mdr.provenance import figure_metadata, versions
-from mdr.studies.files import write_whole
+from mdr.case.contact import SlidingContact
+from mdr.files.case_files import write_case
+from mdr.tools.atomic_write import write_whole
+from mdr.tools.provenance import figure_metadata, versions
 
 DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130  #: exit statuses
 

@@ -18,8 +18,8 @@ from mdr.commands.output import (
     require_free,
     write_figure,
 )
-from mdr.provenance import commented
-from mdr.studies.files import write_whole
+from mdr.tools.atomic_write import write_whole
+from mdr.tools.provenance import commented
 
 if TYPE_CHECKING:
     from mdr.studies import Study

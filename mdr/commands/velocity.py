@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
-from mdr.contact import SlidingContact
-from mdr.theory import critical_velocity, formula_of
 
 
 def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print Eq. (15) and what stands beside it."""
-    from mdr.full_slip import static_cof
-    from mdr.full_slip_body import full_slip_critical_velocity
+    from mdr.closed_forms.full_slip import static_cof
+    from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 
     v_c, full_slip, static = critical_velocity(case), full_slip_critical_velocity(case), static_cof(case)
     (equation, how), kappa = equation_of(case), case.material.mindlin_ratio

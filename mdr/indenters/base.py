@@ -10,8 +10,8 @@ where a rim that reaches d before the profile does adds E*(d − g(a)) / (π √
 Lengths r, x, d, a in m, E* and p in Pa, F_N in N; any other consistent units do as well.
 
 A shape of one's own is a frozen dataclass with ``profile_3d`` or ``profile_1d``; the rest follows by
-quadrature (`mdr.indenters.transform`), to 1e-9 or better, and every closed form it adds makes it faster.
-What g it has been asked for from f is kept (`mdr.indenters.panels`), so that a shape must not change.
+quadrature (`mdr.indenters.mapping.abel`), to 1e-9 or better, and every closed form it adds makes it faster.
+What g it has been asked for from f is kept (`mdr.indenters.mapping.chebyshev_panels`), so that a shape must not change.
 """
 
 import warnings
@@ -21,9 +21,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive_array
-from mdr.indenters import panels, roots, transform
-from mdr.indenters.quadrature import double_exponential, in_chunks
+from mdr.indenters.mapping import abel as transform
+from mdr.indenters.mapping import chebyshev_panels as panels
+from mdr.indenters.mapping import inversion as roots
+from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
+from mdr.tools.checks import FloatArray, finite_array, plain, positive_array
 
 EPS = float(np.finfo(float).eps)
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning

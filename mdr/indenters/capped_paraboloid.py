@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive
 from mdr.indenters.base import Indenter
-from mdr.indenters.elementary import leg, leg_short
+from mdr.indenters.mapping.stable_functions import leg, leg_short
+from mdr.tools.checks import FloatArray, finite_array, plain, positive
 
 
 @dataclass(frozen=True)

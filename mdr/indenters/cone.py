@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, between, finite_array, plain
 from mdr.indenters.base import EPS, Indenter
+from mdr.tools.checks import FloatArray, between, finite_array, plain
 
 
 @dataclass(frozen=True)

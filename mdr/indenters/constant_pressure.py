@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive
 from mdr.indenters.base import Indenter
-from mdr.indenters.elementary import angle_less_sine, leg
+from mdr.indenters.mapping.stable_functions import angle_less_sine, leg
+from mdr.tools.checks import FloatArray, finite_array, plain, positive
 
 N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06**24 for r² < a_0²/2
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive
 from mdr.indenters.base import Indenter, rim_pressure
+from mdr.tools.checks import FloatArray, finite_array, plain, positive
 
 
 @dataclass(frozen=True)

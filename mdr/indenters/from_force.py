@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, not_negative, plain, positive, positive_array
-from mdr.indenters import roots
 from mdr.indenters.base import EPS, Indenter
-from mdr.indenters.quadrature import double_exponential, in_chunks
+from mdr.indenters.mapping import inversion as roots
+from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
+from mdr.indenters.mapping.splines import fit
 from mdr.indenters.sampled_profile import MOST_JOINTS, column, require_ascent, require_pairs
-from mdr.indenters.splines import fit
+from mdr.tools.checks import FloatArray, finite_array, not_negative, plain, positive, positive_array
 
 N_POINTS = 7  #: fewer make no spline
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F

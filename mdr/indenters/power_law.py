@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive
 from mdr.indenters.base import EPS, Indenter
-from mdr.indenters.quadrature import double_exponential
+from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.tools.checks import FloatArray, finite_array, plain, positive
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Any profile f(r), mapped by quadrature: g, a, F_N and p follow to 1e-9 (`mdr.indenters.panels`, `.transform`)."""
+"""Any profile f(r), mapped by quadrature: g, a, F_N and p to 1e-9 (`mapping.chebyshev_panels`, `mapping.abel`)."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive
 from mdr.indenters.base import Indenter
+from mdr.tools.checks import FloatArray, finite_array, plain, positive
 
 
 @dataclass(frozen=True, eq=False)

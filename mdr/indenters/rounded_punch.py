@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, plain, positive
 from mdr.indenters.base import Indenter
-from mdr.indenters.elementary import angle, sine_less_arc, sine_less_arc_and_cube
+from mdr.indenters.mapping.stable_functions import angle, sine_less_arc, sine_less_arc_and_cube
+from mdr.tools.checks import FloatArray, finite_array, plain, positive
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A shape known at measured points: a spline through them, whose image g follows exactly (`mdr.indenters.splines`)."""
+"""A shape known at measured points: a spline through them, whose image g follows exactly (`mapping.splines`)."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, not_negative, positive
 from mdr.indenters.base import Indenter, refuse_falling
-from mdr.indenters.quadrature import in_chunks
-from mdr.indenters.splines import SplineImage, fit
+from mdr.indenters.mapping.quadrature import in_chunks
+from mdr.indenters.mapping.splines import SplineImage, fit
+from mdr.tools.checks import FloatArray, finite_array, not_negative, positive
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 STANDS_OUT = 10.0  #: times the median change of slope: at a kink; noise of 200 points stays below 8

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, finite_array, positive
 from mdr.indenters import ellipsoid
 from mdr.indenters.base import Indenter
+from mdr.tools.checks import FloatArray, finite_array, positive
 
 
 @dataclass(frozen=True)

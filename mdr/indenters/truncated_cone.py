@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, between, finite_array, plain, positive
 from mdr.indenters.base import Indenter
-from mdr.indenters.elementary import angle, angle_less_sine
+from mdr.indenters.mapping.stable_functions import angle, angle_less_sine
+from mdr.tools.checks import FloatArray, between, finite_array, plain, positive
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import FloatArray, finite, finite_array, plain
+from mdr.tools.checks import FloatArray, finite, finite_array, plain
 
 
 def poisson_ratio(name: str, value: float) -> float:

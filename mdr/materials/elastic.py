@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any
 
-from mdr.checks import positive
 from mdr.materials.base import Material, OneBody, poisson_ratio
+from mdr.tools.checks import positive
 
 
 @dataclass(frozen=True)

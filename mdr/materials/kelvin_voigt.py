@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mdr.checks import not_negative, positive
 from mdr.materials.base import OneBody, poisson_ratio
+from mdr.tools.checks import not_negative, positive
 
 
 @dataclass(frozen=True)

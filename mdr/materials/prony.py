@@ -19,9 +19,9 @@ from os import PathLike, fsdecode
 
 from numpy.typing import ArrayLike
 
-from mdr.checks import not_negative, positive
 from mdr.materials.base import OneBody, poisson_ratio
-from mdr.tables import fault
+from mdr.tools.checks import not_negative, positive
+from mdr.tools.csv_table import fault
 
 Arms = tuple[tuple[float, float], ...]
 
@@ -138,11 +138,11 @@ class Prony(_WithArms):
         is E_inf. nu is given here. TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted,
         tau, as in a case file; a nu given here takes its place. Raises ValueError with the line or key that is wrong.
         """
-        from mdr.materials import prony_fit
+        from mdr.files.arm_tables import from_table
 
         if nu is not None:
             nu = poisson_ratio("nu", nu)
-        fields = prony_fit.from_table(path, nu)
+        fields = from_table(path, nu)
         try:
             return cls(**fields)
         except (TypeError, ValueError) as refusal:

@@ -1,4 +1,4 @@
-"""Arms from what people measure: dynamic moduli, a power law, a table.
+"""Arms from what people measure: dynamic moduli, or a power law.
 
 Relaxation times are spread evenly in log time; the moduli that go with them are the non-negative least squares of the
 relative deviation of E(omega) (Lawson and Hanson 1974, in scipy.optimize.nnls), so that every arm is a passive one.
@@ -7,18 +7,13 @@ relative deviation of E(omega) (Lawson and Hanson 1974, in scipy.optimize.nnls),
 from __future__ import annotations
 
 from itertools import product
-from os import PathLike, fsdecode
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, between, count, finite_array, positive, positive_array
-from mdr.tables import cells_of, fault
-from mdr.words import short
-
-if TYPE_CHECKING:
-    from mdr.materials.prony import Prony
+from mdr.materials.base import OneBody
+from mdr.tools.checks import FloatArray, between, count, finite_array, positive, positive_array
 
 Pairs = tuple[tuple[float, float], ...]
 
@@ -66,25 +61,11 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
     )
 
 
-def misfit(material: Prony, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
+def misfit(material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
     """Greatest relative deviation from measured moduli."""
     omega, modulus = _data(omega, storage, loss)
     own = np.asarray(material.dynamic_modulus(omega)) * (1 - material.nu**2)
     return float(np.max(np.abs(own - modulus) / np.abs(modulus)))
-
-
-def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
-    """The fields of a Prony in a file."""
-    from mdr.case_files import read_text
-
-    name = fsdecode(path)
-    if not name.lower().endswith((".csv", ".toml")):
-        raise fault(name, "a table of arms must end in .csv or .toml")
-    if name.lower().endswith(".toml"):
-        return _from_toml(read_text(path), name, nu)
-    if nu is None:
-        raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(read_text(path), name), "nu": nu}
 
 
 def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, FloatArray]:
@@ -127,53 +108,3 @@ def _range(omega: tuple[float, float]) -> tuple[float, float]:
     if ends.shape != (2,) or not ends[0] < ends[1]:
         raise ValueError(f"omega must be a range (lowest, highest) in rad/s, got {omega!r}")
     return float(ends[0]), float(ends[1])
-
-
-def _from_csv(text: str, name: str) -> dict[str, Any]:
-    rows = [
-        (number, cells_of(line, f"{name}: row {number}"))
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip()
-    ]
-    heads = [cell.split("[")[0].strip() for cell in rows[0][1]] if rows else []
-    if not {"E_j", "tau_j"} <= set(heads):
-        got = short(", ".join(heads)) or "nothing"
-        raise fault(name, f"the first line must name the columns E_j and tau_j, got {got}")
-    E_inf, arms = 0.0, []
-    for number, row in rows[1:]:
-        cells = dict(zip(heads, (cell.strip() for cell in row), strict=False))
-        try:
-            E_j, tau_j = float(cells["E_j"]), float(cells.get("tau_j") or "inf")
-        except (KeyError, ValueError):
-            raise fault(name, f"row {number} is no pair of numbers: {short(', '.join(row))}") from None
-        if not 0 <= E_j < np.inf or not tau_j > 0:
-            what = f"row {number} must have a finite E_j >= 0 Pa and tau_j > 0 s, got {short(', '.join(row))}"
-            raise fault(name, what)
-        if np.isinf(tau_j):
-            E_inf += E_j
-        else:
-            arms.append((E_j, tau_j))
-    return {"E_inf": E_inf, "arms": tuple(arms)}
-
-
-def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
-    from mdr.case_files import parse_toml
-
-    content = parse_toml(text, name)
-    table = content.get("material", content)
-    if not isinstance(table, dict):
-        raise fault(name, f"material must be a table of keys, got {short(str(table))}")
-    table = dict(table)
-    model = table.pop("model", "Prony")
-    known = ("E_inf", "arms", "nu", "tau")
-    unknown = [key for key in table if key not in known]
-    if model != "Prony" or unknown:
-        other = f'model "{short(str(model))}" is not Prony'
-        what = other if model != "Prony" else f"{short(unknown[0])} is no key of Prony"
-        raise fault(name, f"{what}; there are {', '.join(known)}")
-    if nu is not None:
-        table["nu"] = nu
-    missing = [key for key in ("E_inf", "arms", "nu") if key not in table]
-    if missing:
-        raise fault(name, f"{missing[0]} is missing")
-    return table

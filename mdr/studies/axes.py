@@ -16,20 +16,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.checks import finite_array
-from mdr.contact import KINDS, SlidingContact
-from mdr.field_names import UNITS_AND_MEANINGS
-from mdr.words import nearest, one_line, short
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.units import UNITS_AND_MEANINGS
+from mdr.case.vary import GROUPS, fields_of
+from mdr.tools.checks import finite_array
+from mdr.tools.messages import nearest, one_line, short
 
 Array = NDArray[np.float64]
 
-GROUPS = {"alpha": "oscillation.du_z", "T": "material.tau", "k_x/k_xc": "pull.k_x", "omega_0/omega": "pull.m"}
 VELOCITIES = ("v_0", "v_0/v_c")
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
@@ -141,11 +141,6 @@ def label_of(value: Any) -> str:
 def without_addresses(text: str) -> str:
     """A text without what Python says of an object's place in memory."""
     return _ADDRESS.sub("", text)
-
-
-def fields_of(record: Any) -> tuple[str, ...]:
-    """Names of the fields that can be set in a record; none of what is no dataclass."""
-    return tuple(one.name for one in fields(record) if one.init) if is_dataclass(record) else ()
 
 
 def _axis(path: str, values: Any, parts: Mapping[str, tuple[Any, ...]]) -> Axis:

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-import mdr
-from mdr.case_files import CaseFileError, write_case
-from mdr.contact import SlidingContact
+from mdr.case.contact import SlidingContact
+from mdr.files.case_files import CaseFileError, write_case
 from mdr.studies.axes import Axis, without_addresses
 from mdr.studies.quantities import CurveQuantity, Quantity
 from mdr.studies.work import Work
+from mdr.tools import version
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Frame:
     def of(cls, work: Work, identity: str) -> Frame:
         """The frame of the study that this work makes."""
         columns = tuple(Column.of(one) for one in work.quantities)
-        return cls(work.axes, columns, _text(work.case), mdr.__version__, identity)
+        return cls(work.axes, columns, _text(work.case), version.__version__, identity)
 
     def tree(self) -> dict[str, Any]:
         """All but the numbers of its axes, for JSON."""

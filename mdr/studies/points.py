@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.contact import SlidingContact
-from mdr.friction import cof_curve
-from mdr.progress import silent
-from mdr.records import ArrayRecord
+from mdr.case.contact import SlidingContact
+from mdr.friction.cof_curve import cof_curve
 from mdr.studies.axes import without_addresses
-from mdr.studies.cases import velocities_of
 from mdr.studies.quantities import CurveQuantity, Quantity
+from mdr.studies.velocities import velocities_of
 from mdr.studies.work import Work
-from mdr.words import one_line
+from mdr.tools.messages import one_line
+from mdr.tools.progress import silent
+from mdr.tools.records import ArrayRecord
 
 Array = NDArray[np.float64]
 

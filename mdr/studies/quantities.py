@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.contact import SlidingContact
-from mdr.friction import CofCurve
-from mdr.full_slip import mean_normal_force, static_cof
-from mdr.full_slip_body import full_slip_critical_velocity
-from mdr.measurement import measure_critical_velocity
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.closed_forms.full_slip import mean_normal_force, static_cof
+from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.friction.cof_curve import CofCurve
+from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.studies.axes import VELOCITIES
-from mdr.theory import critical_velocity
-from mdr.words import offer, short
+from mdr.tools.messages import offer, short
 
 Array = NDArray[np.float64]
 

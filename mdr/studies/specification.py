@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-import mdr
 from mdr.studies.axes import without_addresses
 from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
 from mdr.studies.work import Work
-from mdr.words import short
+from mdr.tools import version
+from mdr.tools.messages import short
 
 #: of the numbers that the compiled kernels give: raise it with every change of a kernel, a closed form or a default
 #: that moves a digit without a new version, so that no store mixes two of them
@@ -31,7 +31,7 @@ def specification(work: Work) -> dict[str, Any]:
         "quantities": [_quantity(one) for one in work.quantities],
         "n_springs": work.n_springs,
         "steps_per_period": work.steps_per_period,
-        "version of mdr": mdr.__version__,
+        "version of mdr": version.__version__,
         "format": FORMAT,
     }
 

@@ -25,9 +25,9 @@ from typing import Any
 
 import numpy as np
 
-from mdr.studies.files import is_partial, write_once, write_whole
 from mdr.studies.points import Part
 from mdr.studies.specification import differences
+from mdr.tools.atomic_write import is_partial, write_once, write_whole
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 _READ_ONLY = (errno.EROFS, errno.EACCES, errno.EPERM)

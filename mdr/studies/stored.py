@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from mdr.progress import Meter
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
 from mdr.studies.netcdf import packed, unpacked
@@ -19,6 +18,7 @@ from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
 from mdr.studies.study import Study
 from mdr.studies.work import Work
+from mdr.tools.progress import Meter
 
 
 class Stored:

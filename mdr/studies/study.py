@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.records import ArrayRecord
 from mdr.studies.frame import Frame
 from mdr.studies.points import Status
-from mdr.words import nearest, short
+from mdr.tools.messages import nearest, short
+from mdr.tools.records import ArrayRecord
 
 Array = NDArray[np.float64]
 
@@ -109,15 +109,15 @@ class Study(ArrayRecord):
 
     def to_netcdf(self, path: str | PathLike[str]) -> None:
         """Write NetCDF (classic, 64-bit offsets), with labelled axes, units, status and reasons."""
-        from mdr.studies.files import write_whole
         from mdr.studies.netcdf import packed
+        from mdr.tools.atomic_write import write_whole
 
         write_whole(Path(path), packed(self))
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one row a point, with units in the header."""
         from mdr.studies.csv_files import table
-        from mdr.studies.files import write_whole
+        from mdr.tools.atomic_write import write_whole
 
         write_whole(Path(path), table(self).encode("utf-8"))
 
@@ -128,26 +128,26 @@ class Study(ArrayRecord):
         return to_xarray(self)
 
     def plot(self, quantity: str | None = None) -> Any:
-        """Draw the picture that suits the axes; see `mdr.studies.pictures.plot`."""
-        from mdr.studies.pictures import plot
+        """Draw the picture that suits the axes; see `mdr.plots.studies.plot`."""
+        from mdr.plots.studies import plot
 
         return plot(self, quantity)
 
     def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
-        """Draw a quantity over two axes in colours; see `mdr.studies.pictures.plot_map`."""
-        from mdr.studies.pictures import plot_map
+        """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`."""
+        from mdr.plots.studies import plot_map
 
         return plot_map(self, quantity, x, ax, **knobs)
 
     def plot_curves(self, quantity: str, x: str | None = None, ax: Any = None) -> Any:
-        """Draw a family of curves; see `mdr.studies.pictures.plot_curves`."""
-        from mdr.studies.pictures import plot_curves
+        """Draw a family of curves; see `mdr.plots.studies.plot_curves`."""
+        from mdr.plots.studies import plot_curves
 
         return plot_curves(self, quantity, x, ax)
 
     def plot_multiples(self, quantity: str, over: str, x: str | None = None, **knobs: Any) -> Any:
-        """Draw a map or a family for each value of an axis; see `mdr.studies.pictures.plot_multiples`."""
-        from mdr.studies.pictures import plot_multiples
+        """Draw a map or a family for each value of an axis; see `mdr.plots.studies.plot_multiples`."""
+        from mdr.plots.studies import plot_multiples
 
         return plot_multiples(self, quantity, over, x, **knobs)
 

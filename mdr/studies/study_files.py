@@ -24,14 +24,15 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of, stand_in
-from mdr.checks import count, finite
-from mdr.contact import KINDS, SlidingContact
-from mdr.friction import LEAST_KNOB
-from mdr.pull import RigidPull
-from mdr.studies.axes import GROUPS, read_axes
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.pull import RigidPull
+from mdr.case.vary import GROUPS
+from mdr.files.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of, stand_in
+from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
-from mdr.words import offer, short
+from mdr.tools.checks import count, finite
+from mdr.tools.messages import offer, short
 
 KEYS = ("axes", "quantities", "n_springs", "steps_per_period")
 MOST_VALUES = 10**7  #: of an axis

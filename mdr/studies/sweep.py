@@ -8,10 +8,8 @@ from numbers import Integral
 from os import PathLike, fsdecode
 from typing import Any
 
-from mdr.checks import count, positive
-from mdr.contact import SlidingContact, require_case
-from mdr.friction import LEAST_KNOB
-from mdr.progress import Meter
+from mdr.case.contact import SlidingContact, require_case
+from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.studies.axes import read_axes
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
@@ -24,7 +22,9 @@ from mdr.studies.store import Store, StudyError
 from mdr.studies.stored import Stored
 from mdr.studies.study import Study
 from mdr.studies.work import Work
-from mdr.words import short
+from mdr.tools.checks import count, positive
+from mdr.tools.messages import short
+from mdr.tools.progress import Meter
 
 MOST_NUMBERS = 10**9  #: of a study
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from mdr.contact import SlidingContact
-from mdr.pull import RigidPull
+from mdr.case.contact import SlidingContact
+from mdr.case.pull import RigidPull
+from mdr.case.vary import case_at
 from mdr.studies.axes import Axis
-from mdr.studies.cases import case_at
 from mdr.studies.layout import Layout
 from mdr.studies.quantities import CurveQuantity, Quantity
 

@@ -9,7 +9,7 @@ from catalogue import A_0, CURVED, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, 
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.indenters.quadrature import double_exponential
+from mdr.indenters.mapping.quadrature import double_exponential
 
 EXACT = 1e-12  # promised for closed forms
 DISC = 1e-9  # promised for the integral of the pressure

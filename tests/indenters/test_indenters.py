@@ -14,7 +14,7 @@ from scipy.integrate import quad
 import mdr.indenters as shapes
 from mdr.indenters import Cone, FlatPunch, Paraboloid, PowerLaw, Profile, RoundedPunch
 from mdr.indenters.base import Indenter
-from mdr.indenters.transform import pressure_from_f
+from mdr.indenters.mapping.abel import pressure_from_f
 
 MAPPED = [
     (Profile(lambda r: r * T), Cone(0.05)),

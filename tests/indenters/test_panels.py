@@ -8,8 +8,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.special import struve
 
-from mdr.indenters import Paraboloid, Profile, panels
+from mdr.indenters import Paraboloid, Profile
 from mdr.indenters.base import Indenter
+from mdr.indenters.mapping import chebyshev_panels as panels
 
 B, R, T = 1e-3, 5e-3, math.tan(0.05)
 MAP = 1e-9  # the accuracy promised for mapped profiles

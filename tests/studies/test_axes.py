@@ -146,7 +146,7 @@ def test_axes_are_equal_by_path_and_values_records_by_label():
 def test_every_field_of_every_record_has_a_meaning():
     from dataclasses import fields
 
-    from mdr.field_names import UNITS_AND_MEANINGS
+    from mdr.case.units import UNITS_AND_MEANINGS
 
     given = {"f", "kinks", "name", "r", "d", "F", "tip"}  # data and options, not parameters
     records = [getattr(mdr, name) for name in mdr.__all__ if isinstance(getattr(mdr, name), type)]

@@ -9,7 +9,8 @@ from grids import BODY, RIGID
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.studies.cases import case_at, velocities_of
+from mdr.case.vary import case_at
+from mdr.studies.velocities import velocities_of
 
 
 @pytest.mark.parametrize(
@@ -90,6 +91,6 @@ def test_multiples_of_an_infinite_or_vanishing_velocity_say_nothing(monkeypatch)
     resonant = replace(BODY, pull=mdr.SpringPull(k_x=300.0**2 * 0.1, m=0.1))
     with pytest.raises(ValueError, match="v_0/v_c: the critical velocity of this case is infinite"):
         velocities_of(resonant, "v_0/v_c", np.array([0.5]))
-    monkeypatch.setattr("mdr.studies.cases.critical_velocity", lambda case: 0.0)
+    monkeypatch.setattr("mdr.studies.velocities.critical_velocity", lambda case: 0.0)
     with pytest.raises(ValueError, match="v_0/v_c: the critical velocity of this case is zero"):
         velocities_of(BODY, "v_0/v_c", np.array([0.5]))

@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from mdr.studies.files import is_partial, write_once, write_whole
+from mdr.tools.atomic_write import is_partial, write_once, write_whole
 
 
 def test_a_file_is_written_and_replaced(tmp_path):

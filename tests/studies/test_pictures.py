@@ -8,8 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.field_names import UNITS_AND_MEANINGS
-from mdr.studies import pictures
+from mdr.case.units import UNITS_AND_MEANINGS
+from mdr.plots import studies as pictures
 from mdr.studies.points import Status
 
 mpl.use("Agg")

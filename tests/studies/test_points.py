@@ -177,6 +177,6 @@ def test_a_march_ends_between_its_velocities():
 
 
 def test_nothing_inside_speaks(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.progress.PATIENCE", -1.0)
+    monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
     compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), 0, 1)
     assert capsys.readouterr().err == ""

@@ -184,7 +184,7 @@ def test_a_store_of_another_study_says_what_differs(part_done, change, words):
 
 
 def test_a_store_of_another_version_or_of_other_kernels(part_done, monkeypatch):
-    monkeypatch.setattr(mdr, "__version__", "9.9")
+    monkeypatch.setattr("mdr.tools.version.__version__", "9.9")
     known = specification.FORMAT
     monkeypatch.setattr(specification, "FORMAT", known + 1)
     words = f'version of mdr is "0.1.0" there and "9.9" here; format is {known} there and {known + 1}'

@@ -206,7 +206,7 @@ def test_progress_counts_from_what_was_there(tmp_path, capsys, monkeypatch):
     options = {"store": tmp_path / "store", "quantities": ["v_c"], "chunk_seconds": 1e-9}
     mdr.sweep(RIGID, axes, shard="1/2", **options)
     capsys.readouterr()
-    monkeypatch.setattr("mdr.progress.PATIENCE", -1.0)
+    monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
     mdr.sweep(RIGID, axes, **options)
     assert re.match(r"sweep: 21 of 40 chunks, about \d+ s left\n", capsys.readouterr().err)
 

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
-from mdr.provenance import versions
+from mdr.tools.provenance import versions
 
 AXES = """
 [axes]

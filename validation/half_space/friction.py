@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from mdr.motion import DepthMotion
+from mdr.case.motion import DepthMotion
 from validation.half_space import springs
 from validation.half_space.influence import HalfSpace, X, Z
 from validation.half_space.march import Contact, Step

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import mdr
-from mdr.provenance import commented, versions
+from mdr.tools.provenance import commented, versions
 from validation.cases import E, contact
 from validation.half_space.friction import Knobs, march, of_springs
 

@@ -1,0 +1,138 @@
+"""One period of depth, whatever imposes it: mean, swing, extremes, and z(phase) in units of the swing.
+
+    u_z(t) = u_z0 + du_z z(omega t),    z(phase) = sum over n of c_n cos(n phase) + s_n sin(n phase).
+
+The unit du_z is half the way between the extremes; a harmonic motion is c_1 = 1. What a spring that keeps contact feels
+is a sum of harmonics too, each with the response of the material, and its least force tells which springs keep contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.tools.records import ArrayRecord
+
+Array = NDArray[np.float64]
+
+DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
+
+
+@dataclass(frozen=True, eq=False)
+class Cycle(ArrayRecord):
+    """A periodic depth; harmonics of shape (N,), of orders 1 to N."""
+
+    u_z0: float  #: mean depth [m]
+    du_z: float  #: half the way from the least to the greatest depth [m]
+    omega: float  #: angular frequency of the period [rad/s]
+    cos: Array  #: c_n, over du_z
+    sin: Array  #: s_n, over du_z
+    least: float  #: least z
+    greatest: float  #: greatest z
+    missing: float = 0.0  #: of the balance of forces that the depth was solved from, over the mean load
+
+    @classmethod
+    def harmonic(cls, u_z0: float, du_z: float, omega: float) -> Cycle:
+        """u_z0 + du_z cos(omega t)."""
+        return cls(u_z0, du_z, omega, np.ones(1), np.zeros(1), -1.0, 1.0)
+
+    @classmethod
+    def series(cls, u_z0: float, omega: float, cos: Array, sin: Array) -> Cycle:
+        """A Fourier series with coefficients in m."""
+        amplitude = complex_harmonics(cos, sin)
+        low, high = -peak(-amplitude), peak(amplitude)
+        du_z = 0.5 * (high - low)
+        if du_z == 0:
+            return cls(u_z0, 0.0, omega, np.zeros_like(cos), np.zeros_like(sin), 0.0, 0.0)
+        return cls(u_z0, du_z, omega, cos / du_z, sin / du_z, low / du_z, high / du_z)
+
+    @property
+    def is_harmonic(self) -> bool:
+        """Whether it is cos(phase) alone."""
+        return self.cos.size == 1 and self.cos[0] == 1 and self.sin[0] == 0
+
+    @property
+    def harmonics(self) -> NDArray[np.complex128]:
+        """C_n with z = Re of sum C_n exp(i n phase), n = 1 ... N."""
+        return complex_harmonics(self.cos, self.sin)
+
+    def z(self, phase: Array) -> Array:
+        """Depth less its mean, over du_z, at phases of any shape."""
+        return self._sum(phase, self.cos, self.sin)
+
+    def rate(self, phase: Array) -> Array:
+        """dz/dphase."""
+        n = np.arange(1, self.cos.size + 1)
+        return self._sum(phase, n * self.sin, -n * self.cos)
+
+    def _sum(self, phase: Array, cos: Array, sin: Array) -> Array:
+        phase = np.asarray(phase, dtype=float)
+        total = np.zeros(phase.shape)
+        for n in np.flatnonzero((cos != 0) | (sin != 0)):
+            total += cos[n] * np.cos((n + 1) * phase) + sin[n] * np.sin((n + 1) * phase)
+        return total
+
+    def over_a_period(self, steps: int) -> tuple[Array, Array]:
+        """z and its rate at equidistant phases, both ends included: (steps + 1,)."""
+        phase = 2 * np.pi * np.arange(steps + 1) / steps
+        if 2 * self.cos.size >= steps or self.cos.size < 32:
+            return self.z(phase), self.rate(phase)
+        spectrum = np.zeros((2, steps // 2 + 1), dtype=complex)
+        n = np.arange(1, self.cos.size + 1)
+        spectrum[0, n] = self.harmonics * steps / 2
+        spectrum[1, n] = 1j * n * self.harmonics * steps / 2
+        values = np.fft.irfft(spectrum, steps)
+        return tuple(np.concatenate([row, row[:1]]) for row in values)  # type: ignore[return-value]
+
+    def kept_gap(self, response: Callable[[Array], NDArray[np.complex128]]) -> float:
+        """Gap, in du_z from the mean depth, of the shallowest spring that never leaves: its least force is zero.
+
+        response: of the material to harmonics n (N,), over its long-time modulus.
+        """
+        return -peak(-self.harmonics * response(np.arange(1.0, self.cos.size + 1)))
+
+
+def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
+    """C_n = c_n - i s_n."""
+    return np.asarray(cos - 1j * np.asarray(sin))
+
+
+def peak(harmonics: NDArray[np.complex128]) -> float:
+    """Greatest value of Re of sum C_n exp(i n phase), n = 1 ... N, over the period."""
+    return float(peaks(harmonics).max(initial=-np.inf))
+
+
+def peaks(harmonics: NDArray[np.complex128], some: int = 24, within: NDArray[np.bool_] | None = None) -> Array:
+    """Its greatest local maxima, Newton from those among equidistant instants; `within` marks those that count."""
+    harmonics = np.asarray(harmonics)
+    if harmonics.size == 1 and within is None:
+        return np.abs(harmonics)
+    n = np.arange(1, harmonics.size + 1)
+    count = instants(harmonics.size) if within is None else within.size
+    spectrum = np.zeros(count // 2 + 1, dtype=complex)
+    spectrum[n] = harmonics * count / 2
+    values = np.fft.irfft(spectrum, count)
+    if within is not None:
+        values = np.where(within, values, -np.inf)
+    higher = (values >= np.roll(values, 1)) & (values >= np.roll(values, -1))
+    tops = np.flatnonzero(higher & np.isfinite(values))
+    first = tops[np.argsort(values[tops])[-some:]]
+    phase = 2 * np.pi * first / count
+    best = values[first]
+    for _ in range(20):
+        turn = harmonics * np.exp(1j * np.outer(phase, n))
+        slope, bend = -(turn.imag * n).sum(axis=1), -(turn.real * n**2).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            move = np.where(bend < 0, -slope / bend, 0.0)
+        phase = phase + np.clip(np.nan_to_num(move), -np.pi / count, np.pi / count)
+    refined = (harmonics * np.exp(1j * np.outer(phase, n))).real.sum(axis=1)
+    near = np.abs((phase - 2 * np.pi * first / count + np.pi) % (2 * np.pi) - np.pi) < 3 * np.pi / count
+    return np.where(near, np.maximum(refined, best), best)
+
+
+def instants(n_harmonics: int) -> int:
+    """Instants of the period that resolve so many harmonics, a power of two."""
+    return int(2 ** np.ceil(np.log2(max(DENSE * n_harmonics, 64))))

@@ -1,0 +1,71 @@
+"""A case with other values at some of its paths: fields first, then the dimensionless groups in their order.
+
+A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, T = omega
+tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m.
+
+All fields of a record are set together, so that only the record as a whole has to be sound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.tools.checks import positive
+
+GROUPS = {"alpha": "oscillation.du_z", "T": "material.tau", "k_x/k_xc": "pull.k_x", "omega_0/omega": "pull.m"}
+
+
+def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
+    """The case with these paths set to these values; what its records refuse is raised as they word it."""
+    parts = {slot: settings.get(slot, getattr(case, slot)) for slot in KINDS}
+    changes: dict[str, dict[str, Any]] = {slot: {} for slot in KINDS}
+    for path, value in settings.items():
+        slot, _, field = path.partition(".")
+        if field:
+            _require_field(path, parts[slot], field)
+            changes[slot][field] = value
+    if "alpha" in settings:
+        _require_field("alpha", parts["oscillation"], "du_z")
+        u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
+        changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
+    if "T" in settings:
+        _require_field("T", parts["material"], "tau")
+        omega = changes["oscillation"].get("omega", parts["oscillation"].omega)
+        changes["material"]["tau"] = settings["T"] / omega
+    changed = {slot: replace(part, **changes[slot]) if changes[slot] else part for slot, part in parts.items()}
+    contact = SlidingContact(mu_0=settings.get("mu_0", case.mu_0), **changed)
+    if "k_x/k_xc" in settings:
+        contact = _with_pull(contact, "k_x/k_xc", "k_x", settings["k_x/k_xc"] * _stiffness(contact))
+    if "omega_0/omega" in settings:
+        _require_field("omega_0/omega", contact.pull, "k_x")
+        omega_0 = positive("omega_0/omega", settings["omega_0/omega"]) * contact.oscillation.omega
+        pull: Any = contact.pull
+        contact = _with_pull(contact, "omega_0/omega", "m", pull.k_x / omega_0**2)
+    return contact
+
+
+def fields_of(record: Any) -> tuple[str, ...]:
+    """Names of the fields that can be set in a record; none of what is no dataclass."""
+    return tuple(one.name for one in fields(record) if one.init) if is_dataclass(record) else ()
+
+
+def _require_field(path: str, record: Any, field: str) -> None:
+    if field not in fields_of(record):
+        raise ValueError(f"{path}: {type(record).__name__} has no {field}")
+
+
+def _with_pull(contact: SlidingContact, path: str, field: str, value: float) -> SlidingContact:
+    _require_field(path, contact.pull, field)
+    pull: Any = contact.pull
+    return replace(contact, pull=replace(pull, **{field: value}))
+
+
+def _stiffness(contact: SlidingContact) -> float:
+    """k_xc [N/m], of a contact that has one."""
+    k_xc = contact.k_xc
+    if k_xc == 0:
+        raise ValueError("k_x/k_xc: the contact has no stiffness at its mean depth, which a ratio could refer to")
+    return k_xc

@@ -1,0 +1,1 @@
+"""Closed forms and quadratures of friction, which share no code with the march."""

@@ -1,0 +1,230 @@
+"""The periodic state under a rigid pull in closed form: any shape, any amplitude, elastic or Kelvin, no march.
+
+Scaled form (phase = omega t, v = v_0/(mu_0 kappa omega du_z), T = omega tau, gap c = (g - u_z0)/du_z). A spring has the
+normal motion s (normal/kelvin_edges.py) and the extension e; its lag behind full slip p = s - e obeys
+
+    p' = max(s' - v, -p/T) in contact,   p' = -p/T in flight,   0 <= p <= s,
+
+and the COF is mu_0 (1 - sum of the mean lags / sum of the mean s). In contact s' = -sin(phase) is the same for all
+springs, so they differ only in the phase theta at which they touch. Three facts make the mean a single integral.
+
+1. One stick a period. D = s' - v + p/T is positive in stick. Those that touch before the core starts to stick, at the
+   phase where D of the core rises through zero, do as the core does; those that touch later stick at once, from theta
+   to b = theta + sigma, if D(theta) > 0, and never otherwise.
+2. The periodic stick is known. With E = exp(-(2 pi - sigma)/T), what survives of a lag from b to the next touch,
+
+       p(b) (1 - E) = cos b - cos theta - v sigma,   p(b) = T (v + sin b)  [D(b) = 0],
+
+   which for a given sigma is linear in sin b and cos b: b(sigma) and theta(sigma) are explicit. The phases run from
+   sigma = 0, where sin b = -v, to the longest stick, that of the core, where D(theta) = 0.
+3. Neighbours differ by a source at their touch. A spring that touches d theta earlier gains the lag D d theta at once;
+   this lives through its stick and decays through its slip, so its mean grows by D [T + sigma/(1 - E)] d theta/(2 pi).
+
+Summed by parts over the array, with k_zc the stiffness 2E*a of the contact at the instant theta,
+
+    1 - mu/mu_0 = du_z/<F_N> (1/2 pi) integral of k_zc(theta) D(theta) [T + sigma/(1 - E)] d theta,       (*)
+
+d theta = (D/G - 1) d sigma with G = T (1 - E) cos b + sin b - sin theta. T = 0 is the limit E = 0: D = -sin theta - v,
+and mu/mu_0 = 1 - du_z/<F_N> (1/2 pi) integral of k_zc(theta) sigma(theta) (-sin theta - v) d theta.
+
+What follows from (*):
+
+* near v = 1 for u_z0 > 0: 1 - mu/mu_0 -> (9/4 pi) k_zc du_z/<F_N> (1 - v)² for an elastic contact, and
+  (2 sqrt(2) T/3 pi) k_zc du_z/<F_N> (1 - v)^(3/2) for a Kelvin one, whose lag outlives the stick by the time T; k_zc
+  is that of the springs in contact at phase 3 pi/2, the instant of fastest approach;
+* near v = 0: mu/mu_0 -> min F_N/<F_N> + c v^q. Elastic q = 1 with
+  c = (2/pi) du_z/<F_N> integral from 0 to pi of phi k_zc(u_z0 + du_z cos phi) d phi. Kelvin with a kept core q = 2/3
+  with c = ½ R^(1/3) (3 pi T)^(2/3) k_zc(u_z0 - R du_z) du_z/<F_N>, R = sqrt(1 + T²): at its least force
+  the core slips for a time ~ v^(1/3), during which it gives back what it was pulled in the rest of the period.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.case.contact import SlidingContact, require_case
+from mdr.case.pull import RigidPull
+from mdr.closed_forms.full_slip import edge_marks, mean_normal_force
+from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
+from mdr.tools.checks import finite_array
+from mdr.tools.records import ArrayRecord
+
+Array = NDArray[np.float64]
+
+STEPS = (0.11, 0.22)  #: of the double-exponential rule, and of the one that it is compared with
+
+
+@dataclass(frozen=True, eq=False)
+class RigidPullFriction(ArrayRecord):
+    """Average friction under a rigid pull; arrays in the shape of v_0."""
+
+    cof: Array  #: average coefficient of friction [-]
+    cof_error: Array  #: bound on its quadrature and rounding [-]
+    stick_share: Array  #: force-weighted share of contact time spent sticking [-]
+
+
+@dataclass(frozen=True)
+class Asymptote:
+    """A leading term coefficient * x**power."""
+
+    power: float
+    coefficient: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Stick:
+    """The stick of springs, by its length; arrays of one shape."""
+
+    sigma: Array  # its length
+    begin: Array  # phase of its start, a touch
+    end: Array
+    D: Array  # excess of s' over what slip allows, at its start
+    kept: Array  # E: the share of a lag that outlives the slip
+    slope: Array  # d end/d sigma
+
+
+def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
+    """Average COF under a rigid pull at velocities v_0 > 0 [m/s], any shape; (*) above.
+
+    Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite.
+    """
+    case = _rigid(case)
+    v_0 = finite_array("v_0", v_0, "m/s")
+    if np.any(v_0 <= 0):
+        raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
+    v = v_0.ravel() / case.unit_velocity
+    fine, coarse = (_integrals(case, v, step) for step in STEPS)
+    # halving the step would square the error of the rule; 1e-13 is rounding
+    error = np.abs(fine[0] - coarse[0]) ** 1.5 + 1e-13
+    shape = v_0.shape
+    return RigidPullFriction(
+        cof=case.mu_0 * (1 - fine[0]).reshape(shape),
+        cof_error=case.mu_0 * error.reshape(shape),
+        stick_share=np.clip(fine[1], 0, 1).reshape(shape),  # of a contact of an instant, but for rounding
+    )
+
+
+def near_critical(case: SlidingContact) -> Asymptote:
+    """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, for u_z0 such that the centre touches at phase 3 pi/2."""
+    case = _rigid(case)
+    k_zc, F_N = _stiffness(case, contact_edge(np.array(1.5 * np.pi), case.T)), mean_normal_force(case)
+    share = float(k_zc) * case.cycle.du_z / F_N
+    if share == 0:
+        raise ValueError("the contact is open at the instant of fastest approach: v_c is less than Eq. (1) here")
+    if case.T == 0:
+        return Asymptote(2.0, 9 / (4 * np.pi) * share)
+    return Asymptote(1.5, 2 * np.sqrt(2) * case.T / (3 * np.pi) * share)
+
+
+def small_velocity(case: SlidingContact) -> Asymptote:
+    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z)."""
+    case = _rigid(case)
+    cycle, T, F_N = case.cycle, case.T, mean_normal_force(case)
+    R = -kept_gap(T)
+    core = float(_stiffness(case, np.array(-R))) * cycle.du_z / F_N
+    if T > 0 and core > 0:
+        return Asymptote(2 / 3, 0.5 * np.cbrt(R) * (3 * np.pi * T) ** (2 / 3) * core)
+    if T > 0:
+        raise ValueError("the leading term of a Kelvin contact that is lost entirely is not known in closed form")
+    rule = double_exponential(STEPS[0])
+    marks = [0.0, *(float(np.arccos(c)) for c in sorted(edge_marks(case, joints=True), reverse=True)), np.pi]
+    total = 0.0
+    for low, high in pairwise(marks):
+        phi = rule.between(np.array(low), np.array(high))
+        total += (high - low) * float(np.sum(rule.weight * phi * _stiffness(case, np.cos(phi))))
+    return Asymptote(1.0, 2 / np.pi * cycle.du_z / F_N * total)
+
+
+def _rigid(case: SlidingContact) -> SlidingContact:
+    if not isinstance(require_case(case).pull, RigidPull):
+        raise TypeError(f"the closed form is that of a rigid pull, got {case.pull!r}")
+    if not case.is_of_the_paper:
+        raise ValueError(
+            "the closed form is that of a harmonic depth on an elastic or Kelvin material, got "
+            f"{case.oscillation!r} on {case.material!r}: use cof_curve or slide, which march it"
+        )
+    return case
+
+
+def _stiffness(case: SlidingContact, gap: Array) -> Array:
+    """k_zc [N/m] of a contact whose edge stands at this gap."""
+    depth = case.cycle.u_z0 + case.cycle.du_z * gap
+    return np.asarray(case.indenter.stiffness(depth, case.material.E_star))
+
+
+def _integrals(case: SlidingContact, v: Array, step: float) -> Array:
+    """1 - mu/mu_0 and the share of stick, shape (2, n_v), by the double-exponential rule between the marks."""
+    out = np.zeros((2, v.size))
+    slow = v < 1
+    if slow.any():
+        out[:, slow] = _sum_over_sticks(case, v[slow], step)
+    return out
+
+
+def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
+    T, cycle, rule = case.T, case.cycle, double_exponential(step)
+    longest = _longest_stick(v, T)
+    # the greater the gap, the later the touch and the shorter the stick
+    marks = sorted(edge_marks(case, joints=True), reverse=True)
+    ends = [np.zeros_like(v), *(_stick_of_touch(touching_phase(gap, T), v, T, longest) for gap in marks), longest]
+    lag, sticks = np.zeros_like(v), np.zeros_like(v)
+    for low, high in pairwise(ends):
+        sigma = rule.between(low, high)
+        stick = _stick(sigma, v[:, None], T)
+        gap = contact_edge(stick.begin, T)
+        weight = (high - low)[:, None] * rule.weight * _stiffness(case, gap)
+        lag += np.sum(weight * stick.D * (T + sigma / (1 - stick.kept)) * (1 - stick.slope), axis=1)
+        sticks += np.sum(weight * _impulse_rate(stick, gap, T), axis=1)
+    core = _stick(longest, v, T)
+    depth = cycle.u_z0 + cycle.du_z * contact_edge(core.begin, T)
+    core_force = np.asarray(case.indenter.force(depth, case.material.E_star))
+    F_N = mean_normal_force(case)
+    return np.array([lag, sticks + longest * core_force / cycle.du_z]) * cycle.du_z / (2 * np.pi * F_N)
+
+
+def _stick(sigma: Array, v: Array, T: float) -> _Stick:
+    """The periodic stick of this length; its D is negative, or NaN, where there is none so long."""
+    rest = 2 * np.pi - sigma
+    kept = np.exp(-rest / T) if T else np.zeros_like(sigma)
+    lost = -T * np.expm1(-rest / T) if T else np.zeros_like(sigma)  # T (1 - E)
+    across, along = lost + np.sin(sigma), 2 * np.sin(sigma / 2) ** 2
+    reach = np.hypot(across, along)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        end = 2 * np.pi + np.arctan2(along, across) - np.arcsin(np.where(reach > 0, v * (sigma + lost) / reach, v))
+        begin = end - sigma
+        D = (v + np.sin(end)) * kept - np.sin(begin) - v
+        G = lost * np.cos(end) + np.sin(end) - np.sin(begin)
+        slope = np.where(G > 0, D / G, 0.0)
+    return _Stick(sigma, begin, end, D, kept, slope)
+
+
+def _longest_stick(v: Array, T: float) -> Array:
+    """The stick of the core, which begins where D rises through zero; (n_v,)."""
+    return _bisect(lambda sigma: _stick(sigma, v, T).D > 0, np.zeros_like(v), np.full_like(v, 2 * np.pi))
+
+
+def _stick_of_touch(begin: float, v: Array, T: float, longest: Array) -> Array:
+    """Length of the stick of a spring that touches at this phase; 0 or the longest if it does not stick at once."""
+    return _bisect(lambda sigma: _stick(sigma, v, T).begin > begin, np.zeros_like(v), longest)
+
+
+def _bisect(is_low: Callable[[Array], NDArray[np.bool_]], low: Array, high: Array) -> Array:
+    """Where a condition that holds at `low` ends, element by element, to rounding."""
+    for _ in range(54):
+        middle = 0.5 * (low + high)
+        below = is_low(middle)
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return np.asarray(low)
+
+
+def _impulse_rate(stick: _Stick, gap: Array, T: float) -> Array:
+    """d J/d sigma, J the normal impulse of a spring during its stick, in units of stiffness times du_z/omega."""
+    at_begin, at_end = (np.cos(t) - T * np.sin(t) - gap for t in (stick.begin, stick.end))
+    begin_rate = stick.slope - 1
+    return np.asarray(at_end * stick.slope - (at_begin + stick.sigma * edge_rate(stick.begin, gap, T)) * begin_rate)

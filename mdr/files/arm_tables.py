@@ -1,0 +1,72 @@
+"""The arms of a material in a table that people write: CSV, or TOML as in a case file."""
+
+from __future__ import annotations
+
+from os import PathLike, fsdecode
+from typing import Any
+
+import numpy as np
+
+from mdr.files.case_files import parse_toml, read_text
+from mdr.tools.csv_table import cells_of, fault
+from mdr.tools.messages import short
+
+
+def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
+    """The fields of a Prony in a file."""
+    name = fsdecode(path)
+    if not name.lower().endswith((".csv", ".toml")):
+        raise fault(name, "a table of arms must end in .csv or .toml")
+    if name.lower().endswith(".toml"):
+        return _from_toml(read_text(path), name, nu)
+    if nu is None:
+        raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
+    return {**_from_csv(read_text(path), name), "nu": nu}
+
+
+def _from_csv(text: str, name: str) -> dict[str, Any]:
+    rows = [
+        (number, cells_of(line, f"{name}: row {number}"))
+        for number, line in enumerate(text.splitlines(), start=1)
+        if line.strip()
+    ]
+    heads = [cell.split("[")[0].strip() for cell in rows[0][1]] if rows else []
+    if not {"E_j", "tau_j"} <= set(heads):
+        got = short(", ".join(heads)) or "nothing"
+        raise fault(name, f"the first line must name the columns E_j and tau_j, got {got}")
+    E_inf, arms = 0.0, []
+    for number, row in rows[1:]:
+        cells = dict(zip(heads, (cell.strip() for cell in row), strict=False))
+        try:
+            E_j, tau_j = float(cells["E_j"]), float(cells.get("tau_j") or "inf")
+        except (KeyError, ValueError):
+            raise fault(name, f"row {number} is no pair of numbers: {short(', '.join(row))}") from None
+        if not 0 <= E_j < np.inf or not tau_j > 0:
+            what = f"row {number} must have a finite E_j >= 0 Pa and tau_j > 0 s, got {short(', '.join(row))}"
+            raise fault(name, what)
+        if np.isinf(tau_j):
+            E_inf += E_j
+        else:
+            arms.append((E_j, tau_j))
+    return {"E_inf": E_inf, "arms": tuple(arms)}
+
+
+def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
+    content = parse_toml(text, name)
+    table = content.get("material", content)
+    if not isinstance(table, dict):
+        raise fault(name, f"material must be a table of keys, got {short(str(table))}")
+    table = dict(table)
+    model = table.pop("model", "Prony")
+    known = ("E_inf", "arms", "nu", "tau")
+    unknown = [key for key in table if key not in known]
+    if model != "Prony" or unknown:
+        other = f'model "{short(str(model))}" is not Prony'
+        what = other if model != "Prony" else f"{short(unknown[0])} is no key of Prony"
+        raise fault(name, f"{what}; there are {', '.join(known)}")
+    if nu is not None:
+        table["nu"] = nu
+    missing = [key for key in ("E_inf", "arms", "nu") if key not in table]
+    if missing:
+        raise fault(name, f"{missing[0]} is missing")
+    return table

@@ -1,0 +1,436 @@
+"""Case files: one TOML file describes one SlidingContact, strictly.
+
+Tables and keys carry the names of the records and their fields, in SI. A key left out takes the record's
+default, and no [pull] is a rigid pull:
+
+    mu_0 = 0.5
+    [indenter]
+    shape = "Paraboloid"                      # any record of mdr.indenters
+    R = 5e-3
+    [material]
+    model = "KelvinVoigt"                     # any record of mdr.materials
+    E = 3e6
+    nu = 0.5
+    tau = 1e-3
+    [oscillation]
+    u_z0 = 20e-6
+    du_z = 2e-6
+    omega = 314.159
+    [pull]
+    k_x = 2e4
+
+The keys of [oscillation] tell what it is: F_z0 and dF_z make a LoadOscillation, lists cos and sin a PeriodicMotion.
+A Prony material has arms = [[E_j, tau_j], ...].
+
+A file that is wrong is refused with every fault at once. Values are checked by the records themselves. To see
+behind a wrong or missing value, harmless numbers of several magnitudes take its place in turn: what is refused
+with each of them, in the same words, is a further fault.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from inspect import isabstract
+from os import PathLike, fsdecode
+from types import ModuleType
+from typing import Any
+
+from mdr import indenters, materials
+from mdr.case import motion
+from mdr.case.contact import SlidingContact, require_case
+from mdr.case.motion import Motion, NormalOscillation
+from mdr.case.pull import RigidPull, SpringPull
+from mdr.indenters import Indenter, Paraboloid
+from mdr.materials import Elastic, Material
+from mdr.tools.messages import nearest, offer, one_line, short
+
+MAX_BYTES = 2**24  #: of a case file
+_STAND_INS = (1.0, 0.2, 1e-3, 1e-9, 50.0)  # for a number that is missing or wrong
+_DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
+
+
+class CaseFileError(ValueError):
+    """What is wrong with a case file: one line a fault, with file, table and key."""
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """The lines of the message."""
+        return tuple(str(self).splitlines())
+
+
+# --- public ---
+
+
+def read_case(path: str | PathLike[str]) -> SlidingContact:
+    """The case in a TOML file. Raises CaseFileError with every fault."""
+    return parse_case(read_text(path), source=fsdecode(path))
+
+
+def parse_case(text: str, source: str = "<string>") -> SlidingContact:
+    """The case in a TOML text; messages call it `source`. Raises CaseFileError with every fault."""
+    if not isinstance(text, str):
+        raise TypeError(f"text must be a string of TOML, got {text!r}")
+    try:
+        return case_of(parse_toml(text, source), source)
+    except RecursionError:
+        raise fault_error(source, [NESTED]) from None
+
+
+def write_case(case: SlidingContact) -> str:
+    """The TOML text that reads back as an equal case.
+
+    Raises CaseFileError for what a file cannot carry: a Profile, which is a Python function, or a class of your own.
+    """
+    top, tables = [], []
+    require_case(case)
+    for field in _inputs(SlidingContact):
+        value = getattr(case, field.name)
+        if field.name not in _TABLES:
+            top.append(f"{field.name} = {toml_value(value)}")
+        elif not isinstance(value, RigidPull):
+            tables.append(_written(_TABLES[field.name], value))
+    return "\n\n".join(["\n".join(top), *tables]) + "\n"
+
+
+def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
+    """The tables of a TOML text. Raises CaseFileError with the line that is no TOML."""
+    import tomllib
+
+    if _DEEP.search(text):
+        raise fault_error(source, [NESTED])
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise fault_error(source, [NESTED]) from None
+    except ValueError as fault:
+        raise fault_error(source, [_syntax_fault(text, str(fault))]) from None
+
+
+def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequence[str] = ()) -> SlidingContact:
+    """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
+    known = _top_level()
+    content = {key: value for key, value in content.items() if key not in beside}
+    faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
+    tables = {**_meant(content), **content}
+    parts: dict[str, Any] = {}
+    for table in _TABLES.values():
+        part, found = table.read(tables)
+        faults += found
+        if part is not None:
+            parts[table.name] = part
+    given = {key: _number(value) for key, value in content.items() if key in known and key not in _TABLES}
+    case, found = _build(SlidingContact, {**(_HARMLESS if faults else parts), **given})
+    if faults or found:
+        raise fault_error(source, [*faults, *found])
+    assert isinstance(case, SlidingContact)
+    return case
+
+
+def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str]]:
+    """A case of the tables that are sound, harmless ones for the others, and the names of those others.
+
+    To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
+    """
+    tables = {**_meant(content), **content}
+    read = {table.name: table.read(tables) for table in _TABLES.values()}
+    unsound = {name for name, (_, faults) in read.items() if faults}
+    parts = {name: part for name, (part, _) in read.items() if part is not None and name not in unsound}
+    return _make(SlidingContact, {**_HARMLESS, **parts, "mu_0": 1.0})[0], unsound
+
+
+def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
+    """The record that a table [name] describes, or None; and the faults."""
+    return _TABLES[name].read({name: table})
+
+
+def nameable() -> dict[str, dict[str, tuple[type[Any], list[str]]]]:
+    """The records that a file can name and the keys of each, {table: {name: (record, keys)}}."""
+    return {
+        table.name: {name: (record, [one.name for one in _inputs(record)]) for name, record in table.writable().items()}
+        for table in _TABLES.values()
+    }
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file. Raises CaseFileError where there is none."""
+    source = fsdecode(path)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
+    if len(data) > MAX_BYTES:
+        raise fault_error(source, [f"is larger than {MAX_BYTES // 2**20} MiB: no case file"])
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
+        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
+        raise fault_error(source, [what]) from None
+
+
+def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:
+    """The error that tells these faults, one a line."""
+    return CaseFileError("\n".join(one_line(f"{source}: {fault}") for fault in faults))
+
+
+# --- tables ---
+
+
+@dataclass(frozen=True)
+class _Table:
+    """One table of the file: the records it may describe, and the key that chooses among them."""
+
+    name: str
+    choice: str  #: the key that names the record; empty where its other keys tell
+    module: ModuleType | None
+    kind: type[Any]
+
+    def records(self) -> dict[str, type[Any]]:
+        """Public records by name; for a new one it is enough to be public in its module."""
+        if self.module is None:
+            return {self.kind.__name__: self.kind}
+        public = [name for name in vars(self.module) if not name.startswith("_")]
+        found = {name: getattr(self.module, name) for name in getattr(self.module, "__all__", public)}
+        return {name: found[name] for name in sorted(found) if self._is_record(found[name])}
+
+    def _is_record(self, one: Any) -> bool:
+        is_class = isinstance(one, type) and is_dataclass(one)
+        return is_class and issubclass(one, self.kind) and not isabstract(one)
+
+    def writable(self) -> dict[str, type[Any]]:
+        """The records that a file can carry."""
+        return {name: record for name, record in self.records().items() if _fits_a_file(record)}
+
+    def keys(self, record: type[Any]) -> list[str]:
+        """Keys of the table when it describes this record."""
+        return [*([self.choice] if self.choice else []), *(field.name for field in _inputs(record))]
+
+    def all_keys(self) -> set[str]:
+        """Keys of the table whatever it describes."""
+        return {key for record in self.writable().values() for key in self.keys(record)}
+
+    def read(self, content: Mapping[str, Any]) -> tuple[Any, list[str]]:
+        """The record described, or None; and the faults."""
+        if self.name not in content:
+            needed = any(field.name == self.name and _is_required(field) for field in fields(SlidingContact))
+            return None, [f"[{self.name}] is missing"] if needed else []
+        table = content[self.name]
+        if not isinstance(table, dict):
+            return None, [f"[{self.name}] must be one table of keys, got {_kind(table)}"]
+        record, fault = self._choose(table)
+        if record is None:
+            return None, [f"[{self.name}] {fault}"]
+        made, faults = self._describe(record, table)
+        return made, [f"[{self.name}] {fault}" for fault in faults]
+
+    def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, str]:
+        """The record that the table names, or what is wrong with the name."""
+        if not self.choice:
+            own = [(sum(key in self.keys(record) for key in table), record) for record in self.records().values()]
+            return max(own, key=lambda one: (one[0], one[1] is NormalOscillation))[1], ""
+        names, name = self.writable(), table.get(self.choice)
+        others = f"choose one of {', '.join(names)}"
+        if self.choice not in table:
+            near = nearest(self.choice, [key for key in table if key not in self.all_keys()])
+            return None, f"{self.choice} is missing{f', and {_bare(near)} unknown' if near else ''}; {others}"
+        if not isinstance(name, str):
+            return None, f"{self.choice} must be a name in quotes, got {_kind(name)}; {others}"
+        if name not in names and name in self.records():
+            return None, f'{self.choice} "{name}": {_CALLABLE}; {others}'
+        return names.get(name), f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}"
+
+    def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, list[str]]:
+        """The record made of the keys of the table, or None; and the faults."""
+        known = self.keys(record)
+        unknown = [self._unknown(key, record) for key in table if key not in known]
+        given = {key: _number(table[key]) for key in table if key in known and key != self.choice}
+        made, faults = _build(record, given, "leave [pull] out for a rigid pull" if record is SpringPull else "")
+        return made, [*unknown, *faults]
+
+    def _unknown(self, key: str, record: type[Any]) -> str:
+        """Say that a key is unknown, and its right spelling, its right place, or all there are."""
+        known, whose = self.keys(record), f"{_bare(key)} is no key of {record.__name__}"
+        if key.casefold() not in {one.casefold() for one in known}:
+            if key in _top_level() and key not in _TABLES:
+                return f"{whose}; write it at the top of the file, above the first table"
+            if homes := _homes(key, self):
+                return f"{whose}; it belongs to {homes}"
+        return f"{whose}; {offer(key, known)}"
+
+
+_TABLES = {
+    table.name: table
+    for table in (
+        _Table("indenter", "shape", indenters, Indenter),
+        _Table("material", "model", materials, Material),
+        _Table("oscillation", "", motion, Motion),
+        _Table("pull", "", None, SpringPull),
+    )
+}
+_HARMLESS = {
+    "indenter": Paraboloid(R=1.0),
+    "material": Elastic(E=1.0, nu=0.5),
+    "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
+}
+NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
+_CALLABLE = "its shape is a Python function, which a file cannot carry"
+
+
+def _inputs(record: type[Any]) -> list[Field[Any]]:
+    return [field for field in fields(record) if field.init]
+
+
+def _is_required(field: Field[Any]) -> bool:
+    return field.default is MISSING and field.default_factory is MISSING
+
+
+def _fits_a_file(record: type[Any]) -> bool:
+    return not any("Callable" in str(field.type) for field in fields(record))
+
+
+def _top_level() -> list[str]:
+    return [field.name for field in _inputs(SlidingContact)]
+
+
+def _homes(key: str, here: _Table | None = None) -> str:
+    """The other tables that know a key."""
+    return " or ".join(f"[{name}]" for name, one in _TABLES.items() if one is not here and key in one.all_keys())
+
+
+def _unknown_top(key: str, value: Any, beside: Sequence[str]) -> str:
+    """Say that a table, or a key outside the tables, is unknown."""
+    if isinstance(value, dict):
+        near = nearest(key, [*_TABLES, *beside])
+        there = f"did you mean [{near}]?" if near else f"there are {', '.join(f'[{name}]' for name in _TABLES)}"
+        return f"[{_bare(key)}] is no table of a case; {there}"
+    keys = [*(name for name in _top_level() if name not in _TABLES), *beside]
+    homes = _homes(key)
+    return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else offer(key, keys))
+
+
+def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
+    """Misnamed tables by the name that is offered for them, so that their own faults are told too."""
+    unknown = {key: value for key, value in content.items() if isinstance(value, dict) and key not in _TABLES}
+    return {near: value for key, value in unknown.items() if (near := nearest(key, list(_TABLES)))}
+
+
+# --- from values to records ---
+
+
+def _build(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> tuple[Any, list[str]]:
+    """The record made of the given values, or None; and every fault: what is missing, then what is refused."""
+    free = [field.name for field in _inputs(record) if _is_required(field) and field.name not in given]
+    faults = [f"{name} is missing" + (f"; {way_out}" if way_out else "") for name in free]
+    while True:
+        known = {name: value for name, value in given.items() if name not in free}
+        outcomes = [_make(record, {**known, **fill}) for fill in _fillings(free)]
+        made = [one for one, _ in outcomes if one is not None]
+        refusals = {refusal for _, refusal in outcomes if _subject(refusal) not in free}
+        if made or len(refusals) != 1:
+            return (made[0] if made and not faults else None), faults
+        faults += refusals
+        subject = _subject(faults[-1])
+        if subject not in known:
+            return None, faults
+        free.append(subject)
+
+
+def _make(record: type[Any], values: Mapping[str, Any]) -> tuple[Any, str]:
+    """The record, or None and the words of its refusal."""
+    try:
+        return record(**values), ""
+    except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
+        return None, one_line(str(refusal) or type(refusal).__name__)
+
+
+def _fillings(names: list[str]) -> Iterator[dict[str, float]]:
+    """Numbers for fields without a usable value: several magnitudes, in both orders; nothing for no fields."""
+    for size in _STAND_INS if names else (1.0,):
+        for order in (names, names[::-1]):
+            yield {name: size * (1 + 0.1 * i) for i, name in enumerate(order)}
+
+
+def _subject(message: str) -> str:
+    """The quantity that a message is about: its first word."""
+    found = re.match(r"\w+", message)
+    return found.group() if found else ""
+
+
+def _number(value: Any) -> Any:
+    """The value; an integer beyond the range of floats becomes infinite, which every record refuses by name."""
+    if isinstance(value, list):
+        return [_number(one) for one in value]
+    if isinstance(value, int) and not isinstance(value, bool):
+        try:
+            float(value)
+        except OverflowError:
+            return math.inf if value > 0 else -math.inf
+    return value
+
+
+# --- from records to text ---
+
+
+def _written(table: _Table, record: Any) -> str:
+    """One table of the file."""
+    name, writable = type(record).__name__, table.writable()
+    if table.records().get(name) is not type(record):
+        raise CaseFileError(f"[{table.name}] {name} is none of the records a file can name: {', '.join(writable)}")
+    if name not in writable:
+        way_out = f"keep the case in a script, or use one of {', '.join(writable)}"
+        raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
+    values = {field.name: getattr(record, field.name) for field in _inputs(type(record))}
+    lines = [f"{key} = {toml_value(value)}" for key, value in values.items() if value is not None]
+    head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if table.choice else [])]
+    return "\n".join(head + lines)
+
+
+def toml_value(value: Any) -> str:
+    """A string, number, truth or list of them as TOML writes it."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(toml_value(one) for one in value) + "]"
+    return repr(float(value))
+
+
+# --- syntax ---
+
+
+def _syntax_fault(text: str, message: str) -> str:
+    """What is no TOML, where it stands, and what is usually meant."""
+    what, _, where = message.partition(" (at ")
+    lines = text.splitlines()
+    place = re.match(r"line (\d+)", where)
+    number = int(place[1]) if place else len(lines)
+    line = lines[number - 1].strip() if 0 < number <= len(lines) else ""
+    if what.startswith("Expected newline") and "=" in line:
+        what = "more than one value; write one number in SI, without unit or arithmetic"
+    elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
+        what += "; is it given twice?"
+    elif what.startswith("Exceeds the limit"):
+        what = "a number has thousands of digits"
+    return f"line {number}: {short(line)}: {what}" if where else what
+
+
+# --- messages ---
+
+
+def _bare(name: str) -> str:
+    """A key as TOML writes it: plain, or quoted where it holds other than letters, digits, _ and -."""
+    return short(name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name))
+
+
+def _kind(value: Any) -> str:
+    """What a TOML value is called."""
+    names = {dict: "a table", list: "an array", str: "a string", bool: "true or false"}
+    return names.get(type(value)) or short(str(value))

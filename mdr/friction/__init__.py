@@ -1,0 +1,1 @@
+"""What runs and closed forms say of friction: curves, the measured velocity, the verdict, a fit."""

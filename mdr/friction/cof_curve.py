@@ -1,0 +1,138 @@
+"""The COF curve of a contact: in closed form under a rigid pull, else one run a velocity.
+
+The point v_0 = 0 is the static limit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.case.contact import SlidingContact, require_case
+from mdr.case.pull import RigidPull
+from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.closed_forms.full_slip import static_cof
+from mdr.closed_forms.rigid_pull import average_friction
+from mdr.march.slide import slide
+from mdr.march.theorems import disordered
+from mdr.tools.checks import count, finite_array
+from mdr.tools.progress import progress
+from mdr.tools.records import ArrayRecord
+
+Array = NDArray[np.float64]
+
+STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
+LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
+
+
+@dataclass(frozen=True, eq=False)
+class CofCurve(ArrayRecord):
+    """COF over pulling velocity; arrays of shape (n_v,). The point v_0 = 0 is the static limit.
+
+    v_0 [m/s]; cof, cof_error [-], absolute; settled; stick_share [-]; v_c [m/s] of Eq. (15), the scale of the curve.
+    """
+
+    v_0: Array  #: pulling velocities [m/s]
+    cof: Array  #: average coefficient of friction [-]
+    cof_error: Array  #: bound on its numerical error [-]
+    settled: NDArray[np.bool_]  #: whether the run settled
+    stick_share: Array  #: force-weighted share of contact time spent sticking [-]
+    v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
+    mu_0: float  #: local coefficient of friction [-]
+    static_cof: float  #: limit v_0 -> 0 [-]
+    why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw cof/mu_0 over v_0/v_c; returns the matplotlib Axes."""
+        from mdr.plots import plot_curve
+
+        return plot_curve(self, ax)
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write v_0, cof, cof_error, settled, stick_share, with units in the header."""
+        Path(path).write_text(self.table(), encoding="utf-8")
+
+    def table(self) -> str:
+        """The text of the CSV file."""
+        columns = (self.v_0, self.cof, self.cof_error, self.settled.astype(int), self.stick_share)
+        lines = ["v_0 [m/s],cof [-],cof_error [-],settled,stick_share [-]"]
+        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
+        return "\n".join(lines) + "\n"
+
+
+def cof_curve(
+    case: SlidingContact,
+    v_0: ArrayLike,
+    *,
+    method: str | None = None,
+    n_springs: int | None = None,
+    steps_per_period: int | None = None,
+) -> CofCurve:
+    """COF of a case over pulling velocities v_0 >= 0 [m/s], shape (n_v,).
+
+    method: None takes the closed form of a rigid pull (rigid_pull.py) under a harmonic depth, elastic or Kelvin, and a
+    run a velocity for every other case; "march" forces the runs. n_springs, steps_per_period: of every run, as `slide`
+    takes them (None: chosen to meet the accuracy budget); the closed form has neither and is what it is with any.
+    Raises ValueError for velocities that are negative, infinite or NaN.
+    """
+    case = require_case(case)
+    for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
+        if knob is not None:
+            count(name, knob, LEAST_KNOB)
+    if method not in (None, "march"):
+        raise ValueError(f'method must be None or "march", got {method!r}')
+    velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)  # a copy: the record keeps it
+    if velocities.ndim != 1 or velocities.size == 0:
+        raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
+    if np.any(velocities < 0):
+        raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
+    static, moving = static_cof(case), velocities > 0
+    closed = method is None and isinstance(case.pull, RigidPull) and case.is_of_the_paper
+    if closed:
+        columns = _closed_form(case, velocities[moving])
+    else:
+        columns = _runs(case, velocities[moving], n_springs, steps_per_period)
+    cof, error, settled, sticks, why = columns
+
+    def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:
+        out = np.full(velocities.shape, limit, dtype=values.dtype)
+        out[moving] = values
+        return out
+
+    return CofCurve(
+        v_0=velocities,
+        cof=with_limit(cof, static),
+        cof_error=with_limit(error, STATIC_ERROR * case.mu_0),
+        settled=with_limit(settled, True),
+        stick_share=with_limit(sticks, 1.0),
+        v_c=critical_velocity(case),
+        mu_0=case.mu_0,
+        static_cof=static,
+        why=tuple(with_limit(why, "").tolist()),
+    )
+
+
+Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
+
+
+def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
+    known = average_friction(case, v_0)
+    nothing = np.full(v_0.shape, "", dtype=object)
+    return known.cof, known.cof_error, np.ones(v_0.shape, dtype=bool), known.stick_share, nothing
+
+
+def _runs(case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None) -> Columns:
+    runs = [
+        slide(case, v, n_springs=n_springs, steps_per_period=steps_per_period)
+        for v in progress(v_0.tolist(), "cof_curve")
+    ]
+    cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
+    settled = np.array([run.settled for run in runs], dtype=bool)
+    why = np.array([run.why for run in runs], dtype=object)
+    wrong = disordered(v_0, cof, error, settled)
+    why[wrong] = "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
+    return cof, error, settled & ~wrong, sticks, why

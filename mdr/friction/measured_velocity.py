@@ -1,0 +1,373 @@
+"""The critical velocity measured from simulated runs alone.
+
+The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own
+error. Near v_c that deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a
+Kelvin one, whose lag behind full slip lasts for the relaxation time instead of the stick phase; so the COF alone
+reads v_c low. Two sharper signs give the digits:
+
+* a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull
+  does not depend on v_0. One such run therefore locates v_c by v_0 less its smallest slip velocity;
+* stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket,
+  widened by what steps and springs still move.
+
+Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
+has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes zero. Such a
+rest of a free oscillation, with a full COF, is no friction reduction and is named, not counted.
+
+A run further down looks whether stick means less friction at all. An undamped body whose omega_0 is a whole multiple of
+omega can keep a free oscillation in step with the drive, such that it never sticks although the motion without it
+would: there the COF, full within its error, says where friction reduction ends. With a little damping, or a little off
+the multiple, a little friction is missing, and the velocity from which that is less than NEARLY_FULL is named.
+
+A run that has not settled is no evidence of either. Where one stands in the way, others close by are asked; where these
+do not settle either, that is the answer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact, require_case
+from mdr.case.pull import SpringPull
+from mdr.march.run import SlidingRun
+from mdr.march.slide import N_SPRINGS, default_steps, slide
+from mdr.tools.checks import positive
+from mdr.tools.progress import Ticker, time_is_over, time_limit
+
+MARGIN = 2e-5  #: half width of the bracket, of v_c
+GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; at MARGIN below v_c it is above 1e-3
+APART = 0.01  #: step between velocities at which the deficit of the COF is read
+CLOSER = 0.004  #: the same where its error allows
+BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
+GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
+NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
+ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
+SWINGS = 64  #: periods after which a free oscillation that is left is one that stays
+LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
+FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
+HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
+
+
+@dataclass(frozen=True)
+class MeasuredVelocity:
+    """A critical velocity found from runs alone: v_c between low and high [m/s], all None where there is none.
+
+    kind: "end of stick" (least slip velocity, stick and COF name one velocity), "free oscillation" (so
+    too, but above it a body that starts from rest keeps one, which grazes stick now and then, at full COF), "end of
+    friction reduction" (read off the COF, a bracket of per cents), "lock-in" (so too, as a free oscillation in step
+    with the drive keeps springs from sticking down to v_c), "hysteresis" (v_c is that of the start that keeps friction
+    reduced), "none" (friction stays reduced up to the highest velocity) or "unsettled" (runs that would tell do not
+    settle).
+    """
+
+    v_c: float | None  #: [m/s]; None where there is none
+    low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
+    high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
+    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "lock-in", "hysteresis", ...
+    why: str  #: in words
+    nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
+    n_runs: int = field(default=0, compare=False)  #: how many runs it took
+
+    def contains(self, v_0: float) -> bool:
+        """Whether a velocity [m/s] lies within the bracket."""
+        return self.low is not None and self.high is not None and self.low <= v_0 <= self.high
+
+
+def measure_critical_velocity(
+    case: SlidingContact, *, start: str = "full_slip", limit_s: float | None = None
+) -> MeasuredVelocity:
+    """Measure v_c of a case from simulated runs alone; `start` is that of the runs that locate it.
+
+    The bracket is some 4e-5 of v_c wide, and wider where steps or springs still move it. The answer does not depend on
+    where the search begins. It takes 10 to 40 runs, a second to a minute; after limit_s seconds (None: no limit) it
+    ends unsettled. Raises ValueError for an unknown start.
+    """
+    if start not in ("full_slip", "rest"):
+        raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
+    search = _Search(require_case(case), start)
+    with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
+        try:
+            return search.measure()
+        except _Undecided as at:
+            return search.undecided(float(at.args[0]))
+
+
+class _Undecided(Exception):
+    """No run near a velocity settles that would have to."""
+
+
+class _Search:
+    """The runs of one measurement."""
+
+    def __init__(self, case: SlidingContact, start: str) -> None:
+        self.case, self.start, self.n_runs = case, start, 0
+        self.ticker = Ticker("measure_critical_velocity, runs")
+        self.steps, self.n_springs = default_steps(case), N_SPRINGS
+        self.doubt = 0.0  # of the end of stick [m/s], by resolution
+        self.scale = case.unit_velocity  # only a scale of velocity
+
+    def run(self, v_0: float, start: str | None = None) -> SlidingRun:
+        self.n_runs += 1
+        self.ticker.tick()
+        if time_is_over():
+            raise _Undecided(v_0)
+        start = start or self.start
+        return slide(self.case, v_0, start=start, n_springs=self.n_springs, steps_per_period=self.steps)
+
+    def look(self, v_0: float, start: str) -> SlidingRun:
+        """A run of half the usual resolution, enough to tell reduced friction from full."""
+        self.n_runs += 1
+        self.ticker.tick()
+        return slide(
+            self.case, v_0, start=start, n_springs=N_SPRINGS // 2, steps_per_period=default_steps(self.case) // 2
+        )
+
+    def measure(self) -> MeasuredVelocity:
+        free = self._first_free_run()
+        jumps = self._jumps()
+        if free is not None and not jumps:
+            free = self._resolve(free)
+        if free is None:
+            return self._none("friction stays reduced, or stick goes on, up to the highest velocity tried")
+        v_c, low, high = self._locate(free)
+        if jumps:
+            why = (
+                f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body "
+                "without inertia jumps when single springs touch; "
+                "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero"
+            )
+            return self._by_friction(high, high, why)
+        low, high = max(low - self.doubt, 0.0), high + self.doubt
+        if v_c <= LEAST * self.scale:
+            why = f"stick ends below {LEAST:g} of Eq. (1), which is not told from zero"
+            return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
+        return self._look_below(v_c, low, high)
+
+    def _none(self, why: str) -> MeasuredVelocity:
+        return MeasuredVelocity(None, None, None, "none", why, n_runs=self.n_runs)
+
+    def undecided(self, v_0: float) -> MeasuredVelocity:
+        """The answer where runs that would tell do not settle."""
+        why = f"runs near {v_0:.6g} m/s do not settle, so that nothing is known of friction there"
+        return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
+
+    def _decided(self, v_0: float, apart: float = MARGIN / 4) -> SlidingRun:
+        """A run at this velocity that has settled, or one close by; apart: how close, over v_0."""
+        for off in (0.0, apart, -apart):
+            if (run := self.run(v_0 * (1 + off))).settled:
+                return run
+        raise _Undecided(v_0)
+
+    def _first_free_run(self) -> SlidingRun | None:
+        """A settled run without stick, not far above v_c, by factors that do not land on it by construction.
+
+        In full slip the body moves alike at any v_0: one free run, however fast, tells where stick begins.
+        """
+        guess, unsettled = self.scale, None
+        for times in FAR:
+            far = self.run(times * self.scale, "full_slip")  # from rest it would swing as fast
+            if _is_free(far):
+                guess = far.v_0 - far.least_slip
+                break
+            if far.settled:
+                break
+        v_0 = 1.37 * max(guess, LEAST * self.scale)
+        while v_0 < HIGHEST * max(guess, self.scale):
+            run = self.run(v_0)
+            if _is_free(run):
+                return run
+            unsettled = unsettled if run.settled else v_0
+            v_0 *= 6.85
+        if unsettled is not None:
+            raise _Undecided(unsettled)
+        return None
+
+    def _resolve(self, free: SlidingRun) -> SlidingRun | None:
+        """Double steps and springs until the end of stick moves by no more than the margin; the finest run without.
+
+        A first touch falls anywhere within a step, so its error is irregular: three resolutions are compared, not two.
+        """
+        for knob, most in (("steps", 16384), ("n_springs", 3072)):
+            while (known := getattr(self, knob)) < most:
+                slips = [free.least_slip]
+                for finer in (3 * known // 2, 2 * known):
+                    setattr(self, knob, finer)
+                    run = self._decided(free.v_0)
+                    if not _is_free(run):  # free in coarse steps only: begin anew, further up
+                        further = self._first_free_run()
+                        return None if further is None else self._resolve(further)
+                    slips.append(run.least_slip)
+                free, moved = run, max(slips) - min(slips)
+                if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale) or 2 * known >= most:
+                    self.doubt += moved
+                    break
+        return free
+
+    def _locate(self, free: SlidingRun) -> tuple[float, float, float]:
+        """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
+        low, high = 0.0, free.v_0
+        guess = free.v_0 - free.least_slip
+        if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
+            return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
+        for width in (MARGIN, 4 * MARGIN, 16 * MARGIN, 64 * MARGIN):
+            above, below = self._decided(guess * (1 + width)), self._decided(guess * (1 - width))
+            if _is_free(above) and not _is_free(below):
+                return guess, below.v_0, above.v_0
+            low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
+            high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
+            guess = high * (1 - 1e-12) if not low < guess < high else guess
+        while high - low > 2 * MARGIN * high:
+            run = self._decided(0.5 * (low + high))
+            low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
+        return 0.5 * (low + high), low, high
+
+    def _jumps(self) -> bool:
+        """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid
+        first touch of a dashpot.
+        """
+        case, pull = self.case, self.case.pull
+        kept = case.cycle.u_z0 + case.cycle.du_z * case.kept_gap
+        moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
+        light = isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0
+        return bool(light and case.T > 0 and moving_edge)
+
+    def _by_friction(
+        self, full: float, high: float, why: str, kind: str = "end of friction reduction", apart: float = APART
+    ) -> MeasuredVelocity:
+        """Let the COF speak: its deficit to the power 2/3 falls smoothly to zero at v_c for a Kelvin contact, to the
+        power 1/2 for an elastic one. full: a velocity at which it is full; apart: step between those that are read.
+        """
+        power = 2 / 3 if self.case.T > 0 else 1 / 2
+        v_0 = full * (1 - apart)
+        roots: list[tuple[float, float]] = []
+        while v_0 > 1e-6 * self.scale and len(roots) < 3:
+            run = self.run(v_0)
+            if _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
+                roots.append((v_0, (run.mu_0 - run.cof) ** power))
+            v_0 *= 1 - apart
+        if len(roots) < 3:
+            return self._none("stick never reduces friction by more than its numerical error")
+        velocities, deficits = np.array(roots).T
+        v_c = float(np.polyfit(deficits, velocities, 2)[-1])
+        return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
+
+    def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
+        """A run below the end of stick: is friction reduced there, and by how much?"""
+        near = self.look(BELOW[0] * v_c, self.start)
+        if _only_grazes(near) and _only_grazes(self.run(near.v_0)):
+            return self._lock_in(near.v_0, high)
+        found = self._look_above(v_c, low, high)
+        if found.v_c != v_c or not _is_nearly_full(near) or not _is_nearly_full(self.look(BELOW[1] * v_c, self.start)):
+            return found
+        nearly, less = BELOW[1] * v_c, 0.0
+        while nearly - less > 0.02 * nearly:
+            middle = 0.5 * (nearly + less)
+            nearly, less = (middle, less) if _is_nearly_full(self.look(middle, self.start)) else (nearly, middle)
+        why = f"{found.why}; the COF is within {NEARLY_FULL:g} of mu_0 from {nearly:.3g} m/s on already"
+        return replace(found, nearly_full=nearly, why=why, n_runs=self.n_runs)
+
+    def _lock_in(self, full: float, stick: float) -> MeasuredVelocity:
+        """The end of friction reduction below the end of stick of the motion without free oscillation."""
+        reduced = 0.0
+        for _ in range(12):
+            if _is_reduced(run := self._decided(0.9 * full, CLOSER)):
+                reduced = run.v_0
+                break
+            full = run.v_0
+        while full - reduced > CLOSER * full:
+            run = self._decided(0.5 * (full + reduced), CLOSER / 4)
+            full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
+        why = (
+            "a free oscillation in step with the drive keeps every spring from sticking down to this velocity, and the "
+            f"COF is mu_0; the periodic motion without it would stick up to {stick:.6g} m/s; v_c is read off the COF"
+        )
+        return self._by_friction(full, full * (1 + CLOSER), why, "lock-in", CLOSER)
+
+    def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
+        """Runs beyond v_c from both starts: does friction stay full?"""
+        swinging, full, unsettled = False, False, []
+        undamped = isinstance(self.case.pull, SpringPull) and self.case.pull.c_x == 0  # else a swing is a transient
+        of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
+        for factor in ABOVE:
+            for start in ("full_slip", "rest"):
+                run = self.look(factor * v_c, start)
+                if not run.settled:
+                    unsettled.append(f"{factor:g} v_c from {start}")
+                elif _is_reduced(run) and self._lasts(run, start):
+                    return self._hysteresis(run, start, v_c)
+                full = full or run.settled
+                if undamped and run.settled and start == "rest" and factor == ABOVE[1]:
+                    # in full slip the body moves alike at any v_0, but for the error of a step
+                    slip = self._awaited(run).least_slip
+                    swinging = abs(slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
+        why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
+        if swinging:
+            why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"
+        if unsettled:
+            why += f"; not settled: {', '.join(unsettled)}"
+        kind = "free oscillation" if swinging else "end of stick"
+        return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
+
+    def _awaited(self, run: SlidingRun) -> SlidingRun:
+        """The same from rest for SWINGS periods, without a search for its periodic state."""
+        self.n_runs += 1
+        self.ticker.tick()
+        return slide(
+            self.case,
+            run.v_0,
+            start="rest",
+            n_springs=run.n_springs,
+            steps_per_period=run.steps_per_period,
+            n_periods=SWINGS,
+        )
+
+    def _lasts(self, run: SlidingRun, start: str) -> bool:
+        """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""
+        self.n_runs += 1
+        self.ticker.tick()
+        longer = slide(
+            self.case,
+            run.v_0,
+            start=start,
+            n_springs=run.n_springs,
+            steps_per_period=run.steps_per_period,
+            n_periods=4 * run.n_periods,
+        )
+        return longer.mu_0 - longer.cof > 0.7 * (run.mu_0 - run.cof)
+
+    def _hysteresis(self, reduced: SlidingRun, start: str, v_c: float) -> MeasuredVelocity:
+        """Friction is reduced above the end of stick of the other start: narrow down where that ends."""
+        low, high = reduced.v_0, reduced.v_0
+        while _is_reduced(self.look(high := high * 1.5, start)):
+            low = high
+            if high > HIGHEST * max(v_c, self.scale):
+                return self._none(f"from {start}, friction stays reduced up to the highest velocity tried")
+        while high - low > 1e-3 * high:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if _is_reduced(self.look(middle, start)) else (low, middle)
+        why = (
+            f"between {v_c:.6g} m/s, where stick ends for the runs that locate it, and this velocity, "
+            f"a run from {start} keeps friction reduced"
+        )
+        v_c, doubt = 0.5 * (low + high), self.doubt
+        return MeasuredVelocity(v_c, low - doubt, high + doubt, "hysteresis", why, n_runs=self.n_runs)
+
+
+def _is_free(run: SlidingRun) -> bool:
+    """No spring sticks: a positive slip velocity throughout, in a settled run of full COF."""
+    return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
+
+
+def _only_grazes(run: SlidingRun) -> bool:
+    """Whether stick is there in a run, if at all, as in the rest of a free oscillation, and takes nothing away."""
+    return run.settled and not _is_reduced(run) and run.stick_share < GRAZING
+
+
+def _is_nearly_full(run: SlidingRun) -> bool:
+    return run.settled and run.mu_0 - run.cof < NEARLY_FULL * run.mu_0
+
+
+def _is_reduced(run: SlidingRun) -> bool:
+    return run.settled and run.mu_0 - run.cof > run.cof_error

@@ -1,0 +1,200 @@
+"""The verdict: how good Eq. (15) is, beside the full-slip value and the measured one, and why they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact, require_case
+from mdr.case.motion import DepthMotion, LoadOscillation
+from mdr.case.pull import RigidPull, SpringPull
+from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
+from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
+from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
+from mdr.tools.checks import between
+
+WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
+SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
+STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
+WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the strict answer
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How good is Eq. (15) for this contact? Velocities in m/s; print it for the sentence.
+
+    eq_15 at the mean depth, full_slip with all harmonics of the force, measured from runs (None where they found no
+    critical velocity); deviation = measured/eq_15 - 1. good: whether its size is at most `within`, so that the formula
+    may be used. holds: the strict answer, whether Eq. (15) lies within the bracket of the measurement, some 4e-5 of v_c
+    wide; None where that cannot be judged. why in words; measurement: bracket, kind and number of runs.
+
+    `dataclasses.replace(found, within=0.003)` judges by another tolerance, without a run; ValueError unless it lies
+    between 0 and 1.
+    """
+
+    eq_15: float  #: Eq. (15) at the mean depth; Eq. (1) for a rigid pull
+    full_slip: float  #: the same condition with all harmonics of the normal force
+    measured: float | None  #: from runs alone
+    deviation: float | None  #: measured/eq_15 - 1; beside a vanishing Eq. (15), over 1e-4 of Eq. (1)
+    holds: bool | None  #: strictly: Eq. (15) lies in the bracket of the measurement; None if that cannot be judged
+    why: str  #: in the words of the physics
+    measurement: MeasuredVelocity  #: bracket and kind
+    formula: str = "Eq. (15)"  #: the closed form judged
+    within: float = WITHIN  #: largest |deviation| that is called good [-]
+    least: float = 0.0  #: 1e-4 of Eq. (1) [m/s]: a velocity below it is not told from zero
+
+    def __post_init__(self) -> None:
+        _tolerance(self.within)
+
+    @property
+    def good(self) -> bool | None:
+        """Whether |deviation| <= within; None without a measured v_c or a finite formula."""
+        return None if self.deviation is None else abs(self.deviation) <= self.within
+
+    def __str__(self) -> str:
+        found = self.measurement
+        if self.measured is None:
+            said = self._unmeasured()
+        else:
+            said = (
+                f"{self._use(self.measured)}. Strictly, to the bracket of the measurement, it {WORDS[self.holds]}: "
+                f"measured v_c = {self.measured:.6g} m/s (between {found.low:.8g} and {found.high:.8g}), "
+                f"against {self.eq_15:.6g} m/s"
+            )
+        return f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
+
+    def _use(self, measured: float) -> str:
+        """How good the formula is, and what to use in its place."""
+        instead = f"use {measured:.4g} m/s"
+        if not np.isfinite(self.eq_15):
+            return f"is infinite here; {instead}"
+        if min(self.eq_15, measured) <= self.least and (self.holds or self.good):
+            return "is almost zero here, and so is the measured v_c"
+        if self.eq_15 <= self.least:
+            return f"is almost zero here; {instead}"
+        if measured <= self.least:
+            return f"is too high here, where v_c is almost zero; {instead}"
+        off = _off(self.eq_15 / measured)
+        if self.good:
+            return f"is good to {100 * self.within:.4g} % here ({off})"
+        if self.holds:  # a wide bracket, or a tolerance narrower than it
+            return f"is {off} here, no more than the measurement leaves open"
+        return f"is {off} here; {instead}"
+
+    def _unmeasured(self) -> str:
+        """What can be said where runs found no critical velocity: without a resonance, nothing about v_c."""
+        if np.isfinite(self.full_slip):
+            full = f"no settled run confirmed the full-slip value {self.full_slip:.6g} m/s"
+            return f"{WORDS[None]}: {full}, against {self.eq_15:.6g} m/s by the formula"
+        none = "no critical velocity was found" if self.holds is None else "no critical velocity"
+        return f"{WORDS[self.holds]}: {none}, against {self.eq_15:.6g} m/s"
+
+
+def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | None = None) -> Verdict:
+    """Measure v_c [m/s] of a case and set it beside Eq. (15) (Eq. (1) for a rigid pull) and the full-slip value.
+
+    within: largest |measured/Eq. (15) - 1| [-] at which the formula is called good, 0.01 for 1 %; it changes no run.
+    limit_s: seconds after which the measurement ends unsettled (None: no limit).
+    Returns a `Verdict`: `.good` to that tolerance, `.holds` to the bracket of the measurement, some 4e-5 of v_c wide,
+    where small deviations count.
+
+    Raises TypeError for what is no case or no number, ValueError for `within` not between 0 and 1.
+    """
+    eq_15, full = critical_velocity(require_case(case)), full_slip_critical_velocity(case)
+    within = _tolerance(within)  # before the runs, not after them
+    found, least = measure_critical_velocity(case, limit_s=limit_s), LEAST * case.unit_velocity
+    deviation: float | None = None
+    holds: bool | None
+    if found.v_c is None:
+        holds = None if found.kind == "unsettled" else _holds_without_velocity(case, eq_15, full)
+    elif not np.isfinite(eq_15):
+        holds = False
+    else:
+        scale = max(eq_15, least)
+        deviation = (found.v_c - eq_15) / scale
+        holds = found.contains(eq_15) or max(eq_15, found.v_c) < scale
+    reasons = list(_reasons(case, eq_15, full, found))
+    if holds and found.kind == "end of stick":
+        reasons = ["the springs that stick to the last all slip from the velocity of one element on"]
+    elif holds and found.v_c is not None:
+        reasons = [found.why]
+    if found.v_c is None or not reasons:
+        reasons.append(found.why)
+    if found.nearly_full is not None:
+        reasons.append(f"the COF is within {NEARLY_FULL:g} of mu_0 from {found.nearly_full:.3g} m/s on already")
+    formula = formula_of(case)
+    why = "; ".join([*reasons, *_left_out(case)])
+    return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula, within, least)
+
+
+def _tolerance(within: float) -> float:
+    return between("within", within, 0, 1, "a share of v_c: 0.01 for 1 %")
+
+
+def _off(ratio: float) -> str:
+    """How far the formula is from the measured value, by their ratio: in per cent, or as a factor from 2 on."""
+    which = "high" if ratio > 1 else "low"
+    if 0.5 < ratio < 2:
+        return f"{_two_digits(100 * abs(ratio - 1))} % too {which}"
+    return f"too {which} by a factor of {_two_digits(max(ratio, 1 / ratio))}"
+
+
+def _two_digits(number: float) -> str:
+    return f"{float(f'{number:.2g}'):g}"
+
+
+def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> bool | None:
+    """Whether the formula holds where runs found no velocity: friction stays reduced for ever on a resonance alone."""
+    resonance = not np.isfinite(full) and _has_mass(case)
+    if not resonance:
+        return None
+    if not np.isfinite(eq_15):
+        return True
+    return None if eq_15 > HIGHEST * case.unit_velocity else False  # beyond that no run has looked
+
+
+def _has_mass(case: SlidingContact) -> bool:
+    """Whether a harmonic of the force can meet a natural frequency."""
+    return isinstance(case.pull, SpringPull) and case.pull.m > 0
+
+
+def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVelocity) -> Iterator[str]:
+    if not np.isfinite(eq_15):
+        yield "the body is driven at its undamped natural frequency, where the formula has its pole"
+    if not np.isfinite(full) and np.isfinite(eq_15):
+        yield (
+            "a harmonic of the normal force drives the body at its undamped natural frequency"
+            if _has_mass(case)
+            else "dashpots that touch again throw the body, which has no inertia, at unbounded velocity for an instant"
+        )
+    if not case.keeps_contact:
+        yield "contact is lost in part of the period, Eq. (5)"
+    if isinstance(case.pull, RigidPull) and isinstance(case.oscillation, DepthMotion):
+        if full < eq_15 * (1 - SAME):
+            yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
+    elif np.isfinite(eq_15) and found.contains(full):
+        what = "depth" if isinstance(case.oscillation, LoadOscillation) else "normal force"
+        yield (
+            f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
+            "with them the full-slip condition gives the measured value"
+        )
+    if found.kind in ("hysteresis", "lock-in"):
+        yield found.why
+
+
+def _left_out(case: SlidingContact) -> Iterator[str]:
+    """What the springs leave out where it matters."""
+    beta, rub = case.material.dundurs_beta, radial_rub(case)
+    left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
+    if unlike(case):
+        if abs(beta) > STRONG:
+            yield f"{left_out} friction is lower than here, and part of the contact may still stick above this velocity"
+    elif rub > STRONG:
+        most = "" if rub <= FARTHEST else " (more than half as much again under a flat face)"
+        yield (
+            f"{left_out} friction is lower than here by up to about {coupling_loss(case):.1g} of mu_0{most}, and part "
+            f"of the contact sticks up to about {1 + rub:.2f} times the full-slip velocity"
+        )

@@ -1,0 +1,167 @@
+"""The integrals that lead from f(r) to g(x), p(r) and back, for profiles that are smooth between kinks.
+
+g(x) = x ∫₀^{π/2} f'(x sin t) dt                       the one-dimensional image
+f(r) = (2/π) ∫₀^{π/2} g(r sin t) dt                    its inverse
+∫₀^a g dx = a ∫₀^{π/2} f(a sin t) sin t dt             needed for F_N = 2E*(d a − ∫₀^a g dx)
+p(r) = (E*/π) ∫_r^a g'(x) / √(x² − r²) dx              pressure, from g
+     = (E*/π) ∫₀^a K(r, s) d[s f'(s)],                 the same, from f
+K(r, s) = ∫_{max(r,s)}^a dx / √((x² − s²)(x² − r²)), an incomplete elliptic integral of the first kind.
+
+The first, second and fourth are Popov & Heß, *Method of Dimensionality Reduction* (2015); the others follow
+by exchanging the order of integration. A jump of f' at a kink is a jump of s f'(s) in the last one.
+Arrays are one-dimensional here, radii positive; ``edges`` are 0, the kinks and the profile's end (or inf).
+"""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+
+from mdr.indenters.mapping.quadrature import WINDOW, Function, Rule, derivatives, double_exponential
+from mdr.indenters.mapping.stable_functions import arcosh, leg
+from mdr.tools.checks import FloatArray
+
+EPS = float(np.finfo(float).eps)
+
+Slope = Callable[[FloatArray, float, float], FloatArray]  #: dg/ds from s and the kinks before and after
+
+
+def profile_1d(f: Function, edges: tuple[float, ...], x: FloatArray, rule: Rule | None = None) -> FloatArray:
+    """g(x) from f."""
+
+    def slope(r: FloatArray, low: float, high: float) -> FloatArray:
+        return derivatives(f, r, WINDOW * r, low, high)[0]
+
+    total = np.zeros_like(x)
+    for low, high in pairwise(edges):
+        on = x > low
+        r, _, weight = _arc(x[on], low, high, rule or double_exponential())
+        total[on] += np.sum(weight * slope(r, low, high), axis=1)
+    return x * total
+
+
+def profile_3d(g: Function, edges: tuple[float, ...], r: FloatArray) -> FloatArray:
+    """f(r) from g."""
+    total = np.zeros_like(r)
+    for low, high in pairwise(edges):
+        on = r > low
+        x, _, weight = _arc(r[on], low, high, double_exponential())
+        total[on] += np.sum(weight * g(x), axis=1)
+    return 2 / np.pi * total
+
+
+def area_from_f(f: Function, edges: tuple[float, ...], a: FloatArray) -> FloatArray:
+    """∫₀^a g dx from f, without any derivative."""
+    total = np.zeros_like(a)
+    for low, high in pairwise(edges):
+        on = a > low
+        r, sine, weight = _arc(a[on], low, high, double_exponential())
+        total[on] += np.sum(weight * sine * f(r), axis=1)
+    return a * total
+
+
+def area_from_g(g: Function, edges: tuple[float, ...], a: FloatArray) -> FloatArray:
+    """∫₀^a g dx."""
+    rule = double_exponential()
+    total = np.zeros_like(a)
+    for low, high in pairwise(edges):
+        width = np.maximum(np.minimum(high, a) - low, 0)[:, None]
+        total += np.sum(width * rule.weight * g(low + width * rule.from_low), axis=1)
+    return total
+
+
+def pressure_from_f(f: Function, edges: tuple[float, ...], r: FloatArray, a: FloatArray) -> FloatArray:
+    """p(r)/E* for 0 <= r < a, without the edge term."""
+    r = np.maximum(r, EPS * a)
+    total = np.zeros_like(r)
+    before = 0.0  # f' just inside the kink
+    for low, high in pairwise(edges):
+        on = a > low
+        if not on.any():
+            break
+        ends = [derivatives(f, np.array([b]), np.array([WINDOW * b]), low, high)[0][0] for b in (low, high)
+                if 0 < b < np.inf]  # fmt: skip
+        if low > 0:
+            total[on] += low * (ends[0] - before) * _kernel(r[on], np.full_like(r[on], low), a[on])
+        before = ends[-1] if ends else 0.0
+        total[on] += _smooth_pressure(f, low, high, r[on], a[on])
+    return total / np.pi
+
+
+def _smooth_pressure(f: Function, low: float, high: float, r: FloatArray, a: FloatArray) -> FloatArray:
+    """∫ K(r, s) (s f')' ds over one smooth piece, cut at s = r where K is logarithmic."""
+    rule = double_exponential()
+    stop = np.minimum(high, a)
+    cut = np.clip(r, low, stop)
+
+    def integral(s: FloatArray, ds: FloatArray) -> FloatArray:
+        s = np.clip(s, low, stop[:, None])
+        first, second = derivatives(f, s, WINDOW * s, low, high)
+        answer: FloatArray = np.sum(ds * (first + s * second) * _kernel(r[:, None], s, a[:, None]), axis=1)
+        return answer
+
+    width = (cut - low)[:, None]
+    inner = integral(low + width * rule.from_low, width * rule.weight)
+    far = arcosh(stop, cut)[:, None]  # s = cut cosh u: any ratio of radii is a short way in u
+    u = far * rule.from_low
+    return inner + integral(cut[:, None] * np.cosh(u), cut[:, None] * np.sinh(u) * far * rule.weight)
+
+
+def _kernel(r: FloatArray, s: FloatArray, a: FloatArray) -> FloatArray:
+    """K(r, s) = F(ψ, k) / M with k = min(r, s) / M, M = max(r, s), tan²ψ = (a² − M²) / (M² − min²).
+
+    Infinite only at r = s; there it answers as if they differed by one rounding.
+    """
+    from scipy.special import ellipkinc
+
+    large = np.maximum(np.maximum(r, s), np.finfo(float).tiny)
+    small = np.minimum(np.minimum(r, s), large * (1 - EPS))
+    k = small / large
+    rise = np.sqrt(np.maximum(a / large - 1, 0) * (a / large + 1))
+    answer: FloatArray = ellipkinc(np.arctan2(rise, np.sqrt((1 - k) * (1 + k))), k * k) / large
+    return answer
+
+
+def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: FloatArray, a: FloatArray) -> FloatArray:
+    """p(r)/E* for 0 <= r < a, without the edge term, from dg/ds = slope(s, low, high) behind each kink ``low``.
+
+    Behind a kink b g begins like √(x² − b²); in s = √(x² − b²) it is smooth. What is left of the root,
+    √(x² − r²) = √(s² + b² − r²), goes into du: s = √(r² − b²) cosh u, or √(b² − r²) sinh u where r < b.
+    """
+    r = np.maximum(r, EPS * a)
+    rule = double_exponential()
+    total = np.zeros_like(r)
+    for low, high in pairwise(edges):
+        on = (a > low) & (r < high)
+        inside = r[on, None]
+        behind = inside > low
+        gap = leg(np.maximum(inside, low), np.minimum(inside, low))
+        gap = np.maximum(gap, np.sqrt(2 * EPS) * low)
+        stop = leg(np.minimum(high, a[on, None]), low)
+        far = np.where(behind, arcosh(stop, gap), np.arcsinh(stop / gap))
+        bend = np.where(low > gap, np.arcsinh(low / gap), 0.0)  # g changes its course at s ~ b: cut there
+        bend = np.minimum(bend, far)
+        for start, way in ((0.0, bend), (bend, far - bend)):
+            u = start + way * rule.from_low
+            s = np.minimum(gap * np.where(behind, np.cosh(u), np.sinh(u)), stop)
+            total[on] += np.sum(way * rule.weight * slope(s, low, high), axis=1)
+    return total / np.pi
+
+
+def slope_behind(g: Function, s: FloatArray, low: float, high: float) -> FloatArray:
+    """dg/ds behind the kink ``low``, at x² = low² + s², from values of g."""
+
+    def image(s: FloatArray) -> FloatArray:
+        return g(np.hypot(s, low))
+
+    return derivatives(image, s, WINDOW * np.hypot(s, low), 0.0, float(leg(high, low)))[0]
+
+
+def _arc(x: FloatArray, low: float, high: float, rule: Rule) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Nodes r = x sin t over the part of [0, x] within [low, high]: r, sin t, dt, each (n_x, n_nodes)."""
+    start = np.arctan2(low, leg(x, np.minimum(low, x)))
+    stop = np.arctan2(np.minimum(high, x), leg(x, np.minimum(high, x)))
+    width = (stop - start)[:, None]
+    sine = np.sin(start[:, None] + width * rule.from_low)
+    r = np.clip(x[:, None] * sine, low, np.minimum(high, x)[:, None])
+    return r, sine, width * rule.weight

@@ -1,0 +1,164 @@
+"""g(x) and its inverse a(d) from f(r), panel by panel: a quadrature at a few nodes once, polynomials afterwards.
+
+The x axis is cut at powers of two, at the kinks b, and behind each of them at b + h, b + 2h, b + 4h … with h
+the way back to the kink before (or to the tip): no length is special. On a panel [x_lo, x_hi]
+
+    g = (x/x_hi)^p G(t),  x = x_lo + (x_hi − x_lo) t,     p from both ends: a power law leaves G constant,
+    g = g(b) + t G(t),    x = b + (x_hi − b) t²           behind a kink b, where g begins like √(x − b),
+
+with a polynomial G through Chebyshev points. Where its last coefficients do not vanish the panel is halved, and
+what is left after N_HALVINGS, as where the slope of f has no bound, is mapped point by point. A panel is made when
+first asked for and kept: f must stay the function it is. Arrays are one-dimensional here.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from mdr.indenters.mapping import abel as transform
+from mdr.indenters.mapping import inversion as roots
+from mdr.indenters.mapping.quadrature import Function, chebyshev_fit, double_exponential, in_chunks
+from mdr.tools.checks import FloatArray
+
+N_NODES = 24  #: the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
+TAIL = 1e-12  #: last coefficients of G, relative to G, that count as vanished
+N_HALVINGS = 10
+N_PANELS = 4096  #: kept, half a kilobyte each
+
+Edges = tuple[float, ...]
+
+
+class Panel(NamedTuple):
+    """One panel of g, and the polynomial G if one of this degree fits."""
+
+    low: float
+    high: float
+    at_kink: bool
+    base: float  #: g(b) behind a kink, else 0
+    power: float  #: p, 0 behind a kink
+    coefficients: FloatArray = np.empty(0)
+    fits: bool = False
+
+    @property
+    def middle(self) -> float:
+        """Where t = 1/2."""
+        return self.low + (self.high - self.low) * (0.25 if self.at_kink else 0.5)
+
+    def place(self, x: FloatArray) -> FloatArray:
+        """The t of x, from 0 to 1."""
+        share: FloatArray = np.clip((x - self.low) / (self.high - self.low), 0, 1)
+        return np.sqrt(share) if self.at_kink else share
+
+    def factor(self, x: FloatArray) -> FloatArray:
+        """What stands before G: t or (x/x_hi)^p."""
+        return self.place(x) if self.at_kink else (x / self.high) ** self.power
+
+    def heights(self, x: FloatArray) -> FloatArray:
+        """g(x) from the polynomial."""
+        G = chebyshev.chebval(2 * self.place(x) - 1, self.coefficients)
+        return np.asarray(self.base + self.factor(x) * G)
+
+
+def image(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
+    """g(x) for x >= 0."""
+    ends, g = cuts(edges), np.zeros_like(x)
+    panel = np.minimum(np.searchsorted(ends, x, side="right") - 1, ends.size - 2)
+    with np.errstate(all="ignore"):
+        for i in np.unique(panel[x > 0]):
+            on = panel == i
+            g[on] = _heights(f, edges, ends[i], ends[i + 1], x[on])
+    return g
+
+
+def invert(f: Function, edges: Edges, d: FloatArray, start: FloatArray) -> tuple[FloatArray, roots.BoolArray]:
+    """Radius a with g(a) = d for depths d > 0, as `roots.invert` answers."""
+    ends = [np.argmin(d), np.argmax(d)]
+    with np.errstate(all="ignore"):
+        low, high, *_ = roots.bracket(lambda x: direct(f, edges, x), d[ends], start[ends], edges[-1])
+        ladder = _ladder(edges, low[0], high[1])
+        heights = direct(f, edges, ladder)
+        heights = np.maximum.accumulate(np.where(np.isnan(heights), np.inf, heights))
+        panel = np.clip(np.searchsorted(heights, d) - 1, 0, ladder.size - 2)
+        a, ended = np.empty_like(d), np.zeros(d.shape, dtype=bool)
+        for i in np.unique(panel):
+            on = panel == i
+            a[on], ended[on] = _invert_between(f, edges, ladder[i : i + 2], heights[i : i + 2], d[on])
+    return a, ended
+
+
+def direct(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
+    """g(x) by quadrature, without panels."""
+    return in_chunks(lambda x: transform.profile_1d(f, edges, x), x)
+
+
+@lru_cache
+def cuts(edges: Edges) -> FloatArray:
+    """Ends of all panels from the smallest number to the profile's end or to the largest number."""
+    powers = np.ldexp(1.0, np.arange(-1074, 1024))
+    rows = [powers[powers < edges[1]]]
+    with np.errstate(over="ignore"):
+        for before, b, stop in zip(edges, edges[1:-1], edges[2:], strict=False):
+            row = b + (b - before) * powers[powers >= 1]
+            rows.append(np.append(b, row[row < stop]))
+    return np.unique(np.concatenate([*rows, [min(edges[-1], np.finfo(float).max)]]))
+
+
+def _ladder(edges: Edges, low: float, high: float) -> FloatArray:
+    """The cuts from the one at or below ``low`` to the one at or above ``high``."""
+    ends = cuts(edges)
+    first = np.clip(np.searchsorted(ends, low, side="right") - 1, 0, ends.size - 2)
+    return ends[first : max(np.searchsorted(ends, high), first + 1) + 1]
+
+
+def _invert_between(
+    f: Function, edges: Edges, ends: FloatArray, heights: FloatArray, d: FloatArray
+) -> tuple[FloatArray, roots.BoolArray]:
+    """Radii in one panel whose ends have these heights."""
+    (low, high), (y_low, y_high) = np.broadcast_to(ends[:, None], (2, d.size)), heights[:, None] - d
+    y_low, y_high = np.minimum(y_low, 0), np.maximum(y_high, 0)
+    return roots.refine(lambda x: _heights(f, edges, ends[0], ends[1], x), d, low, high, y_low, y_high)
+
+
+def _heights(
+    f: Function, edges: Edges, low: float, high: float, x: FloatArray, n_halvings: int = N_HALVINGS
+) -> FloatArray:
+    """g at x in [low, high], from its panel or the halves of it."""
+    panel = _panel(f, edges, float(low), float(high))
+    if panel.fits:
+        return panel.heights(x)
+    if n_halvings == 0 or not low < panel.middle < high:
+        return direct(f, edges, x)
+    g, left = np.empty_like(x), x < panel.middle
+    for on, ends in ((left, (low, panel.middle)), (~left, (panel.middle, high))):
+        if on.any():
+            g[on] = _heights(f, edges, *ends, x[on], n_halvings - 1)
+    return g
+
+
+@lru_cache(N_PANELS)
+def _panel(f: Function, edges: Edges, low: float, high: float) -> Panel:
+    """The panel from low to high, with its polynomial."""
+    at_kink = low in edges
+    g_low, g_high = direct(f, edges, np.array([low, high]))
+    rises = not at_kink and min(g_low, g_high) > 0
+    power = np.log(g_high / g_low) / np.log(high / low) if rises else 0.0
+    panel = Panel(low, high, at_kink, g_low if at_kink else 0.0, power)
+    nodes, to_coefficients = chebyshev_fit(N_NODES)
+    t = (nodes + 1) / 2
+    x = low + (high - low) * (t * t if at_kink else t)
+    g, factor = direct(f, edges, x), panel.factor(x)
+    G = (g - panel.base) / factor
+    coefficients = to_coefficients @ G
+    tail = np.max(np.abs(coefficients[-3:]))
+    scale = np.min(np.abs(G)) if rises else np.fmax(np.max(np.abs(G)), g_high)
+    fits = tail <= TAIL * scale or not np.isfinite(g).any() or tail <= _doubt(f, edges, x, g, factor)
+    return panel._replace(coefficients=coefficients, fits=bool(fits))
+
+
+def _doubt(f: Function, edges: Edges, x: FloatArray, g: FloatArray, factor: FloatArray) -> float:
+    """How far another rule comes from g, over ``factor``: a polynomial need not be closer (f of few digits)."""
+    some = slice(2, None, 5)
+    other = transform.profile_1d(f, edges, x[some], double_exponential(0.077))
+    return float(np.median(np.abs(g[some] - other) / factor[some]))

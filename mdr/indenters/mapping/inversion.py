@@ -1,0 +1,97 @@
+"""The contact radius a with g(a) = d for any non-decreasing g, to the last digits and at any length scale."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.indenters.mapping.quadrature import Function
+from mdr.tools.checks import FloatArray
+
+BoolArray = NDArray[np.bool_]
+EPS = float(np.finfo(float).eps)
+
+
+def invert(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, BoolArray]:
+    """Radius a in (0, end] with g(a) = d for depths d > 0 (n,), from ``start`` on; and where g ends early.
+
+    Where g is not finite it counts as higher than d; an ``a`` found at such a place is no contact radius.
+    """
+    with np.errstate(all="ignore"):
+        return refine(g, d, *bracket(g, d, start, end))
+
+
+def _above(g: Function, a: FloatArray, d: FloatArray) -> FloatArray:
+    y = g(a) - d
+    return np.where(np.isnan(y), np.inf, y)
+
+
+def bracket(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, ...]:
+    """Bracket of at most a factor of two and g - d at its ends.
+
+    Strides of 1, 2, 4 … octaves lead across the root; a power law through the two ends, followed to half an
+    octave beyond the root, or halving, leads back.
+    """
+    low, high, a = np.zeros_like(d), np.full_like(d, end), np.minimum(start, end)
+    y_low, y_high, stride = -d, np.full_like(d, np.inf), np.ones_like(d)
+    todo = np.arange(d.size)
+    for _ in range(100):
+        i = todo
+        y, at = _above(g, a[i], d[i]), a[i]
+        up = y <= 0
+        low[i[up]], y_low[i[up]], high[i[~up]], y_high[i[~up]] = at[up], y[up], at[~up], y[~up]
+        todo = i[(low[i] == 0) | (high[i] > 2 * low[i])]
+        if todo.size == 0:
+            break
+        a[todo] = _next(low[todo], high[todo], y_low[todo], y_high[todo], d[todo], a[todo], stride[todo], end)
+        stride[todo] = np.minimum(2 * stride[todo], 512)
+    unknown = np.isinf(y_high)
+    y_high[unknown] = np.maximum(_above(g, high[unknown], d[unknown]), 0)  # d is g(end) but for rounding
+    return low, high, y_low, y_high
+
+
+def _next(
+    low: FloatArray, high: FloatArray, y_low: FloatArray, y_high: FloatArray, d: FloatArray, a: FloatArray,
+    stride: FloatArray, end: float,
+) -> FloatArray:  # fmt: skip
+    """Next radius on the way to a bracket."""
+    closed = (low > 0) & np.isfinite(high)
+    out = np.clip(np.where(low > 0, a * 2**stride, a * 2**-stride), 5e-324, min(end, 1e308))
+    halfway = np.sqrt(low) * np.sqrt(np.where(closed, high, 1.0))
+    n = np.log((y_high + d) / (y_low + d)) / np.log(high / low)
+    root = low * (d / (y_low + d)) ** (1 / n)
+    near_low = root * root < low * high
+    power = np.where(near_low, np.maximum(root, low) * 2**0.5, np.minimum(root, high) / 2**0.5)
+    good = np.isfinite(power) & (power > low) & (power < high) & (y_low > -d)  # g = 0 at low is no power law
+    return np.where(closed, np.where(good, power, halfway), out)
+
+
+def refine(
+    g: Function, d: FloatArray, low: FloatArray, high: FloatArray, y_low: FloatArray, y_high: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """Root between brackets by Chandrupatla's method (1997), and whether g is infinite there."""
+    a, b, fa, fb = high, low, y_high, y_low
+    c, fc, t = a, fa, np.full_like(a, 0.5)
+    done = np.zeros(a.shape, dtype=bool)
+    for _ in range(120):
+        best = np.where(np.abs(fa) < np.abs(fb), a, b)
+        closeness = 2 * EPS * best / np.abs(b - a)
+        done = (closeness >= 0.5) | (np.minimum(np.abs(fa), np.abs(fb)) <= EPS / 2 * d) | (a == b)
+        if np.all(done):
+            break
+        least = np.minimum(closeness, 0.5)
+        t = np.where(done, 0.0, np.clip(t, least, 1 - least))
+        middle, value = np.where(done, a, a + t * (b - a)), fa.copy()
+        value[~done] = _above(g, middle[~done], d[~done])
+        same = np.sign(value) == np.sign(fa)
+        c, fc = np.where(same, a, b), np.where(same, fa, fb)
+        b, fb = np.where(same, b, a), np.where(same, fb, fa)
+        a, fa = middle, value
+        t = _step(a, b, c, fa, fb, fc)
+    return best, np.isinf(np.maximum(fa, fb)) & (np.minimum(np.abs(fa), np.abs(fb)) > EPS * d)
+
+
+def _step(a: FloatArray, b: FloatArray, c: FloatArray, fa: FloatArray, fb: FloatArray, fc: FloatArray) -> FloatArray:
+    """Share of the bracket to go: inverse quadratic interpolation where it is safe, else one half."""
+    xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+    safe = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
+    quadratic = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+    return np.where(safe & np.isfinite(quadratic), quadratic, 0.5)

@@ -1,0 +1,1 @@
+"""The march: springs and body step by step, to a settled run."""

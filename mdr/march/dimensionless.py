@@ -1,0 +1,366 @@
+"""The scaled form of a sliding contact: what is left of it when units, mu_0 and the moduli are divided out.
+
+Time is omega t, normal lengths are in du_z, tangential lengths in mu_0 kappa du_z, stiffnesses in that of the whole
+array. In this form Coulomb's law has no coefficient and everything is a function of
+
+    depth ratio u_z0/du_z,  v = v_0/(mu_0 kappa omega du_z),  T = omega tau,  body/contact stiffness ratios,  shape.
+
+The body obeys M y'' + C y' + K y = -(S + T S' + sum_j rho_j P_j), S the sum of w e over the springs and P_j that of
+its Maxwell arms. Over a step h it is advanced
+
+* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h and the means of the arms,
+  whose impulse is right even when the force of a dashpot jumps: no dispersion of its own natural frequency, second
+  order in the force;
+* without mass, or where the step cannot resolve the fast oscillation omega_1 = sqrt((k_x + k_xc)/m), by backward
+  differences of second order, which damp what the step does not resolve.
+
+As an arm follows S linearly within a step, either way it is one recursion with five numbers and two for each arm,
+y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old) - sum_j (b_j P_j + bm_j P_j,old).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.contact import SlidingContact
+from mdr.case.pull import SpringPull
+from mdr.march import kernels
+from mdr.materials.operator import L_DECAY, L_GAIN, Rheology
+from mdr.normal.springs import SpringArray
+
+Array = NDArray[np.float64]
+
+FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
+RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
+
+
+@dataclass(frozen=True, eq=False)
+class NormalState:
+    """The springs in their periodic normal motion, in which friction has no part; not to be written to."""
+
+    s: Array  #: (1 + J, n) compressions at phase 0, and their arms
+    spans: NDArray[np.int64]  #: (2, n_steps) of springs that press, or are free, throughout a step
+    mean: float  #: sum of w s, its mean over the period
+
+
+@dataclass(frozen=True, eq=False)
+class ScaledContact:
+    """Arrays and floats that the march needs."""
+
+    gap: Array  #: (n,) depth of each foot below the mean surface position, over du_z
+    w: Array  #: (n,) share of each spring in the stiffness
+    z: Array  #: (n_steps + 1,) normal motion over one period
+    z_dot: Array  #: (n_steps + 1,) its rate
+    rheology: Rheology  #: operator of the material, its times in units of 1/omega
+    table: Array  #: (L_ROWS, 1 + J) the same over one step
+    body: Array  #: (5 + 2J,) recursion of the body; zero for a rigid pull
+    M: float  #: mass
+    C: float  #: damping
+    K: float  #: system stiffness; zero stands for a rigid pull
+    lump_margin: float  #: the first spring stands for the core while L[e + s] exceeds this
+    n_lumped: int  #: how many springs of the array the first one stands for
+    n_core: int  #: how many of its own springs never lose contact
+    length_x: float  #: tangential unit mu_0 kappa du_z [m]
+    length_z: float  #: normal unit du_z [m]
+    stiffness_x: float  #: tangential stiffness unit [N/m]
+    stiffness_z: float  #: normal stiffness unit [N/m]
+    omega: float  #: inverse time unit [rad/s]
+
+    @property
+    def steps(self) -> int:
+        """Steps per period."""
+        return self.z.size - 1
+
+    @property
+    def h(self) -> float:
+        """Step of the phase."""
+        return 2 * np.pi / self.steps
+
+    @property
+    def T(self) -> float:
+        """omega tau of the Kelvin branch."""
+        return self.rheology.T
+
+    @property
+    def remembers(self) -> bool:
+        """Whether springs have a memory, dashpots or arms."""
+        return self.rheology.remembers
+
+    @property
+    def light(self) -> bool:
+        """Whether the body takes at once, for these steps, the velocity that a spring gives it as it touches."""
+        return bool(self.K and _is_light(self.M, self.K, self.h))
+
+    @property
+    def n_arms(self) -> int:
+        """Maxwell arms of the material."""
+        return len(self.rheology.rho)
+
+    @property
+    def first_look(self) -> int:
+        """Periods after which it makes sense to ask whether a run has settled, or to look for its periodic state."""
+        return 32 if self.M else 8
+
+    @property
+    def speed(self) -> float:
+        """Unit of velocity mu_0 kappa omega du_z [m/s], which is Eq. (1)."""
+        return self.length_x * self.omega
+
+    @classmethod
+    def of(cls, case: SlidingContact, springs: SpringArray, steps: int, lump: bool) -> ScaledContact:
+        """Scale a case, its springs and its motion; lump the core that never leaves into its first spring if asked."""
+        cycle, kappa, rheology = case.cycle, case.material.mindlin_ratio, case.rheology
+        width = float(springs.width.sum())
+        gap, w, margin, n_lumped = springs.gap / cycle.du_z, springs.width / width, -np.inf, 1
+        if lump and springs.n_core > 1:
+            gap, w, margin, n_lumped = _lumped(gap, w, springs.n_core)
+        length_x = case.mu_0 * kappa * cycle.du_z
+        z, z_dot = cycle.over_a_period(steps)
+        M, C, K = _body_groups(case, springs.G_star * width)
+        return cls(
+            gap=gap,
+            w=w,
+            z=z,
+            z_dot=z_dot,
+            rheology=rheology,
+            table=rheology.over_step(2 * np.pi / steps),
+            body=_recursion(M, C, K, rheology, 2 * np.pi / steps),
+            M=M,
+            C=C,
+            K=K,
+            lump_margin=margin,
+            n_lumped=n_lumped,
+            n_core=springs.n_core - n_lumped + 1,
+            length_x=length_x,
+            length_z=cycle.du_z,
+            stiffness_x=springs.G_star * width,
+            stiffness_z=springs.E_star * width,
+            omega=cycle.omega,
+        )
+
+    @cached_property
+    def normal(self) -> NormalState:
+        """The springs in their periodic normal motion."""
+        s, spans = np.zeros((1 + self.n_arms, self.gap.size)), np.empty((2, self.steps), dtype=np.int64)
+        mean = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans)
+        if np.isnan(mean):
+            raise ValueError(
+                f"steps_per_period = {self.steps} is too coarse for the normal motion of springs with these arms, "
+                "which does not become periodic; raise it"
+            )
+        return NormalState(s, spans, float(mean))
+
+    @cached_property
+    def full_slip_force(self) -> Array:
+        """S at the nodes of one period in full slip, shape (n_steps,), which is sum of w s."""
+        s, S, at_rest = self.normal.s, np.empty(self.steps), np.zeros_like(self.body)
+        springs, motion = (self.gap, self.w), (self.z, self.z_dot, self.normal.spans)
+        fast = 1e9  # sliding at any high velocity is full slip
+        y, nothing = np.empty(self.steps), np.empty((0, *s.shape))
+        kernels.march(
+            s.copy(), s.copy(), at_rest.copy(), at_rest, *springs, *motion, fast, self.table,
+            -np.inf, self.steps, 0, y, S, nothing, nothing,
+        )  # fmt: skip
+        return np.roll(S, 1)
+
+    def full_slip_history(self, S: Array, v: float = np.inf) -> Array:
+        """State (5 + 2J,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
+
+        Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
+        free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it. Beside a
+        resonance a harmonic that would carry the body back faster than FASTEST_START v is cut to that velocity.
+        """
+        if not self.K:
+            return self._history(S, np.zeros(self.steps // 2 + 1, dtype=complex))
+        y_n = self._full_slip_motion(S)
+        most = FASTEST_START * v
+        return self._history(S, y_n * (most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1))
+
+    def resonant_history(self, S: Array, v: float) -> Array | None:
+        """The same on an undamped resonance or beside one, with the oscillation that the n-th harmonic drives until
+        stick stops it: y' reaches -v, once in each of its own periods, when that harmonic of the force is greatest.
+        None off resonance, and where the force does not contain it.
+        """
+        if not self.K:
+            return None
+        y_n, resonant = self._full_slip_motion(S), self._resonant(self._inertia())
+        swings = self._velocities(y_n)
+        n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(swings))
+        F_n = complex(np.fft.rfft(S)[n]) / self.steps * complex(self.rheology.response(n))
+        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not (resonant[n] or swings[n] > FASTEST_START * v):
+            return None
+        y_n[n] = 0
+        history = self._history(S, y_n)
+        phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
+        history[:3] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
+        return history
+
+    @cached_property
+    def end_of_full_slip(self) -> float:
+        """Velocity below which the periodic motion of full slip would stick, to the accuracy of the steps; infinite on
+        a resonance that the force drives.
+
+        In full slip for good the body has this motion and a free oscillation. That is in another phase in every period,
+        so that it cannot keep all of them from stick: below this velocity full slip does not last (but where the free
+        oscillation is a whole multiple of the drive).
+        """
+        if not self.K:
+            return 0.0
+        S = self.full_slip_force
+        y_n = self._full_slip_motion(S)
+        driven = np.abs(np.fft.rfft(S)) > 1e-10 * abs(float(S.sum()))
+        if (self._resonant(self._inertia()) & driven)[1:].any():
+            return np.inf
+        y = np.fft.irfft(y_n, self.steps)
+        y_dot = (np.roll(y, -1) - np.roll(y, 1)) / (2 * self.h)
+        spans = self.normal.spans
+        touching = (spans[1] > 0) & (np.roll(spans[1], 1) > 0)  # contact at the node between two steps
+        return float((self.z_dot[:-1] - y_dot)[touching].max(initial=0.0))
+
+    def _history(self, S: Array, y_n: NDArray[np.complex128]) -> Array:
+        """State (5 + 2J,) at phase 0 of a body with the harmonics y_n under the full-slip force S (n_steps,)."""
+        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in self._arms_n(np.fft.rfft(S), self._turn())]
+        y = np.fft.irfft(y_n, self.steps)[[0, -1, -2]]
+        return np.array([*y, S[0], S[-1], *(now for now, _ in arms), *(old for _, old in arms)])
+
+    def _full_slip_motion(self, S: Array) -> NDArray[np.complex128]:
+        """Harmonics of the periodic motion under the full-slip force S (n_steps,), as of rfft; none on a resonance."""
+        S_n, turn = np.fft.rfft(S), self._turn()
+        _, _, b_1, b_0, b_m = self.body[:5]
+        inertia = self._inertia()
+        resonant = self._resonant(inertia)
+        force_n = (b_1 * turn + b_0 + b_m / turn) * S_n
+        for b, old, arm_n in zip(*self.body[5:].reshape(2, -1), self._arms_n(S_n, turn), strict=True):
+            force_n += (b + old / turn) * arm_n
+        return np.asarray(np.where(resonant, 0, -force_n / np.where(resonant, 1, inertia)))
+
+    def _velocities(self, y_n: NDArray[np.complex128]) -> Array:
+        """Amplitude of the velocity that each harmonic of the motion has."""
+        return np.asarray(2 * np.arange(y_n.size) * np.abs(y_n) / self.steps)
+
+    def mean_force(self, ends: Array, inner: Array, arms: Array, time: float) -> Array:
+        """Mean of L[e] over times in which S runs from ends[:-1] to ends[1:], (n,), with the mean `inner` of S itself
+        and arms (n + 1, J) at the ends.
+        """
+        mean = inner + self.T * np.diff(ends) / time
+        for j, (rho, theta) in enumerate(zip(self.rheology.rho, self.rheology.theta, strict=True)):
+            mean = mean + rho * theta / time * (np.diff(ends) - np.diff(arms[:, j]))  # x_j' = x' - x_j/theta_j
+        return np.asarray(mean)
+
+    def arms_at_ends(self, S: Array, S_start: float, arms: Array) -> Array:
+        """Sums over the arms (n_periods + 1, J) at the ends of periods, from those at the start (J,) and S (n_t,)."""
+        out = np.empty((S.size // self.steps + 1, arms.size))
+        if not arms.size:
+            return out
+        steps = np.diff(S, prepend=S_start).reshape(-1, self.steps)
+        for j, (decay, gain) in enumerate(self._arms()):
+            added = steps @ (gain * decay ** np.arange(self.steps - 1, -1, -1))
+            out[0, j] = arms[j]
+            for k, one in enumerate(added):
+                out[k + 1, j] = decay**self.steps * out[k, j] + one
+        return out
+
+    def _arms(self) -> list[tuple[float, float]]:
+        """Decay and gain of each arm over a step."""
+        return [(float(row[0]), float(row[1])) for row in self.table[[L_DECAY, L_GAIN], 1:].T]
+
+    def _arms_n(self, S_n: NDArray[np.complex128], turn: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
+        return [self._of_arm(decay, gain, turn) * S_n for decay, gain in self._arms()]
+
+    def _of_arm(self, decay: float, gain: float, turn: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """What an arm makes of every harmonic of S: nothing of its mean, however slow it is."""
+        below = turn - decay
+        below[0] = 1.0
+        return np.asarray(gain * (turn - 1) / below)
+
+    def _turn(self) -> NDArray[np.complex128]:
+        """exp(i n h) of every harmonic."""
+        return np.asarray(np.exp(1j * self.h * np.arange(self.steps // 2 + 1)))
+
+    def _inertia(self) -> NDArray[np.complex128]:
+        """What the recursion answers every harmonic with."""
+        a_1, a_2 = self.body[:2]
+        turn = self._turn()
+        return np.asarray(turn - a_1 - a_2 / turn)
+
+    def _resonant(self, inertia: NDArray[np.complex128]) -> NDArray[np.bool_]:
+        return np.asarray(np.abs(inertia) < max(1e-9 * self.h**2, 2e-15))
+
+    def rest_history(self, v: float) -> Array:
+        """State (5 + 2J,) of a body at rest with nothing stretched, from which the pull sets off at v."""
+        y = np.array([0.0, 1.0, 2.0]) * v * self.h if self.K else np.zeros(3)
+        return np.array([*y, *np.zeros(2 + 2 * self.n_arms)])
+
+
+def fast_ratio(case: SlidingContact) -> float:
+    """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
+    if not isinstance(case.pull, SpringPull):
+        return 0.0
+    M, _, K = _body_groups(case, 1.0)
+    k_xc = float(case.indenter.stiffness(case.u_z_max, case.material.G_star))
+    return float(np.sqrt((K + k_xc) / M)) if M > 0 else np.inf
+
+
+def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
+    pull, omega = case.pull, case.oscillation.omega
+    if not isinstance(pull, SpringPull):
+        return 0.0, 0.0, 0.0
+    return pull.m * omega**2 / stiffness, pull.c_x * omega / stiffness, pull.k_x / stiffness
+
+
+def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int]:
+    """The core as one spring: all its springs share the lag s - e, so only sums and means of them matter."""
+    w_core = float(w[:n_core].sum())
+    gap_core = float(w[:n_core] @ gap[:n_core]) / w_core
+    margin = 2 * (float(gap[:n_core].max()) - gap_core)  # where the outermost would slip backward
+    return np.r_[gap_core, gap[n_core:]], np.r_[w_core, w[n_core:]], margin, n_core
+
+
+def _is_light(M: float, K: float, h: float) -> bool:
+    """Whether steps of h do not resolve the oscillation of a body on the contact, or it has no mass."""
+    return bool(M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED)
+
+
+def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Array:
+    """The numbers of the body; see the module's docstring."""
+    T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
+    if not K:
+        return np.zeros(5 + 2 * rho.size)
+    table = rheology.over_step(h)
+    decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
+    if _is_light(M, K, h):
+        inertia = M / h**2 + 1.5 * C / h + K
+        # the end of an arm whose rate changes within the step, by the second difference of S
+        bend = rho * theta / h * (0.5 * (1 + decay) - theta / h * (1 - decay))
+        end, second = float(rho @ gain), float(bend.sum())
+        numbers = [
+            2 * M / h**2 + 2 * C / h,
+            -(M / h**2 + 0.5 * C / h),
+            1 + 1.5 * T / h + end + second,
+            -2 * T / h - end - 2 * second,
+            0.5 * T / h + second,
+            *(rho * decay),
+            *np.zeros(rho.size),
+        ]
+        return np.array(numbers) / inertia
+    from scipy.linalg import expm
+
+    A = expm(h * np.array([[0, 1, 0], [-K / M, -C / M, 1 / M], [0, 0, 0]]))  # last column: response to a unit force
+    now, before = A[0, 2], A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2]
+    change = T / h + float(np.sum(rho * theta / h * (1 - gain)))  # weight of S_new - S in the mean force of the step
+    new, old = 0.5 + change, 0.5 - change
+    return np.array(
+        [
+            A[0, 0] + A[1, 1],
+            -np.exp(-C / M * h),
+            now * new,
+            now * old + before * new,
+            before * old,
+            *(now * rho * gain),
+            *(before * rho * gain),
+        ]
+    )

@@ -1,0 +1,903 @@
+"""The compiled march: one spring, one step, one run. Arrays and floats only, in scaled form.
+
+Scaled form (dimensionless.py makes it): time is omega t, normal lengths are divided by du_z, tangential lengths by
+mu_0 kappa du_z, spring stiffnesses by their sum. Then mu_0, E* and G* are gone, Coulomb's law
+|dk_x L[e]| <= mu_0 dk_z L[s] reads |L[e]| <= L[s], and the same operator L = 1 + T d/dt acts on both sides.
+
+One spring in one step, with compression s and extension e at its start:
+
+* Contact. s follows the indenter, z - gap, as long as that lies above the freely relaxing surface s exp(-h/T);
+  this one rule holds the unilateral contact of a Kelvin spring, its release while still compressed
+  (L[s] = 0) and its return to the relaxed surface. It is s(t) = sup (z - gap)(t - theta) exp(-theta/T), step by step.
+* Friction. The trial step sticks: e moves with the body. Sliding forward all the time keeps L[e] = L[s], so the
+  lag p = s - e decays like exp(-h/T); sliding backward, so does s + e. The new e is the trial value clipped between
+  these two, which is exact whenever the mode does not change within the step.
+* A change of mode within the step: the two competing rates differ by D, which changes sign. With D linear over the
+  step, what the new mode adds after the change is D_1²/(|D_0| + |D_1|) h/2 (`after_change`). So the scheme knows when
+  slip gave way to stick, stick to slip and contact to flight, not only between which two steps.
+* First touch. A spring that touched at a fraction of the step has travelled only the rest of it; without
+  this the scheme is of first order.
+
+T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
+
+Friction has no part in the normal motion, which is periodic from the start. So it is known, for every step of the
+period, which springs press throughout it and which are free throughout it; as springs stand with rising gap, these are
+stretches at the beginning and at the end of the row (`spans`; a hollow face, whose gaps fall, presses as a whole).
+Pressed springs need no share of the step and one division, free ones a multiplication; only those between, few but for
+fast motions of many springs, go through all the rules.
+
+Materials with Maxwell arms add a state for each arm and direction, x_j' = x' - x_j/theta_j, and go by the same rules
+with what the general operator L makes of a spring, or a lag, that is left alone: linear functionals of its state, from
+the table of operator.py. Without dashpot, T = 0, the force L[e] itself tells when stick gives way to slip, as in the
+elastic loop, and only the end of slip is told by a rate.
+
+The body is a linear oscillator under the force of the springs, with its motion relative to the pull
+y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old), S = sum of w e; dimensionless.py derives the five
+numbers. S_new depends on y_new, monotonically and piecewise linearly, and is solved for together with it by
+Newton's method inside a bracket, halved when that does not get on, to rounding.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numba.extending import register_jitable
+
+from mdr.materials.operator import (
+    L_DECAY,
+    L_END,
+    L_FREE,
+    L_GAIN,
+    L_RATE,
+    L_RATIO,
+    L_SHED,
+    L_STIFFNESS,
+    L_TIME,
+)
+from mdr.tools.jit import compiled
+
+_FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
+_jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
+_inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
+
+# The rows of the operator's table are compiled in, and the cache of compiled code sees edits of this file only: who
+# changes them in operator.py is stopped here, and by changing this line has everything compiled anew.
+assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
+
+VECTOR = 16  #: springs that a loop takes at once, or a multiple of it
+MOST_PASSES = 400  #: over a period, for arms to find their periodic state
+STEADY = 1e-12  #: change over a period up to which a spring does the same in every period, of du_z
+SETTLED = 1e-3  #: change over a period that a spring may be left with, of du_z: at the edge it may alternate
+N_LOOK = 8  #: what `foresee` fills
+S_FREE, S_RATE, S_END, S_SHED, LAG_FREE, LAG_RATE, LAG_END, LAG_SHED = range(N_LOOK)
+
+
+# --- one spring -----------------------------------------------------------------------------------
+
+
+@_inline
+def after_change(D_0, D_1, h, rate):
+    """What the new mode adds in a step through which its lead D runs from D_0 < 0 to D_1 > 0; rate = 1/T damps it."""
+    lead = max(D_1, 0.0)  # the rest of the step, after the change, is h lead/(lead + max(-D_0, 0))
+    return 0.5 * h * lead * lead / (lead + max(-D_0, 0.0) + 0.5 * rate * h * lead + 1e-300)
+
+
+@_inline
+def bend_of(closing_0, closing_1):
+    """How much the closing of a gap speeds up within a step: what turns a share of the way into a share of the time."""
+    mean = abs(closing_0 + closing_1) + 1e-300
+    return min(max((closing_1 - closing_0) / mean, -0.5), 0.5)
+
+
+@_inline
+def surge_of(du, ud_0, ud_1, h):
+    """How far the body gets ahead of half its step in the second half: what it gains while its velocity grows.
+
+    A spring that touches for the last share of a step sees the body travel share * (du + (1 - share) * surge).
+    """
+    most = abs(du)  # no more than reversal within the step
+    return min(max(0.5 * h * (ud_1 - ud_0), -most), most)
+
+
+@_inline
+def growth_of(du, ud_0, ud_1, h, jumps):
+    """How the velocity of the body changes within a step: steadily (surge), or all at once as it touches (jump).
+
+    A body without mass takes at once the velocity that a flat face gives it as it touches. Until then it goes on as
+    before: springs that touch for the last share of a step see it travel du - (1 - share) ud_0 h, which is
+    share * du + (1 - share) * jump.
+    """
+    return (0.0, du - ud_0 * h) if jumps else (surge_of(du, ud_0, ud_1, h), 0.0)
+
+
+@_inline
+def touches_flat(gap, w, z):
+    """Whether at least half of the springs that the indenter has reached at z stand alike, and so touch at once."""
+    flat = reached = 0.0
+    for i in range(gap.size):
+        if gap[i] >= z:
+            break
+        reached += w[i]
+        flat += w[i] if gap[i] <= gap[0] + 1e-12 else 0.0
+    return flat > 0.5 * reached
+
+
+@_inline
+def elastic_spring(e, gap, z_1, du, surge, jump, inverse_dz, bend, late):
+    """One elastic spring over one step: new extension, compression, share of the step in contact, trial extension.
+
+    late: what a spring that turned from slip to stick within the step falls behind.
+    """
+    s = max(z_1 - gap, 0.0)
+    way = min(s * inverse_dz, 1.0)
+    travelled = way * ((1.0 - bend) + bend * way)
+    trial = e + travelled * ((du + surge) - travelled * surge) + (1.0 - travelled) * jump
+    return max(min(trial, s - travelled * late), -s), s, travelled, trial
+
+
+@_inline
+def slip_or_stick(
+    s, trial, travelled, lead_0, lead_1, h, dashpot, stiffness, damping, s_free, lag_free, lag_rate, lag_end, lag_shed
+):
+    """New extension of a spring with memory that is compressed to s and would stick at `trial`.
+
+    lead: by how much the indenter sinks faster than the body moves, at both ends of the step; travelled: share of the
+    step in contact. What compression and lag do if left alone, as in `viscous_spring`.
+    """
+    D_0 = lead_0 + lag_rate  # > 0: sticks at the start
+    sticks = D_0 > 0.0
+    held = stiffness * (max(s - trial, 0.0) - lag_shed)
+    D_1 = lead_1 + (held if sticks else lag_end)
+    turn = -1.0 if sticks else 1.0
+    change = after_change(turn * D_0, turn * D_1, h, damping) if (dashpot or not sticks) else 0.0
+    forward = s - lag_free
+    first = min((trial if (sticks and dashpot) else forward) - travelled * change, forward)
+    first = first if dashpot else min(first, trial)
+    return max(first, (s_free + s_free) - lag_free - s)
+
+
+@_inline
+def viscous_spring(
+    e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, dashpot, stiffness, damping,
+    s_free, s_rate, s_end, s_shed, lag_free, lag_rate, lag_end, lag_shed,
+):  # fmt: skip
+    """One spring with memory over one step: new extension, compression, share of the step in contact, trial extension.
+
+    zd, ud: velocities of indenter and body at both ends of the step. dashpot: whether the force of x' bounds its jumps;
+    then stiffness is that of the static force over T. damping: rate at which a lead is damped. What the compression s
+    and the lag s - e do if left alone over the step: their end, their rates at both ends, and what is shed.
+    """
+    pressed = z_1 - gap
+    ahead = s_0 - (z_0 - gap)  # height of the relaxed surface over the indenter at the start
+    leaves = dashpot and ahead <= 0.0
+    leaving = after_change(-(zd_0 + s_rate), -(zd_1 + stiffness * (pressed - s_shed)), h, damping) if leaves else 0.0
+    s = max(pressed + leaving, s_free)
+    rise = s - s_free
+    way = rise / (rise + max(ahead, 0.0) + 1e-300)
+    travelled = way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
+    flown = 1.0 - travelled
+    trial = e + flown * (s_free - lag_free - e + jump) + travelled * (du + flown * surge)
+    e_1 = slip_or_stick(
+        s, trial, travelled, zd_0 - ud_0, zd_1 - ud_1, h, dashpot, stiffness, damping,
+        s_free, lag_free, lag_rate, lag_end, lag_shed,
+    )  # fmt: skip
+    return e_1, s, travelled, trial
+
+
+@_inline
+def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, rate, decay):
+    """The same for a Kelvin spring, whose free motion is one exponential. rate = 1/T, decay = exp(-h/T)."""
+    lag = s_0 - e
+    s_free, lag_free = s_0 * decay, lag * decay
+    return viscous_spring(
+        e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, True, rate, rate,
+        s_free, s_0 * rate, s_free * rate, 0.0, lag_free, lag * rate, lag_free * rate, 0.0,
+    )  # fmt: skip
+
+
+# --- one step -------------------------------------------------------------------------------------
+# n_in: the springs before it press throughout the step; n_out: those from it on are free throughout. e, s: (1 + J, n),
+# of which a step fills the first row
+
+
+@register_jitable(inline="always")
+def springs(first, last):
+    """The indices first ... last - 1, known not to be negative: else a loop over them is not vectorised."""
+    return range(np.uint64(first), np.uint64(last))
+
+
+@_jit
+def elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z_0, z_1, zd_0, zd_1, v, h):
+    """All elastic springs over one step of a rigid pull, which asks for no state twice: updates e, returns sum(w e).
+
+    n_at_rest: the springs from it on were free in the step before.
+    """
+    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
+    bend = bend_of(zd_0, zd_1)
+    late = after_change(zd_0 - v, zd_1 - v, h, 0.0) if zd_0 < v else 0.0
+    du = v * h
+    total = 0.0
+    for i in springs(0, n_in):
+        s = z_1 - gap[i]
+        e[0, i] = max(min(e[0, i] + du, s - late), -s)
+        total += w[i] * e[0, i]
+    for i in springs(n_in, n_out):
+        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, du, 0.0, 0.0, inverse_dz, bend, late)[0]
+        total += w[i] * e[0, i]
+    for i in springs(n_out, n_at_rest):
+        e[0, i] = 0.0
+    return total
+
+
+@_jit
+def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, jumps=False):
+    """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
+    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
+    bend = bend_of(zd_0, zd_1)
+    late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
+    total = 0.0
+    stuck = 0.0
+    for i in springs(0, n_in):
+        s = z_1 - gap[i]
+        e = max(min(e_0[0, i] + du, s - late), -s)
+        e_1[0, i] = e
+        total += w[i] * e
+        stuck += w[i] if (e == e_0[0, i] + du or (late > 0.0 and e > 0.0)) else 0.0
+    for i in springs(n_in, n_out):
+        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, jump, inverse_dz, bend, late)
+        e_1[0, i] = e
+        total += w[i] * e
+        stuck += w[i] * (1.0 if jumps else travelled) if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = 0.0
+    return total, stuck
+
+
+@_jit
+def kelvin_step(
+    e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay, jumps=False
+):  # fmt: skip
+    """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
+    lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
+    total = 0.0
+    stuck = 0.0
+    for i in springs(0, n_in):
+        s = z_1 - gap[i]
+        trial = e_0[0, i] + du
+        lag = s_0[0, i] - e_0[0, i]
+        lag_free = lag * decay
+        e = slip_or_stick(
+            s, trial, 1.0, lead_0, lead_1, h, True, rate, rate,
+            s_0[0, i] * decay, lag_free, lag * rate, lag_free * rate, 0.0,
+        )  # fmt: skip
+        e_1[0, i] = e
+        s_1[0, i] = s
+        total += w[i] * e
+        stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in springs(n_in, n_out):
+        e, s, travelled, trial = kelvin_spring(
+            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, rate, decay
+        )
+        e_1[0, i] = e
+        s_1[0, i] = s
+        total += w[i] * e
+        stuck += w[i] * (1.0 if jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = e_0[0, i] * decay
+        s_1[0, i] = s_0[0, i] * decay
+        total += w[i] * e_1[0, i]
+    return total, stuck
+
+
+@_jit
+def foresee(e, s, table, look):
+    """What compression and lag of every spring do if left alone over the step: fills look (N_LOOK, n)."""
+    look[:] = 0.0
+    for k in range(e.shape[0]):
+        free, rate, end, shed = table[L_FREE, k], table[L_RATE, k], table[L_END, k], table[L_SHED, k]
+        for i in range(e.shape[1]):
+            x = s[k, i]
+            lag = x - e[k, i]
+            look[S_FREE, i] += free * x
+            look[S_RATE, i] += rate * x
+            look[S_END, i] += end * x
+            look[S_SHED, i] += shed * x
+            look[LAG_FREE, i] += free * lag
+            look[LAG_RATE, i] += rate * lag
+            look[LAG_END, i] += end * lag
+            look[LAG_SHED, i] += shed * lag
+
+
+@_jit
+def arms_step(
+    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping,
+    jumps=False,
+):  # fmt: skip
+    """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck."""
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
+    lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
+    dashpot = stiffness > 0.0
+    total = 0.0
+    stuck = 0.0
+    for i in springs(0, n_in):
+        s = z_1 - gap[i]
+        trial = e_0[0, i] + du
+        e = slip_or_stick(
+            s, trial, 1.0, lead_0, lead_1, h, dashpot, stiffness, damping,
+            look[S_FREE, i], look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
+        )  # fmt: skip
+        e_1[0, i] = e
+        s_1[0, i] = s
+        total += w[i] * e
+        stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in springs(n_in, n_out):
+        e, s, travelled, trial = viscous_spring(
+            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1,
+            du, surge, jump, ud_0, ud_1, h, dashpot, stiffness, damping,
+            look[S_FREE, i], look[S_RATE, i], look[S_END, i], look[S_SHED, i],
+            look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
+        )  # fmt: skip
+        e_1[0, i] = e
+        s_1[0, i] = s
+        total += w[i] * e
+        stuck += w[i] * (1.0 if jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in springs(n_out, gap.size):
+        e_1[0, i] = look[S_FREE, i] - look[LAG_FREE, i]
+        s_1[0, i] = look[S_FREE, i]
+        total += w[i] * e_1[0, i]
+    return total, stuck
+
+
+@_jit
+def stretch_arms(x_0, x_1, table):
+    """The arms (rows 1 to J) of all springs at the end of a step, from their start and from the path of row 0."""
+    for k in range(1, x_0.shape[0]):
+        decay, gain = table[L_DECAY, k], table[L_GAIN, k]
+        for i in range(x_0.shape[1]):
+            x_1[k, i] = decay * x_0[k, i] + gain * (x_1[0, i] - x_0[0, i])
+
+
+@_inline
+def damping_of(table):
+    """Rate at which the lead of one mode over another is damped by the lag it makes."""
+    if table[L_STIFFNESS, 0] > 0.0:
+        return table[L_STIFFNESS, 0]
+    total = 0.0
+    for k in range(1, table.shape[1]):
+        total -= table[L_RATE, k]
+    return total
+
+
+# --- one run --------------------------------------------------------------------------------------
+
+
+@_jit
+def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
+    """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
+
+    force, touches, path (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before in
+    which it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), its compression.
+    """
+    n_z = z.size - 1
+    h = 2.0 * np.pi / n_z
+    stiffness, damping = table[L_STIFFNESS, 0], damping_of(table)
+    total = 0.0
+    for step in range(n_steps):
+        k = (k_0 + step) % n_z
+        free = rate = end = shed = 0.0
+        for j in range(x.size):
+            free += table[L_FREE, j] * x[j]
+            rate += table[L_RATE, j] * x[j]
+            end += table[L_END, j] * x[j]
+            shed += table[L_SHED, j] * x[j]
+        _, value, share, _ = viscous_spring(
+            0.0, x[0], gap, z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, 0.0, h,
+            stiffness > 0.0, stiffness, damping, free, rate, end, shed, 0.0, 0.0, 0.0, 0.0,
+        )  # fmt: skip
+        for j in range(1, x.size):
+            x[j] = table[L_DECAY, j] * x[j] + table[L_GAIN, j] * (value - x[0])
+        x[0] = value
+        total += value
+        if force.size > 0:
+            normal = value + table[L_TIME, 0] * zd[k + 1]
+            for j in range(1, x.size):
+                normal += table[L_RATIO, j] * x[j]
+            follows = value > 0.0 and value <= z[k + 1] - gap
+            presses = follows and normal > 0.0
+            force[(k + 1) % n_z] = normal if presses else 0.0
+            touches[(k + 1) % n_z] = share if presses else (-1.0 if follows else 0.0)
+            path[(k + 1) % n_z] = value
+    return total
+
+
+@_jit
+def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
+    """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions, NaN if none is
+    found, and what it still changes by over a period.
+
+    Without arms one period is its memory. With arms the passes go on, from the greatest depth, where it presses: what
+    an arm changed in one, over the share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is
+    exact for a spring that keeps contact; where changes grow, half as much of what is beyond the plain change. Every
+    third time, where the last two changes are alike, what they tend to is added at once. guess (1 + J,): arms to begin
+    with, zero or those of a neighbour; becomes this spring's.
+    """
+    start, move, last = np.empty(x.size), np.zeros(x.size), np.zeros(x.size)
+    total = 0.0
+    n_z = z.size - 1
+    deepest = np.argmax(z[:n_z])
+    x[:] = guess
+    x[0] = max(z[deepest] - gap, 0.0)
+    trust, before, change, size = 1.0, np.inf, 0.0, 0.0
+    for turn in range(MOST_PASSES):
+        start[:] = x
+        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches, path)
+        change, size = 0.0, 0.0
+        for j in range(x.size):
+            change = max(change, abs(x[j] - start[j]))
+            size = max(size, abs(x[j]))
+        if turn > 0 and change <= 1e-13 * size:
+            break
+        grows = change > before
+        trust = 0.5 * trust if grows else trust
+        before = change
+        along = length = 0.0
+        for j in range(1, x.size):
+            plain = x[j] - start[j]
+            far = -plain / np.expm1(-2.0 * np.pi / table[L_TIME, j])
+            last[j], move[j] = move[j], plain + trust * (far - plain)
+            along += table[L_RATIO, j] * last[j] * move[j]
+            length += table[L_RATIO, j] * last[j] * last[j]
+        rate = along / length if turn % 3 == 2 and length > 0.0 and not grows else 0.0
+        more = 1.0 / (1.0 - rate) if 0.0 < rate < 0.98 else 1.0
+        for j in range(1, x.size):
+            x[j] = start[j] + more * move[j]
+    if not change <= SETTLED:
+        total = np.nan
+    guess[:] = x
+    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0), np.empty(0))
+    return total, change
+
+
+@_jit
+def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
+    """All springs, from the centre outwards, in their periodic normal motion: adds to F (n_z,) their force and to S
+    (n_z,) the sum of w s.
+
+    Fills outermost (n_z,) with the last spring that presses (-1 for none), at_edge (n_z,) with its force over its
+    stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
+    """
+    x, guess = np.empty(table.shape[1]), np.zeros(table.shape[1])
+    force, touches, path = np.empty(F.size), np.empty(F.size), np.empty(F.size)
+    outermost[:] = -1
+    at_edge[:] = 0.0
+    for i in range(gap.size):
+        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
+        n_touches = 0
+        for k in range(F.size):
+            F[k] += w[i] * force[k]
+            S[k] += w[i] * path[k]
+            if touches[k] > 0.0:
+                outermost[k], at_edge[k] = i, force[k]
+                if touches[k - 1] <= 0.0:
+                    n_touches += 1
+                    begins[i] = k - touches[k]
+        if n_touches != 1:
+            begins[i] = np.nan
+
+
+@_jit
+def settle_normal(s, gap, w, z, zd, table, spans):
+    """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period,
+    NaN if springs with arms find none.
+
+    s: (1 + J, n). Without arms one period is the memory of a spring in the normal direction, so a second pass over the
+    period is periodic; springs with arms are settled one by one. Fills spans (2, n_z): how many of the first springs
+    follow the indenter at both ends of a step, and from which one on none does at either.
+    """
+    n_z, n = z.size - 1, gap.size
+    h = 2.0 * np.pi / n_z
+    n_x = table.shape[1]
+    decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
+    mean, steady = 0.0, True
+    inner, outer = np.full(n_z + 1, n), np.zeros(n_z + 1, dtype=np.int64)  # at z[0] ... z[n_z]
+    if n_x > 1:
+        force, touches, path, guess = np.empty(n_z), np.empty(n_z), np.empty(n_z), np.zeros(n_x)
+        for i in range(n):
+            total, change = settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches, path)
+            mean += w[i] * total
+            steady = steady and change <= STEADY
+            for k in range(n_z):
+                if touches[k] == 0.0:
+                    inner[k] = min(inner[k], i)
+                else:
+                    outer[k] = i + 1
+        inner[n_z], outer[n_z] = inner[0], outer[0]
+    else:
+        for i in range(n):
+            s[0, i] = max(z[0] - gap[i], 0.0)
+        once = np.empty(n)
+        for turn in range(1 if decay == 0.0 else 3):  # the third is for spans, and tells whether it is like the second
+            mean = 0.0
+            once[:] = s[0]
+            for k in range(n_z):
+                total = 0.0
+                least, most = n, 0
+                for i in range(n):
+                    if decay == 0.0:
+                        value = max(z[k + 1] - gap[i], 0.0)
+                    else:
+                        _, value, _, _ = kelvin_spring(
+                            0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1],
+                            0.0, 0.0, 0.0, 0.0, 0.0, h, rate, decay,
+                        )  # fmt: skip
+                    s[0, i] = value
+                    total += w[i] * value
+                    follows = value > 0.0 and value <= z[k + 1] - gap[i]
+                    least = min(least, n if follows else i)
+                    most = max(most, i + 1 if follows else 0)
+                mean += total
+                if turn > 0 or decay == 0.0:
+                    inner[k + 1], outer[k + 1] = min(inner[k + 1], least), max(outer[k + 1], most)
+        inner[0], outer[0] = inner[n_z], outer[n_z]
+        for i in range(n):
+            steady = steady and (decay == 0.0 or abs(s[0, i] - once[i]) <= STEADY * (1.0 + s[0, i]))
+    if not steady:  # in coarse steps the touches of springs at the edge may alternate
+        inner[:], outer[:] = 0, n
+    for k in range(n_z):
+        spans[0, k], spans[1, k] = min(inner[k], inner[k + 1]), max(outer[k], outer[k + 1])
+    return mean / n_z
+
+
+@_inline
+def span_of(spans, k, n):
+    """n_in, n_out of step k, the one rounded down and the other up so that whole vectors go through each loop."""
+    return spans[0, k] // VECTOR * VECTOR, min((spans[1, k] + VECTOR - 1) // VECTOR * VECTOR, n)
+
+
+@_jit
+def glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s_out):
+    """The march of elastic springs under a rigid pull, where no spring knows of another; arguments as of `march`."""
+    n_z, n = z.size - 1, gap.size
+    h = 2.0 * np.pi / n_z
+    k, n_at_rest = k_0 % n_z, n
+    S_0, S_m = history[3], history[4]
+    as_one = True
+    for j in range(S_out.size):
+        z_1 = z[k + 1]
+        n_in, n_out = span_of(spans, k, n)
+        S_m, S_0 = S_0, elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z[k], z_1, zd[k], zd[k + 1], v, h)
+        n_at_rest = n_out
+        S_out[j] = S_0
+        as_one = as_one and e[0, 0] + max(z_1 - gap[0], 0.0) >= lump_margin
+        if j < e_out.shape[0]:
+            for i in springs(0, n):
+                e_out[j, 0, i] = e[0, i]
+                s_out[j, 0, i] = max(z_1 - gap[i], 0.0)
+        k = k + 1 if k + 1 < n_z else 0
+    history[:3] = 0.0
+    history[3], history[4] = S_0, S_m
+    return as_one
+
+
+@_jit
+def march(
+    e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out,
+    light=False,
+):  # fmt: skip
+    """March n_steps from step k_0 of the period; e, s and history are updated in place.
+
+    e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. table: of the material
+    over a step (operator.py). history: (5 + 2J,) y, y_old, y_older, S, S_old and the sums of w e over each arm, now and
+    one step before. body: (5 + 2J,) a_1, a_2, b_1, b_0, b_m and the weights of those sums, all zero for a rigid pull.
+    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. spans: (2, n_z)
+    of springs that press, or are free, throughout a step (`settle_normal`); 0 and n take all through all rules.
+    lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative switches
+    the watch off. light: whether the velocity of the body jumps when a flat face touches (`growth_of`). y_out, S_out:
+    (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
+    Returns whether the core moved as one all the way.
+    """
+    n_z = z.size - 1
+    n_arms = table.shape[1] - 1
+    h = 2.0 * np.pi / n_z
+    a_1, a_2, b_1, b_0, b_m = body[0], body[1], body[2], body[3], body[4]
+    y_0, y_m, y_mm, S_0, S_m = history[0], history[1], history[2], history[3], history[4]
+    e_0, e_1 = e, np.empty_like(e)
+    s_0, s_1 = s, np.empty_like(s)
+    decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
+    stiffness, damping = table[L_STIFFNESS, 0], damping_of(table)
+    elastic = n_arms == 0 and decay == 0.0
+    look = np.empty((N_LOOK, gap.size if n_arms > 0 else 0))
+    rigid = b_1 == 0.0
+    if elastic and rigid:
+        y_out[:] = 0.0
+        return glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s_out)
+    as_one = True
+    for j in range(n_steps):
+        k = (k_0 + j) % n_z
+        z_0, z_1 = z[k], z[k + 1]
+        n_in, n_out = span_of(spans, k, gap.size)
+        jumps = light and spans[1, k - 1] == 0 and touches_flat(gap, w, z_1)  # nothing was in contact before
+        pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
+        for a in range(2 * n_arms):
+            pull -= body[5 + a] * history[5 + a]
+        if n_arms > 0:
+            foresee(e_0, s_0, table, look)
+        y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
+        low, high = -np.inf, np.inf
+        ud_0 = v + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
+        for turn in range(80):
+            du = v * h + (y_1 - y_0)
+            ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
+            if elastic:
+                S_1, stuck = elastic_step(
+                    e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, jumps
+                )  # fmt: skip
+            elif n_arms == 0:
+                S_1, stuck = kelvin_step(
+                    e_0, s_0, e_1, s_1, gap, w, n_in, n_out,
+                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay, jumps,
+                )  # fmt: skip
+            else:
+                S_1, stuck = arms_step(
+                    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out,
+                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, stiffness, damping, jumps,
+                )  # fmt: skip
+            excess = y_1 - pull + b_1 * S_1
+            rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
+            if abs(excess) <= rounding:
+                break
+            if excess > 0.0:  # the slope is at least 1, so the root is no further than the excess
+                low, high = max(low, y_1 - excess), y_1
+            else:
+                low, high = y_1, min(high, y_1 - excess)
+            y_new = y_1 - excess / (1.0 + b_1 * stuck)
+            if turn > 7 or not low <= y_new <= high:
+                y_new = 0.5 * (low + high)
+            if abs(y_new - y_1) <= 0.1 * rounding:
+                break
+            y_1 = y_new
+        for a in range(n_arms):
+            history[5 + n_arms + a] = history[5 + a]
+            history[5 + a] = table[L_DECAY, 1 + a] * history[5 + a] + table[L_GAIN, 1 + a] * (S_1 - S_0)
+        if elastic:
+            core = e_1[0, 0] + max(z_1 - gap[0], 0.0)
+        elif n_arms == 0:
+            core = (e_1[0, 0] + s_1[0, 0] - (e_0[0, 0] + s_0[0, 0]) * decay) / (1.0 - decay)
+        else:
+            stretch_arms(e_0, e_1, table)
+            stretch_arms(s_0, s_1, table)
+            core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
+            for a in range(n_arms + 1):
+                core += table[L_RATIO, a] * (e_1[a, 0] + s_1[a, 0])
+        as_one = as_one and core >= lump_margin
+        y_mm, y_m, y_0, S_m, S_0 = y_m, y_0, y_1, S_0, S_1
+        e_0, e_1 = e_1, e_0
+        s_0, s_1 = s_1, s_0
+        y_out[j] = y_1
+        S_out[j] = S_1
+        if j < e_out.shape[0]:
+            e_out[j] = e_0
+            if elastic:
+                for i in range(gap.size):
+                    s_out[j, 0, i] = max(z_1 - gap[i], 0.0)
+            else:
+                s_out[j] = s_0
+    if n_steps % 2 == 1:
+        e_1[:] = e_0
+        s_1[:] = s_0
+    history[0], history[1], history[2], history[3], history[4] = y_0, y_m, y_mm, S_0, S_m
+    return as_one
+
+
+# --- looking at a run -----------------------------------------------------------------------------
+
+FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3
+
+# what `observe` adds up, in the order of its `sums`
+N_SUMS = 10
+(
+    SUM_E,
+    SUM_S,
+    STICK_TIME,
+    CONTACT_TIME,
+    SHEAR_WORK,
+    NORMAL_WORK,
+    FRICTION_LOSS,
+    SHEAR_VISCOUS,
+    NORMAL_VISCOUS,
+    LEAST_SLIP,
+) = range(N_SUMS)
+
+
+@_inline
+def mode_of(normal, excess, limit):
+    """Mode of a spring whose `excess` beyond +-limit says that it slips."""
+    slips = SLIP if excess >= limit else (SLIP_BACK if excess <= -limit else STICK)
+    return slips if normal > 0.0 else FREE
+
+
+@_inline
+def contact_share(s_0, s_free, s_rate, s_end, s_1, gap, z_0, z_1, zd_0, zd_1):
+    """Share of a step that a spring spends in contact, as the march has it: 1 in contact throughout, 0 in flight."""
+    rise = max(s_1 - s_free, 0.0)
+    way = rise / (rise + max(s_0 - (z_0 - gap), 0.0) + 1e-300)
+    return way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
+
+
+@_jit
+def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
+    """What the arms add to a step, out (8, n): to the free motion of s and e, the rates of s at both ends, the forces
+    at the end and the impulses in the step; returns their losses in shear and pressure. e, s: (1 + J, n) at both ends.
+    """
+    out[:] = 0.0
+    shear = press = 0.0
+    for j in range(1, e_0.shape[0]):
+        ratio, theta = table[L_RATIO, j], table[L_TIME, j]
+        free, rate, end = table[L_FREE, j], table[L_RATE, j], table[L_END, j]
+        for i in range(e_0.shape[1]):
+            p_0, p_1, q_0, q_1 = e_0[j, i], e_1[j, i], s_0[j, i], s_1[j, i]
+            out[0, i] += free * q_0
+            out[1, i] += free * p_0
+            out[2, i] += rate * q_0
+            out[3, i] += end * q_0
+            out[4, i] += ratio * q_1
+            out[5, i] += ratio * p_1
+            out[6, i] += ratio * theta * ((e_1[0, i] - e_0[0, i]) - (p_1 - p_0))
+            out[7, i] += ratio * theta * ((s_1[0, i] - s_0[0, i]) - (q_1 - q_0))
+            shear += w[i] * ratio / theta * 0.5 * h * (p_0 * p_0 + p_1 * p_1)
+            press += w[i] * ratio / theta * 0.5 * h * (q_0 * q_0 + q_1 * q_1)
+    return shear, press
+
+
+@_inline
+def close_look(
+    e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, du, surge, jump, h, T, dashpot
+):  # fmt: skip
+    """One spring in one step, of which it spends the share `touched` in contact; per_time is 1/(touched h).
+
+    force, trial: what would press it and what it would take to stick, over its long-time stiffness. Returns its
+    normal and tangential force at the end and mode; its slip velocity, stretch and squeeze while in contact; and the
+    impulse of its normal force. The step falls into a free part and a part in contact, as in the march.
+    """
+    normal = max(force, 0.0)
+    stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
+    squeezed = s_1 - s_0 - (1.0 - touched) * (s_free - s_0)
+    slip_rate = (touched * (du + (1.0 - touched) * surge) + (1.0 - touched) * jump - stretched) * per_time
+    # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
+    # extension, else its trial force
+    pace = (1e-9 * abs(du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
+    now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
+    tangential = min(max(trial, -normal), normal)
+    tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
+    impulse = max(0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s, 0.0)
+    return normal, tangential, now, slip_rate, stretched, squeezed, impulse
+
+
+@_inline
+def least_of(values, n):
+    """Least of the first n values, infinite for none; by halves, which vectorises. Changes values."""
+    while n > 1:
+        half = n // 2
+        low, high = values[:half], values[n - half : n]
+        for i in range(half):
+            low[i] = min(low[i], high[i])
+        n -= half
+    return values[0] if n == 1 else np.inf
+
+
+@_jit
+def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z, light=False):
+    """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
+
+    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot:
+    (m + 1,). spans: (2, m), see `march`. Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of
+    each step, slip (m,) with the least slip velocity of a spring in contact through the step, or else at the touch of
+    those that touched in it (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over
+    its stiffness, or (0, n) for none.
+    """
+    T, n_x, n = table[L_TIME, 0], table.shape[1], gap.size
+    dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
+    remembers = n_x > 1 or T > 0.0
+    slips, first_slips = np.empty(n), np.empty(n)
+    arms = np.zeros((8, n))
+    free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
+    S_0, P_0 = 0.0, 0.0  # sums of w e and of w s
+    presses_0 = False  # whether any spring is in contact as the step begins
+    for i in range(n):
+        presses_0 = presses_0 or 0.0 < s[0, 0, i] <= z[0] - gap[i]
+        S_0 += w[i] * e[0, 0, i]
+        P_0 += w[i] * s[0, 0, i]
+    for k in range(e.shape[0] - 1):
+        du = v * h + (y[k + 3] - y[k + 2])
+        ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
+        ux_dot_0 = v + (3.0 * y[k + 2] - 4.0 * y[k + 1] + y[k]) / (2.0 * h)
+        z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
+        surge, jump = growth_of(du, ux_dot_0, ux_dot, h, light and not presses_0 and touches_flat(gap, w, z_1))
+        growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
+        S_1 = P_1 = sum_x = sum_z = stick = friction = shear_viscous = normal_viscous = shear_arms = press_arms = 0.0
+        if n_x > 1:
+            shear_viscous, normal_viscous = add_arms(e[k], e[k + 1], s[k], s[k + 1], w, table, h, arms)
+            for i in range(n):
+                shear_arms += w[i] * arms[6, i]
+                press_arms += w[i] * arms[7, i]
+        e_here, e_next, s_here, s_next = e[k, 0], e[k + 1, 0], s[k, 0], s[k + 1, 0]
+        n_in, n_out = span_of(spans, k, n)
+        for i in springs(0, n_in):
+            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+            force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]
+            normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
+                e_0, e_1, s_0, s_1, e_0, s_0, 1.0, 1.0 / h, force, trial, arms[7, i], du, surge, jump, h, T, dashpot
+            )
+            sum_x += w[i] * tangential
+            sum_z += w[i] * normal
+            stick += w[i] * normal if now == STICK else 0.0
+            friction += w[i] * impulse * abs(slip_rate)
+            shear_viscous += w[i] * T * (stretched * stretched / h)
+            normal_viscous += w[i] * T * (squeezed * squeezed / h)
+            S_1 += w[i] * e_1
+            P_1 += w[i] * s_1
+            slips[i] = slip_rate
+        for i in springs(n_in, n_out):
+            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+            s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
+            rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
+            touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
+            per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+            follows = s_1 <= z_1 - gap[i]
+            force = s_1 + T * zd_1 + arms[4, i] if follows else 0.0
+            trial = e_1 + T * ux_dot + arms[5, i]
+            normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
+                e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
+                du, surge, jump, h, T, dashpot,
+            )  # fmt: skip
+            flight = (1.0 - touched) / h
+            sum_x += w[i] * tangential
+            sum_z += w[i] * normal
+            stick += w[i] * normal if now == STICK else 0.0
+            friction += w[i] * impulse * abs(slip_rate)
+            shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flight)
+            normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (s_free - s_0) ** 2 * flight)
+            S_1 += w[i] * e_1
+            P_1 += w[i] * s_1
+            presses = follows and s_1 > 0.0
+            slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
+            first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
+        if remembers:
+            for i in springs(n_out, n):
+                shear_viscous += w[i] * T * ((e_next[i] - e_here[i]) ** 2 / h)
+                normal_viscous += w[i] * T * ((s_next[i] - s_here[i]) ** 2 / h)
+                S_1 += w[i] * e_next[i]
+                P_1 += w[i] * s_next[i]
+        least = least_of(slips, n_out)
+        if least == np.inf:  # all that press slip alike, so only the first touch of all adds
+            least = least_of(first_slips[n_in:], n_out - n_in)
+        if mode.shape[0] > 0:
+            for i in range(n):
+                e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+                s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
+                rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
+                touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
+                per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+                force = s_1 + T * zd_1 + arms[4, i] if s_1 <= z_1 - gap[i] else 0.0
+                trial = e_1 + T * ux_dot + arms[5, i]
+                f_z[k, i], f_x[k, i], mode[k, i], _, _, _, _ = close_look(
+                    e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
+                    du, surge, jump, h, T, dashpot,
+                )  # fmt: skip
+        shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
+        press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
+        F_x[k], F_z[k], slip[k] = sum_x, sum_z, least
+        sums[SUM_E] += 0.5 * (S_0 + S_1)
+        sums[SUM_S] += 0.5 * (P_0 + P_1)
+        sums[STICK_TIME] += stick * h
+        sums[CONTACT_TIME] += sum_z * h
+        sums[SHEAR_WORK] += shear * du / h
+        sums[NORMAL_WORK] += press * (z_1 - z_0) / h
+        sums[FRICTION_LOSS] += friction
+        sums[SHEAR_VISCOUS] += shear_viscous
+        sums[NORMAL_VISCOUS] += normal_viscous
+        sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least)
+        S_0, P_0 = S_1, P_1
+        presses_0 = sum_z > 0.0

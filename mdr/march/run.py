@@ -1,0 +1,219 @@
+"""What comes out of a march, in SI: SlidingRun, its modes, its energies and its recorded periods.
+
+Sign and symbols: F_x > 0 holds the indenter back [N], F_z > 0 presses [N], v_0 pulling velocity [m/s], u_x position
+of the body [m].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.motion import LoadOscillation
+from mdr.march import kernels
+from mdr.march.steady_state import MIN_PERIODS
+from mdr.march.stepper import TOLERANCE, March, too_coarse
+from mdr.tools.records import ArrayRecord
+
+Array = NDArray[np.float64]
+
+
+class State(IntEnum):
+    """Mode of a spring."""
+
+    FREE = kernels.FREE  #: out of contact
+    STICK = kernels.STICK  #: its foot rests on the plane
+    SLIP = kernels.SLIP  #: slides forward, friction holds the indenter back
+    SLIP_BACK = kernels.SLIP_BACK  #: slides backward, friction drives the indenter on
+
+
+@dataclass(frozen=True)
+class EnergyBalance:
+    """Energies [J] of one period, each from its own definition.
+
+    pull_work + normal_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the residual of the
+    scheme.
+    """
+
+    pull_work: float  #: of the far end of the pull, v_0 times the pulling force
+    normal_work: float  #: of the normal drive, F_z u_z'
+    friction_loss: float  #: mu_0 F_z times the slip velocity
+    viscous_loss: float  #: gamma s'² and gamma e'² of the springs
+    damper_loss: float  #: of the system damper c_x
+    stored_change: float  #: elastic energy of springs and system, kinetic energy of the body
+
+    @property
+    def residual(self) -> float:
+        """Supply less use [J]."""
+        used = self.friction_loss + self.viscous_loss + self.damper_loss + self.stored_change
+        return self.pull_work + self.normal_work - used
+
+    @property
+    def relative(self) -> float:
+        """Residual over the energy that was lost [-]."""
+        return self.residual / (self.friction_loss + self.viscous_loss + self.damper_loss)
+
+
+@dataclass(frozen=True, eq=False)
+class SlidingRun(ArrayRecord):
+    """Outcome of slide(), in SI.
+
+    cof, cof_error: mean F_x over mean F_z and the bound on its numerical error [-]. settled, kind: whether the motion
+    is steady, and which: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"; why: what to change
+    if it is not. stick_share: force-weighted share of contact time spent sticking. least_slip [m/s]: smallest slip
+    velocity of a spring in contact. mean_F_x, mean_F_z [N]. energy_balance [J] of one period. With record: t [s],
+    u_x, u_z [m], F_x, F_z [N] of shape (n_t,), x, width [m] (n_springs,), e, s [m], f_x, f_z [N] and state
+    (n_t, n_springs), modes as in State; otherwise None. Recorded forces are those at the end of a step; where dashpots
+    make them jump within one, as under a Kelvin punch that loses contact, mean F_x over mean F_z of the record differs
+    from cof by up to 1e-4.
+    """
+
+    cof: float  #: mean F_x over mean F_z in whole periods [-]
+    cof_error: float  #: bound on its numerical error: step, springs and settling [-]
+    settled: bool  #: whether windows of periods agree
+    kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"
+    why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
+    stick_share: float  #: force-weighted share of contact time spent sticking [-]
+    least_slip: float  #: smallest slip velocity of a spring in contact in that period [m/s]
+    mean_F_x: float  #: [N]
+    mean_F_z: float  #: [N]
+    energy_balance: EnergyBalance  #: of one of the last periods
+    v_0: float  #: pulling velocity [m/s]
+    mu_0: float  #: local coefficient of friction [-]
+    omega: float  #: of the oscillation [rad/s]
+    n_springs: int  #: springs at x >= 0, each for the pair +x, -x
+    steps_per_period: int  #: time steps of one period
+    n_periods: int  #: periods marched
+    t: Array | None = None  #: (n_t,) instants [s]
+    u_x: Array | None = None  #: (n_t,) position of the body [m]
+    u_z: Array | None = None  #: (n_t,) depth [m]
+    F_x: Array | None = None  #: (n_t,) tangential force at the end of a step [N]
+    F_z: Array | None = None  #: (n_t,) normal force at the end of a step [N]
+    x: Array | None = None  #: (n_springs,) positions [m]
+    width: Array | None = None  #: (n_springs,) 2 dx, both sides of the contact [m]
+    e: Array | None = None  #: (n_t, n_springs) tangential extensions [m]
+    s: Array | None = None  #: (n_t, n_springs) normal compressions [m]
+    f_x: Array | None = None  #: (n_t, n_springs) tangential forces of the springs, pairs at +x and -x [N]
+    f_z: Array | None = None  #: (n_t, n_springs) normal forces [N]
+    state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
+
+    def plot(self) -> Any:
+        """Draw what was recorded: the mode of every spring over time, and the forces below; returns the Figure."""
+        from mdr import plots
+
+        return plots.plot_run(self)
+
+
+def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
+    """From scaled form to SI."""
+    case, scaled, seen, settling = march.case, march.scaled, march.seen, march.settling
+    mu_0, sums = case.mu_0, seen.sums
+    n_steps = seen.F_x.size
+    force_z = scaled.stiffness_z * scaled.length_z
+    if not march.sees_contact:
+        raise too_coarse(scaled.steps)
+    mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
+    error += _missing_load(march, mean_F_z)
+    sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
+    kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
+    return SlidingRun(
+        cof=mu_0 * settling.mean,
+        cof_error=mu_0 * (error + settling.spread + 1e-12),
+        settled=settling.settled,
+        kind=kind,
+        why=why if settling.settled else _why_not(march),
+        stick_share=sticks,
+        least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
+        mean_F_x=mu_0 * settling.mean * mean_F_z,
+        mean_F_z=mean_F_z,
+        energy_balance=_energy_balance(march),
+        v_0=march.v_0,
+        mu_0=mu_0,
+        omega=scaled.omega,
+        n_springs=march.knobs.n_springs,
+        steps_per_period=scaled.steps,
+        n_periods=march.n_periods,
+        **(_recorded(march) if march.knobs.record else {}),
+    )
+
+
+def _missing_load(march: March, mean_F_z: float) -> float:
+    """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
+    motion = march.case.oscillation
+    if not isinstance(motion, LoadOscillation):
+        return 0.0
+    return max(march.case.cycle.missing, abs(mean_F_z / motion.F_z0 - 1))
+
+
+def _why_not(march: March) -> str:
+    settling, n = march.settling, march.n_periods
+    if settling.why:
+        return f"{settling.why}: raise limit_s, n_periods or c_x"
+    if n < MIN_PERIODS:
+        return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
+    if march.knobs.start == "rest" and n < march.on_the_way:
+        return f"a start from rest takes {march.on_the_way:.3g} periods to stretch the springs: start from full slip"
+    change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
+    if march.scaled.M and march.scaled.C == 0:
+        return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
+    return f"{change}: raise n_periods" + ("" if march.knobs.start == "full_slip" else " or start from full slip")
+
+
+def _energy_balance(march: March) -> EnergyBalance:
+    scaled, seen = march.scaled, march.seen
+    sums, v, h = seen.sums, march.v_0 / scaled.speed, scaled.h
+    unit_x = scaled.stiffness_x * scaled.length_x**2
+    unit_z = scaled.stiffness_z * scaled.length_z**2
+    pull, damper = float(sums[kernels.SHEAR_WORK]), 0.0
+    if scaled.K:
+        y = seen.y[2:]
+        y_dot = np.diff(y) / h
+        pull = -v * (scaled.K * h * float(np.sum(0.5 * (y[1:] + y[:-1]))) + scaled.C * float(y[-1] - y[0]))
+        damper = scaled.C * h * float(np.sum(y_dot**2))
+    viscous = unit_x * sums[kernels.SHEAR_VISCOUS] + unit_z * sums[kernels.NORMAL_VISCOUS]
+    return EnergyBalance(
+        pull_work=unit_x * pull,
+        normal_work=unit_z * float(sums[kernels.NORMAL_WORK]),
+        friction_loss=unit_x * float(sums[kernels.FRICTION_LOSS]),
+        viscous_loss=float(viscous),
+        damper_loss=unit_x * damper,
+        stored_change=unit_x * (seen.stored[1] - seen.stored[0]),
+    )
+
+
+def _recorded(march: March) -> dict[str, Any]:
+    """The last periods in SI, the lumped core spread over the springs it stands for."""
+    scaled, springs = march.scaled, march.springs
+    F_x, F_z, y, e, s, f_x, f_z, mode = (
+        np.concatenate([getattr(seen, name)[3 if name == "y" else 0 :] for seen in march.record])
+        for name in ("F_x", "F_z", "y", "e", "s", "f_x", "f_z", "mode")
+    )
+    n_steps = F_x.size
+    t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
+        1, n_steps + 1
+    ) * scaled.h / scaled.omega
+    n = scaled.n_lumped
+    if n > 1:
+        core = springs.gap[:n] / scaled.length_z - scaled.gap[0]
+        e, s, f_x, f_z = (np.concatenate([one[:, :1] - core, one[:, 1:]], axis=1) for one in (e, s, f_x, f_z))
+        mode = np.concatenate([np.repeat(mode[:, :1], n, axis=1), mode[:, 1:]], axis=1)
+    phase = np.arange(1, n_steps + 1) % scaled.steps
+    share = springs.width / springs.width.sum()
+    return {
+        "t": t,
+        "u_x": march.v_0 * t + y * scaled.length_x,
+        "u_z": march.case.cycle.u_z0 + scaled.length_z * scaled.z[phase],
+        "F_x": F_x * scaled.stiffness_x * scaled.length_x,
+        "F_z": F_z * scaled.stiffness_z * scaled.length_z,
+        "x": springs.x,
+        "width": springs.width,
+        "e": e * scaled.length_x,
+        "s": s * scaled.length_z,
+        "f_x": f_x * share * scaled.stiffness_x * scaled.length_x,
+        "f_z": f_z * share * scaled.stiffness_z * scaled.length_z,
+        "state": mode,
+    }

@@ -1,0 +1,192 @@
+"""The depth that an oscillating load brings about: m_z u_z'' = F_z0 + dF_z cos(omega t) - F_N, periodic.
+
+F_N follows from the history of depth by the contact law, viscoelastic and unilateral (followed_force.py); friction has
+no part in it. Without mass an elastic contact is at each instant at the depth that carries the load, and this is solved
+exactly. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
+divided by the dynamic stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's
+method (1965) combines the last of them. Where contact is lost, F_N jumps as dashpots touch, between two instants; its
+harmonics are then taken from the compression of all springs, which has no jumps, times the dynamic modulus: that holds
+in flight too, where a spring relaxes without force.
+
+A small amplitude arrives in one step: there
+
+    du_z = dF_z/(K_z(omega) - m_z omega²),    K_z(omega) = 2 a E*(omega),
+
+which is where the critical velocity of a load-controlled contact comes from. The mean depth is that of the long-time
+modulus, however slow the material: the search is for the periodic state, not for the way to it. With mass and great
+amplitude, or near its resonance on the contact, several periodic motions may exist, some unstable; found is one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.depth_cycle import Cycle
+from mdr.case.motion import LoadOscillation
+from mdr.indenters.base import Indenter
+from mdr.materials.base import Material
+from mdr.materials.operator import Rheology
+from mdr.normal.followed_force import normal_cycle
+
+Array = NDArray[np.float64]
+
+N_HARMONICS = 256  #: of the depth; its instants are eight times as many
+CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
+ENOUGH = 1e-4  #: the same with which it may end when it gets no further
+NOISE = 1e-6  #: of a depth, from which on a search may end at the rounding of the shape
+PATIENCE = 40  #: iterations without half the error, after which the search ends
+MOST, MEMORY = 150, 10  #: iterations, and how many of them are combined
+
+
+def static_depth(shape: Indenter, material: Material, F_z: float) -> float:
+    """Depth [m] at which a constant load F_z [N] rests in the end, on the long-time modulus.
+
+    Raises ValueError where the whole shape does not carry it.
+    """
+    return float(static_depths(shape, material, np.array([F_z]))[0])
+
+
+def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
+    """The same for loads (n,) > 0. Newton's method from above, on a force whose slope 2E*a never falls with depth."""
+    E_star = material.E_star
+    d = np.full(F_z.shape, _depth_beyond(shape, E_star, float(np.max(F_z))))
+    left = np.inf
+    for _ in range(200):
+        step = (np.asarray(shape.force(d, E_star)) - F_z) / np.asarray(shape.stiffness(d, E_star))
+        d = np.maximum(d - step, 1e-3 * d)
+        last, left = left, float(np.max(np.abs(step) / d))
+        if left <= 4e-16 or last <= left < NOISE:  # of a shape that has its own rounding, steps do not get smaller
+            break
+    return d
+
+
+def _depth_beyond(shape: Indenter, E_star: float, F_z: float) -> float:
+    """A depth [m] that carries the load [N] or more, of the same size as the one that carries it."""
+    reach = float(shape.profile_1d(shape.max_radius)) if np.isfinite(shape.max_radius) else np.inf
+    d = max(min(shape.depth_about(F_z / E_star), reach if reach > 0 else np.inf), shape.least_depth)
+    while float(shape.force(d, E_star)) < F_z:
+        d = _deeper(shape, d, F_z)
+    return d
+
+
+def _deeper(shape: Indenter, d: float, F_z: float) -> float:
+    """A greater depth, of what the shape has."""
+    for factor in (4.0, 1.5, 1.05, 1.001):
+        try:
+            shape.contact_radius(factor * d)
+        except ValueError:
+            continue
+        return factor * d
+    raise ValueError(
+        f"F_z = {F_z:.6g} N is more than {shape!r} carries on this material: lower it, or use a larger shape"
+    )
+
+
+def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
+    """The cycle of depth under an oscillating load.
+
+    Raises ValueError where no periodic depth is found: beside a resonance of the mass on the contact, or where it
+    bounces in another rhythm.
+    """
+    if motion.m_z == 0 and not Rheology.of(material, motion.omega).remembers:
+        return _quasi_static(shape, material, motion)
+    return _balanced(shape, material, motion)
+
+
+def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
+    """Elastic, without mass: F(u_z) = F_z(t), as many harmonics as its smoothness asks for."""
+    n = 64
+    while True:
+        load = motion.F_z0 + motion.dF_z * np.cos(2 * np.pi * np.arange(n) / n)
+        half = static_depths(shape, material, load[: n // 2 + 1])  # even in time
+        depth = np.concatenate([half, half[-2:0:-1]])
+        spectrum = np.fft.rfft(depth).real / n
+        tail = np.abs(spectrum[-n // 8 :]).max()
+        if tail <= 1e-14 * abs(spectrum[0]) or n >= 4096:
+            break
+        n *= 2
+    keep = 1 + int(np.flatnonzero(np.abs(spectrum[1:]) > 1e-16 * np.abs(spectrum[1:]).max()).max())
+    cos = 2 * spectrum[1 : keep + 1]
+    return Cycle.series(float(spectrum[0]), motion.omega, cos, np.zeros_like(cos))
+
+
+def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
+    rheology, E_star, omega = Rheology.of(material, motion.omega), material.E_star, motion.omega
+    d_0 = static_depth(shape, material, motion.F_z0)
+    k_zc = float(shape.stiffness(d_0, E_star))
+    n = np.arange(N_HARMONICS + 1)
+    impedance = k_zc * rheology.response(n) - motion.m_z * (n * omega) ** 2
+    if np.abs(impedance[1]) < 1e-6 * k_zc:
+        raise ValueError(
+            "omega is the natural frequency of m_z on the contact, undamped: there the depth swings without bound; "
+            "move omega or m_z, or give the material a damping"
+        )
+    weight = np.where(np.abs(impedance) < 0.1 * k_zc, 0.1 * k_zc * np.exp(1j * np.angle(impedance)), impedance)
+    load = np.zeros(N_HARMONICS + 1, dtype=complex)
+    load[:2] = motion.F_z0, motion.dF_z / 2
+    start = np.zeros(N_HARMONICS + 1, dtype=complex)
+    start[:2] = d_0, motion.dF_z / 2 / impedance[1]
+
+    def missing(u: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """Force balance that is missing, harmonics 0 ... N of exp(i n phase)."""
+        cycle = _cycle_of(u, omega)
+        if cycle.u_z0 + cycle.du_z * cycle.greatest <= 0:
+            return load
+        known = normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, 256)
+        if known.in_contact.all():
+            F_n = np.fft.rfft(known.F_N)[: N_HARMONICS + 1]
+        else:  # F_N jumps
+            F_n = rheology.response(n) * np.fft.rfft(known.compression)[: N_HARMONICS + 1]
+        F_n = E_star * F_n / known.F_N.size
+        return np.asarray(load - F_n + motion.m_z * (n * omega) ** 2 * u)
+
+    u, off = _anderson(missing, weight, start, motion.F_z0)
+    if not off <= ENOUGH:
+        raise ValueError(
+            "no depth of the period of the load was found: the mass m_z bounces in another rhythm, or is near its "
+            "resonance on the contact; lower dF_z, move omega, or prescribe the depth with PeriodicMotion"
+        )
+    return replace(_cycle_of(u, omega), missing=off)
+
+
+def _cycle_of(u: NDArray[np.complex128], omega: float) -> Cycle:
+    used = np.flatnonzero(np.abs(u[1:]) > 1e-15 * np.abs(u[1:]).max()).max() + 1
+    return Cycle.series(float(u[0].real), omega, 2 * u[1 : used + 1].real, -2 * u[1 : used + 1].imag)
+
+
+def _anderson(
+    missing: Callable[[NDArray[np.complex128]], NDArray[np.complex128]],
+    weight: NDArray[np.complex128],
+    u: NDArray[np.complex128],
+    F_z0: float,
+) -> tuple[NDArray[np.complex128], float]:
+    """Where least is missing, by corrections missing/weight of which the last are combined; and how much, over F_z0."""
+    tried: list[NDArray[np.complex128]] = []
+    moves: list[NDArray[np.complex128]] = []
+    best, least, known, since = u, np.inf, np.inf, 0
+    for _ in range(MOST):
+        rest = missing(u)
+        off = float(np.abs(rest).max()) / F_z0
+        if off < least:
+            best, least = u, off
+        since += 1
+        if least < 0.5 * known:
+            known, since = least, 0
+        if least <= CLOSE or since > PATIENCE:
+            break
+        if off > 1e3 * least or not np.isfinite(off):
+            tried, moves, u = [], [], best
+            continue
+        tried, moves = [*tried, u][-MEMORY:], [*moves, rest / weight][-MEMORY:]
+        if len(moves) == 1:
+            u = u + 0.5 * moves[-1]
+            continue
+        dm = np.diff(np.array(moves), axis=0)
+        flat = np.concatenate([dm.real, dm.imag], axis=1)
+        share = np.linalg.lstsq(flat.T, np.concatenate([moves[-1].real, moves[-1].imag]), rcond=1e-8)[0]
+        u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + dm)
+    return best, least

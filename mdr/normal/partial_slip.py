@@ -1,0 +1,127 @@
+"""Pulled sideways at a fixed depth: how an elastic contact sticks inside and slips from its edge inwards.
+
+A spring at the depth g of the profile slips once its extension u_x has reached mu_0 kappa (d - g), so that (Popov and
+Heß 2015; for the sphere Cattaneo 1938 and Mindlin 1949)
+
+    F_x = mu_0 [F_N(d) - F_N(d_c)],    g(c) = d_c = d - u_x/(mu_0 kappa),
+
+for every shape: c is the radius of the disc that still sticks. After a turn of the motion each spring answers with
+twice its first force to twice its first stretch (Masing's rule), and a full turn between -U and U costs
+
+    W = 8 ∫_0^U F_x du_x - 4 U F_x(U) = 8 mu_0 [F_N(d) U - mu_0 kappa ∫_{d_c}^d F_N dδ] - 4 U F_x(U).
+
+Long-time moduli of the material count: the pull is slow. Symbols (SI): u_z0 = d depth [m], u_x displacement [m],
+kappa = E*/G* [-], F_x, F_z forces [N], W loss [J].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.indenters.base import Indenter
+from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.materials import Material
+from mdr.tools.checks import count, finite_array, plain, positive
+from mdr.tools.records import ArrayRecord
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PartialSlip(ArrayRecord):
+    """Outcome of partial_slip(), in SI; u_x, F_x and stick_radius in the shape of the u_x given."""
+
+    indenter: Indenter  #: shape
+    material: Material  #: half-space
+    mu_0: float  #: local coefficient of friction [-]
+    u_z0: float  #: depth [m]
+    u_x: Array  #: displacement [m]
+    F_x: Array  #: tangential force [N]
+    F_z: float  #: normal force, the same for all u_x [N]
+    stick_radius: Array  #: radius of the disc that sticks, 0 in full slip [m]
+
+
+@dataclass(frozen=True, eq=False)
+class TangentialLoop(ArrayRecord):
+    """Outcome of tangential_loop(), in SI: one turn from U to -U and back."""
+
+    u_x: Array  #: (2 n - 1,) displacement [m]
+    F_x: Array  #: (2 n - 1,) tangential force [N]
+    F_z: float  #: normal force [N]
+    loss: float  #: energy W of one turn [J]
+
+
+def partial_slip(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: ArrayLike) -> PartialSlip:
+    """Pull an indenter pressed to the fixed depth u_z0 [m] sideways by u_x >= 0 [m], each from rest, monotonically.
+
+    F_x and stick_radius come in the shape of u_x, F_z is one number. The material acts with its long-time moduli.
+
+    Raises TypeError for a wrong kind of input; ValueError for NaN, for u_x < 0 (after a turn see tangential_loop), for
+    mu_0 or u_z0 <= 0, a material that flows (E_star = 0), and a shape that ends before the depth or is so hollow that
+    a ring would stick.
+    """
+    mu_0, u_z0 = _checked(indenter, material, mu_0, u_z0)
+    u_x = finite_array("u_x", u_x, "m")
+    if np.any(u_x < 0):
+        raise ValueError(f"u_x must not be negative, got {u_x.min():.6g} m: the pull is monotonic; see tangential_loop")
+    F_x, c = _pulled(indenter, material, mu_0, u_z0, u_x)
+    F_z = float(indenter.force(u_z0, material.E_star))
+    return PartialSlip(indenter, material, mu_0, u_z0, plain(u_x), plain(F_x), F_z, plain(c))
+
+
+def tangential_loop(
+    indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: float, *, n: int = 201
+) -> TangentialLoop:
+    """Move an indenter pressed to the fixed depth u_z0 [m] to and fro between u_x and -u_x [m], by Masing's rule.
+
+    n instants on each way. Raises as partial_slip.
+    """
+    mu_0, u_z0 = _checked(indenter, material, mu_0, u_z0)
+    U, n = positive("u_x", u_x, "amplitude in m"), count("n", n, 2)
+    way = 2 * U * np.sin(np.linspace(0, np.pi / 2, n)) ** 2  # travelled since the turn, fine at both ends
+    F_way = 2 * _pulled(indenter, material, mu_0, u_z0, way / 2)[0]
+    back, F_back = U - way, F_way[-1] / 2 - F_way
+    loop_u, loop_F = np.concatenate([back, -back[1:]]), np.concatenate([F_back, -F_back[1:]])
+    unit = mu_0 * material.mindlin_ratio
+    F_z = float(indenter.force(u_z0, material.E_star))
+    work = mu_0 * (F_z * U - unit * _force_integral(indenter, material.E_star, max(u_z0 - U / unit, 0.0), u_z0))
+    return TangentialLoop(loop_u, loop_F, F_z, float(8 * work - 2 * U * F_way[-1]))
+
+
+def _pulled(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: Array) -> tuple[Array, Array]:
+    """F_x [N] and stick radius [m]."""
+    d_c = np.maximum(u_z0 - u_x / (mu_0 * material.mindlin_ratio), 0)
+    if indenter.max_radius < np.inf and np.any(d_c == 0):
+        rim = float(indenter.contact_radius(u_z0))
+        if float(indenter.profile_1d(rim)) < 0:
+            raise ValueError(
+                f"u_x = {u_x.max():.6g} m: {type(indenter).__name__} is pressed harder at its rim than inside: a ring "
+                "sticks there, which the method leaves out; pull less"
+            )
+    E_star = material.E_star
+    F_x = mu_0 * (np.asarray(indenter.force(u_z0, E_star)) - np.asarray(indenter.force(d_c, E_star)))
+    return F_x, np.asarray(indenter.contact_radius(d_c))
+
+
+def _force_integral(indenter: Indenter, E_star: float, low: float, high: float) -> float:
+    """∫ F_N dδ [J] between two depths, cut at the kinks of the shape."""
+    rule, total = double_exponential(), 0.0
+    kinks = [float(indenter.profile_1d(x)) for x in indenter.kinks if x < indenter.contact_radius(high)]
+    for start, stop in pairwise([low, *sorted(d for d in kinks if low < d < high), high]):
+        nodes = rule.between(np.array(start), np.array(stop))
+        total += (stop - start) * float(np.sum(rule.weight * np.asarray(indenter.force(nodes, E_star))))
+    return total
+
+
+def _checked(indenter: Indenter, material: Material, mu_0: float, u_z0: float) -> tuple[float, float]:
+    for name, value, kind in (("indenter", indenter, Indenter), ("material", material, Material)):
+        if not isinstance(value, kind):
+            hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
+            raise TypeError(f"{name} must be of kind {kind.__name__}, got {value!r}{hint}")
+    if material.E_star == 0:
+        raise ValueError(f"{material!r} flows: with E_star = 0 no tangential force stays; give it a long-time modulus")
+    return positive("mu_0", mu_0, "coefficient of friction"), positive("u_z0", u_z0, "depth in m")

@@ -1,0 +1,66 @@
+"""SpringArray: where the springs stand under the indenter and how stiff each one is.
+
+The half-space becomes a row of independent elements dk_z = E* dx, dk_x = G* dx (Popov and Heß 2015). A spring
+here stands for the pair of cells at +x and -x, so its width counts twice.
+
+Where they stand is the matter of spring_grid.py: finely where springs touch and leave.
+
+Symbols: x position [m], gap = g(x) - u_z0 depth of a spring's foot relative to the mean depth [m] (kept in this
+form because u_z0 may be many orders larger than du_z), width 2 dx [m].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.contact import SlidingContact, require_case
+from mdr.normal.spring_grid import cells
+from mdr.tools.checks import count
+from mdr.tools.records import ArrayRecord
+
+Array = NDArray[np.float64]
+
+MIN_SPRINGS = 16  #: fewer cannot serve all panels
+
+
+@dataclass(frozen=True, eq=False)
+class SpringArray(ArrayRecord):
+    """Springs of a contact, from the centre outwards; arrays of shape (n_springs,)."""
+
+    x: Array  #: positions of the cell centres [m]
+    gap: Array  #: mean of g over the cell, less u_z0 [m]
+    width: Array  #: 2 dx, both sides of the contact [m]
+    E_star: float  #: normal modulus [Pa]
+    G_star: float  #: tangential modulus [Pa]
+    n_core: int  #: the first n_core springs never lose contact
+
+    @classmethod
+    def of(cls, case: SlidingContact, n_springs: int = 512) -> SpringArray:
+        """The springs of a sliding contact.
+
+        Raises ValueError for n_springs below 16.
+        """
+        case, n_springs = require_case(case), count("n_springs", n_springs, MIN_SPRINGS)
+        x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs)
+        return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
+
+    @property
+    def dk_z(self) -> Array:
+        """Normal stiffness of each spring E* 2 dx [N/m]."""
+        return self.E_star * self.width
+
+    @property
+    def dk_x(self) -> Array:
+        """Tangential stiffness of each spring G* 2 dx [N/m]."""
+        return self.G_star * self.width
+
+    def normal_stiffness(self, u_z: float, u_z0: float) -> float:
+        """Stiffness [N/m] of the springs that reach the surface at depth u_z [m]; u_z0 is the mean depth."""
+        return float(np.sum(self.dk_z[self.gap < u_z - u_z0]))
+
+    def normal_force(self, u_z: float, u_z0: float) -> float:
+        """Elastic force [N] of the array at depth u_z [m]; u_z0 is the mean depth."""
+        return float(np.sum(self.dk_z * np.maximum(u_z - u_z0 - self.gap, 0)))

@@ -1,0 +1,43 @@
+"""Figures of runs, curves, shapes and studies. They are drawn of records as they are; nothing is computed here."""
+
+from mdr.plots.figures import (
+    COLOURS,
+    MODES,
+    axes_of,
+    colours,
+    edges_of,
+    mode_patches,
+    periods_of,
+    plot_curve,
+    plot_fit,
+    plot_forces,
+    plot_profile,
+    plot_run,
+    plot_spring_map,
+    plot_spring_maps,
+    plot_traces,
+    prefix,
+    save,
+    style,
+)
+
+__all__ = [
+    "COLOURS",
+    "MODES",
+    "axes_of",
+    "colours",
+    "edges_of",
+    "mode_patches",
+    "periods_of",
+    "plot_curve",
+    "plot_fit",
+    "plot_forces",
+    "plot_profile",
+    "plot_run",
+    "plot_spring_map",
+    "plot_spring_maps",
+    "plot_traces",
+    "prefix",
+    "save",
+    "style",
+]

@@ -1,0 +1,146 @@
+"""A recorded run as a moving picture: springs that stick, slip and leave, and the force they add up to."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.plots.figures import COLOURS, MODES, mode_patches, periods_of, plot_forces, prefix, style
+from mdr.tools.checks import count
+from mdr.tools.progress import progress
+
+Array = NDArray[np.float64]
+
+SECONDS = 4.0  #: that one period lasts in the picture
+MOST_DRAWN = 24  #: springs on each side
+LEAN = 0.06  #: greatest lean of a spring, over the width of the picture
+DPI, SHADES = 80, 64  #: resolution, and colours of the GIF
+
+
+@dataclass(frozen=True)
+class Gif:
+    """A GIF on the disk; a notebook that ends a cell with it shows it."""
+
+    path: Path  #: where it lies
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def _repr_html_(self) -> str:
+        return f'<img alt="{self.path.stem}" src="data:image/gif;base64,{b64encode(self.path.read_bytes()).decode()}">'
+
+
+def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title: str | None = None) -> Gif:
+    """Write an animated GIF of the recorded periods of a run, slide(..., record=1); a notebook shows what is returned.
+
+    Above, seen from the indenter, its image g(x) goes up and down on springs that stand on the ground. Their feet lag
+    behind as far as they are sheared (exaggerated), and their colour is their mode: a spring that sticks is sheared
+    further by the pull, one that slips holds the limit. Below, the tangential force and its limit mu_0 F_z, the instant
+    shown marked. `frames` is the number of pictures of one period, `title` what stands above them.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from PIL import Image
+
+    if run.t is None:
+        raise ValueError("the run kept no arrays to draw; call slide(case, v_0, record=1) to keep a period")
+    path, frames = Path(path), count("frames", frames, 2)
+    if path.suffix != ".gif":
+        raise ValueError(f"path must end in .gif, got {path.name!r}")
+    periods = max(1, round(periods_of(run)[-1]))
+    at = np.unique(np.linspace(0, run.t.size, frames * periods, endpoint=False).astype(int))
+    with style():
+        fig = Figure(figsize=(6.4, 5.6))
+        canvas: Any = FigureCanvasAgg(fig)
+        above, below = fig.subplots(2, 1, height_ratios=(2, 1))
+        fig.suptitle(_title(run) if title is None else title)
+        parts = (_Springs(above, run), _Force(below, run))
+        fig.set_dpi(DPI)
+        canvas.draw()  # all but what moves
+        still = canvas.copy_from_bbox(fig.bbox)
+        pictures = []
+        for k in progress(at.tolist(), "frames"):
+            canvas.restore_region(still)
+            for part in parts:
+                part.show(k)
+            pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy()))
+    few = Image.fromarray(np.concatenate([np.asarray(one) for one in pictures[:: max(1, len(pictures) // 4)]]))
+    palette = few.quantize(SHADES, Image.Quantize.FASTOCTREE)
+    first, *rest = (one.quantize(palette=palette, dither=Image.Dither.NONE) for one in pictures)
+    first.save(path, save_all=True, append_images=rest, duration=round(1e3 * SECONDS * periods / len(at)), loop=0)
+    return Gif(path)
+
+
+def _title(run: Any) -> str:
+    per, unit = prefix(run.v_0, "m/s")
+    return rf"$v_0$ = {run.v_0 * per:.3g} {unit}, $\mu/\mu_0$ = {run.cof / run.mu_0:.3f}"
+
+
+class _Springs:
+    """The upper picture: both sides of the contact."""
+
+    def __init__(self, ax: Any, run: Any) -> None:
+        from matplotlib.collections import LineCollection
+
+        even = np.linspace(run.x[-1] / MOST_DRAWN / 2, run.x[-1], MOST_DRAWN)  # springs stand closer at the edge
+        every = np.unique(np.abs(run.x[:, None] - even).argmin(axis=0))
+        self.ax, self.run, self.every = ax, run, every
+        (per_x, unit), (self.per_z, unit_z) = prefix(run.x, "m"), prefix(run.s, "m")
+        x = run.x * per_x
+        self.x, self.flanks = np.concatenate([-x[every][::-1], x[every]]), np.concatenate([-x[::-1], x])
+        self.image = np.max(run.u_z[:, None] - run.s, axis=0)  # no spring reaches through the indenter: s >= u_z - g
+        deepest, sheared = float(run.s.max()) * self.per_z, float(np.abs(run.e).max())
+        self.lean = LEAN * 2.2 * float(x.max()) / sheared if sheared else 0.0
+        self.ground, self.top = -2.2 * deepest, deepest * float(np.clip(0.3 - run.u_z.min() / run.s.max(), 0.6, 1.5))
+        (self.body,) = ax.fill([0], [0], facecolor="0.9", linewidth=0, animated=True)
+        (self.surface,) = ax.plot([], [], color="0.2", linewidth=1.2, animated=True)
+        self.lines = LineCollection([], linewidths=2.2, animated=True)
+        ax.add_collection(self.lines)
+        ax.set(xlim=np.array([-1.15, 1.15]) * x.max(), ylim=(self.ground, self.top), ylabel=f"height [{unit_z}]")
+        ax.set_xlabel(f"$x$ [{unit}]" + (f", shear drawn {self.lean / per_x:.2g} times" if sheared else ""))
+        corner = {"xycoords": "axes fraction", "va": "center", "annotation_clip": False}
+        ax.annotate("$v_0$", (1.0, 1.06), (0.88, 1.06), arrowprops={"arrowstyle": "->"}, **corner)
+        self.colours = [colour for _, colour in MODES]
+        ax.legend(handles=mode_patches(run.state), loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0.2)
+
+    def _both(self, values: NDArray[Any]) -> NDArray[Any]:
+        one = values[self.every]
+        return np.concatenate([one[::-1], one])
+
+    def show(self, k: int) -> None:
+        """Draw the instant k of the record."""
+        run = self.run
+        top = np.stack([self.x, -self._both(run.s[k]) * self.per_z], axis=1)
+        foot = np.stack([self.x - self._both(run.e[k]) * self.lean, np.full_like(self.x, self.ground)], axis=1)
+        self.lines.set_segments(list(np.stack([foot, top], axis=1)))
+        self.lines.set_color([self.colours[mode] for mode in self._both(run.state[k])])
+        surface = np.concatenate([self.image[::-1], self.image]) - run.u_z[k]
+        outline = np.stack([self.flanks, surface * self.per_z], axis=1)
+        self.surface.set_data(*outline.T)
+        self.body.set_xy([*outline, [self.flanks[-1], 10 * self.top], [self.flanks[0], 10 * self.top]])
+        for artist in (self.body, self.lines, self.surface):
+            self.ax.draw_artist(artist)
+
+
+class _Force:
+    """The lower picture."""
+
+    def __init__(self, ax: Any, run: Any) -> None:
+        plot_forces(run, ax)
+        self.ax, self.t = ax, periods_of(run)
+        self.now = ax.axvline(0, color=COLOURS[1], linewidth=1.2, animated=True)
+        (self.dot,) = ax.plot([], [], "o", color=COLOURS[1], zorder=3, animated=True)
+        self.F_x = run.F_x * prefix(np.concatenate([run.F_x, run.mu_0 * run.F_z]), "N")[0]
+
+    def show(self, k: int) -> None:
+        """Mark the instant k of the record."""
+        self.now.set_xdata([self.t[k]] * 2)
+        self.dot.set_data([self.t[k]], [self.F_x[k]])
+        for artist in (self.now, self.dot):
+            self.ax.draw_artist(artist)

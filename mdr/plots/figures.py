@@ -1,0 +1,400 @@
+"""Every figure of the library: COF curves, spring maps, forces and traces of a run, and the mapped profile.
+
+Functions with `ax` draw on it (or on a new one) and return it; the others return a Figure. Records are read
+by attribute only. Times are in periods of the oscillation, lengths and forces in the prefix that reads best.
+"""
+
+from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike, NDArray
+
+#: Okabe and Ito (2008): distinct to colour-blind readers, and dark enough on white
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
+#: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
+MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
+_FREE = 0
+_MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
+
+
+def style() -> AbstractContextManager[None]:
+    """Font sizes, colours and layout of the figures, for use in a `with`."""
+    import matplotlib as mpl
+    from cycler import cycler
+
+    return mpl.rc_context(
+        {
+            "figure.figsize": (6.4, 4.2),
+            "figure.constrained_layout.use": True,
+            "font.size": 11,
+            "axes.titlesize": 11,
+            "legend.fontsize": 9.5,
+            "legend.frameon": False,
+            "axes.prop_cycle": cycler(color=COLOURS),
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "lines.linewidth": 1.6,
+            "svg.hashsalt": "mdr",
+        }
+    )
+
+
+def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | None = None) -> "Axes":
+    """COF over mu_0 against v_0 over v_c, for one CofCurve or several; hollow points are not settled.
+
+    Where a curve has no finite v_c (resonance), all are drawn over v_0 itself.
+    """
+    curves = [curves] if hasattr(curves, "cof") else list(curves)
+    if labels is not None and len(labels) != len(curves):
+        raise ValueError(f"labels must name each of the {len(curves)} curves, got {len(labels)}")
+    scaled = all(_is_scale(curve.v_c) for curve in curves)
+    with style():
+        ax = axes_of(ax)
+        for i, (curve, colour) in enumerate(zip(curves, colours(len(curves)), strict=True)):
+            _draw_curve(ax, curve, curve.v_c if scaled else 1.0, colour, labels[i] if labels else None)
+        ax.axhline(1.0, color="0.75", linewidth=0.8, zorder=0)
+        if scaled:
+            ax.axvline(1.0, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
+            ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
+        ax.set_xlabel(r"pulling velocity $v_0/v_c$" if scaled else r"pulling velocity $v_0$ [m/s]")
+        ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$")
+        ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
+        _curve_legend(ax, all(np.all(curve.settled) for curve in curves))
+    return ax
+
+
+def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
+    """Measured coefficients of friction with their errors, and the curve of the fitted contact through them."""
+    data, curve = fitted.data, fitted.curve
+    factor, unit = prefix(data.v_0, "m/s")
+    with style():
+        ax = axes_of(ax)
+        ax.errorbar(data.v_0 * factor, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
+        ax.plot(curve.v_0 * factor, curve.cof, color=COLOURS[0], label="fitted contact")
+        ax.axhline(fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
+        ax.set(xlabel=f"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
+        ax.legend()
+    return ax
+
+
+def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
+    """Which mode every spring is in: position against time, coloured by `run.state`."""
+    with style():
+        ax = axes_of(ax)
+        _draw_map(ax, run, prefix(_recorded(run).x, "m"))
+        patches = mode_patches(run.state)
+        ax.legend(handles=patches, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.2)
+    return ax
+
+
+def plot_spring_maps(runs: Sequence[Any], labels: Sequence[str]) -> "Figure":
+    """Show the spring maps of several runs side by side, under their labels and on the same axes."""
+    import matplotlib.pyplot as plt
+
+    runs, labels = [_recorded(run) for run in runs], list(labels)
+    if not runs or len(labels) != len(runs):
+        raise ValueError(f"labels must name each of the {len(runs)} runs (at least one), got {len(labels)}")
+    unit = prefix(np.concatenate([run.x for run in runs]), "m")
+    with style():
+        size = (max(3.4, 1.2 + 2.4 * len(runs)), 3.4)
+        fig, axes = plt.subplots(1, len(runs), sharex=True, sharey=True, squeeze=False, figsize=size)
+        for ax, run, label in zip(axes[0], runs, labels, strict=True):
+            _draw_map(ax, run, unit)
+            ax.set_title(label)
+            ax.label_outer()
+            ax.locator_params(axis="x", nbins=3)
+        layout: Any = fig.get_layout_engine()
+        layout.set(w_pad=0.07)  # the last number of one time axis stands beside the first of the next
+        fig.legend(handles=mode_patches(*(run.state for run in runs)), loc="outside lower center", ncols=4)
+    return fig
+
+
+def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
+    """Tangential force and its limit mu_0 F_z against time; the shaded gap is the friction that is missing.
+
+    Its share of the area under the limit, named in the legend, is 1 − mean F_x/(mu_0 mean F_z).
+    """
+    t = periods_of(_recorded(run))
+    limit, F_x = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x)
+    factor, unit = prefix(np.concatenate([F_x, limit]), "N")
+    missing = max(0.0, 1 - float(F_x.mean() / limit.mean()))
+    with style():
+        ax = axes_of(ax)
+        gap = f"{100 * missing:.3g} % missing" if missing > 1e-6 else "nothing missing"
+        ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
+        ax.plot(t, limit * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
+        ax.plot(t, F_x * factor, color="k", label="$F_x$")
+        ax.set(xlabel="time [periods]", ylabel=f"force [{unit}]", xlim=_span(t))
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, columnspacing=1.3, handlelength=1.5)
+    return ax
+
+
+def plot_run(run: Any) -> "Figure":
+    """Show a recorded run: the spring map, and below it the forces that the springs add up to."""
+    import matplotlib.pyplot as plt
+
+    with style():
+        fig, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.6), height_ratios=(3, 2))
+        plot_spring_map(run, above)
+        plot_forces(run, below)
+        above.set_xlabel("")
+        fig.align_ylabels()
+    return fig
+
+
+def plot_traces(run: Any) -> "Figure":
+    """Show forces, displacements seen from the pulled end, and foot-point velocities against time.
+
+    A foot point whose velocity is zero sticks; one that is off the plane is left out.
+    """
+    import matplotlib.pyplot as plt
+
+    t = periods_of(_recorded(run))
+    with style():
+        fig, (forces, places, velocities) = plt.subplots(3, 1, sharex=True, figsize=(6.4, 7.2))
+        plot_forces(run, forces)
+        forces.set_xlabel("")
+        _draw_places(places, t, run)
+        _draw_velocities(velocities, t, run)
+        velocities.set_xlabel("time [periods]")
+        places.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, columnspacing=1.3, handlelength=1.5)
+        fig.align_ylabels()
+    return fig
+
+
+def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLike | None" = None) -> "Figure":
+    """Show the shape f(r) and its image g(x) pressed to depth d into its springs, with the contact radius.
+
+    `springs` gives their positions x ≥ 0 (or a record with `.x`); otherwise `n_springs` stand evenly on both
+    sides. Heights are exaggerated: the two axes have their own scales.
+    """
+    import matplotlib.pyplot as plt
+
+    a = float(indenter.contact_radius(d))
+    if springs is None:
+        x = (np.arange(-(-n_springs // 2)) + 0.5) * 1.5 * a / (n_springs / 2)
+    else:
+        x = np.sort(np.asarray(getattr(springs, "x", springs), dtype=float))
+    units = prefix([1.5 * a], "m"), prefix([d], "m")
+    with style():
+        fig, (left, right) = plt.subplots(1, 2, sharex=True, sharey=True, figsize=(7.4, 3.6))
+        _draw_shape(left, indenter.profile_3d, a, d, units)
+        _draw_springs(right, indenter.profile_1d, x, a, d, units)
+        _draw_shape(right, indenter.profile_1d, a, d, units)
+        left.set(title="shape $f(r)$", xlabel=f"$r$ [{units[0][1]}]", ylabel=f"height [{units[1][1]}]")
+        right.set(title="image $g(x)$ on its springs", xlabel=f"$x$ [{units[0][1]}]")
+        reach = max(1.52 * a, 1.03 * np.max(x)) * units[0][0]
+        left.set_xlim(-reach, reach)
+        fig.legend(loc="outside lower center", ncols=2)
+    return fig
+
+
+def save(figure: "Figure", script: str, suffix: str = "") -> Path:
+    """Save a figure as figures/<name of the script><suffix>.png beside the script; returns the path."""
+    path = Path(script).resolve().parent / "figures" / f"{Path(script).stem}{suffix}.png"
+    path.parent.mkdir(exist_ok=True)
+    figure.savefig(path, dpi=200)
+    return path
+
+
+def _draw_curve(ax: "Axes", curve: Any, scale: float, colour: Any, label: str | None) -> None:
+    """Line, points (hollow where not settled), error bars wider than a point, and the static limit."""
+    v, mu = np.asarray(curve.v_0) / scale, np.asarray(curve.cof) / curve.mu_0
+    error = np.nan_to_num(np.asarray(curve.cof_error) / curve.mu_0, posinf=0.0)
+    settled = np.asarray(curve.settled, dtype=bool)
+    static = curve.static_cof / curve.mu_0
+    ax.plot(v, mu, color=colour, label=label, zorder=2)
+    size = 4.5 if len(v) <= 60 else 3.0
+    ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
+    ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
+    seen = error > 0.005
+    if np.any(seen):
+        ax.errorbar(v[seen], mu[seen], error[seen], fmt="none", ecolor=colour, capsize=2, zorder=1)
+    if np.isfinite(static):
+        reach = 0.15 * float(np.max(v, initial=0.0))
+        ax.plot([0.0, reach], [static, static], color=colour, linewidth=1.2, linestyle="--", zorder=1)
+
+
+def _curve_legend(ax: "Axes", settled: bool) -> None:
+    """Explain the labels given, the static limit, and what a hollow point means where there is one."""
+    from matplotlib.lines import Line2D
+
+    handles, _ = ax.get_legend_handles_labels()
+    handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
+    if not settled:
+        handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
+    ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
+
+
+def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> None:
+    """Colours of the modes over time and position, positions in the unit (factor, name)."""
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    order, t = np.argsort(run.x), periods_of(run)
+    every = -(-len(t) // _MAX_COLUMNS)
+    ax.pcolormesh(
+        edges_of(t[::every]),
+        _cells(np.asarray(run.x)[order]) * unit[0],
+        np.asarray(run.state)[::every, order].T,
+        cmap=ListedColormap([colour for _, colour in MODES]),
+        norm=BoundaryNorm(np.arange(5) - 0.5, 4),
+        rasterized=True,
+    )
+    ax.set(xlabel="time [periods]", ylabel=f"position of the spring $x$ [{unit[1]}]", xlim=_span(t))
+
+
+def mode_patches(*states: Any) -> list[Any]:
+    """Legend entries of the modes that occur in arrays of modes."""
+    from matplotlib.patches import Patch
+
+    seen = np.unique(np.concatenate([np.unique(state) for state in states]))
+    return [Patch(fc=MODES[m][1], ec="0.6", lw=0.5, label=MODES[m][0]) for m in seen]
+
+
+def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
+    """Body and foot points less v_0 t, each about its own mean, so that only the oscillation is left."""
+    moved = np.asarray(run.v_0 * run.t)
+    lines: list[tuple[Any, dict[str, Any]]] = [(run.u_x - moved, {"label": "body", "color": "k"})]
+    lines += [(foot - moved, look) for foot, look in _feet(run)]
+    lines = [(y - np.nanmean(y), look) for y, look in lines if np.any(np.isfinite(y))]
+    factor, unit = prefix(np.concatenate([y for y, _ in lines]), "m")
+    for y, look in lines:
+        ax.plot(t, y * factor, **look)
+    ax.set_ylabel(f"$u - v_0 t$ [{unit}]\nabout its mean")
+
+
+def _draw_velocities(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
+    """Velocity of the foot points over v_0: zero where one sticks."""
+    ax.axhline(0.0, color="0.75", linewidth=0.8)
+    for foot, look in _feet(run):
+        ax.plot(t, np.gradient(foot, run.t) / (run.v_0 or 1.0), **look)
+    ax.set_ylabel("foot velocity / $v_0$" if run.v_0 else "foot velocity [m/s]")
+
+
+def _feet(run: Any) -> "Iterable[tuple[NDArray[np.float64], dict[str, Any]]]":
+    """Position (nan off the plane) and look of the foot at the centre, half-way and the mean edge.
+
+    Lines grow thinner, so that feet moving as one all show.
+    """
+    x, free = np.asarray(run.x), np.asarray(run.state) == _FREE
+    touching = np.flatnonzero(free.mean(axis=0) <= 0.5)
+    edge = touching[np.argmax(x[touching])] if len(touching) else np.argmin(x)
+    chosen = {"centre": np.argmin(x), "half-way": np.argmin(np.abs(x - x[edge] / 2)), "mean edge": edge}
+    looks = zip(chosen.items(), COLOURS, (4.5, 2.8, 1.3), strict=False)
+    taken = set()
+    for (name, i), colour, width in looks:
+        if i not in taken:
+            foot = np.where(free[:, i], np.nan, run.u_x - np.asarray(run.e)[:, i])
+            yield foot, {"label": f"foot, {name}", "color": colour, "lw": width}
+        taken.add(i)
+
+
+def _draw_shape(ax: "Axes", profile: Any, a: float, d: float, units: Any) -> None:
+    """Draw the indenter, pressed down by d into the undeformed surface, and the contact radius."""
+    (per_r, _), (per_z, _) = units
+    r, z = _outline(profile, a, d)
+    top = 0.6 * d
+    ax.fill_between(r * per_r, np.minimum(z, top) * per_z, top * per_z, color="0.88", linewidth=0, zorder=1)
+    ax.plot(r * per_r, z * per_z, color="k", zorder=4)
+    ax.axhline(0.0, color="0.4", linewidth=0.8, zorder=0)
+    for side in (-a, a):
+        ax.axvline(side * per_r, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
+    ax.annotate("$a$", (a * per_r, 0.0), (3, 3), ("data", "axes fraction"), "offset points")
+    ax.set_ylim(-1.7 * d * per_z, top * per_z)
+
+
+def _outline(profile: Any, a: float, d: float) -> "tuple[NDArray[np.float64], NDArray[np.float64]]":
+    """Both flanks of profile − d out to 1.6 a, with a vertical wall where the profile ends before that."""
+    r = np.linspace(0.0, 1.6 * a, 321)
+    try:
+        z = np.asarray(profile(r), dtype=float)
+    except ValueError:  # a shape that ends, like a sphere
+        r = np.linspace(0.0, a, 201)
+        z = np.asarray(profile(r), dtype=float)
+    here = np.isfinite(z)
+    r, z = r[here], z[here] - d
+    if r[-1] < 1.6 * a:
+        r, z = np.append(r, r[-1]), np.append(z, max(z[-1], d))
+    return np.concatenate([-r[::-1], r]), np.concatenate([z[::-1], z])
+
+
+def _draw_springs(ax: "Axes", profile: Any, x: Any, a: float, d: float, units: Any) -> None:
+    """One line per spring from the ground up: to the indenter where it presses, to the surface where not."""
+    (per_x, _), (per_z, _) = units
+    x = np.concatenate([-x[x > 0][::-1], x])
+    pressed = np.abs(x) < a
+    height = np.zeros_like(x)
+    height[pressed] = np.minimum(np.asarray(profile(np.abs(x[pressed])), dtype=float) - d, 0.0)
+    for name, these, colour in (("in contact", pressed, COLOURS[0]), ("free", ~pressed, "0.7")):
+        ax.vlines(x[these] * per_x, -1.4 * d * per_z, height[these] * per_z, color=colour, lw=1.2, label=name)
+        ax.plot(x[these] * per_x, height[these] * per_z, ".", color=colour, markersize=4, zorder=3)
+    ax.plot(x[[0, -1]] * per_x, [-1.4 * d * per_z] * 2, color="k", linewidth=2)
+
+
+def axes_of(ax: "Axes | None") -> "Axes":
+    """The axes given, or those of a new figure."""
+    import matplotlib.pyplot as plt
+
+    return plt.subplots()[1] if ax is None else ax
+
+
+def colours(n: int) -> list[Any]:
+    """Take the named colours, or a perceptual scale where they do not suffice."""
+    import matplotlib as mpl
+
+    if n <= len(COLOURS):
+        return list(COLOURS[:n])
+    return list(mpl.colormaps["viridis"](np.linspace(0.0, 0.9, n)))
+
+
+def _is_scale(v_c: Any) -> bool:
+    return v_c is not None and bool(np.isfinite(v_c)) and v_c > 0
+
+
+def _recorded(run: Any) -> Any:
+    """The run, if it kept its arrays."""
+    if run.t is None:
+        raise ValueError("the run kept no arrays to draw; call slide(case, v_0, record=2) to keep two periods")
+    return run
+
+
+def periods_of(run: Any) -> "NDArray[np.float64]":
+    """Time in periods, from the last whole period before the record begins."""
+    t = np.asarray(run.t) * run.omega / (2 * np.pi)
+    return np.asarray(t - np.floor(t[0] + 1e-9))
+
+
+def _span(t: "NDArray[np.float64]") -> tuple[float, float]:
+    """What a record spans: its instants are the ends of its steps."""
+    return float(2 * t[0] - t[1]), float(t[-1])
+
+
+def edges_of(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
+    """Cell boundaries half-way between ascending centres (n,), the outer cells symmetric: (n + 1,)."""
+    if len(centres) == 1:
+        half = abs(centres[0]) or 0.5
+        return np.array([centres[0] - half, centres[0] + half])
+    middle = (centres[1:] + centres[:-1]) / 2
+    return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])
+
+
+def _cells(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
+    """Boundaries (n + 1,) of adjoining cells from 0 on with these centres (n,); half-way between if none fit."""
+    edges = np.zeros(len(centres) + 1)
+    for i, centre in enumerate(centres):
+        edges[i + 1] = 2 * centre - edges[i]
+    return edges if np.all(np.diff(edges) > 0) else np.maximum(edges_of(centres), 0.0)
+
+
+def prefix(values: Any, unit: str) -> tuple[float, str]:
+    """Factor and unit that bring the largest magnitude between 1 and 1000."""
+    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    power = int(np.clip(np.floor(np.log10(largest) / 3 + 1e-9), -4, 3)) if largest > 0 else 0
+    return 10.0 ** (-3 * power), "pnµm kMG"[power + 4].strip() + unit

@@ -1,0 +1,302 @@
+"""Pictures of studies: a map over two axes, a family of curves, and small multiples of either.
+
+A study of more axes is cut down by `Study.select` first. What failed or is missing is hatched, what did not settle is
+dotted or hollow, and both are named in the legend, so that no point hides. Axes whose values grow by a constant factor
+are drawn on a logarithmic scale.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.plots.figures import axes_of, colours, edges_of, prefix, style
+from mdr.studies.axes import Axis
+from mdr.studies.points import Status
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from mdr.studies.study import Study
+
+Array = NDArray[np.float64]
+
+SYMBOLS = {
+    "v_0": "pulling velocity $v_0$",
+    "v_0/v_c": "pulling velocity $v_0/v_c$",
+    "mu_0": r"local friction $\mu_0$",
+    "alpha": r"amplitude $\alpha = \Delta u_z/u_{z0}$",
+    "T": r"loss tangent $T = \omega\tau$",
+    "k_x/k_xc": "system stiffness $k_x/k_{xc}$",
+    "omega_0/omega": r"natural frequency $\omega_0/\omega$",
+    "oscillation.omega": r"angular frequency $\omega$",
+    "oscillation.u_z0": "mean depth $u_{z0}$",
+    "oscillation.du_z": r"amplitude $\Delta u_z$",
+    "oscillation.F_z0": "mean load $F_{z0}$",
+    "oscillation.dF_z": r"load amplitude $\Delta F_z$",
+    "material.tau": r"relaxation time $\tau$",
+    "pull.k_x": "system stiffness $k_x$",
+    "pull.m": "mass $m$",
+    "pull.c_x": "system damping $c_x$",
+    "cof": r"coefficient of friction $\mu$",
+    "static_cof": r"static friction $\mu_s$",
+    "v_c": "critical velocity $v_c$, Eq. (15)",
+    "full_slip_v_c": "critical velocity $v_c$ in full slip",
+    "measured_v_c": "measured critical velocity $v_c$",
+    "stick_share": "share of contact time in stick",
+    "cof_error": "error of the coefficient of friction",
+}  #: how axes and quantities are written in figures; any other by its name
+LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
+MOST_LABELS = 10  #: values of a family that are named one by one
+
+
+def plot(study: Study, quantity: str | None = None) -> Figure:
+    """Draw the picture that suits the axes: curves along one, a map or curves over two, small multiples over three.
+
+    quantity: by default the first. Across stands the velocity where there is one, and else the last axis of numbers;
+    the multiples go over texts where there are any. Axes of one value are left out.
+    Raises ValueError for a study of other axes.
+    """
+    quantity = study.quantities[0] if quantity is None else quantity
+    lone = {axis.path: axis.values[0] for axis in study.frame.grid if len(axis) == 1}
+    study = study.select(lone) if len(lone) < len(study.axes) else study
+    numbers = [axis.path for axis in study.frame.grid if axis.is_numeric]
+    if not numbers:
+        raise ValueError(f"no axis of numbers to draw along; the study has {', '.join(study.axes)}")
+    x = next((path for path in numbers if path in ("v_0", "v_0/v_c")), numbers[-1])
+    if len(study.axes) == 3:
+        rest = [path for path in study.axes if path != x]
+        over = next((path for path in rest if path not in numbers), min(rest, key=lambda path: len(study.axes[path])))
+        return plot_multiples(study, quantity, over, x)
+    draw = plot_map if len(study.axes) == 2 and len(numbers) == 2 else plot_curves
+    return cast("Figure", draw(study, quantity, x).figure)
+
+
+def plot_map(
+    study: Study,
+    quantity: str,
+    x: str | None = None,
+    ax: Axes | None = None,
+    *,
+    levels: Sequence[float] = (),
+    limits: tuple[float, float] | None = None,
+    log: bool = False,
+    colorbar: bool = True,
+) -> Axes:
+    """Colours of a quantity over the two axes of a study; x is the path across, by default the last.
+
+    levels: contours to draw and label; limits: of the colours; log: logarithmic colours. Values are in SI.
+    """
+    from matplotlib.colors import LogNorm, Normalize
+
+    across, up = _two_axes(study, x)
+    order = np.ix_(np.argsort(up.values), np.argsort(across.values))
+    values, status = (_over(study, up, across, one)[order] for one in (study[quantity], study.status))
+    norm = (LogNorm if log else Normalize)(*(limits or _limits(values, log)))
+    with style():
+        ax = axes_of(ax)
+        centres = [np.sort(axis.values) * _scale(ax, which, axis) for which, axis in (("x", across), ("y", up))]
+        edges = [_edges(axis, places) for axis, places in zip((across, up), centres, strict=True)]
+        shown = np.ma.masked_invalid(values)
+        mesh = ax.pcolormesh(*edges, shown, norm=norm, cmap="viridis", rasterized=True)
+        if len(levels) and min(values.shape) > 1:
+            lines = ax.contour(*centres, shown, levels=sorted(levels), colors="white", linewidths=1.2)
+            ax.clabel(lines, fmt="%g", fontsize=9)
+        _mark(ax, edges, centres, ~np.isfinite(values), status)
+        if colorbar:
+            _colorbar(ax.figure, mesh, ax, study, quantity)
+    return ax
+
+
+def plot_curves(study: Study, quantity: str, x: str | None = None, ax: Axes | None = None) -> Axes:
+    """Curves of a quantity over one axis of a study, one for each value of its other axis, if it has two.
+
+    x is the path across, by default the last. Values are in SI but for the axis itself, which takes a prefix.
+    """
+    across, by = _one_or_two_axes(study, x)
+    values = _over(study, by, across, study[quantity]) if by else study[quantity][None]
+    status = _over(study, by, across, study.status) if by else study.status[None]
+    names = [f"{_value(by, i)}" for i in range(len(by))] if by else [None]
+    with style():
+        ax = axes_of(ax)
+        factor = _scale(ax, "x", across)
+        places = np.asarray(across.values) * factor
+        order = np.argsort(places)
+        shades = colours(len(names))
+        for i, (row, fate, colour, name) in enumerate(zip(values, status, shades, names, strict=True)):
+            named = len(names) <= MOST_LABELS or i in (0, len(names) - 1)
+            ax.plot(places[order], row[order], color=colour, label=name if named else None)
+            loose = fate == Status.UNSETTLED
+            ax.plot(places[loose], row[loose], "o", mfc="white", mec=colour, markersize=5)
+        ax.set_ylabel(_name(quantity, study.units[quantity]))
+        _explain(ax, status, by)
+    return ax
+
+
+def plot_multiples(
+    study: Study, quantity: str, over: str, x: str | None = None, *, columns: int = 3, **knobs: Any
+) -> Figure:
+    """Small multiples: a map, or a family of curves where one or two axes are left, for each value of `over`.
+
+    All share their scales. x is the path across; knobs are those of `plot_map` for maps.
+    """
+    import matplotlib.pyplot as plt
+
+    if columns < 1:
+        raise ValueError(f"columns must be at least 1, got {columns!r}")
+    axis = _axis(study, over)
+    parts = [study.select({over: axis.values[i]}) for i in range(len(axis))]
+    is_map = len(parts[0].axes) == 2 and all(one.is_numeric for one in parts[0].frame.grid)
+    if knobs and not is_map:
+        raise TypeError(f"{', '.join(knobs)} is for maps, and these are curves")
+    columns = min(columns, len(parts))
+    rows = -(-len(parts) // columns)
+    with style():
+        size = (1.2 + 2.9 * columns, 0.8 + 2.5 * rows)
+        fig, grid = plt.subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
+        if is_map:
+            knobs = {"limits": _limits(study[quantity], knobs.get("log", False))} | knobs
+        marks: dict[str, Any] = {}
+        for i, (part, ax) in enumerate(zip(parts, grid.ravel(), strict=False)):
+            if is_map:
+                plot_map(part, quantity, x, ax, colorbar=False, **knobs)
+            else:
+                plot_curves(part, quantity, x, ax)
+            if (i or is_map) and (legend := ax.get_legend()):
+                marks |= {text.get_text(): mark for text, mark in zip(legend.texts, legend.legend_handles, strict=True)}
+                legend.remove()
+            ax.set_title(_value(axis, i, name=True), fontsize=10)
+            if i % columns:
+                ax.set_ylabel("")
+            if i + columns < len(parts):
+                ax.set_xlabel("")
+        for ax in grid.ravel()[len(parts) :]:
+            ax.set_visible(False)
+        first = grid.ravel()[0].get_legend()
+        known = {text.get_text() for text in first.texts} if first else set()
+        if marks := {name: mark for name, mark in marks.items() if name not in known}:
+            fig.legend(marks.values(), marks.keys(), loc="outside lower left", ncols=3)
+        if is_map:
+            _colorbar(fig, grid.ravel()[0].collections[0], grid, study, quantity)
+    return fig
+
+
+def _limits(values: Array, log: bool) -> tuple[float, float]:
+    """The range of what colours can show."""
+    seen = values[np.isfinite(values) & ((values > 0) | (not log))]
+    return (float(seen.min()), float(seen.max())) if seen.size else (0.1, 1.0)
+
+
+def _colorbar(fig: Any, mesh: Any, ax: Any, study: Study, quantity: str) -> None:
+    bar = fig.colorbar(mesh, ax=ax, pad=0.02)
+    bar.set_label(_name(quantity, study.units[quantity]))
+    bar.outline.set_visible(False)
+
+
+# --- axes ---
+
+
+def _axis(study: Study, path: str) -> Axis:
+    if path not in study.axes:
+        raise ValueError(f"{path!r} is no axis of the study; there are {', '.join(study.axes)}")
+    return study.frame.grid[list(study.axes).index(path)]
+
+
+def _two_axes(study: Study, x: str | None) -> tuple[Axis, Axis]:
+    """The axis across and the one up, both of numbers."""
+    across, up = _one_or_two_axes(study, x)
+    if up is None or not up.is_numeric:
+        raise ValueError(f"a map needs two axes of numbers, the study has {', '.join(study.axes)}; use plot_curves")
+    return across, up
+
+
+def _one_or_two_axes(study: Study, x: str | None) -> tuple[Axis, Axis | None]:
+    if not 1 <= len(study.axes) <= 2:
+        raise ValueError(
+            f"a picture has one or two axes, the study has {len(study.axes)} ({', '.join(study.axes)}); "
+            "fix the others with study.select({path: value}), or use plot_multiples"
+        )
+    across = _axis(study, x) if x is not None else study.frame.grid[-1]
+    if not across.is_numeric:
+        raise ValueError(f"{across.path} has no numbers to draw along; give another axis as x")
+    return across, next((one for one in study.frame.grid if one is not across), None)
+
+
+def _over(study: Study, up: Axis, across: Axis, values: NDArray[Any]) -> NDArray[Any]:
+    """Values (n_up, n_across), whatever the order of the axes in the study."""
+    return values if study.frame.grid[0] is up else values.T
+
+
+def _scale(ax: Axes, which: str, axis: Axis) -> float:
+    """Set scale and label of an axis of the figure; the factor that its values are drawn with."""
+    factor, unit = prefix(axis.values, axis.unit) if axis.unit not in ("", "-") else (1.0, axis.unit)
+    getattr(ax, f"set_{which}label")(_name(axis.path, unit))
+    getattr(ax, f"set_{which}scale")("log" if _is_log(axis) else "linear")
+    return factor
+
+
+def _is_log(axis: Axis) -> bool:
+    """Whether the values grow by a constant factor."""
+    values = np.sort(np.asarray(axis.values, dtype=float))
+    if values.size < 3 or values[0] <= 0 or values[-1] < LOG_FROM * values[0]:
+        return False
+    steps = np.diff(np.log(values))
+    return bool(np.ptp(steps) < 0.01 * steps.mean())
+
+
+def _edges(axis: Axis, places: Array) -> Array:
+    """Borders (n + 1,) of the cells of a map whose centres stand at these places."""
+    return np.exp(edges_of(np.log(places))) if _is_log(axis) else np.asarray(edges_of(places))
+
+
+def _name(name: str, unit: str) -> str:
+    return SYMBOLS.get(name, name) + (f" [{unit}]" if unit not in ("", "-") else "")
+
+
+def _value(axis: Axis, index: int, name: bool = False) -> str:
+    """One value of an axis as a label, with its symbol if asked for."""
+    if not axis.is_numeric:
+        return axis.labels[index]
+    factor, unit = prefix([axis[index]], axis.unit) if axis.unit not in ("", "-") else (1.0, "")
+    number = f"{axis[index] * factor:.3g}{f' {unit}' if unit else ''}"
+    return f"{SYMBOLS.get(axis.path, axis.path)} = {number}" if name else number
+
+
+# --- what is not there ---
+
+
+def _mark(ax: Axes, edges: list[Array], centres: list[Array], empty: NDArray[np.bool_], status: NDArray[Any]) -> None:
+    """Hatch cells without a value, dot those that did not settle, and name both above the axes."""
+    from matplotlib.patches import Patch
+
+    handles: list[Any] = []
+    if empty.any():
+        look: dict[str, Any] = {"hatch": "///", "edgecolor": "0.6", "linewidth": 0}
+        ax.pcolor(*edges, np.ma.masked_where(~empty, np.zeros(empty.shape)), cmap="Greys", **look)
+        kinds = (("failed", Status.FAILED), ("not computed", Status.MISSING))
+        names = [name for name, fate in kinds if np.any(status[empty] == fate)] or ["no value"]
+        handles.append(Patch(facecolor="white", label=" or ".join(names), **look))
+    rows, columns = np.nonzero(status == Status.UNSETTLED)
+    if rows.size:
+        handles += ax.plot(centres[0][columns], centres[1][rows], "k.", markersize=2.5, label="not settled")
+    if handles:
+        ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0, 1), ncols=2, borderaxespad=0.2)
+
+
+def _explain(ax: Axes, status: NDArray[np.uint8], by: Axis | None) -> None:
+    """The legend of a family: what the curves are, what a hollow point means, and how many are not there."""
+    from matplotlib.lines import Line2D
+
+    handles, _ = ax.get_legend_handles_labels()
+    if np.any(status == Status.UNSETTLED):
+        handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
+    for name, fate in (("failed", Status.FAILED), ("not computed", Status.MISSING)):
+        if count := int(np.count_nonzero(status == fate)):
+            handles.append(Line2D([], [], color="none", label=f"{count} {name}"))
+    if handles:
+        title = _name(by.path, "") if by is not None else None
+        ax.legend(handles=handles, title=title, title_fontsize=9.5, loc="best", frameon=True, edgecolor="none")

@@ -1,0 +1,237 @@
+"""The rooms of mdr/ and who may import whom, read off the imports of every file, also those inside functions.
+
+A record may open a door upwards: inside its methods `plot...`, `to_...` and `read` it may import what draws or files
+it, so that `run.plot()` needs no second name. Nothing else runs back.
+"""
+
+import ast
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import mdr
+
+HOUSE = Path(mdr.__file__).parent
+#: Rooms from the first to the last; a room imports from itself and from earlier ones. Two of one rank know nothing of
+#: each other.
+ORDER = (
+    ("tools",),
+    ("indenters",),
+    ("materials",),
+    ("case",),
+    ("files",),
+    ("normal",),
+    ("closed_forms", "march"),
+    ("friction",),
+    ("studies",),
+    ("plots",),
+    ("commands",),
+)
+RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
+DOORS = ("plot", "to_", "read")  # methods of records that may import upwards
+OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the command
+#: Imports against the order, each with its reason. The list may only shrink.
+NAMED = {
+    ("mdr.normal.followed_force", "mdr.march.kernels"): "compiled code is one file, for the sake of its cache",
+}
+#: Ways from a record to a solver that are left. The list may only shrink: a record never solves.
+RECORDS_THAT_SOLVE = {
+    ("mdr.case.contact", "mdr.normal.load_control"): "depth and stiffness under a load are asked of the record",
+}
+
+
+class Import(NamedTuple):
+    module: str
+    imported: str  # a module of the package
+    door: bool  # whether it stands in a method that may import upwards
+
+
+def modules(house):
+    """The modules of a package by their names."""
+    package = house.name
+    names = {}
+    for path in sorted(house.rglob("*.py")):
+        parts = [package, *path.relative_to(house).with_suffix("").parts]
+        names[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return names
+
+
+def imports_of(module, path, known):
+    """What a module imports of the package, wherever in its text the import stands."""
+    package, found = module.partition(".")[0], set()
+
+    def visit(node, in_class, door):
+        if isinstance(node, ast.ClassDef):
+            in_class = True
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            door = door or (in_class and node.name.startswith(DOORS))
+        elif isinstance(node, ast.Import):
+            found.update((one.name, door) for one in node.names if one.name.partition(".")[0] == package)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{module}: imports are written in full"
+            if node.module.partition(".")[0] == package:
+                for one in node.names:
+                    whole = f"{node.module}.{one.name}"
+                    found.add((whole if whole in known else node.module, door))
+        for child in ast.iter_child_nodes(node):
+            visit(child, in_class, door)
+
+    visit(ast.parse(path.read_text(encoding="utf-8")), False, False)
+    return {Import(module, one, door) for one, door in found if one != module}
+
+
+def house_of(folder):
+    """Modules of a package and all imports between them."""
+    known = modules(folder)
+    return known, {one for module, path in known.items() for one in imports_of(module, path, known)}
+
+
+def reach(imports, start, without=()):
+    """Every module that those of `start` import, directly or through others, each with the way to it."""
+    onward = {}
+    for module, imported, _ in imports:
+        if (module, imported) not in without:
+            onward.setdefault(module, set()).add(imported)
+    ways, todo = {module: (module,) for module in start}, list(start)
+    while todo:
+        module = todo.pop()
+        for one in sorted(onward.get(module, ())):
+            if one not in ways:
+                ways[one] = (*ways[module], one)
+                todo.append(one)
+    return ways
+
+
+def circles(imports):
+    """Groups of modules that import each other, directly or through others."""
+    reached = {module: set(reach(imports, [module])) for module, _, _ in imports}
+    groups = {
+        tuple(sorted(one for one in reached[module] if module in reached.get(one, ()))) for module, _, _ in imports
+    }
+    return sorted(group for group in groups if len(group) > 1)
+
+
+def room_of(module):
+    """The room that a module stands in; "" for what stands in none."""
+    return module.split(".")[1] if module.count(".") > 1 or module.partition(".")[2] in RANK else ""
+
+
+def inside(rooms, known):
+    return {module for module in known if room_of(module) in rooms}
+
+
+def ways_between(imports, known, start, goals, without=()):
+    """The ways from one set of modules to another, as text."""
+    ways = reach(imports, sorted(start), without)
+    return [" -> ".join(ways[goal]) for goal in sorted(set(goals) & set(ways) - set(start))]
+
+
+@pytest.fixture(scope="module")
+def house():
+    return house_of(HOUSE)
+
+
+def test_every_module_stands_in_a_room(house):
+    known, _ = house
+    assert [module for module in known if module not in OUTSIDE and room_of(module) not in RANK] == []
+    assert set(RANK) <= {room_of(module) for module in known}
+
+
+def test_a_room_imports_from_itself_and_from_earlier_ones(house):
+    _, imports = house
+    wrong = [
+        f"{module} -> {imported}"
+        for module, imported, door in sorted(imports)
+        if module not in OUTSIDE and not door and (module, imported) not in {**NAMED, **RECORDS_THAT_SOLVE}
+        if not may_import(room_of(module), room_of(imported))
+    ]
+    assert wrong == []
+
+
+def may_import(room, other):
+    if room not in RANK or other not in RANK:
+        return room == "commands" and not other  # commands use the public names
+    return room == other or RANK[other] < RANK[room]
+
+
+def test_doors_lead_to_pictures_and_files(house):
+    """A method that may import upwards imports what draws or files the record, and no more."""
+    _, imports = house
+    upwards = {
+        imported for module, imported, door in imports if door and not may_import(room_of(module), room_of(imported))
+    }
+    assert {room_of(module) for module in upwards} <= {"plots", "files"}
+
+
+def test_no_circles(house):
+    _, imports = house
+    assert circles({one for one in imports if not one.door}) == []
+
+
+def test_exceptions_are_still_needed(house):
+    _, imports = house
+    edges = {(module, imported) for module, imported, _ in imports}
+    assert {*NAMED, *RECORDS_THAT_SOLVE} <= edges
+
+
+def test_closed_forms_and_the_march_know_nothing_of_each_other(house):
+    """So that their agreement is evidence."""
+    known, imports = house
+    closed, march = inside({"closed_forms"}, known), inside({"march"}, known)
+    assert closed
+    assert march
+    assert ways_between(imports, known, closed, march, NAMED) == []
+    assert ways_between(imports, known, march, closed, NAMED) == []
+
+
+def test_the_normal_problem_uses_its_own_half_of_the_compiled_code(house):
+    """The one way from closed forms to the file of the march leads to functions that have no friction in them."""
+    known, _ = house
+    tree = ast.parse(known["mdr.normal.followed_force"].read_text(encoding="utf-8"))
+    used = {
+        node.attr
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "kernels"
+    }
+    assert used == {"normal_forces", "settle_spring"}
+
+
+def test_the_compiled_march_knows_numbers_alone(house):
+    """No shape, no case and no spring array; the operator of a material lends it the names of its rows."""
+    _, imports = house
+    assert {room_of(module) for module in reach(imports, ["mdr.march.kernels"])} == {"march", "materials", "tools"}
+    assert [one for one in reach(imports, ["mdr.march.kernels"]) if room_of(one) == "march"] == ["mdr.march.kernels"]
+
+
+def test_the_measured_velocity_knows_no_closed_form(house):
+    known, imports = house
+    start = {mdr.measure_critical_velocity.__module__}
+    assert ways_between(imports, known, start, inside({"closed_forms"}, known)) == []
+
+
+def test_a_record_never_solves(house):
+    """No way from the records of a case to a solver but those that are listed as left."""
+    known, imports = house
+    solvers = inside({"normal", "closed_forms", "march", "friction", "studies"}, known)
+    assert ways_between(imports, known, inside({"case"}, known), solvers, RECORDS_THAT_SOLVE) == []
+
+
+def test_pictures_compute_nothing(house):
+    known, imports = house
+    asked = {imported for module, imported, _ in imports if room_of(module) == "plots"}
+    assert asked & inside({"normal", "closed_forms", "march", "friction"}, known) == set()
+
+
+def test_imports_are_found_wherever_they_stand(tmp_path):
+    """Also under TYPE_CHECKING, in functions and in methods; circles through them are circles."""
+    package = tmp_path / "toy"
+    package.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / "a.py").write_text("def solve():\n    from toy import b\n")
+    (package / "b.py").write_text("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from toy.c import C\n")
+    (package / "c.py").write_text("class C:\n    def plot(self):\n        import toy.a\n")
+    _, imports = house_of(package)
+    assert sorted(imports) == [("toy.a", "toy.b", False), ("toy.b", "toy.c", False), ("toy.c", "toy.a", True)]
+    assert circles(imports) == [("toy.a", "toy.b", "toy.c")]
+    assert circles({one for one in imports if not one.door}) == []
