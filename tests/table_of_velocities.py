@@ -23,7 +23,7 @@ import numpy as np
 from table_of_theorems import drawn
 
 import mdr
-from mdr.progress import progress
+from mdr.tools.progress import progress
 
 NEAR = 1e-4  #: of v_c, to which it is measured away from resonances
 LONGEST = 120.0  #: seconds for one measurement
