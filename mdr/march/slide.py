@@ -25,6 +25,7 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
 N_SPRINGS, _STEPS = 384, 1024  # first choice; doubled while cof_error exceeds the budget
 MOST_STEPS = 16384  #: of a period, that are chosen
+RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
 UNEVEN = (0.53, 0.61, 0.69, 0.83, 0.91)  #: of the steps, of companions of motions that jump as dashpots touch
 
@@ -111,7 +112,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
         # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
         as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1
         half = march(case, v_0, knobs.coarser(knobs.steps // 2), as_long, main)
-        if _clear_of_stick(main, half):
+        ringing = _of_ringing(case, main)
+        if ringing == 0 and _clear_of_stick(main, half):
             return finish(main)
         most = march(case, v_0, knobs.coarser(3 * knobs.steps // 4), as_long, main)
         fewer = march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long, main)
@@ -121,7 +123,7 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             others = (march(case, v_0, knobs.coarser(int(share * knobs.steps)), as_long, main) for share in UNEVEN)
             error_steps = max(error_steps, *(2 * _difference(main, other) for other in others))
             free = (free[0], free[1] and knobs.steps < MOST_UNEVEN)
-        error_steps += _of_fast_relaxation(main)
+        error_steps += _of_fast_relaxation(main) + ringing
         if time_is_over():
             why = "the time limit is over before the runs beside it, which bound cof_error, were done"
             return finish(replace(main, settling=replace(main.settling, settled=False, kind="unsettled", why=why)))
@@ -158,6 +160,17 @@ def _clear_of_stick(main: March, half: March) -> bool:
         return False
     least, moved = min(main.least_slip, half.least_slip), abs(main.least_slip - half.least_slip)
     return least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12
+
+
+def _of_ringing(case: SlidingContact, main: March) -> float:
+    """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
+    companions do: found beside steps that resolve it. Those that are chosen do, as far as that can be afforded.
+    """
+    steps = int(np.ceil(1.1 * RESOLVED * fast_ratio(case))) if main.scaled.light and main.scaled.M else 0
+    if not main.knobs.steps < steps <= MOST_STEPS:
+        return 0.0
+    resolved = march(case, main.v_0, main.knobs.coarser(steps), None, main)
+    return resolved.settling.spread + RINGING * abs(main.cof - resolved.cof)
 
 
 def _erratic(case: SlidingContact) -> float:
