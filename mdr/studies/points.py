@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field
 from enum import IntEnum
 from threading import Event
@@ -24,6 +25,7 @@ Array = NDArray[np.float64]
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)
+SLOW = 60.0  #: seconds from which on a case, at all its velocities, is said to have taken long
 LONGEST_REASON = 240  #: characters
 
 
@@ -48,6 +50,7 @@ class Part(ArrayRecord):
     status: NDArray[np.uint8]  #: (n,), see Status
     reason: NDArray[np.int32]  #: (n,), which of the reasons
     reasons: tuple[str, ...]  #: distinct; the first is "", none
+    slow: tuple[float, ...] = ()  #: seconds of each unit of work that took more than SLOW; not kept in a store
 
 
 def compute(work: Work, start: int, stop: int, ended: Event | None = None) -> Part:
@@ -57,6 +60,7 @@ def compute(work: Work, start: int, stop: int, ended: Event | None = None) -> Pa
         if ended is not None and ended.is_set():
             raise Ended
 
+    seconds: list[float] = []
     parts: list[tuple[Array, NDArray[np.uint8], list[str]]] = []
     with silent(watch):
         known: _Case | None = None
@@ -64,7 +68,9 @@ def compute(work: Work, start: int, stop: int, ended: Event | None = None) -> Pa
             watch()
             if known is None or unit % work.layout.blocks == 0:
                 known = _Case.of(work, unit)
+            begin = time.monotonic()
             parts.append(known.points(work, work.layout.velocities(unit)))
+            seconds.append(time.monotonic() - begin)
     whys = [why for _, _, of_unit in parts for why in of_unit]
     reasons = {"": 0}
     codes = [reasons.setdefault(why, len(reasons)) for why in whys]
@@ -73,6 +79,7 @@ def compute(work: Work, start: int, stop: int, ended: Event | None = None) -> Pa
         status=np.concatenate([status for _, status, _ in parts]),
         reason=np.array(codes, dtype=np.int32),
         reasons=tuple(reasons),
+        slow=tuple(one for one in seconds if one > SLOW),
     )
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 
 from mdr.studies.frame import Frame
 from mdr.studies.layout import Layout
-from mdr.studies.points import Part, Status
+from mdr.studies.points import SLOW, Part, Status
 from mdr.studies.study import Study, study_of
+from mdr.tools.progress import in_words
 
 
 class Results:
@@ -19,6 +22,7 @@ class Results:
         self.status = np.full(layout.n_points, Status.MISSING, dtype=np.uint8)
         self.reason = np.zeros(layout.n_points, dtype=np.int32)
         self.reasons = {"": 0}
+        self.slow: list[float] = []  #: seconds of the cases that took long
 
     def shape_of(self, units: tuple[int, int]) -> tuple[int, int]:
         """Shape of the values of units first <= unit < last."""
@@ -33,6 +37,13 @@ class Results:
         self.values[:, where] = part.values
         self.status[where] = part.status
         self.reason[where] = codes[part.reason]
+        self.slow += part.slow
+
+    def tell_slow(self) -> None:
+        """Say on standard error how many cases took how long, if any took long."""
+        if self.slow:
+            most = in_words(max(self.slow))
+            print(f"sweep: {len(self.slow)} cases took more than {SLOW:g} s each, at most {most}", file=sys.stderr)
 
     def study(self, frame: Frame) -> Study:
         """The study of what there is, its arrays in the order of the axes."""

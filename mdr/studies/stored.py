@@ -124,3 +124,4 @@ class Stored:
             run(self.work, cut, chunks, self.executor, take)
         finally:
             meter.close()
+        self.results.tell_slow()

@@ -96,6 +96,7 @@ def _in_memory(work: Work, executor: Any) -> Study:
         raise StudyError(f"{error}; nothing is kept, as there is no store") from error
     finally:
         meter.close()
+    results.tell_slow()
     return results.study(Frame.of(work, _identity_or_none(work)))
 
 

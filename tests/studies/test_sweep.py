@@ -221,3 +221,11 @@ def test_a_grid_that_no_memory_holds_is_refused():
     axes = {"alpha": np.linspace(0.1, 1, 1001), "T": np.linspace(0.1, 1, 1001), "v_0": np.linspace(0.1, 1, 1001)}
     with pytest.raises(ValueError, match="the grid has 1003003001 points of 1 quantities, more than memory holds"):
         mdr.sweep(RIGID, axes)
+
+
+def test_cases_that_take_long_are_counted(capsys, monkeypatch):
+    monkeypatch.setattr("mdr.studies.points.SLOW", -1.0)
+    mdr.sweep(RIGID, {"mu_0": [0.2, 0.4]}, quantities=("v_c",))
+    told = capsys.readouterr().err
+    assert told.startswith("sweep: 2 cases took more than ")
+    assert told.endswith(" s each, at most 0 s\n")
