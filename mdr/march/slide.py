@@ -50,7 +50,7 @@ def slide(
     n_springs (pairs at +-x), steps_per_period: None chooses them, so that cof_error meets 1e-5 mu_0 where possible.
     n_periods: None goes on until settled; a number runs exactly that many and makes no companion runs, so that
     cof_error holds settling only. start: "full_slip", from which the periodic state of a body is solved for, or "rest"
-    (unloaded in the plane), from which it is awaited. record: number of last periods kept as arrays. lump: let springs
+    (unloaded in the plane), from which it is solved for once the springs are stretched. record: number of last periods kept as arrays. lump: let springs
     that provably move as one be computed once. limit_s: seconds after which a run that has not settled is given
     up, with that as its reason (None: no limit; what it waits for is told on standard error after two seconds).
 
@@ -125,6 +125,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             free = (free[0], free[1] and knobs.steps < MOST_UNEVEN)
         error_steps += _of_fast_relaxation(main) + ringing
         if time_is_over():
+            if run is not None:
+                return run
             why = "the time limit is over before the runs beside it, which bound cof_error, were done"
             return finish(replace(main, settling=replace(main.settling, settled=False, kind="unsettled", why=why)))
         run = finish(main, error_springs + error_steps)
@@ -133,7 +135,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             n_springs=knobs.n_springs * (2 if free[0] and error_springs > BUDGET / 2 and knobs.n_springs < 4096 else 1),
             steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < MOST_STEPS else 1),
         )
-        if run.cof_error <= BUDGET * case.mu_0 or finer == knobs or main.settling.spread > BUDGET / 4:
+        awaited = bool(main.scaled.K) and not main.settling.solved
+        if run.cof_error <= BUDGET * case.mu_0 or finer == knobs or awaited or main.settling.spread > BUDGET / 4:
             return run
         knobs = finer
 

@@ -1,9 +1,11 @@
 """The march of one contact through its periods, in scaled form: the bridge to the compiled march.
 
 A march starts on the full-slip solution, or from rest. From full slip the periodic state of a body is solved for
-(periodic_orbit.py); where that finds none, from rest, and under a rigid pull, which needs a period or two, the march
-goes on until windows of periods agree (steady_state.py). Then it looks closely at its last periods: modes, forces and
-energies. If its core was lumped and turns out not to move as one, the march is done again with every spring for itself.
+(periodic_orbit.py). Where that finds none, and from rest, the march goes on until windows of periods agree
+(steady_state.py) and the body has outlasted its beat, and now and then solves from where it has come to. Under a rigid
+pull it needs a period or two. Then it looks closely at its last periods: modes, forces and energies. If its core was
+lumped and turns out not to move as one, the march is done again with every spring for itself. A COF that contradicts a
+theorem (theorems.py) is not called settled.
 """
 
 from __future__ import annotations
@@ -41,6 +43,7 @@ DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding 
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
 MOST_SHARED = 8192  #: springs of arrays that are kept for further runs
 AT_ONCE = 2**17  #: steps of a march whose forces are kept until their periods are averaged
+MOST_BESIDE = 512  #: periods that a run beside another waits whose periodic state is not found from that one
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
 
@@ -143,7 +146,8 @@ def march(
             settling = line.solve((line.state_of(near),))
         if settling is None and (scaled.K or scaled.n_arms) and knobs.start == "full_slip":
             settling = line.solve()
-        settling = settling or line.wait(MAX_PERIODS["spring" if scaled.K else "rigid"])
+        most = MAX_PERIODS["spring" if scaled.K else "rigid"] if near is None else MOST_BESIDE
+        settling = settling or line.wait(most)
     else:
         line.advance(n_periods - n_seen)
     seen = [line.observe(keep=knobs.record > 0) for _ in range(n_seen)]
