@@ -43,27 +43,21 @@ def test_the_end_of_stick_is_bracketed(world):
     assert found.high - found.low < 1e-4 * UNIT
 
 
-def test_friction_that_stays_low_from_rest_is_hysteresis_and_sets_v_c(world):
+def test_friction_that_stays_low_from_rest_contradicts_the_other_start(world):
     world(lambda start, *_: 1.7 if start == "rest" else 0.83)
     found = mdr.measure_critical_velocity(CASE)
-    assert found.kind == "hysteresis"
-    assert found.low <= 1.7 * UNIT <= found.high
-    assert found.high - found.low < 2e-3 * found.v_c
+    assert (found.v_c, found.kind) == (None, "unsettled")
     assert "a run from rest keeps friction reduced" in found.why
 
 
-def test_a_reduction_that_four_times_the_run_outlives_is_none(world):
-    world(lambda start, _, n_periods: 1.7 if start == "rest" and n_periods <= 50 else 0.83)
+def test_a_run_that_has_not_settled_is_no_evidence(world):
+    """Neither at the end of stick, where one close by is asked, nor further up, where it is named."""
+    world(lambda *_: 0.83, settled=lambda v, start: not 0.82999 < v < 0.82999001)
+    assert mdr.measure_critical_velocity(CASE).v_c == pytest.approx(0.83 * UNIT, rel=1e-4)
+    world(lambda *_: 0.83, settled=lambda v, start: not 0.7 < v < 1.5)
     found = mdr.measure_critical_velocity(CASE)
-    assert found.kind == "end of stick"
-    assert found.v_c == pytest.approx(0.83 * UNIT, rel=1e-4)
-
-
-def test_friction_that_never_gets_full_from_rest_has_no_v_c(world):
-    world(lambda start, *_: 1e9 if start == "rest" else 0.83)
-    found = mdr.measure_critical_velocity(CASE)
-    assert (found.v_c, found.kind) == (None, "none")
-    assert "from rest, friction stays reduced up to the highest velocity" in found.why
+    assert (found.v_c, found.kind) == (None, "unsettled")
+    assert "do not settle" in found.why
 
 
 def test_stick_that_never_ends_has_no_v_c(world):
@@ -110,11 +104,11 @@ def test_isolated_stick_that_never_reduces_friction_has_no_v_c(world):
     assert "stick never reduces friction by more than its numerical error" in found.why
 
 
-def test_a_verdict_repeats_the_hysteresis(world):
+def test_a_verdict_repeats_the_contradiction(world):
     world(lambda start, *_: 1.7 if start == "rest" else 0.83)
     told = mdr.verdict(CASE)
-    assert told.holds is False
-    assert told.measurement.kind == "hysteresis"
+    assert told.holds is None
+    assert told.measurement.kind == "unsettled"
     assert "a run from rest keeps friction reduced" in told.why
 
 
@@ -228,7 +222,7 @@ def test_a_friction_that_stays_low_from_rest_denies_no_full_slip_value(world):
     world(lambda start, *_: 1e9 if start == "rest" else 0.83)
     told = mdr.verdict(CASE)
     assert (told.measured, told.holds) == (None, None)
-    assert "from rest, friction stays reduced up to the highest velocity" in told.why
+    assert "a run from rest keeps friction reduced" in told.why
 
 
 def test_only_a_resonance_may_say_that_there_is_no_critical_velocity(world):

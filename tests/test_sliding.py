@@ -585,6 +585,18 @@ def test_a_start_beside_a_resonance_does_not_swing_at_hundreds_of_times_v_0(off)
         assert run.cof > mdr.static_cof(case)
 
 
+def test_a_state_that_may_be_far_from_the_periodic_one_is_not_settled_and_says_so():
+    """An undamped body on an arm that relaxes in 1e5 s: what is missing to the limit is not seen in some periods."""
+    solid = mdr.StandardLinearSolid(3e6, 3e6, 1e5, 0.5)
+    cone, motion = mdr.Cone(0.05), mdr.NormalOscillation(2e-5, 1e-5, 300.0)
+    k_x = 0.1 * float(cone.stiffness(2e-5, solid.G_star))
+    case = mdr.SlidingContact(cone, solid, 0.5, motion, mdr.SpringPull(k_x, k_x / 510.0**2))
+    run = run_at(case, 0.5, n_springs=64, steps_per_period=256)
+    assert (run.settled, run.kind) == (False, "unsettled")
+    assert run.cof_error <= 2.1 * case.mu_0
+    assert "not how far" in run.why
+
+
 def test_a_march_that_contradicts_the_static_limit_has_not_settled(monkeypatch):
     case = CONTACTS["body elastic"]
     judge = marching.Line.solve
@@ -624,4 +636,5 @@ def test_a_time_limit_ends_a_run_unsettled_with_the_reason():
     assert "limit_s" in run.why
     found = mdr.measure_critical_velocity(case, limit_s=1e-6)
     assert (found.v_c, found.kind) == (None, "unsettled")
+    assert "the time limit is over" in found.why
     assert mdr.verdict(case, limit_s=1e-6).holds is None

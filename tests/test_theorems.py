@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import table_of_theorems as table
+import table_of_velocities as velocities
 from numpy.testing import assert_array_equal
 
 from mdr.march.theorems import disordered, outside
@@ -29,3 +30,10 @@ def test_no_settled_run_of_a_random_body_contradicts_a_theorem(seed):
     row = table.row(seed)
     assert not row.contradictions, row
     assert row.settled + len(row.reasons) == 3
+
+
+@pytest.mark.parametrize("seed", [0, 2, 3, 4, 5, 7])
+def test_no_measured_velocity_of_a_random_body_contradicts_its_definition(seed):
+    row = velocities.row(seed)
+    assert not row.contradictions, row
+    assert row.kind != "unsettled"

@@ -42,6 +42,8 @@ APART = 0.01  #: step between velocities at which the deficit of the COF is read
 CLOSER = 0.004  #: the same where its error allows
 BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
 GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
+SAME_MULTIPLE = 1e-6  #: off a whole multiple by less, of it, a free oscillation stays in step as long as runs last
+MOST_UNSETTLED = 12  #: runs that do not settle, after which a search for reduced friction ends
 NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 SWINGS = 64  #: periods after which a free oscillation that is left is one that stays
@@ -57,15 +59,14 @@ class MeasuredVelocity:
     kind: "end of stick" (least slip velocity, stick and COF name one velocity), "free oscillation" (so
     too, but above it a body that starts from rest keeps one, which grazes stick now and then, at full COF), "end of
     friction reduction" (read off the COF, a bracket of per cents), "lock-in" (so too, as a free oscillation in step
-    with the drive keeps springs from sticking down to v_c), "hysteresis" (v_c is that of the start that keeps friction
-    reduced), "none" (friction stays reduced up to the highest velocity) or "unsettled" (runs that would tell do not
-    settle).
+    with the drive keeps springs from sticking down to v_c), "none" (no run without stick up to the highest velocity, or
+    no stick that reduces friction) or "unsettled" (runs that would tell do not settle, or contradict one another).
     """
 
     v_c: float | None  #: [m/s]; None where there is none
     low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
     high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
-    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "lock-in", "hysteresis", ...
+    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "lock-in", "none", "unsettled"
     why: str  #: in words
     nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
@@ -109,17 +110,20 @@ class _Search:
         self.scale = case.unit_velocity  # only a scale of velocity
 
     def run(self, v_0: float, start: str | None = None) -> SlidingRun:
+        self._begin(v_0)
+        start = start or self.start
+        return slide(self.case, v_0, start=start, n_springs=self.n_springs, steps_per_period=self.steps)
+
+    def _begin(self, v_0: float) -> None:
+        """One more run, if there is time."""
         self.n_runs += 1
         self.ticker.tick()
         if time_is_over():
             raise _Undecided(v_0)
-        start = start or self.start
-        return slide(self.case, v_0, start=start, n_springs=self.n_springs, steps_per_period=self.steps)
 
     def look(self, v_0: float, start: str) -> SlidingRun:
         """A run of half the usual resolution, enough to tell reduced friction from full."""
-        self.n_runs += 1
-        self.ticker.tick()
+        self._begin(v_0)
         return slide(
             self.case, v_0, start=start, n_springs=N_SPRINGS // 2, steps_per_period=default_steps(self.case) // 2
         )
@@ -151,6 +155,8 @@ class _Search:
     def undecided(self, v_0: float) -> MeasuredVelocity:
         """The answer where runs that would tell do not settle."""
         why = f"runs near {v_0:.6g} m/s do not settle, so that nothing is known of friction there"
+        if time_is_over():
+            why = f"the time limit is over after {self.n_runs} runs, before one at {v_0:.6g} m/s: raise limit_s"
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
     def _decided(self, v_0: float, apart: float = MARGIN / 4) -> SlidingRun:
@@ -211,6 +217,7 @@ class _Search:
         guess = free.v_0 - free.least_slip
         if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
+        guess = max(guess, LEAST * self.scale)
         for width in (MARGIN, 4 * MARGIN, 16 * MARGIN, 64 * MARGIN):
             above, below = self._decided(guess * (1 + width)), self._decided(guess * (1 - width))
             if _is_free(above) and not _is_free(below):
@@ -242,11 +249,18 @@ class _Search:
         power = 2 / 3 if self.case.T > 0 else 1 / 2
         v_0 = full * (1 - apart)
         roots: list[tuple[float, float]] = []
+        unsettled: list[float] = []
         while v_0 > 1e-6 * self.scale and len(roots) < 3:
             run = self.run(v_0)
-            if _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
+            if not run.settled:
+                unsettled.append(v_0)
+                if len(unsettled) > MOST_UNSETTLED:
+                    raise _Undecided(unsettled[0])
+            elif _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
                 roots.append((v_0, (run.mu_0 - run.cof) ** power))
             v_0 *= 1 - apart
+        if len(roots) < 3 and unsettled:
+            raise _Undecided(unsettled[0])
         if len(roots) < 3:
             return self._none("stick never reduces friction by more than its numerical error")
         velocities, deficits = np.array(roots).T
@@ -255,18 +269,32 @@ class _Search:
 
     def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """A run below the end of stick: is friction reduced there, and by how much?"""
-        near = self.look(BELOW[0] * v_c, self.start)
-        if _only_grazes(near) and _only_grazes(self.run(near.v_0)):
+        multiple = self._multiple()
+        share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
+        near = self.look(share * v_c, self.start)
+        if multiple and _only_grazes(near) and _only_grazes(self.run(near.v_0)):
             return self._lock_in(near.v_0, high)
         found = self._look_above(v_c, low, high)
-        if found.v_c != v_c or not _is_nearly_full(near) or not _is_nearly_full(self.look(BELOW[1] * v_c, self.start)):
+        if found.v_c != v_c or not near.settled:
+            return found if near.settled else replace(found, why=f"{found.why}; runs just below it do not settle")
+        if not _is_nearly_full(near) or not _is_nearly_full(self.look(BELOW[1] * v_c, self.start)):
             return found
-        nearly, less = BELOW[1] * v_c, 0.0
-        while nearly - less > 0.02 * nearly:
+        nearly, less, least = BELOW[1] * v_c, 0.0, LEAST * self.scale
+        while nearly > least and nearly - less > 0.02 * nearly:
             middle = 0.5 * (nearly + less)
             nearly, less = (middle, less) if _is_nearly_full(self.look(middle, self.start)) else (nearly, middle)
+        if nearly <= least:  # so small an oscillation takes next to nothing away at any velocity
+            return found
         why = f"{found.why}; the COF is within {NEARLY_FULL:g} of mu_0 from {nearly:.3g} m/s on already"
         return replace(found, nearly_full=nearly, why=why, n_runs=self.n_runs)
+
+    def _multiple(self) -> int:
+        """The n of a body without damper whose omega_0 is n omega, so that it may lock in; 0 of any other."""
+        pull = self.case.pull
+        if not isinstance(pull, SpringPull) or pull.m == 0 or pull.c_x > 0:
+            return 0
+        ratio = pull.omega_0 / self.case.oscillation.omega
+        return round(ratio) if abs(ratio - round(ratio)) < SAME_MULTIPLE * ratio else 0
 
     def _lock_in(self, full: float, stick: float) -> MeasuredVelocity:
         """The end of friction reduction below the end of stick of the motion without free oscillation."""
@@ -276,7 +304,7 @@ class _Search:
                 reduced = run.v_0
                 break
             full = run.v_0
-        while full - reduced > CLOSER * full:
+        while full > LEAST * self.scale and full - reduced > CLOSER * full:
             run = self._decided(0.5 * (full + reduced), CLOSER / 4)
             full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
         why = (
@@ -295,8 +323,8 @@ class _Search:
                 run = self.look(factor * v_c, start)
                 if not run.settled:
                     unsettled.append(f"{factor:g} v_c from {start}")
-                elif _is_reduced(run) and self._lasts(run, start):
-                    return self._hysteresis(run, start, v_c)
+                elif _is_reduced(run) and _is_reduced(self.run(run.v_0, start)):
+                    return self._contradicted(v_c, run.v_0, start)
                 full = full or run.settled
                 if undamped and run.settled and start == "rest" and factor == ABOVE[1]:
                     # in full slip the body moves alike at any v_0, but for the error of a step
@@ -310,10 +338,17 @@ class _Search:
         kind = "free oscillation" if swinging else "end of stick"
         return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
 
+    def _contradicted(self, v_c: float, v_0: float, start: str) -> MeasuredVelocity:
+        """The answer where a run above the end of stick has less friction, which no steady motion does."""
+        why = (
+            f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {v_0:.6g} m/s: "
+            "no two steady motions do that, so one of them has not settled"
+        )
+        return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
+
     def _awaited(self, run: SlidingRun) -> SlidingRun:
         """The same from rest for SWINGS periods, without a search for its periodic state."""
-        self.n_runs += 1
-        self.ticker.tick()
+        self._begin(run.v_0)
         return slide(
             self.case,
             run.v_0,
@@ -322,37 +357,6 @@ class _Search:
             steps_per_period=run.steps_per_period,
             n_periods=SWINGS,
         )
-
-    def _lasts(self, run: SlidingRun, start: str) -> bool:
-        """Whether a reduction of friction outlives four times the run: an unfinished transient does not."""
-        self.n_runs += 1
-        self.ticker.tick()
-        longer = slide(
-            self.case,
-            run.v_0,
-            start=start,
-            n_springs=run.n_springs,
-            steps_per_period=run.steps_per_period,
-            n_periods=4 * run.n_periods,
-        )
-        return longer.mu_0 - longer.cof > 0.7 * (run.mu_0 - run.cof)
-
-    def _hysteresis(self, reduced: SlidingRun, start: str, v_c: float) -> MeasuredVelocity:
-        """Friction is reduced above the end of stick of the other start: narrow down where that ends."""
-        low, high = reduced.v_0, reduced.v_0
-        while _is_reduced(self.look(high := high * 1.5, start)):
-            low = high
-            if high > HIGHEST * max(v_c, self.scale):
-                return self._none(f"from {start}, friction stays reduced up to the highest velocity tried")
-        while high - low > 1e-3 * high:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if _is_reduced(self.look(middle, start)) else (low, middle)
-        why = (
-            f"between {v_c:.6g} m/s, where stick ends for the runs that locate it, and this velocity, "
-            f"a run from {start} keeps friction reduced"
-        )
-        v_c, doubt = 0.5 * (low + high), self.doubt
-        return MeasuredVelocity(v_c, low - doubt, high + doubt, "hysteresis", why, n_runs=self.n_runs)
 
 
 def _is_free(run: SlidingRun) -> bool:

@@ -123,7 +123,7 @@ def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | No
         reasons = [found.why]
     if found.v_c is None or not reasons:
         reasons.append(found.why)
-    if found.nearly_full is not None:
+    if found.nearly_full is not None and found.why not in reasons:
         reasons.append(f"the COF is within {NEARLY_FULL:g} of mu_0 from {found.nearly_full:.3g} m/s on already")
     formula = formula_of(case)
     why = "; ".join([*reasons, *_left_out(case)])
@@ -181,7 +181,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
             f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
             "with them the full-slip condition gives the measured value"
         )
-    if found.kind in ("hysteresis", "lock-in"):
+    if found.kind == "lock-in":
         yield found.why
 
 

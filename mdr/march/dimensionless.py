@@ -183,7 +183,7 @@ class ScaledContact:
     def resonant_history(self, S: Array, v: float) -> Array | None:
         """The same on an undamped resonance or beside one, with the oscillation that the n-th harmonic drives until
         stick stops it: y' reaches -v, once in each of its own periods, when that harmonic of the force is greatest.
-        None off resonance, and where the force does not contain it.
+        None where no harmonic moves the body faster than FASTEST_START v, and where the force does not contain it.
         """
         if not self.K:
             return None

@@ -148,6 +148,8 @@ def _newton_picard(
         size = float(np.linalg.norm(measure(image))) + 1e-300
         best = _Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
         turn = measure(after - before).T
+        if not np.isfinite(turn).all():
+            break
         share = -np.linalg.lstsq(turn, measure(image - x), rcond=1e-12)[0]
         move = share @ after
         part = 1.0
@@ -197,6 +199,8 @@ def _gain(
 ) -> float | None:
     """Bound on the distance to the fixed point over the change over a period; None for a map that expands."""
     _, _, before, after = _displaced(step, x, measure, pushes, PUSH)
+    if not (np.isfinite(before).all() and np.isfinite(after).all()):
+        return None
     size = PUSH * (float(np.linalg.norm(measure(x))) or 1.0)
     left, lengths, right = np.linalg.svd(measure(before).T / size, full_matrices=False)
     lasts = lengths > FORGOTTEN

@@ -74,7 +74,7 @@ class SlidingRun(ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_error: float  #: bound on its numerical error: step, springs and settling [-]
-    settled: bool  #: whether windows of periods agree
+    settled: bool  #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
@@ -151,8 +151,10 @@ def _missing_load(march: March, mean_F_z: float) -> float:
 
 def _why_not(march: March) -> str:
     settling, n = march.settling, march.n_periods
+    if settling.contradicts:
+        return f"{settling.why}: change start or steps_per_period"
     if settling.why:
-        return f"{settling.why}: raise limit_s, n_periods or c_x"
+        return f"{settling.why}: raise {'limit_s' if 'time limit' in settling.why else 'n_periods or c_x'}"
     if n < MIN_PERIODS:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
     if march.knobs.start == "rest" and n < march.on_the_way:

@@ -45,14 +45,15 @@ def slide(
     """Slide a contact at v_0 > 0 [m/s] under its normal oscillation; returns a SlidingRun.
 
     `run.cof` is mean F_x over mean F_z [-], `run.cof_error` bounds step, springs and settling together, both absolute;
-    `run.settled` says whether it is periodic (or its beat averaged out), `run.why` what to change where it is not.
+    `run.settled` says whether it is periodic, or has outlasted its beat, `run.why` what to change where it is not.
 
     n_springs (pairs at +-x), steps_per_period: None chooses them, so that cof_error meets 1e-5 mu_0 where possible.
     n_periods: None goes on until settled; a number runs exactly that many and makes no companion runs, so that
     cof_error holds settling only. start: "full_slip", from which the periodic state of a body is solved for, or "rest"
-    (unloaded in the plane), from which it is solved for once the springs are stretched. record: number of last periods kept as arrays. lump: let springs
-    that provably move as one be computed once. limit_s: seconds after which a run that has not settled is given
-    up, with that as its reason (None: no limit; what it waits for is told on standard error after two seconds).
+    (unloaded in the plane), from which the run waits for it and solves for it now and then. record: number of last
+    periods kept as arrays. lump: let springs that provably move as one be computed once. limit_s: seconds after which a
+    run that has not settled is given up, with that as its reason (None: no limit; what it waits for is told on standard
+    error after two seconds).
 
     Raises TypeError and ValueError for arguments out of range; v_0 = 0 is `static_cof`.
     """
@@ -108,7 +109,8 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             knobs = replace(knobs, steps=min(2 * knobs.steps, MOST_STEPS))
             continue
         if not main.settling.settled:
-            return run or finish(main)  # finer steps make a state that hardly repeats harder to find
+            # finer steps make a state that hardly repeats harder to find, but a contradiction is one
+            return finish(main) if run is None or main.settling.contradicts else run
         # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
         as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1
         half = march(case, v_0, knobs.coarser(knobs.steps // 2), as_long, main)
@@ -173,7 +175,8 @@ def _of_ringing(case: SlidingContact, main: March) -> float:
     if not main.knobs.steps < steps <= MOST_STEPS:
         return 0.0
     resolved = march(case, main.v_0, main.knobs.coarser(steps), None, main)
-    return resolved.settling.spread + RINGING * abs(main.cof - resolved.cof)
+    missed = resolved.settling.spread if resolved.settling.settled else 1.0
+    return missed + RINGING * abs(main.cof - resolved.cof)
 
 
 def _erratic(case: SlidingContact) -> float:
@@ -207,6 +210,8 @@ def _difference(main: March, companion: March) -> float:
     if main.cof == companion.cof:
         return 0.0
     missing = companion.settling.spread if main.settling.solved else 0.0
+    if main.settling.solved and not companion.settling.settled:
+        missing = max(missing, BUDGET)
     finer_steps = main.knobs.steps > companion.knobs.steps
     coarseness = (2 * np.pi / main.knobs.steps) ** 2 if finer_steps else 4.0 / main.knobs.n_springs**2
     psi = min(max(1 - main.cof, 0.0) * main.mean_F_z, 1.0)

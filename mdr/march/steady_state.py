@@ -30,10 +30,11 @@ class Settling:
 
     mean: float  #: over the second half, by smooth weights
     spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell
-    settled: bool  #: whether the spread is below the tolerance
+    settled: bool  #: whether it is an answer: the spread below its tolerance, and nothing known to move
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
     solved: bool = False  #: whether the periodic state was solved for (periodic_orbit.py), not awaited
     why: str = ""  #: what still moves where the windows agree
+    contradicts: bool = False  #: whether the mean contradicts a theorem (theorems.py)
 
 
 def judge(values: NDArray[np.float64], tolerance: float) -> Settling:

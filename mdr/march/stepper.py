@@ -20,7 +20,7 @@ from mdr.case.contact import SlidingContact
 from mdr.march import kernels
 from mdr.march import periodic_orbit as periodic
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.steady_state import Settling, judge, smooth_mean
+from mdr.march.steady_state import UNKNOWN, Settling, judge, smooth_mean
 from mdr.march.theorems import outside
 from mdr.materials.operator import L_DECAY, L_RATIO
 from mdr.normal.springs import SpringArray
@@ -34,9 +34,9 @@ BEATS = 2.0  #: of an undamped body that a settled run has seen
 E_FOLDS = 8.0  #: of a damped oscillation after which no beat is left
 NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is missing in the COF
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
-AGES = 1e6  #: periods that full slip is to last
+AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
-SOLVED_TOLERANCE = 1e-5  #: the same for a periodic state that was solved for, whose distance cof_error contains
+SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
@@ -150,6 +150,7 @@ def march(
         settling = settling or line.wait(most)
     else:
         line.advance(n_periods - n_seen)
+    state = line.e.copy(), line.history.copy()  # before the look at the last periods, however many are kept
     seen = [line.observe(keep=knobs.record > 0) for _ in range(n_seen)]
     if not np.isfinite(line.cofs).all():
         raise ValueError(f"the run left the range of floats at v_0 = {v_0:g} m/s: use units nearer to one")
@@ -159,7 +160,7 @@ def march(
         settling = line.judge()
     account = seen[0] if n_periods is None else seen[-1]  # the same period however many are kept
     if settling.settled and (why := _contradiction(line, account, settling)):
-        settling = replace(settling, settled=False, kind="unsettled", why=why)
+        settling = replace(settling, settled=False, kind="unsettled", why=why, contradicts=True)
     return March(
         case,
         v_0,
@@ -172,7 +173,7 @@ def march(
         line.mean_F_z,
         account,
         tuple(seen),
-        (line.e, line.history),
+        state,
     )
 
 
@@ -364,7 +365,10 @@ class Line:
         spread = 2 * found.distance * size / self.mean_F_z
         if spread > TOLERANCE and self._slips_for_good(found.change * size):
             spread = 0.0
-        return Settling(float(self.cofs[-1]), spread, spread <= SOLVED_TOLERANCE, "periodic", solved=True)
+        if spread <= SOLVED_TOLERANCE:
+            return Settling(float(self.cofs[-1]), spread, True, "periodic", solved=True)
+        why = "a periodic state was found, but not how far it may be from the exact one"
+        return Settling(float(self.cofs[-1]), min(spread, UNKNOWN), False, "unsettled", solved=True, why=why)
 
     def _slips_for_good(self, change: float) -> bool:
         """Whether the last period was full slip, by so much that a change of this size a period takes ages to end it.

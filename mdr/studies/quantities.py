@@ -93,7 +93,7 @@ def _mean_F_z(case: SlidingContact, curve: CofCurve) -> Array:
 def _measured(case: SlidingContact) -> float:
     found = measure_critical_velocity(case)
     if found.v_c is None:
-        raise ValueError(f"there is none: {found.why}")
+        raise ValueError(f"{'there is none' if found.kind == 'none' else 'not measured'}: {found.why}")
     return found.v_c
 
 

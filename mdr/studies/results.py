@@ -43,7 +43,8 @@ class Results:
         """Say on standard error how many cases took how long, if any took long."""
         if self.slow:
             most = in_words(max(self.slow))
-            print(f"sweep: {len(self.slow)} cases took more than {SLOW:g} s each, at most {most}", file=sys.stderr)
+            cases = "1 case" if len(self.slow) == 1 else f"{len(self.slow)} cases"
+            print(f"sweep: {cases} took more than {SLOW:g} s, at most {most}", file=sys.stderr)
 
     def study(self, frame: Frame) -> Study:
         """The study of what there is, its arrays in the order of the axes."""

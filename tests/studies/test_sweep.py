@@ -228,4 +228,4 @@ def test_cases_that_take_long_are_counted(capsys, monkeypatch):
     mdr.sweep(RIGID, {"mu_0": [0.2, 0.4]}, quantities=("v_c",))
     told = capsys.readouterr().err
     assert told.startswith("sweep: 2 cases took more than ")
-    assert told.endswith(" s each, at most 0 s\n")
+    assert told.endswith(" s, at most 0 s\n")
