@@ -378,7 +378,7 @@ class Line:
         if abs(1 - self.cofs[-1]) > FULL:
             return False
         sums = self.observe(keep=False).sums
-        drift = change / np.sqrt(self.scaled.M or self.scaled.K)
+        drift = change / np.sqrt(self.scaled.M or self.scaled.K or 1.0)  # under a rigid pull that of the springs
         return bool(sums[kernels.STICK_TIME] == 0 and AGES * drift < sums[kernels.LEAST_SLIP] < np.inf)
 
     def _state(self) -> Array:
