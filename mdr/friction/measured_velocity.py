@@ -268,7 +268,9 @@ class _Search:
         return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
 
     def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
-        """A run below the end of stick: is friction reduced there, and by how much?"""
+        """A run of a body below the end of stick: is friction reduced there, and by how much?"""
+        if not isinstance(self.case.pull, SpringPull):  # without a free oscillation stick takes friction away
+            return self._look_above(v_c, low, high)
         multiple = self._multiple()
         share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
         near = self.look(share * v_c, self.start)

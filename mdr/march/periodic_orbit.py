@@ -72,13 +72,15 @@ def find(
     slow: tuple[float, ...] = (),
     guaranteed_stable: bool = False,
     close: float = CLOSE,
+    gain: float | None = None,
 ) -> FixedPoint | None:
     """The fixed point of `step` near `start`, shape (n,), or None.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
     length along the slow motions. slow: times of the material, in periods, that the springs remember.
     guaranteed_stable: that with them no multiplier reaches 1. close: change over a period, over the size of the state,
-    at which the search ends; CLOSE is enough for an answer.
+    at which the search ends; CLOSE is enough for an answer. gain: that of the same motion at another resolution, where
+    it is known.
     """
     close, enough = (min(one, AWAY / max(slow)) if slow else one for one in (close, CLOSE))
     found = _anderson(step, start, measure, slow, close)
@@ -88,7 +90,8 @@ def find(
         found = _newton_picard(step, found, measure, pushes, close)
     if found.change > enough:
         return None
-    gain = _gain(step, found.x, measure, pushes, slow, guaranteed_stable)
+    if gain is None:
+        gain = _gain(step, found, measure, pushes, slow, guaranteed_stable)
     return FixedPoint(found.x, found.change, gain) if gain is not None else None
 
 
@@ -98,9 +101,7 @@ class _Iterate:
     change: float
 
 
-def _anderson(
-    step: Step, x: Array, measure: Measure, slow: tuple[float, ...], close: float
-) -> _Iterate | None:
+def _anderson(step: Step, x: Array, measure: Measure, slow: tuple[float, ...], close: float) -> _Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     memory, most = (n + more * len(slow) for n, more in zip((MEMORY, MOST), A_TIME, strict=True))
     images: list[Array] = []
@@ -132,9 +133,7 @@ def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Ar
     return np.asarray(images[-1] - share @ np.diff(np.array(images), axis=0))
 
 
-def _newton_picard(
-    step: Step, start: _Iterate, measure: Measure, pushes: tuple[Array, ...], close: float
-) -> _Iterate:
+def _newton_picard(step: Step, start: _Iterate, measure: Measure, pushes: tuple[Array, ...], close: float) -> _Iterate:
     """The state of least change that corrections along the pushed motions lead to.
 
     The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go the
@@ -142,9 +141,9 @@ def _newton_picard(
     """
     best, push, lost, ways = start, PUSH, 0, np.ones(len(pushes))
     for _ in range(TURNS):
-        x, image, before, after = _displaced(
-            step, best.x, measure, tuple(way * one for way, one in zip(ways, pushes, strict=True)), push
-        )
+        x, image = _settled_in(step, best.x)
+        tried_ways = tuple(way * one for way, one in zip(ways, pushes, strict=True))
+        before, after = _displaced(step, best.x, (x, image), measure, tried_ways, push)
         size = float(np.linalg.norm(measure(image))) + 1e-300
         best = _Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
         turn = measure(after - before).T
@@ -173,32 +172,39 @@ def _newton_picard(
     return best
 
 
+def _settled_in(step: Step, x: Array) -> tuple[Array, Array]:
+    """A state after some periods, and its image."""
+    for _ in range(AFTER):
+        x = step(x)
+    return x, step(x)
+
+
 def _displaced(
-    step: Step, x: Array, measure: Measure, pushes: tuple[Array, ...], push: float
-) -> tuple[Array, Array, Array, Array]:
-    """A state and its image after some periods, and the displacements (k, n) of both that the pushes leave."""
+    step: Step, x: Array, here: tuple[Array, Array], measure: Measure, pushes: tuple[Array, ...], push: float
+) -> tuple[Array, Array]:
+    """What pushes of the state x have become after some periods, and a period later: displacements (k, n) from `here`,
+    the two states that x itself comes to.
+    """
     size = push * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
-    displaced = []
-    for one in (0 * x, *(size * each for each in pushes)):
-        state = x + one
-        for _ in range(AFTER):
-            state = step(state)
-        displaced.append((state, step(state)))
-    (here, image), *others = displaced
-    before, after = (np.array([other[k] - displaced[0][k] for other in others]) for k in (0, 1))
-    return here, image, before, after
+    displaced = [_settled_in(step, x + size * one) for one in pushes]
+    before, after = (np.array([other[k] - here[k] for other in displaced]) for k in (0, 1))
+    return before, after
 
 
 def _gain(
     step: Step,
-    x: Array,
+    found: _Iterate,
     measure: Measure,
     pushes: tuple[Array, ...],
     slow: tuple[float, ...],
     guaranteed_stable: bool,
 ) -> float | None:
-    """Bound on the distance to the fixed point over the change over a period; None for a map that expands."""
-    _, _, before, after = _displaced(step, x, measure, pushes, PUSH)
+    """Bound on the distance to the fixed point over the change over a period; None for a map that expands.
+
+    found: a state that returns, so closely that its own change is small beside a push, and blurs what is seen of it.
+    """
+    x = found.x
+    before, after = _displaced(step, x, (x, x), measure, pushes, PUSH)
     if not (np.isfinite(before).all() and np.isfinite(after).all()):
         return None
     size = PUSH * (float(np.linalg.norm(measure(x))) or 1.0)
@@ -215,7 +221,7 @@ def _gain(
     if slow and largest < STABLE:
         return 1 / (1 - largest)
     least = float(np.linalg.svd(np.eye(len(onto)) - onto, compute_uv=False)[-1])
-    along = 1 / max(least - missed, 1e-300)
+    along = 1 / max(least - missed - found.change / PUSH, 1e-300)
     if not slow:
         return along
     creep = -1 / float(np.expm1(-1 / (CREEP * max(slow))))  # few arms are told apart in so short a time

@@ -32,9 +32,14 @@ class Settling:
     spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell
     settled: bool  #: whether it is an answer: the spread below its tolerance, and nothing known to move
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
-    solved: bool = False  #: whether the periodic state was solved for (periodic_orbit.py), not awaited
+    gain: float | None = None  #: of a periodic state that was solved for (periodic_orbit.py); None of an awaited motion
     why: str = ""  #: what still moves where the windows agree
     contradicts: bool = False  #: whether the mean contradicts a theorem (theorems.py)
+
+    @property
+    def solved(self) -> bool:
+        """Whether the periodic state was solved for, not awaited."""
+        return self.gain is not None
 
 
 def judge(values: NDArray[np.float64], tolerance: float) -> Settling:

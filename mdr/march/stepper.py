@@ -37,6 +37,7 @@ FULL = 1e-12  #: what is missing in the COF in full slip: rounding
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
+SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
@@ -143,7 +144,7 @@ def march(
     settling = None
     if n_periods is None:
         if near is not None and near.settling.solved:
-            settling = line.solve((line.state_of(near),))
+            settling = line.solve((line.state_of(near),), line.gain_of(near))
         if settling is None and (scaled.K or scaled.n_arms) and knobs.start == "full_slip":
             settling = line.solve()
         most = MAX_PERIODS["spring" if scaled.K else "rigid"] if near is None else MOST_BESIDE
@@ -323,10 +324,11 @@ class Line:
             self.advance(max(4, self.n_periods // 2))
         return settling
 
-    def solve(self, starts: tuple[Array, ...] | None = None) -> Settling | None:
+    def solve(self, starts: tuple[Array, ...] | None = None, gain: float | None = None) -> Settling | None:
         """Put the line into the periodic state that a march would end in, if one is found; else leave it as it was.
 
-        starts: states to search from; None for that of full slip, before it that of a driven resonance.
+        starts: states to search from; None for that of full slip, before it that of a driven resonance. gain: how far
+        a state may be from the periodic one, over its change over a period, where that is known.
         """
         before = self._state(), self.n_periods, self.cofs, self.swings
         if starts is None:
@@ -341,7 +343,7 @@ class Line:
             for close in (periodic.CLOSE, periodic.CLOSEST):
                 try:
                     found = periodic.find(
-                        self._period_from, start, self._size, self._pushes(), slow, guaranteed_stable, close
+                        self._period_from, start, self._size, self._pushes(), slow, guaranteed_stable, close, gain
                     )
                 except _OutOfTime:
                     found = None
@@ -366,9 +368,9 @@ class Line:
         if spread > TOLERANCE and self._slips_for_good(found.change * size):
             spread = 0.0
         if spread <= SOLVED_TOLERANCE:
-            return Settling(float(self.cofs[-1]), spread, True, "periodic", solved=True)
+            return Settling(float(self.cofs[-1]), spread, True, "periodic", found.gain)
         why = "a periodic state was found, but not how far it may be from the exact one"
-        return Settling(float(self.cofs[-1]), min(spread, UNKNOWN), False, "unsettled", solved=True, why=why)
+        return Settling(float(self.cofs[-1]), min(spread, UNKNOWN), False, "unsettled", found.gain, why)
 
     def _slips_for_good(self, change: float) -> bool:
         """Whether the last period was full slip, by so much that a change of this size a period takes ages to end it.
@@ -396,6 +398,11 @@ class Line:
         S, S_old = history[3:5]
         body = y + rate * at + 0.5 * bend * at**2
         return np.concatenate([here.ravel(), body, [S, S + step * (S_old - S)], history[5:]])
+
+    def gain_of(self, other: March) -> float | None:
+        """The gain of a march with other springs or steps, where these move it by little; None where they may not."""
+        gain, h = other.settling.gain, max(self.scaled.h, other.scaled.h)
+        return gain if gain is not None and gain * h**2 < SAME_GAIN else None
 
     def _put(self, x: Array) -> None:
         """Take over a state; a combination of states may leave the cone of friction, which it is clipped to."""
