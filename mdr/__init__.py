@@ -37,7 +37,8 @@ from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
-from mdr.march.run import EnergyBalance, SlidingRun, State
+from mdr.march.energy import EnergyBalance
+from mdr.march.run import SlidingRun, State
 from mdr.march.slide import slide
 from mdr.friction.surface_fields import SurfaceFields, surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve

@@ -67,8 +67,9 @@ def cycles():
         phase = 2 * np.pi * np.arange(n_z + 1) / n_z - 1.0
         table = Rheology.of(MATERIALS.get(name, fast), omega).over_step(2 * np.pi / n_z)
         s, motion = np.zeros((table.shape[1], 9)), (np.cos(phase), -np.sin(phase))
-        mean = kernels.settle_normal(s, gap, w, *motion, table, spans)
-        yield f"{name}, start", [mean, *s.ravel(), *spans[:, :n_z].ravel()]
+        S = np.empty(n_z)
+        kernels.settle_normal(s, gap, w, *motion, table, spans, S)
+        yield f"{name}, start", [*S, *s.ravel(), *spans[:, :n_z].ravel()]
         if table.shape[1] > 1:
             (F, S, at_edge), outermost, begins = np.zeros((3, n_z)), np.empty(n_z, dtype=np.int64), np.empty(9)
             kernels.normal_forces(gap, w, *motion, table, F, S, outermost, at_edge, begins)

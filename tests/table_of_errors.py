@@ -18,7 +18,7 @@ import numpy as np
 from conftest import SHAPES, contact
 
 import mdr
-from mdr.march.stepper import Knobs, march
+from mdr.march.march import Knobs, march
 from mdr.tools.progress import progress
 
 FINER = 16, 4  # times the steps, times the springs

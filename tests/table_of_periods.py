@@ -13,8 +13,9 @@ from conftest import SHAPES, contact
 
 import mdr
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.steady_state import Settling, judge
-from mdr.march.stepper import TOLERANCE, Line
+from mdr.march.orbit_search import search_from_full_slip
+from mdr.march.steady_state import TOLERANCE, Settling, assess
+from mdr.march.stepper import Stepper
 from mdr.tools.progress import progress
 
 AWAITED = 20_000
@@ -61,23 +62,15 @@ def drawn(n: int) -> list[tuple[str, float, mdr.SlidingContact, float]]:
 def row(name: str, damping: float, case: mdr.SlidingContact, v_0: float) -> Row:
     """Solve for the periodic state, and await it."""
     scaled = ScaledContact.of(case, mdr.SpringArray.of(case, SPRINGS), STEPS, lump=False)
-    quick, slow = (Line(scaled, v_0 / scaled.speed, "full_slip") for _ in range(2))
-    marched = 0
-    advance = quick.advance
-
-    def counted(n_periods: int) -> None:
-        nonlocal marched
-        marched += n_periods
-        advance(n_periods)
-
-    quick.advance = counted
-    solved = quick.solve()
-    slow.advance(AWAITED)
-    awaited = judge(slow.cofs, TOLERANCE)
+    quick, slow = (Stepper(scaled, v_0 / scaled.speed) for _ in range(2))
+    orbit = search_from_full_slip(quick)
+    solved, marched = orbit and orbit.settling, quick.n_periods
+    cofs = slow.advance(slow.full_slip(), AWAITED)[1].cof
+    awaited = assess(cofs, TOLERANCE)
     waiting = None
     if solved is not None:
         lengths = np.unique(np.geomspace(8, AWAITED, 120).astype(int))
-        small = [int(n) for n in lengths if judge(slow.cofs[:n], TOLERANCE).spread <= max(solved.spread, 1e-12)]
+        small = [int(n) for n in lengths if assess(cofs[:n], TOLERANCE).spread <= max(solved.spread, 1e-12)]
         waiting = small[0] if small else None
     return Row(name, damping, solved, awaited, marched, waiting)
 

@@ -24,7 +24,10 @@ import numpy as np
 from conftest import SHAPES
 
 import mdr
-from mdr.march.stepper import MAX_PERIODS, Knobs, Line, _at_hand
+from mdr.march.march import MAX_PERIODS, Knobs, at_hand
+from mdr.march.orbit_search import search_from_full_slip
+from mdr.march.stepper import Stepper
+from mdr.march.waiting import Waiting
 from mdr.tools.progress import progress
 
 OMEGA, U_Z0, MU_0 = 300.0, 2e-5, 0.5
@@ -133,14 +136,14 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     """What a settled run says, against the mean of ten times as many periods from there on."""
     if not run.settled:
         return []
-    scaled = _at_hand(case, Knobs(run.n_springs, run.steps_per_period, "full_slip", True))[1]
-    line = Line(scaled, v_0 / scaled.speed, "full_slip")
-    settling = line.solve() or line.wait(MAX_PERIODS["spring"])
-    if not (settling.settled and line.as_one):
+    scaled = at_hand(case, Knobs(run.n_springs, run.steps_per_period, "full_slip", True))[1]
+    stepper = Stepper(scaled, v_0 / scaled.speed)
+    orbit = search_from_full_slip(stepper) or Waiting(stepper, stepper.full_slip()).wait(MAX_PERIODS["spring"])
+    settling = orbit.settling
+    if not (settling.settled and orbit.period.as_one):
         return []
-    n = min(max(64, LONGER * line.n_periods), int(MOST_STEPS / scaled.steps))
-    line.advance(n)
-    mean = float(line.cofs[-n:].mean())
+    n = min(max(64, LONGER * stepper.n_periods), int(MOST_STEPS / scaled.steps))
+    mean = float(stepper.advance(orbit.state, n)[1].cof.mean())
     off = abs(mean - settling.mean)
     return [f"continued: {settling.mean:.8g} +- {settling.spread:.1g}, then {mean:.8g}"] if off > LEEWAY else []
 

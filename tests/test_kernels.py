@@ -71,17 +71,24 @@ class Step:
     def kernel(self, python=False):
         """New e and s, sum and stiffness that stuck, as the kernel has them."""
         e_1, s_1, w, h = np.empty_like(self.e), np.empty_like(self.e), np.full(self.e.size, 1 / self.e.size), self.h
-        z = self.z(0), self.z(h), self.z_dot(0), self.z_dot(h)
-        u = self.u(h), self.rate(0), self.rate(h)
+        springs, step, move = kernels.Springs(self.gap, w, -np.inf), self.step(), self.move()
         if self.T:
-            step = kernels.kelvin_step.py_func if python else kernels.kelvin_step
-            state, all_rules = (self.e[None], self.s[None], e_1[None], s_1[None]), (0, w.size)
-            sums = step(*state, self.gap, w, *all_rules, *z, *u, h, 1 / self.T, math.exp(-h / self.T))
+            advance = kernels.kelvin_step.py_func if python else kernels.kelvin_step
+            state = self.e[None], self.s[None], e_1[None], s_1[None]
+            sums = advance(*state, springs, step, move, 1 / self.T, math.exp(-h / self.T))
         else:
-            step = kernels.elastic_step.py_func if python else kernels.elastic_step
-            sums = step(self.e[None], e_1[None], self.gap, w, 0, w.size, *z, *u, h)
+            advance = kernels.elastic_step.py_func if python else kernels.elastic_step
+            sums = advance(self.e[None], e_1[None], springs, step, move)
             s_1 = np.maximum(self.z(h) - self.gap, 0)
         return e_1, s_1, *sums
+
+    def step(self):
+        """The step as the kernels take it; any spring may touch or leave in it."""
+        return kernels.Step(0, self.gap.size, self.z(0), self.z(self.h), self.z_dot(0), self.z_dot(self.h), self.h)
+
+    def move(self):
+        """What the body does in it."""
+        return moved(self.u(self.h), self.rate(0), self.rate(self.h), self.h)
 
     def by_tiny_steps(self, n=2000):
         """The law itself in n steps within this one: e' = (clip(e + T u', -N, N) - e)/T; for T = 0 e = clip(e, -s, s).
@@ -113,6 +120,11 @@ class Step:
         return e, s, same, first
 
 
+def moved(du, ud_0, ud_1, h):
+    """What a body does in a step whose velocity changes steadily."""
+    return kernels.Move(du, ud_0, ud_1, kernels.surge_of.py_func(du, ud_0, ud_1, h), 0.0, False)
+
+
 # --- one step ---
 
 
@@ -132,9 +144,9 @@ def test_a_rigid_pull_moves_elastic_springs_alike():
     for _ in range(5):
         step = Step.draw(rng, 0.05, 0.0)
         step = replace(step, u_dot=abs(step.u_dot), u_ddot=0.0)  # a rigid pull is steady
-        e_1, w, h = step.e[None].copy(), np.full(step.e.size, 1 / step.e.size), step.h
-        z = step.z(0), step.z(h), step.z_dot(0), step.z_dot(h)
-        total = kernels.elastic_step_in_place(e_1, step.gap, w, 0, w.size, w.size, *z, step.u_dot, h)
+        e_1, w = step.e[None].copy(), np.full(step.e.size, 1 / step.e.size)
+        springs = kernels.Springs(step.gap, w, -np.inf)
+        total = kernels.elastic_step_in_place(e_1, springs, step.step(), step.move(), w.size)
         expected, _, sum_expected, _ = step.kernel()
         assert_allclose(e_1[0], expected, rtol=0, atol=1e-15)
         assert_allclose(total, sum_expected, rtol=1e-14)
@@ -211,18 +223,19 @@ def test_a_first_touch_within_a_step_is_exact_for_linear_motion(h):
     w, e_0 = np.full(23, 1 / 23), np.zeros(23)
     for v in (0.5, -0.5):
         e_1, s_1 = np.empty(23), np.empty(23)
-        old, new, springs = e_0[None], e_1[None], (gap, w, 0, w.size)
-        total, stuck = kernels.elastic_step(old, new, *springs, 0.0, h, 1.0, 1.0, v * h, v, v, h)
+        old, new, springs = e_0[None], e_1[None], kernels.Springs(gap, w, -np.inf)
+        step, move = kernels.Step(0, w.size, 0.0, h, 1.0, 1.0, h), moved(v * h, v, v, h)
+        total, stuck = kernels.elastic_step(old, new, springs, step, move)
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(
             [total, stuck], [w @ e_1, w @ (1 - gap / h)], rtol=1e-13
         )  # the slope of the sum over the travel
         rate = 1.0, math.exp(-h)
-        kernels.kelvin_step(old, old, new, s_1[None], *springs, 0.0, h, 1.0, 1.0, v * h, v, v, h, *rate)
+        kernels.kelvin_step(old, old, new, s_1[None], springs, step, move, *rate)
         assert_allclose(e_1, v * (h - gap), rtol=0, atol=1e-15)
         assert_allclose(s_1, h - gap, rtol=0, atol=1e-15)
     # twice as fast it slips from first touch, e = s
-    kernels.elastic_step(e_0[None], e_1[None], gap, w, 0, w.size, 0.0, h, 1.0, 1.0, 2 * h, 2.0, 2.0, h)
+    kernels.elastic_step(e_0[None], e_1[None], springs, step, moved(2 * h, 2.0, 2.0, h))
     assert_allclose(e_1, h - gap, rtol=0, atol=1e-15)
 
 
@@ -242,40 +255,23 @@ def test_a_kelvin_step_tends_to_the_elastic_one(share):
 # --- one run ---
 
 
-def march(
-    scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, body=None, history=None, keep=True, parts=1, spans=None
-):
+def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, keep=True, parts=1, spans=None):
     """March from full slip or from the state given; returns y, S, e and s at every step, and the state after."""
     if s is None:
         s = settled(scaled)
     e, s = (s if e is None else e)[None].copy(), s[None].copy()
     z, zd = (scaled.z, scaled.z_dot) if z is None else (z, zd)
-    history = np.zeros(5) if history is None else history.copy()
-    y, S, shape = np.empty(n_steps), np.empty(n_steps), (n_steps if keep else 0, *e.shape)
-    e_out, s_out = np.empty(shape), np.empty(shape)
-    cuts = np.linspace(0, n_steps, parts + 1).astype(int)
-    for low, high in pairwise(cuts):
-        kernels.march(
-            e,
-            s,
-            history,
-            scaled.body if body is None else body,
-            scaled.gap,
-            scaled.w,
-            z,
-            zd,
-            all_rules(scaled, z.size) if spans is None else spans,
-            v,
-            scaled.table,
-            -np.inf,
-            high - low,
-            low % (z.size - 1),
-            y[low:high],
-            S[low:high],
-            e_out[low:high],
-            s_out[low:high],
-        )
-    out = {"y": y, "S": S, "e_out": e_out[:, 0], "s_out": s_out[:, 0], "e": e[0], "history": history}
+    held = kernels.BodyState(np.zeros(3), np.zeros(2), np.zeros((2, 0)))
+    n_z, shape = z.size - 1, (n_steps if keep else 0, *e.shape)
+    trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), np.empty(shape), np.empty(shape))
+    springs = kernels.Springs(scaled.gap, scaled.w, -np.inf)
+    spans = all_rules(scaled, z.size) if spans is None else spans
+    motion = kernels.Motion(z, zd, np.full(n_z, v * 2 * np.pi / n_z), np.full(n_z + 1, v), spans)
+    for low, high in pairwise(np.linspace(0, n_steps, parts + 1).astype(int)):
+        part = kernels.Trace(*(values[low:high] for values in trace))
+        kernels.march(e, s, held, scaled.body, springs, motion, scaled.table, low % n_z, part)
+    out = {"y": trace.y, "S": trace.S, "e_out": trace.e[:, 0], "s_out": trace.s[:, 0], "e": e[0]}
+    out |= {"body y": held.y, "body S": held.S}
     return out | ({"s": s[0]} if scaled.T else {})
 
 
@@ -286,9 +282,7 @@ def march(
 def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body):
     """With the springs sorted by what they do in a step, and with all of them taken through all rules."""
     scaled = scaled_of(shape, depth_ratio, T, steps=128, n_springs=77, **body)
-    spans = spans_of(scaled)
-    s = np.zeros((1, scaled.gap.size))
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans)
+    s, spans = scaled.normal.s, scaled.normal.spans
     above = np.array([np.count_nonzero(scaled.gap < z) for z in scaled.z])
     assert np.all(spans[0] <= np.minimum(above[1:], above[:-1]))
     assert np.all(spans[1] <= np.maximum(above[1:], above[:-1]))
@@ -297,28 +291,29 @@ def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body
     one, two = (march(scaled, 0.4, 400, s=s[0], e=0 * s[0], spans=p) for p in (None, spans))
     for name in ("y", "S", "e_out", "s_out", "e"):
         assert_allclose(two[name], one[name], rtol=0, atol=2e-13 * (1 + np.abs(one[name]).max()), err_msg=name)
-    seen = [look_at(scaled, out, s[0], 128, p) for out, p in ((one, None), (two, spans))]
+    seen = [look_at(scaled, out, s[0], 128) for out in (one, two)]
     for got, expected in zip(*seen, strict=True):
         # a rate is a difference over a step
         assert_allclose(got, expected, rtol=1e-10, atol=1e-10)
 
 
-def look_at(scaled, out, s, steps, spans):
+def look_at(scaled, out, s, steps):
     """What `observe` makes of the first steps of a march: sums, forces, slip and what it keeps of each spring."""
-    n = scaled.gap.size
     e = np.vstack([0 * s, out["e_out"][:steps]])[:, None]
     s = np.vstack([s, out["s_out"][:steps]])[:, None]
-    sums, mode = np.zeros(kernels.N_SUMS), np.zeros((steps, n), dtype=np.uint8)
-    sums[kernels.LEAST_SLIP] = np.inf
-    forces, each = np.empty((3, steps)), np.empty((2, steps, n))
-    spans = np.ascontiguousarray((all_rules(scaled) if spans is None else spans)[:, :steps])
-    y = np.concatenate([np.zeros(3), out["y"][:steps]])
-    z = scaled.z, scaled.z_dot
-    kernels.observe(
-        e, s, y, *z, spans, scaled.gap, scaled.w, 0.4, scaled.table, scaled.h, sums, *forces, mode, *each
-    )
-    forces[2][~np.isfinite(forces[2])] = 1e9
-    return sums[:-1], forces, each
+    seen = looked_at(scaled, 0.4, e, s, np.concatenate([np.zeros(3), out["y"][:steps]]))
+    seen.slip[~np.isfinite(seen.slip)] = 1e9
+    return seen.sums[:-1], seen.F_x, seen.F_z, seen.slip, seen.f_x, seen.f_z
+
+
+def looked_at(scaled, v, e, s, y):
+    """A close look at steps from the beginning of the period on; e, s: (m + 1, 1, n), y: (m + 3,)."""
+    m, n = e.shape[0] - 1, scaled.gap.size
+    forces, each = np.empty((3, m)), np.empty((2, m, n))
+    seen = kernels.Seen(np.zeros(kernels.N_SUMS), *forces, np.zeros((m, n), dtype=np.uint8), *each)
+    seen.sums[kernels.LEAST_SLIP] = np.inf
+    kernels.observe(e, s, y, scaled.springs, scaled.motion(v), False, scaled.table, 0, seen)
+    return seen
 
 
 def all_rules(scaled, n_instants=None):
@@ -327,16 +322,9 @@ def all_rules(scaled, n_instants=None):
     return np.array([[0] * n_steps, [scaled.gap.size] * n_steps])
 
 
-def spans_of(scaled):
-    """Room for the springs that press, or are free, throughout a step."""
-    return np.empty((2, scaled.steps), dtype=np.int64)
-
-
 def settled(scaled):
     """Compressions at phase 0 of the periodic normal motion."""
-    s = np.zeros((1, scaled.gap.size))
-    kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans_of(scaled))
-    return s[0]
+    return scaled.normal.s[0].copy()
 
 
 def scaled_of(*groups, steps=256, n_springs=32, lump=False, **knobs):
@@ -394,8 +382,7 @@ def test_a_kelvin_march_under_a_rigid_pull_has_the_lag_of_the_twin(depth_ratio, 
 @pytest.mark.parametrize("depth_ratio", [3.0, 0.6, -0.3])
 def test_settled_normal_motion_is_that_of_the_twin(depth_ratio, T):
     scaled = scaled_of("paraboloid", depth_ratio, T, steps=512)
-    s = np.zeros((1, 32))
-    mean = kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans_of(scaled))
+    s, mean = scaled.normal.s, scaled.normal.mean
     # kinks at touch and release between two steps
     assert_allclose(mean, scaled.w @ reference.mean_compression(-scaled.gap, T), rtol=0, atol=0.25 * scaled.h**2)
     on, off = reference.contact_times(-scaled.gap, T)
@@ -474,7 +461,7 @@ def test_light_bodies_on_dashpots_are_solved_together_after_a_jolt(body, T):
 def assert_solved(scaled, v=0.3):
     """March from a body that stands where no force holds it, and put y and S of every step into the recursion."""
     out = march(scaled, v, 512)
-    a_1, a_2, b_1, b_0, b_m = scaled.body
+    a_1, a_2, b_1, b_0, b_m = scaled.body[2:7]
     y, S = out["y"], out["S"]
     residual = y[2:] - (a_1 * y[1:-1] + a_2 * y[:-2] - (b_1 * S[2:] + b_0 * S[1:-1] + b_m * S[:-2]))
     b = abs(b_1) + abs(b_0) + abs(b_m)
@@ -513,30 +500,9 @@ def test_full_slip_as_it_is_observed(T):
     out = march(scaled, v, steps)
     s = settled(scaled)
     e, s = np.vstack([s, out["e_out"]])[:, None], np.vstack([s, out["s_out"]])[:, None]
-    sums, mode = np.zeros(kernels.N_SUMS), np.zeros((steps, 16), dtype=np.uint8)
-    sums[kernels.LEAST_SLIP] = np.inf
-    F_x, F_z, slip = np.empty((3, steps))
-    kernels.observe(
-        e,
-        s,
-        np.zeros(steps + 3),
-        scaled.z,
-        scaled.z_dot,
-        all_rules(scaled),
-        scaled.gap,
-        scaled.w,
-        v,
-        scaled.table,
-        scaled.h,
-        sums,
-        F_x,
-        F_z,
-        slip,
-        mode,
-        np.empty((steps, 16)),
-        np.empty((steps, 16)),
-    )
-    assert np.all(mode == kernels.SLIP)
+    seen = looked_at(scaled, v, e, s, np.zeros(steps + 3))
+    sums, F_x, F_z = seen.sums, seen.F_x, seen.F_z
+    assert np.all(seen.mode == kernels.SLIP)
     force = 3 + scaled.z[1:] + T * scaled.z_dot[1:]  # Eq. (4)
     assert_allclose(F_z, force, rtol=1e-13)
     assert_allclose(F_x, force, rtol=1e-13)

@@ -123,11 +123,15 @@ def test_depth_alone_moves_no_tangential_force_of_a_spring_in_stick():
     e = np.array([0.4, -0.2, 0.1])
     for z_0, z_1 in ((1.0, 2.0), (2.0, 1.0)):
         new, s = np.empty(3), np.empty(3)
-        kernels.elastic_step(e[None], new[None], gap, w, 0, 3, z_0, z_1, z_1 - z_0, z_1 - z_0, 0.0, 0.0, 0.0, 1.0)
+        step, still = (
+            kernels.Step(0, 3, z_0, z_1, z_1 - z_0, z_1 - z_0, 1.0),
+            kernels.Move(0.0, 0.0, 0.0, 0.0, 0.0, False),
+        )
+        springs = kernels.Springs(gap, w, -np.inf)
+        kernels.elastic_step(e[None], new[None], springs, step, still)
         assert_allclose(new, e, rtol=0, atol=0)
         state = e[None], (z_0 - gap)[None], new[None], s[None]
-        move = z_0, z_1, z_1 - z_0, z_1 - z_0, 0.0, 0.0, 0.0, 1.0
-        kernels.kelvin_step(*state, gap, w, 0, 3, *move, 2.0, math.exp(-2))
+        kernels.kelvin_step(*state, springs, step, still, 2.0, math.exp(-2))
         assert_allclose(new, e, rtol=1e-15)
 
 

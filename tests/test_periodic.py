@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.march import periodic_orbit as periodic
-from mdr.march.stepper import Knobs, Line, march
+from mdr.march.march import Knobs, march
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -113,8 +113,10 @@ BODIES = {
 }
 
 
-def no_solver(self, starts=None):
-    """In the place of Line.solve: nothing is found."""
+def without_search(patch):
+    """No periodic state is found, as none is looked for."""
+    for name in ("march.search", "march.search_from_full_slip", "waiting.search"):
+        patch.setattr(f"mdr.march.{name}", lambda *args: None)
 
 
 def body(shape, depth_ratio, T, k, omega_0, zeta, share):
@@ -128,7 +130,7 @@ def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
     case, v_0 = body(*BODIES[name])
     knobs = Knobs(n_springs=48, steps=256, start="full_slip", lump=True)
     solved = march(case, v_0, knobs)
-    monkeypatch.setattr(Line, "solve", no_solver)
+    without_search(monkeypatch)
     awaited = march(case, v_0, knobs)
     assert solved.settling.solved
     assert solved.settling.settled
@@ -143,7 +145,7 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
     case, v_0 = body(*BODIES["punch, elastic"])
     knobs = Knobs(n_springs=32, steps=128, start="full_slip", lump=True)
     with monkeypatch.context() as patch:
-        patch.setattr(Line, "solve", no_solver)
+        without_search(patch)
         untouched = march(case, v_0, knobs)
     search = periodic.find
     monkeypatch.setattr(periodic, "find", lambda *args: search(*args) and None)
@@ -177,8 +179,8 @@ def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
         knobs = Knobs(n_springs=64, steps=256, start="full_slip", lump=True)
         solved = march(case, v_0, knobs)
         with monkeypatch.context() as patch:
-            patch.setattr(Line, "solve", no_solver)
-            patch.setattr("mdr.march.stepper.TOLERANCE", max(solved.settling.spread, 1e-13))
+            without_search(patch)
+            patch.setattr("mdr.march.waiting.TOLERANCE", max(solved.settling.spread, 1e-13))
             awaited = march(case, v_0, knobs)
         shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
     assert np.median(shares) <= 0.2

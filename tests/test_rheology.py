@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 import mdr
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.stepper import Line
+from mdr.march.stepper import Stepper
 from mdr.materials import operator as k
 from mdr.materials.operator import Rheology, over_step
 
@@ -185,17 +185,23 @@ def test_forces_of_springs_add_up():
 def test_pressed_and_free_springs_obey_all_the_rules(T, arms, depth_ratio):
     contact = case(T, *arms, depth_ratio=depth_ratio, pull=mdr.SpringPull(2e3, 0.02, 1.0))
     scaled = ScaledContact.of(contact, mdr.SpringArray.of(contact, 77), 128, lump=False)
-    sorted_out, plain = (Line(scaled, 0.4, "full_slip") for _ in range(2))
-    plain.spans = np.array([[0] * 128, [77] * 128])  # so that any spring may touch or leave in any step
-    for line in (sorted_out, plain):
-        line.advance(3)
-        line.seen = line.observe(keep=True)
-    for name in ("e", "s", "history", "cofs"):
-        one, two = getattr(plain, name), getattr(sorted_out, name)
-        assert_allclose(two, one, rtol=0, atol=1e-12 * (1 + np.abs(one).max()), err_msg=name)
+    (state, cofs, seen), plain = marched(scaled, 0.4), marched(scaled, 0.4, by_all_rules=True)
+    for two, one in ((state.vector(), plain[0].vector()), (state.s, plain[0].s), (cofs, plain[1])):
+        assert_allclose(two, one, rtol=0, atol=1e-12 * (1 + np.abs(one).max()))
     for name in ("sums", "F_x", "F_z", "f_x", "f_z"):
-        one, two = getattr(plain.seen, name), getattr(sorted_out.seen, name)
+        one, two = getattr(plain[2], name), getattr(seen, name)
         assert_allclose(two, one, rtol=1e-9, atol=1e-9, err_msg=name)
+
+
+def marched(scaled, v, by_all_rules=False):
+    """State, COFs and a close look after some periods; by all rules: any spring may touch or leave at any step."""
+    stepper = Stepper(scaled, v)
+    if by_all_rules:
+        spans = np.array([[0] * scaled.steps, [scaled.gap.size] * scaled.steps])
+        stepper.motion = stepper.motion._replace(spans=spans)
+    state, periods = stepper.advance(stepper.full_slip(), 3)
+    state, record = stepper.observe(state, keep=True)
+    return state, periods.cof, record.seen
 
 
 def drawn(rng):
@@ -219,14 +225,10 @@ def test_so_do_springs_of_fast_motions_in_coarse_steps(seed, n_springs, steps):
     contact = drawn(np.random.default_rng(seed))
     scaled = ScaledContact.of(contact, mdr.SpringArray.of(contact, n_springs), steps, lump=False)
     try:
-        sorted_out, plain = (Line(scaled, 0.3, "full_slip") for _ in range(2))
+        (state, cofs, seen), plain = marched(scaled, 0.3), marched(scaled, 0.3, by_all_rules=True)
     except ValueError:
         pytest.skip("too coarse for the normal motion")
-    plain.spans = np.array([[0] * steps, [n_springs] * steps])
-    for line in (sorted_out, plain):
-        line.advance(3)
-        line.seen = line.observe(keep=True)
-    for one, two in ((plain.e, sorted_out.e), (plain.cofs, sorted_out.cofs), (plain.seen.F_z, sorted_out.seen.F_z)):
+    for one, two in ((plain[0].e, state.e), (plain[1], cofs), (plain[2].F_z, seen.F_z)):
         assert_allclose(two, one, rtol=0, atol=1e-10 * (1 + np.abs(one).max()))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, judge, smooth_mean
+from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, assess, smooth_mean
 
 TOLERANCE = 1e-6
 LIMIT = 0.3
@@ -44,13 +44,13 @@ DYING = {
 
 
 def test_a_constant_is_settled_at_once():
-    found = judge(np.full(MIN_PERIODS, LIMIT), TOLERANCE)
+    found = assess(np.full(MIN_PERIODS, LIMIT), TOLERANCE)
     assert (found.mean, found.spread, found.settled, found.kind) == (LIMIT, 0.0, True, "periodic")
 
 
 def test_rounding_is_settled():
     values = LIMIT + 1e-15 * np.random.default_rng(0).standard_normal(100)
-    found = judge(values, TOLERANCE)
+    found = assess(values, TOLERANCE)
     assert found.settled
     assert found.kind == "periodic"
     assert found.spread < 1e-14
@@ -58,14 +58,14 @@ def test_rounding_is_settled():
 
 @pytest.mark.parametrize("n", range(1, MIN_PERIODS))
 def test_a_short_run_cannot_tell(n):
-    found = judge(np.full(n, LIMIT), TOLERANCE)
+    found = assess(np.full(n, LIMIT), TOLERANCE)
     assert (found.spread, found.settled, found.kind) == (UNKNOWN, False, "unsettled")
     assert found.mean == LIMIT
 
 
 @pytest.mark.parametrize("kind", DYING)
 def test_what_dies_out_settles_in_the_end_and_not_before(kind):
-    settled = [judge(DYING[kind](n), TOLERANCE).settled for n in LENGTHS]
+    settled = [assess(DYING[kind](n), TOLERANCE).settled for n in LENGTHS]
     assert settled[-1]
     assert not settled[0]
     assert settled == sorted(settled)  # once settled, it stays so
@@ -74,7 +74,7 @@ def test_what_dies_out_settles_in_the_end_and_not_before(kind):
 @pytest.mark.parametrize("kind", DYING)
 def test_a_settled_run_is_within_tolerance_of_its_limit(kind):
     for n in LENGTHS:
-        found = judge(DYING[kind](n), TOLERANCE)
+        found = assess(DYING[kind](n), TOLERANCE)
         if found.settled:
             # where the half, the quarter and the eighth are no whole numbers the ratio is off by 1/n
             assert abs(found.mean - LIMIT) <= TOLERANCE * (1 + 8 / n)
@@ -83,7 +83,7 @@ def test_a_settled_run_is_within_tolerance_of_its_limit(kind):
 @pytest.mark.parametrize("n", [32, 64, 256, 1024, 8192])
 @pytest.mark.parametrize("p", [0.5, 1, 2, 3])
 def test_spread_bounds_a_power_law(p, n):
-    found = judge(transient(lambda P: (P + 1.0) ** -p)(n), TOLERANCE)
+    found = assess(transient(lambda P: (P + 1.0) ** -p)(n), TOLERANCE)
     # the windows see n + 1 in place of n
     assert abs(found.mean - LIMIT) <= found.spread * (1 + 2 / n)
     if p <= 1:
@@ -95,13 +95,13 @@ def test_spread_bounds_a_power_law(p, n):
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.3])
 def test_spread_bounds_an_exponential_that_lasted_for_some_time_constants(share):
     n = 1024
-    found = judge(transient(lambda P: np.exp(-P / (share * n)))(n), TOLERANCE)
+    found = assess(transient(lambda P: np.exp(-P / (share * n)))(n), TOLERANCE)
     assert abs(found.mean - LIMIT) <= found.spread
 
 
 def test_mean_is_over_the_second_half():
     values = np.r_[np.full(25, 5.0), np.full(25, LIMIT)]
-    assert judge(values, TOLERANCE).mean == LIMIT
+    assert assess(values, TOLERANCE).mean == LIMIT
 
 
 @pytest.mark.parametrize("n", [10, 100, 1000])
@@ -117,16 +117,16 @@ def test_smooth_mean_keeps_little_of_a_beat(n):
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6, 1e-8])
 def test_tolerance_decides(tolerance):
-    found = judge(DYING["power 1"](512), tolerance)
+    found = assess(DYING["power 1"](512), tolerance)
     assert found.settled == (found.spread <= tolerance)
-    assert found.spread == judge(DYING["power 1"](512), 1.0).spread
+    assert found.spread == assess(DYING["power 1"](512), 1.0).spread
 
 
 # --- what keeps changing ---
 
 
 def test_a_period_of_two_is_named():
-    found = judge(transient(lambda P: (-1.0) ** P)(64), TOLERANCE)
+    found = assess(transient(lambda P: (-1.0) ** P)(64), TOLERANCE)
     assert found.settled
     assert found.kind == "period-2"
     assert_allclose(found.mean, LIMIT, rtol=1e-15)
@@ -135,7 +135,7 @@ def test_a_period_of_two_is_named():
 @pytest.mark.parametrize("period", [3, 4, 7, 8])
 def test_longer_periods_are_named(period):
     values = transient(lambda P: np.sin(2 * np.pi * P / period))(168 * 8)  # whole periods in every window
-    found = judge(values, TOLERANCE)
+    found = assess(values, TOLERANCE)
     assert found.kind == f"period-{period}"
     assert abs(found.mean - LIMIT) < 1e-15
 
@@ -143,7 +143,7 @@ def test_longer_periods_are_named(period):
 @pytest.mark.parametrize("slope", [1e-7, 1e-6, -1e-4])
 @pytest.mark.parametrize("n", LENGTHS)
 def test_a_drift_never_settles(n, slope):
-    found = judge(LIMIT + slope * np.arange(n), TOLERANCE)
+    found = assess(LIMIT + slope * np.arange(n), TOLERANCE)
     assert not found.settled
     assert found.kind == "unsettled"
     assert found.spread > abs(slope) * n  # more than it has yet drifted
@@ -151,12 +151,12 @@ def test_a_drift_never_settles(n, slope):
 
 @pytest.mark.parametrize("n", LENGTHS)
 def test_a_logarithm_never_settles(n):
-    assert not judge(LIMIT + 1e-4 * np.log1p(np.arange(n)), TOLERANCE).settled
+    assert not assess(LIMIT + 1e-4 * np.log1p(np.arange(n)), TOLERANCE).settled
 
 
 def test_a_beat_that_does_not_repeat_is_quasi_periodic():
     golden = (np.sqrt(5) - 1) / 2
-    found = judge(transient(lambda P: np.cos(2 * np.pi * golden * P))(512), 1e-6)
+    found = assess(transient(lambda P: np.cos(2 * np.pi * golden * P))(512), 1e-6)
     assert found.settled
     assert found.kind == "quasi-periodic"
     assert abs(found.mean - LIMIT) <= found.spread < 1e-7  # a plain mean would keep up to 1.1 SIZE/256
@@ -173,5 +173,5 @@ def slow_beats(n_beats=200):
 def test_a_beat_is_not_called_settled_because_windows_agree_by_chance():
     for values in slow_beats():
         for n in (n for n in LENGTHS if n <= values.size):
-            found = judge(values[:n], TOLERANCE)
+            found = assess(values[:n], TOLERANCE)
             assert not found.settled or abs(found.mean - LIMIT) < 10 * TOLERANCE

@@ -14,8 +14,9 @@ from mdr import State
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms import rigid_pull
 from mdr.march import dimensionless as scaled
+from mdr.march import march as marching
 from mdr.march import slide as sliding
-from mdr.march import stepper as marching
+from mdr.march.stepper import Stepper
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
 UNDAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6}
@@ -136,7 +137,8 @@ def test_a_core_that_slips_back_is_computed_spring_by_spring(monkeypatch):
         assert getattr(run, name) == getattr(full, name), name
     assert_array_equal(run.e, full.e)
 
-    monkeypatch.setattr(marching.Line, "as_one", property(lambda self: True, lambda self, value: None), raising=False)
+    one_step = Stepper._march
+    monkeypatch.setattr(Stepper, "_march", lambda *args, **knobs: (one_step(*args, **knobs)[0], True))
     trusting = coarse(case, 21.6, 40, record=1)
     assert np.max(np.abs(trusting.e - full.e)) > 1e-6 * np.max(np.abs(full.e)), "without the watch it would be wrong"
 
@@ -599,8 +601,13 @@ def test_a_state_that_may_be_far_from_the_periodic_one_is_not_settled_and_says_s
 
 def test_a_march_that_contradicts_the_static_limit_has_not_settled(monkeypatch):
     case = CONTACTS["body elastic"]
-    judge = marching.Line.solve
-    monkeypatch.setattr(marching.Line, "solve", lambda self: replace(judge(self), mean=-0.004))
+    search = marching.search_from_full_slip
+
+    def wrong(stepper):
+        orbit = search(stepper)
+        return replace(orbit, settling=replace(orbit.settling, mean=-0.004))
+
+    monkeypatch.setattr(marching, "search_from_full_slip", wrong)
     run = run_at(case, 0.43, **COARSE)
     assert not run.settled
     assert "below the static limit" in run.why

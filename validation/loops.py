@@ -48,10 +48,8 @@ class Start:
     @cached_property
     def normal(self) -> tuple[Any, Any]:
         """Compressions (n,) at phase 0, and which springs press or are free throughout a step, (2, n_steps)."""
-        scaled = self.scaled
-        s, spans = np.zeros((1, scaled.gap.size)), np.empty((2, scaled.steps), dtype=np.int64)
-        kernels.settle_normal(s, scaled.gap, scaled.w, scaled.z, scaled.z_dot, scaled.table, spans)
-        return s[0], spans
+        normal = self.scaled.normal
+        return normal.s[0], normal.spans
 
     @property
     def rate(self) -> float:
@@ -69,14 +67,13 @@ March = Callable[[Start, int], tuple[Any, Any]]  # n_steps -> extensions (n,) at
 
 def compiled(start: Start, n_steps: int) -> tuple[Any, Any]:
     """The kernel that slide() calls."""
-    scaled, (s, spans) = start.scaled, start.normal
-    e, S = s[None].copy(), np.empty(n_steps)
-    nothing, rest = np.empty((0, *e.shape)), np.zeros(5)
-    motion = scaled.gap, scaled.w, scaled.z, scaled.z_dot, spans, start.v, scaled.table
-    kernels.march(
-        e, s[None].copy(), rest, scaled.body, *motion, -np.inf, n_steps, 0, np.empty(n_steps), S, nothing, nothing
-    )
-    return e[0], S
+    scaled, s = start.scaled, start.normal[0]
+    e = s[None].copy()
+    nothing = np.empty((0, *e.shape))
+    trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), nothing, nothing)
+    rest, motion = scaled.rest_state(start.v), scaled.motion(start.v)
+    kernels.march(e, s[None].copy(), rest, scaled.body, scaled.springs, motion, scaled.table, 0, trace)
+    return e[0], trace.S
 
 
 # --- NumPy ---

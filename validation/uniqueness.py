@@ -42,8 +42,10 @@ from numpy.typing import NDArray
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.steady_state import Settling
-from mdr.march.stepper import TOLERANCE, Line
+from mdr.march.orbit_search import search_from_full_slip
+from mdr.march.steady_state import TOLERANCE, Settling
+from mdr.march.stepper import Stepper
+from mdr.march.waiting import Waiting, way_from_rest
 from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
@@ -92,47 +94,51 @@ class System:
         """Pulling velocity [m/s]."""
         return self.v_hat * mdr.full_slip_critical_velocity(self.case)
 
-    def line(self, start: str, rng: np.random.Generator, steps: int = STEPS) -> Line:
+    def march(self, start: str, rng: np.random.Generator, steps: int = STEPS) -> Waiting:
         """A march about to begin in full slip, at rest or anywhere."""
         case = self.case
         scaled = ScaledContact.of(case, mdr.SpringArray.of(case, SPRINGS), steps, lump=False)
-        line = Line(scaled, self.v_0 / scaled.speed, "rest" if start == "rest" else "full_slip")
+        stepper = Stepper(scaled, self.v_0 / scaled.speed)
+        if start == "rest":
+            return Waiting(stepper, stepper.rest(), way_from_rest(scaled, stepper.v))
+        march = Waiting(stepper, stepper.full_slip())
         if start == "random":
-            scatter(line, rng)
-        return line
+            scatter(march, rng)
+        return march
 
 
-def scatter(line: Line, rng: np.random.Generator) -> None:
+def scatter(march: Waiting, rng: np.random.Generator) -> None:
     """Stretch every spring at random within its cone of friction, and push the body by some units both ways."""
-    line.e[0] = rng.uniform(-1, 1, line.e.size) * line.s[0]
-    y, y_dot = line.history[0] + rng.normal(), line.v * rng.normal()
-    line.history[:3] = y - np.arange(3) * line.scaled.h * y_dot
-    line.history[3:] = line.scaled.w @ line.e[0]
+    (e, s, body), scaled = march.state, march.scaled
+    e[0] = rng.uniform(-1, 1, e.size) * s[0]
+    y, y_dot = body.y[0] + rng.normal(), march.stepper.v * rng.normal()
+    body.y[:] = y - np.arange(3) * scaled.h * y_dot
+    body.S[:] = scaled.w @ e[0]
 
 
-def distance(one: Line, two: Line) -> float:
+def distance(one: Waiting, two: Waiting) -> float:
     """D of the module, in scaled form."""
-    scaled, y = one.scaled, one.history[:3] - two.history[:3]
+    scaled, y, e = one.scaled, one.state.body.y - two.state.body.y, one.state.e[0] - two.state.e[0]
     y_dot = (1.5 * y[0] - 2 * y[1] + 0.5 * y[2]) / scaled.h
-    return float(0.5 * (scaled.M * y_dot**2 + scaled.K * y[0] ** 2 + scaled.w @ (one.e[0] - two.e[0]) ** 2))
+    return float(0.5 * (scaled.M * y_dot**2 + scaled.K * y[0] ** 2 + scaled.w @ e**2))
 
 
 @cache
 def distances(system: System) -> Array:
     """D of two random motions at the ends of so many periods, shape (PERIODS + 1,)."""
     rng = np.random.default_rng(7)
-    return _followed(system.line("random", rng), system.line("random", rng))
+    return _followed(system.march("random", rng), system.march("random", rng))
 
 
 def swinging(steps: int) -> Array:
     """The same for an undamped body in full slip and one that swings a little besides, so that neither sticks."""
     system, rng = System("r^4", 0.5, 0.0, 1.3, 1.5, 0.0, 1.5), np.random.default_rng(0)
-    one, two = (system.line("full slip", rng, steps) for _ in range(2))
-    two.history[:3] += 0.1
+    one, two = (system.march("full slip", rng, steps) for _ in range(2))
+    two.state.body.y[:] += 0.1
     return _followed(one, two)
 
 
-def _followed(one: Line, two: Line) -> Array:
+def _followed(one: Waiting, two: Waiting) -> Array:
     found = [distance(one, two)]
     for _ in range(PERIODS):
         one.advance(1)
@@ -204,11 +210,12 @@ def ends(system: System) -> Ends:
     rng = np.random.default_rng(5)
     found = []
     for start in STARTS:
-        line = system.line(start, rng)
-        settling = (line.solve() if start == "full slip" else None) or line.wait(MOST)
+        march = system.march(start, rng)
+        orbit = search_from_full_slip(march.stepper) if start == "full slip" else None
+        settling = (orbit or march.wait(MOST)).settling
         if settling.settled and settling.kind != "periodic":
-            line.advance(3 * line.n_periods)
-            settling = line.judge()
+            march.advance(3 * march.n)
+            settling = march.assess()
         found.append(settling)
     return Ends(system, tuple(found))
 
@@ -224,15 +231,16 @@ def swept(n_periods: int | None) -> tuple[Array, Array, NDArray[np.bool_]]:
     runs: list[Settling] = []
     state = None
     for v_hat in (*SWEEP, *SWEEP[::-1]):
-        line = replace(base, v_hat=v_hat).line("full slip", rng)
-        if state is not None:
-            line.e[:], line.history[:] = state
+        march = replace(base, v_hat=v_hat).march("full slip", rng)
+        march.state = state or march.state
         if n_periods is None:
-            runs.append(line.wait(MOST))
+            orbit = march.wait(MOST)
+            runs.append(orbit.settling)
+            state = orbit.state
         else:
-            line.advance(n_periods)
-            runs.append(replace(line.judge(), mean=float(line.cofs[n_periods // 2 :].mean())))
-        state = line.e.copy(), line.history.copy()
+            march.advance(n_periods)
+            runs.append(replace(march.assess(), mean=float(march.periods.cof[n_periods // 2 :].mean())))
+            state = march.state
     means, spreads, settled = (np.array([getattr(r, k) for r in runs]) for k in ("mean", "spread", "settled"))
     back = [np.stack([values[: len(SWEEP)], values[len(SWEEP) :][::-1]]) for values in (means, spreads, settled)]
     return back[0], back[1], back[2]

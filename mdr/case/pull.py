@@ -23,7 +23,31 @@ from mdr.tools.checks import finite_array, not_negative, positive
 
 
 class Pull(ABC):
-    """What every pull must answer: how far it yields to an oscillating force."""
+    """What every pull must answer: the linear oscillator that it makes of the body."""
+
+    @property
+    @abstractmethod
+    def coefficients(self) -> tuple[float, float, float]:
+        """m [kg], c_x [N s/m] and k_x [N/m] of m y'' + c_x y' + k_x y = -F_x; k_x is infinite where nothing yields."""
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the body moves as it is pulled, whatever the force."""
+        return bool(np.isinf(self.coefficients[2]))
+
+    @property
+    def omega_0(self) -> float:
+        """Natural frequency of the free body sqrt(k_x/m) [rad/s]; infinite for m = 0."""
+        m, _, k_x = self.coefficients
+        return float(np.sqrt(k_x / m)) if m > 0 else np.inf
+
+    @property
+    def damping_ratio(self) -> float:
+        """c_x/(2 sqrt(k_x m)) [-]; infinite for a damped body without mass, 0 without damper."""
+        m, c_x, k_x = self.coefficients
+        if c_x == 0:
+            return 0.0
+        return float(c_x / (2 * np.sqrt(k_x * m))) if m > 0 else np.inf
 
     @abstractmethod
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
@@ -33,6 +57,11 @@ class Pull(ABC):
 @dataclass(frozen=True)
 class RigidPull(Pull):
     """The body moves at v_0 whatever the force: k_x -> infinity, the case of Eq. (1)."""
+
+    @property
+    def coefficients(self) -> tuple[float, float, float]:
+        """No mass, no damper, a spring that does not yield."""
+        return 0.0, 0.0, np.inf
 
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """Zero: nothing yields."""
@@ -54,6 +83,11 @@ class SpringPull(Pull):
         object.__setattr__(self, "m", not_negative("m", self.m, "mass in kg"))
         object.__setattr__(self, "c_x", not_negative("c_x", self.c_x, "damping in N s/m"))
 
+    @property
+    def coefficients(self) -> tuple[float, float, float]:
+        """m [kg], c_x [N s/m], k_x [N/m]."""
+        return self.m, self.c_x, self.k_x
+
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """1/(k_x - m omega² + i omega c_x) [m/N]."""
         omega = finite_array("omega", omega, "rad/s")
@@ -61,15 +95,3 @@ class SpringPull(Pull):
         with np.errstate(divide="ignore", invalid="ignore"):
             H = np.where(dynamic_stiffness == 0, complex(np.inf), 1 / dynamic_stiffness)
         return complex(H) if H.ndim == 0 else H
-
-    @property
-    def omega_0(self) -> float:
-        """Natural frequency of the free body sqrt(k_x/m) [rad/s]; infinite for m = 0."""
-        return float(np.sqrt(self.k_x / self.m)) if self.m > 0 else np.inf
-
-    @property
-    def damping_ratio(self) -> float:
-        """c_x/(2 sqrt(k_x m)) [-]; infinite for a damped body without mass, 0 without damper."""
-        if self.c_x == 0:
-            return 0.0
-        return float(self.c_x / (2 * np.sqrt(self.k_x * self.m))) if self.m > 0 else np.inf

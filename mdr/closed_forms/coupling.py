@@ -18,7 +18,6 @@ import math
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.motion import NormalOscillation
-from mdr.case.pull import RigidPull
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 
@@ -64,7 +63,7 @@ def coupling_loss(case: SlidingContact) -> float:
 def unlike(case: SlidingContact) -> str:
     """What sets a case apart from those that were computed in three dimensions; empty for none."""
     require_case(case)
-    if not isinstance(case.pull, RigidPull):
+    if not case.pull.is_rigid:
         return f"a {type(case.pull).__name__}, not a rigid pull"
     if not isinstance(case.oscillation, NormalOscillation):
         return f"a {type(case.oscillation).__name__}, not a harmonic depth"

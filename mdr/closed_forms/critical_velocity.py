@@ -6,7 +6,6 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.motion import LoadOscillation
-from mdr.case.pull import SpringPull
 from mdr.closed_forms.paper import eq_1, eq_15, linear_critical_velocity
 
 
@@ -34,8 +33,9 @@ def critical_velocity(case: SlidingContact) -> float:
     oscillation, kappa, pull = require_case(case).oscillation, case.material.mindlin_ratio, case.pull
     if case.is_of_the_paper:
         du_z = case.cycle.du_z
-        if not isinstance(pull, SpringPull) or case.k_zc == 0:
+        if pull.is_rigid or case.k_zc == 0:
             return eq_1(case.mu_0, du_z, oscillation.omega, kappa)
+        m, c_x, k_x = pull.coefficients
         return eq_15(
             case.mu_0,
             du_z,
@@ -43,9 +43,9 @@ def critical_velocity(case: SlidingContact) -> float:
             case.k_zc,
             case.k_xc,
             case.gamma_zc,
-            pull.k_x,
-            pull.m,
-            pull.c_x,
+            k_x,
+            m,
+            c_x,
         )
     omega = oscillation.omega
     if isinstance(oscillation, LoadOscillation):
@@ -65,6 +65,6 @@ def formula_of(case: SlidingContact) -> str:
     """Which closed form critical_velocity(case) is, in words; without stiffness at the mean depth Eq. (1) is left."""
     if isinstance(require_case(case).oscillation, LoadOscillation):
         return "Eq. (15) at the depth that the load brings about"
-    if not isinstance(case.pull, SpringPull) or case.k_zc == 0:
+    if case.pull.is_rigid or case.k_zc == 0:
         return "Eq. (1)"
     return "Eq. (15)" + (" with the dynamic stiffness of the material" if case.material.contact_arms else "")

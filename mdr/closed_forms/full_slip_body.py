@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import peaks
-from mdr.case.pull import SpringPull
+from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.kelvin_edges import kept_gap, leaving_phase, touching_phase, turning_phase
@@ -59,9 +59,9 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
         return _by_harmonics(case)
     omega, unit = case.oscillation.omega, case.unit_velocity
     on, off = contact_span(case)
-    if not isinstance(case.pull, SpringPull):
+    if case.pull.is_rigid:
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
-    panels = _panels(case, SMALLEST_RATE if case.pull.m == case.pull.c_x == 0 else SMALLEST)
+    panels = _panels(case, SMALLEST_RATE if case.pull.coefficients[:2] == (0, 0) else SMALLEST)
     resonant = _resonant_harmonic(case.pull, omega)
     if _touches_with_a_jolt(case) or (
         resonant and abs(panels.harmonic(panels.force, resonant)) > RESONANT * panels.mean
@@ -83,7 +83,7 @@ def _by_harmonics(case: SlidingContact) -> float:
     rates = np.zeros(N_STEPS // 2 - 1, dtype=complex)  # of mu_0 kappa u_z - y
     n = np.arange(1, rates.size + 1)
     rates[: cycle.cos.size] += case.unit_velocity * (1j * n * np.resize(cycle.harmonics, n.size))[: cycle.cos.size]
-    if isinstance(pull, SpringPull):
+    if not pull.is_rigid:
         F_n = np.fft.rfft(force_of(case, known))[1:-1] / N_STEPS
         resonant = _resonant_harmonic(pull, omega)
         drives = resonant and abs(F_n[resonant - 1]) > RESONANT_FOLLOWED * known.F_N.mean() * case.material.E_star
@@ -129,7 +129,7 @@ def _panels(case: SlidingContact, smallest: float) -> _Panels:
     levels = SHRINK ** np.arange(1, 1 + int(np.ceil(np.log(smallest) / np.log(SHRINK))))
     graded = np.concatenate([[0.0], levels[::-1], [0.5], 1 - levels, [1.0]])
     ends = np.unique(np.concatenate([low + (high - low) * graded for low, high in pairwise(sorted(cuts))]))
-    if isinstance(pull, SpringPull) and pull.m > 0:
+    if np.isfinite(pull.omega_0):
         most = max(np.pi * case.oscillation.omega / pull.omega_0, 2 * np.pi / MOST_PANELS)
         length = np.diff(ends)
         parts = np.ceil(length / most).astype(int)
@@ -154,11 +154,12 @@ def _series() -> Array:
     return np.asarray(np.linalg.inv(legendre.legvander(leggauss(N_NODES)[0], N_NODES - 1)))
 
 
-def _velocity(pull: SpringPull, panels: _Panels, mu_0: float, omega: float) -> Array:
+def _velocity(pull: Pull, panels: _Panels, mu_0: float, omega: float) -> Array:
     """y' [m/s] of the body on the nodes, shape (n_panels, N_NODES); the phase is its time, so that all are lengths."""
     nodes, into, across = _collocation()
     force = -mu_0 * (panels.force - panels.mean)
-    M, C, K = pull.m * omega**2, pull.c_x * omega, pull.k_x
+    m, c_x, K = pull.coefficients
+    M, C = m * omega**2, c_x * omega
     h = (panels.high - panels.low)[:, None, None]
     one, unit = np.ones_like(force), np.eye(nodes.size)
     if M > 0:  # the rate of w = y' is r: w = w_0 + h into r, y = y_0 + h nodes w_0 + h² into² r
@@ -192,18 +193,19 @@ def _periodic(maps: Array) -> Array:
     return out
 
 
-def _resonant_harmonic(pull: SpringPull, omega: float) -> int:
+def _resonant_harmonic(pull: Pull, omega: float) -> int:
     """The n with k_x = m (n omega)² of an undamped body, or 0."""
-    if pull.c_x > 0 or pull.m == 0:
+    m, c_x, k_x = pull.coefficients
+    if c_x > 0 or m == 0:
         return 0
     n = round(pull.omega_0 / omega)
-    return n if abs(pull.m * (n * omega) ** 2 / pull.k_x - 1) < 1e-12 else 0
+    return n if abs(m * (n * omega) ** 2 / k_x - 1) < 1e-12 else 0
 
 
 def _touches_with_a_jolt(case: SlidingContact) -> bool:
     """Whether a light body gets infinitely fast as dashpots touch: a(d) rises more steeply than d from its tip."""
-    pull = case.pull
-    if not isinstance(pull, SpringPull) or pull.m > 0 or pull.c_x > 0 or case.T == 0 or case.keeps_contact:
+    m, c_x, _ = case.pull.coefficients
+    if case.pull.is_rigid or m > 0 or c_x > 0 or case.T == 0 or case.keeps_contact:
         return False
     low, high = (float(case.indenter.contact_radius(share * case.u_z_max)) for share in (1e-9, 1e-8))
     return bool(np.log10(high / low) < 0.999)

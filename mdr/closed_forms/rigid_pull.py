@@ -48,7 +48,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.pull import RigidPull
 from mdr.closed_forms.full_slip import edge_marks, mean_normal_force
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
@@ -142,7 +141,7 @@ def small_velocity(case: SlidingContact) -> Asymptote:
 
 
 def _rigid(case: SlidingContact) -> SlidingContact:
-    if not isinstance(require_case(case).pull, RigidPull):
+    if not require_case(case).pull.is_rigid:
         raise TypeError(f"the closed form is that of a rigid pull, got {case.pull!r}")
     if not case.is_of_the_paper:
         raise ValueError(

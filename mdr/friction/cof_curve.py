@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.pull import RigidPull
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
@@ -91,7 +90,7 @@ def cof_curve(
     if np.any(velocities < 0):
         raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
     static, moving = static_cof(case), velocities > 0
-    closed = method is None and isinstance(case.pull, RigidPull) and case.is_of_the_paper
+    closed = method is None and case.pull.is_rigid and case.is_of_the_paper
     if closed:
         columns = _closed_form(case, velocities[moving])
     else:

@@ -30,7 +30,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.pull import SpringPull
 from mdr.march.run import SlidingRun
 from mdr.march.slide import N_SPRINGS, default_steps, slide
 from mdr.tools.checks import positive
@@ -234,10 +233,10 @@ class _Search:
         """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid
         first touch of a dashpot.
         """
-        case, pull = self.case, self.case.pull
+        case = self.case
         kept = case.cycle.u_z0 + case.cycle.du_z * case.kept_gap
         moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
-        light = isinstance(pull, SpringPull) and pull.m == 0 and pull.c_x == 0
+        light = not case.pull.is_rigid and case.pull.coefficients[:2] == (0, 0)
         return bool(light and case.T > 0 and moving_edge)
 
     def _by_friction(
@@ -269,7 +268,7 @@ class _Search:
 
     def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """A run of a body below the end of stick: is friction reduced there, and by how much?"""
-        if not isinstance(self.case.pull, SpringPull):  # without a free oscillation stick takes friction away
+        if self.case.pull.is_rigid:  # without a free oscillation stick takes friction away
             return self._look_above(v_c, low, high)
         multiple = self._multiple()
         share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
@@ -293,7 +292,7 @@ class _Search:
     def _multiple(self) -> int:
         """The n of a body without damper whose omega_0 is n omega, so that it may lock in; 0 of any other."""
         pull = self.case.pull
-        if not isinstance(pull, SpringPull) or pull.m == 0 or pull.c_x > 0:
+        if pull.damping_ratio > 0 or np.isinf(pull.omega_0):
             return 0
         ratio = pull.omega_0 / self.case.oscillation.omega
         return round(ratio) if abs(ratio - round(ratio)) < SAME_MULTIPLE * ratio else 0
@@ -318,7 +317,7 @@ class _Search:
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs beyond v_c from both starts: does friction stay full?"""
         swinging, full, unsettled = False, False, []
-        undamped = isinstance(self.case.pull, SpringPull) and self.case.pull.c_x == 0  # else a swing is a transient
+        undamped = not self.case.pull.is_rigid and self.case.pull.damping_ratio == 0  # else a swing is a transient
         of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
         for factor in ABOVE:
             for start in ("full_slip", "rest"):

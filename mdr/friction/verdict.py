@@ -9,7 +9,6 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.motion import DepthMotion, LoadOscillation
-from mdr.case.pull import RigidPull, SpringPull
 from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -158,7 +157,7 @@ def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> 
 
 def _has_mass(case: SlidingContact) -> bool:
     """Whether a harmonic of the force can meet a natural frequency."""
-    return isinstance(case.pull, SpringPull) and case.pull.m > 0
+    return bool(np.isfinite(case.pull.omega_0))
 
 
 def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVelocity) -> Iterator[str]:
@@ -172,7 +171,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
         )
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"
-    if isinstance(case.pull, RigidPull) and isinstance(case.oscillation, DepthMotion):
+    if case.pull.is_rigid and isinstance(case.oscillation, DepthMotion):
         if full < eq_15 * (1 - SAME):
             yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
     elif np.isfinite(eq_15) and found.contains(full):

@@ -27,7 +27,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.pull import SpringPull
 from mdr.march import kernels
 from mdr.materials.operator import L_DECAY, L_GAIN, Rheology
 from mdr.normal.springs import SpringArray
@@ -44,7 +43,12 @@ class NormalState:
 
     s: Array  #: (1 + J, n) compressions at phase 0, and their arms
     spans: NDArray[np.int64]  #: (2, n_steps) of springs that press, or are free, throughout a step
-    mean: float  #: sum of w s, its mean over the period
+    S: Array  #: (n_steps,) sum of w s at the nodes; in full slip, where e = s, that of w e too
+
+    @cached_property
+    def mean(self) -> float:
+        """Mean of S over the period, which is that of F_z."""
+        return float(self.S.mean())
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +61,10 @@ class ScaledContact:
     z_dot: Array  #: (n_steps + 1,) its rate
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
     table: Array  #: (L_ROWS, 1 + J) the same over one step
-    body: Array  #: (5 + 2J,) recursion of the body; zero for a rigid pull
+    body: kernels.Body  #: recursion of the body
     M: float  #: mass
     C: float  #: damping
-    K: float  #: system stiffness; zero stands for a rigid pull
+    K: float  #: system stiffness; infinite under a rigid pull
     lump_margin: float  #: the first spring stands for the core while L[e + s] exceeds this
     n_lumped: int  #: how many springs of the array the first one stands for
     n_core: int  #: how many of its own springs never lose contact
@@ -91,9 +95,14 @@ class ScaledContact:
         return self.rheology.remembers
 
     @property
+    def rigid(self) -> bool:
+        """Whether the body moves as it is pulled, whatever the force."""
+        return self.body.rigid
+
+    @property
     def light(self) -> bool:
         """Whether the body takes at once, for these steps, the velocity that a spring gives it as it touches."""
-        return bool(self.K and _is_light(self.M, self.K, self.h))
+        return self.body.light
 
     @property
     def n_arms(self) -> int:
@@ -146,46 +155,45 @@ class ScaledContact:
     def normal(self) -> NormalState:
         """The springs in their periodic normal motion."""
         s, spans = np.zeros((1 + self.n_arms, self.gap.size)), np.empty((2, self.steps), dtype=np.int64)
-        mean = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans)
-        if np.isnan(mean):
+        S = np.empty(self.steps)
+        kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans, S)
+        if np.isnan(S).any():
             raise ValueError(
                 f"steps_per_period = {self.steps} is too coarse for the normal motion of springs with these arms, "
                 "which does not become periodic; raise it"
             )
-        return NormalState(s, spans, float(mean))
+        return NormalState(s, spans, S)
 
-    @cached_property
-    def full_slip_force(self) -> Array:
-        """S at the nodes of one period in full slip, shape (n_steps,), which is sum of w s."""
-        s, S, at_rest = self.normal.s, np.empty(self.steps), np.zeros_like(self.body)
-        springs, motion = (self.gap, self.w), (self.z, self.z_dot, self.normal.spans)
-        fast = 1e9  # sliding at any high velocity is full slip
-        y, nothing = np.empty(self.steps), np.empty((0, *s.shape))
-        kernels.march(
-            s.copy(), s.copy(), at_rest.copy(), at_rest, *springs, *motion, fast, self.table,
-            -np.inf, self.steps, 0, y, S, nothing, nothing,
-        )  # fmt: skip
-        return np.roll(S, 1)
+    @property
+    def springs(self) -> kernels.Springs:
+        """The springs as the kernels take them."""
+        return kernels.Springs(self.gap, self.w, self.lump_margin)
 
-    def full_slip_history(self, S: Array, v: float = np.inf) -> Array:
-        """State (5 + 2J,) of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
+    def motion(self, v: float) -> kernels.Motion:
+        """The way of the indenter over a period, in the plane that of a pull at the steady velocity v."""
+        dx, x_dot = np.full(self.steps, v * self.h), np.full(self.steps + 1, v)
+        return kernels.Motion(self.z, self.z_dot, dx, x_dot, self.normal.spans)
+
+    def full_slip_state(self, S: Array, v: float = np.inf) -> kernels.BodyState:
+        """State of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
 
         Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
         free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it. Beside a
         resonance a harmonic that would carry the body back faster than FASTEST_START v is cut to that velocity.
         """
-        if not self.K:
-            return self._history(S, np.zeros(self.steps // 2 + 1, dtype=complex))
+        if self.rigid:
+            return self._state(S, np.zeros(self.steps // 2 + 1, dtype=complex))
         y_n = self._full_slip_motion(S)
         most = FASTEST_START * v
-        return self._history(S, y_n * (most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1))
+        return self._state(S, y_n * (most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1))
 
-    def resonant_history(self, S: Array, v: float) -> Array | None:
-        """The same on an undamped resonance or beside one, with the oscillation that the n-th harmonic drives until
-        stick stops it: y' reaches -v, once in each of its own periods, when that harmonic of the force is greatest.
+    def resonant_state(self, S: Array, v: float) -> kernels.BodyState | None:
+        """State of the body at phase 0 on an undamped resonance or beside one. The resonant harmonic, the n-th, swings
+        as far as stick lets it: y' reaches -v, once in each of its own periods, when that harmonic of the force is
+        greatest.
         None where no harmonic moves the body faster than FASTEST_START v, and where the force does not contain it.
         """
-        if not self.K:
+        if self.rigid:
             return None
         y_n, resonant = self._full_slip_motion(S), self._resonant(self._inertia())
         swings = self._velocities(y_n)
@@ -194,10 +202,10 @@ class ScaledContact:
         if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not (resonant[n] or swings[n] > FASTEST_START * v):
             return None
         y_n[n] = 0
-        history = self._history(S, y_n)
+        state = self._state(S, y_n)
         phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
-        history[:3] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
-        return history
+        state.y[:] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
+        return state
 
     @cached_property
     def end_of_full_slip(self) -> float:
@@ -208,9 +216,9 @@ class ScaledContact:
         so that it cannot keep all of them from stick: below this velocity full slip does not last (but where the free
         oscillation is a whole multiple of the drive).
         """
-        if not self.K:
+        if self.rigid:
             return 0.0
-        S = self.full_slip_force
+        S = self.normal.S
         y_n = self._full_slip_motion(S)
         driven = np.abs(np.fft.rfft(S)) > 1e-10 * abs(float(S.sum()))
         if (self._resonant(self._inertia()) & driven)[1:].any():
@@ -221,20 +229,20 @@ class ScaledContact:
         touching = (spans[1] > 0) & (np.roll(spans[1], 1) > 0)  # contact at the node between two steps
         return float((self.z_dot[:-1] - y_dot)[touching].max(initial=0.0))
 
-    def _history(self, S: Array, y_n: NDArray[np.complex128]) -> Array:
-        """State (5 + 2J,) at phase 0 of a body with the harmonics y_n under the full-slip force S (n_steps,)."""
+    def _state(self, S: Array, y_n: NDArray[np.complex128]) -> kernels.BodyState:
+        """State at phase 0 of a body with the harmonics y_n under the full-slip force S (n_steps,)."""
         arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in self._arms_n(np.fft.rfft(S), self._turn())]
         y = np.fft.irfft(y_n, self.steps)[[0, -1, -2]]
-        return np.array([*y, S[0], S[-1], *(now for now, _ in arms), *(old for _, old in arms)])
+        return kernels.BodyState(y, S[[0, -1]], np.array(arms).reshape(-1, 2).T.copy())
 
     def _full_slip_motion(self, S: Array) -> NDArray[np.complex128]:
         """Harmonics of the periodic motion under the full-slip force S (n_steps,), as of rfft; none on a resonance."""
         S_n, turn = np.fft.rfft(S), self._turn()
-        _, _, b_1, b_0, b_m = self.body[:5]
+        b_1, b_0, b_m = self.body.b_1, self.body.b_0, self.body.b_m
         inertia = self._inertia()
         resonant = self._resonant(inertia)
         force_n = (b_1 * turn + b_0 + b_m / turn) * S_n
-        for b, old, arm_n in zip(*self.body[5:].reshape(2, -1), self._arms_n(S_n, turn), strict=True):
+        for b, old, arm_n in zip(*self.body.arms, self._arms_n(S_n, turn), strict=True):
             force_n += (b + old / turn) * arm_n
         return np.asarray(np.where(resonant, 0, -force_n / np.where(resonant, 1, inertia)))
 
@@ -283,22 +291,21 @@ class ScaledContact:
 
     def _inertia(self) -> NDArray[np.complex128]:
         """What the recursion answers every harmonic with."""
-        a_1, a_2 = self.body[:2]
         turn = self._turn()
-        return np.asarray(turn - a_1 - a_2 / turn)
+        return np.asarray(turn - self.body.a_1 - self.body.a_2 / turn)
 
     def _resonant(self, inertia: NDArray[np.complex128]) -> NDArray[np.bool_]:
         return np.asarray(np.abs(inertia) < max(1e-9 * self.h**2, 2e-15))
 
-    def rest_history(self, v: float) -> Array:
-        """State (5 + 2J,) of a body at rest with nothing stretched, from which the pull sets off at v."""
-        y = np.array([0.0, 1.0, 2.0]) * v * self.h if self.K else np.zeros(3)
-        return np.array([*y, *np.zeros(2 + 2 * self.n_arms)])
+    def rest_state(self, v: float) -> kernels.BodyState:
+        """State of a body at rest with nothing stretched, from which the pull sets off at v."""
+        y = np.zeros(3) if self.rigid else np.array([0.0, 1.0, 2.0]) * v * self.h
+        return kernels.BodyState(y, np.zeros(2), np.zeros((2, self.n_arms)))
 
 
 def fast_ratio(case: SlidingContact) -> float:
     """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
-    if not isinstance(case.pull, SpringPull):
+    if case.pull.is_rigid:
         return 0.0
     M, _, K = _body_groups(case, 1.0)
     k_xc = float(case.indenter.stiffness(case.u_z_max, case.material.G_star))
@@ -306,10 +313,8 @@ def fast_ratio(case: SlidingContact) -> float:
 
 
 def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
-    pull, omega = case.pull, case.oscillation.omega
-    if not isinstance(pull, SpringPull):
-        return 0.0, 0.0, 0.0
-    return pull.m * omega**2 / stiffness, pull.c_x * omega / stiffness, pull.k_x / stiffness
+    (m, c_x, k_x), omega = case.pull.coefficients, case.oscillation.omega
+    return m * omega**2 / stiffness, c_x * omega / stiffness, k_x / stiffness
 
 
 def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int]:
@@ -325,11 +330,11 @@ def _is_light(M: float, K: float, h: float) -> bool:
     return bool(M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED)
 
 
-def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Array:
-    """The numbers of the body; see the module's docstring."""
+def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> kernels.Body:
+    """The recursion of the body; see the module's docstring."""
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
-    if not K:
-        return np.zeros(5 + 2 * rho.size)
+    if np.isinf(K):
+        return kernels.Body(True, False, 0.0, 0.0, 0.0, 0.0, 0.0, np.zeros((2, rho.size)))
     table = rheology.over_step(h)
     decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
     if _is_light(M, K, h):
@@ -337,30 +342,29 @@ def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> Ar
         # the end of an arm whose rate changes within the step, by the second difference of S
         bend = rho * theta / h * (0.5 * (1 + decay) - theta / h * (1 - decay))
         end, second = float(rho @ gain), float(bend.sum())
-        numbers = [
-            2 * M / h**2 + 2 * C / h,
-            -(M / h**2 + 0.5 * C / h),
-            1 + 1.5 * T / h + end + second,
-            -2 * T / h - end - 2 * second,
-            0.5 * T / h + second,
-            *(rho * decay),
-            *np.zeros(rho.size),
-        ]
-        return np.array(numbers) / inertia
+        return kernels.Body(
+            rigid=False,
+            light=True,
+            a_1=(2 * M / h**2 + 2 * C / h) / inertia,
+            a_2=-(M / h**2 + 0.5 * C / h) / inertia,
+            b_1=(1 + 1.5 * T / h + end + second) / inertia,
+            b_0=(-2 * T / h - end - 2 * second) / inertia,
+            b_m=(0.5 * T / h + second) / inertia,
+            arms=np.array([rho * decay, np.zeros(rho.size)]) / inertia,
+        )
     from scipy.linalg import expm
 
     A = expm(h * np.array([[0, 1, 0], [-K / M, -C / M, 1 / M], [0, 0, 0]]))  # last column: response to a unit force
-    now, before = A[0, 2], A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2]
+    now, before = float(A[0, 2]), float(A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2])
     change = T / h + float(np.sum(rho * theta / h * (1 - gain)))  # weight of S_new - S in the mean force of the step
     new, old = 0.5 + change, 0.5 - change
-    return np.array(
-        [
-            A[0, 0] + A[1, 1],
-            -np.exp(-C / M * h),
-            now * new,
-            now * old + before * new,
-            before * old,
-            *(now * rho * gain),
-            *(before * rho * gain),
-        ]
+    return kernels.Body(
+        rigid=False,
+        light=False,
+        a_1=float(A[0, 0] + A[1, 1]),
+        a_2=float(-np.exp(-C / M * h)),
+        b_1=now * new,
+        b_0=now * old + before * new,
+        b_m=before * old,
+        arms=np.array([now * rho * gain, before * rho * gain]),
     )

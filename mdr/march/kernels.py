@@ -39,9 +39,12 @@ Newton's method inside a bracket, halved when that does not get on, to rounding.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 from numba.extending import register_jitable
+from numpy.typing import NDArray
 
 from mdr.materials.operator import (
     L_DECAY,
@@ -56,6 +59,8 @@ from mdr.materials.operator import (
 )
 from mdr.tools.jit import compiled
 
+Array = NDArray[np.float64]
+
 _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
 _jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
 _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
@@ -64,12 +69,117 @@ _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 # changes them in operator.py is stopped here, and by changing this line has everything compiled anew.
 assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
 
+# --- what the functions take: arrays and floats by name -------------------------------------------
+
+
+class Springs(NamedTuple):
+    """The row of springs, with rising gap (a hollow face, whose gaps fall, presses as a whole)."""
+
+    gap: Array  #: (n,) depth of each foot below the mean surface position
+    w: Array  #: (n,) share of each spring in the stiffness
+    lump_margin: float  #: the first one stands for others of its core while L[e + s] exceeds this; negative: no watch
+
+
+class Motion(NamedTuple):
+    """The way of the indenter over one period of n_z steps: normal to the plane, and of the pull in the plane."""
+
+    z: Array  #: (n_z + 1,) normal motion
+    z_dot: Array  #: (n_z + 1,) its rate
+    dx: Array  #: (n_z,) travel in the plane in each step
+    x_dot: Array  #: (n_z + 1,) velocity in the plane
+    spans: NDArray[np.int64]  #: (2, n_z) springs before the first press throughout a step, from the second on none does
+
+
+class Body(NamedTuple):
+    """How the body yields: y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old) - what the arms add."""
+
+    rigid: bool  #: whether it does not yield at all
+    light: bool  #: whether its velocity jumps as a flat face touches (`growth_of`)
+    a_1: float
+    a_2: float
+    b_1: float
+    b_0: float
+    b_m: float
+    arms: Array  #: (2, J) weights of the sums of w e over each arm, now and one step before
+
+
+class BodyState(NamedTuple):
+    """The memory of the body and of the force on it, updated in place."""
+
+    y: Array  #: (3,) its motion relative to the pull: now, one step before, two steps before
+    S: Array  #: (2,) sum of w e, now and one step before
+    arms: Array  #: (2, J) sums of w e over each arm, now and one step before
+
+
+class Trace(NamedTuple):
+    """What a march leaves of each of its steps."""
+
+    y: Array  #: (n_steps,) motion of the body relative to the pull
+    S: Array  #: (n_steps,) sum of w e
+    e: Array  #: (n_steps, 1 + J, n) extensions, or (0, 1 + J, n) for none
+    s: Array  #: (n_steps, 1 + J, n) compressions, or (0, 1 + J, n) for none
+
+
+class Step(NamedTuple):
+    """One step of the motion."""
+
+    n_in: int  #: the springs before it press throughout the step
+    n_out: int  #: those from it on are free throughout
+    z_0: float
+    z_1: float
+    zd_0: float
+    zd_1: float
+    h: float
+
+
+class Move(NamedTuple):
+    """What the body does in a step."""
+
+    du: float  #: its travel
+    ud_0: float  #: its velocity at both ends
+    ud_1: float
+    surge: float  #: how its velocity changes within the step (`growth_of`)
+    jump: float
+    jumps: bool
+
+
+class Law(NamedTuple):
+    """The material over a step, as far as it tells when a mode changes."""
+
+    dashpot: bool  #: whether the force of x' bounds its jumps; then stiffness is that of the static force over T
+    stiffness: float
+    damping: float  #: rate at which the lead of one mode over another is damped
+
+
+class Free(NamedTuple):
+    """What the compression s and the lag s - e of a spring do if left alone over a step."""
+
+    s: float  #: their ends
+    s_rate: float  #: rates at the start
+    s_end: float  #: rates at the end
+    s_shed: float  #: what is shed
+    lag: float
+    lag_rate: float
+    lag_end: float
+    lag_shed: float
+
+
+class Seen(NamedTuple):
+    """What `observe` fills, of m steps and n springs."""
+
+    sums: Array  #: (N_SUMS,) of which it adds up
+    F_x: Array  #: (m,) forces at the end of each step
+    F_z: Array  #: (m,)
+    slip: Array  #: (m,) least slip velocity of a spring in contact, see `observe`
+    mode: NDArray[np.uint8]  #: (m, n) of each spring, or (0, n) for none
+    f_x: Array  #: (m, n) force of each spring over its stiffness, or (0, n)
+    f_z: Array  #: (m, n)
+
+
 VECTOR = 16  #: springs that a loop takes at once, or a multiple of it
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state
 STEADY = 1e-12  #: change over a period up to which a spring does the same in every period, of du_z
 SETTLED = 1e-3  #: change over a period that a spring may be left with, of du_z: at the edge it may alternate
-N_LOOK = 8  #: what `foresee` fills
-S_FREE, S_RATE, S_END, S_SHED, LAG_FREE, LAG_RATE, LAG_END, LAG_SHED = range(N_LOOK)
 
 
 # --- one spring -----------------------------------------------------------------------------------
@@ -123,7 +233,14 @@ def touches_flat(gap, w, z):
 
 
 @_inline
-def elastic_spring(e, gap, z_1, du, surge, jump, inverse_dz, bend, late):
+def moved(du, ud_0, ud_1, h, jumps):
+    """What the body does in a step, from its travel and its velocities at both ends."""
+    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
+    return Move(du, ud_0, ud_1, surge, jump, jumps)
+
+
+@_inline
+def elastic_spring(e, gap, z_1, move, inverse_dz, bend, late):
     """One elastic spring over one step: new extension, compression, share of the step in contact, trial extension.
 
     late: what a spring that turned from slip to stick within the step falls behind.
@@ -131,160 +248,133 @@ def elastic_spring(e, gap, z_1, du, surge, jump, inverse_dz, bend, late):
     s = max(z_1 - gap, 0.0)
     way = min(s * inverse_dz, 1.0)
     travelled = way * ((1.0 - bend) + bend * way)
-    trial = e + travelled * ((du + surge) - travelled * surge) + (1.0 - travelled) * jump
+    trial = e + travelled * ((move.du + move.surge) - travelled * move.surge) + (1.0 - travelled) * move.jump
     return max(min(trial, s - travelled * late), -s), s, travelled, trial
 
 
 @_inline
-def slip_or_stick(
-    s, trial, travelled, lead_0, lead_1, h, dashpot, stiffness, damping, s_free, lag_free, lag_rate, lag_end, lag_shed
-):
+def slip_or_stick(s, trial, travelled, step, move, law, free):
     """New extension of a spring with memory that is compressed to s and would stick at `trial`.
 
-    lead: by how much the indenter sinks faster than the body moves, at both ends of the step; travelled: share of the
-    step in contact. What compression and lag do if left alone, as in `viscous_spring`.
+    travelled: share of the step in contact.
     """
-    D_0 = lead_0 + lag_rate  # > 0: sticks at the start
+    D_0 = (step.zd_0 - move.ud_0) + free.lag_rate  # lead of the sinking indenter over the body; > 0: sticks at first
     sticks = D_0 > 0.0
-    held = stiffness * (max(s - trial, 0.0) - lag_shed)
-    D_1 = lead_1 + (held if sticks else lag_end)
+    held = law.stiffness * (max(s - trial, 0.0) - free.lag_shed)
+    D_1 = (step.zd_1 - move.ud_1) + (held if sticks else free.lag_end)
     turn = -1.0 if sticks else 1.0
-    change = after_change(turn * D_0, turn * D_1, h, damping) if (dashpot or not sticks) else 0.0
-    forward = s - lag_free
-    first = min((trial if (sticks and dashpot) else forward) - travelled * change, forward)
-    first = first if dashpot else min(first, trial)
-    return max(first, (s_free + s_free) - lag_free - s)
+    change = after_change(turn * D_0, turn * D_1, step.h, law.damping) if (law.dashpot or not sticks) else 0.0
+    forward = s - free.lag
+    first = min((trial if (sticks and law.dashpot) else forward) - travelled * change, forward)
+    first = first if law.dashpot else min(first, trial)
+    return max(first, (free.s + free.s) - free.lag - s)
 
 
 @_inline
-def viscous_spring(
-    e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, dashpot, stiffness, damping,
-    s_free, s_rate, s_end, s_shed, lag_free, lag_rate, lag_end, lag_shed,
-):  # fmt: skip
-    """One spring with memory over one step: new extension, compression, share of the step in contact, trial extension.
-
-    zd, ud: velocities of indenter and body at both ends of the step. dashpot: whether the force of x' bounds its jumps;
-    then stiffness is that of the static force over T. damping: rate at which a lead is damped. What the compression s
-    and the lag s - e do if left alone over the step: their end, their rates at both ends, and what is shed.
-    """
-    pressed = z_1 - gap
-    ahead = s_0 - (z_0 - gap)  # height of the relaxed surface over the indenter at the start
-    leaves = dashpot and ahead <= 0.0
-    leaving = after_change(-(zd_0 + s_rate), -(zd_1 + stiffness * (pressed - s_shed)), h, damping) if leaves else 0.0
-    s = max(pressed + leaving, s_free)
-    rise = s - s_free
+def viscous_spring(e, s_0, gap, step, move, law, free):
+    """One spring with memory over one step: new extension, compression, share of it in contact, trial extension."""
+    pressed = step.z_1 - gap
+    ahead = s_0 - (step.z_0 - gap)  # height of the relaxed surface over the indenter at the start
+    leaves = law.dashpot and ahead <= 0.0
+    opening = step.zd_1 + law.stiffness * (pressed - free.s_shed)
+    leaving = after_change(-(step.zd_0 + free.s_rate), -opening, step.h, law.damping) if leaves else 0.0
+    s = max(pressed + leaving, free.s)
+    rise = s - free.s
     way = rise / (rise + max(ahead, 0.0) + 1e-300)
-    travelled = way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
+    travelled = way * (1.0 - bend_of(step.zd_0 + free.s_rate, step.zd_1 + free.s_end) * (1.0 - way))
     flown = 1.0 - travelled
-    trial = e + flown * (s_free - lag_free - e + jump) + travelled * (du + flown * surge)
-    e_1 = slip_or_stick(
-        s, trial, travelled, zd_0 - ud_0, zd_1 - ud_1, h, dashpot, stiffness, damping,
-        s_free, lag_free, lag_rate, lag_end, lag_shed,
-    )  # fmt: skip
-    return e_1, s, travelled, trial
+    trial = e + flown * (free.s - free.lag - e + move.jump) + travelled * (move.du + flown * move.surge)
+    return slip_or_stick(s, trial, travelled, step, move, law, free), s, travelled, trial
 
 
 @_inline
-def kelvin_spring(e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, rate, decay):
-    """The same for a Kelvin spring, whose free motion is one exponential. rate = 1/T, decay = exp(-h/T)."""
-    lag = s_0 - e
-    s_free, lag_free = s_0 * decay, lag * decay
-    return viscous_spring(
-        e, s_0, gap, z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, True, rate, rate,
-        s_free, s_0 * rate, s_free * rate, 0.0, lag_free, lag * rate, lag_free * rate, 0.0,
-    )  # fmt: skip
+def kelvin_free(e, s, rate, decay):
+    """What a Kelvin spring does if left alone: one exponential. rate = 1/T, decay = exp(-h/T)."""
+    lag = s - e
+    s_free, lag_free = s * decay, lag * decay
+    return Free(s_free, s * rate, s_free * rate, 0.0, lag_free, lag * rate, lag_free * rate, 0.0)
 
 
 # --- one step -------------------------------------------------------------------------------------
-# n_in: the springs before it press throughout the step; n_out: those from it on are free throughout. e, s: (1 + J, n),
-# of which a step fills the first row
+# e, s: (1 + J, n), of which a step fills the first row
 
 
 @register_jitable(inline="always")
-def springs(first, last):
-    """The indices first ... last - 1, known not to be negative: else a loop over them is not vectorised."""
+def indices(first, last):
+    """The numbers first ... last - 1, known not to be negative: else a loop over them is not vectorised."""
     return range(np.uint64(first), np.uint64(last))
 
 
 @_jit
-def elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z_0, z_1, zd_0, zd_1, v, h):
+def elastic_step_in_place(e, springs, step, move, n_at_rest):
     """All elastic springs over one step of a rigid pull, which asks for no state twice: updates e, returns sum(w e).
 
     n_at_rest: the springs from it on were free in the step before.
     """
-    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
-    bend = bend_of(zd_0, zd_1)
-    late = after_change(zd_0 - v, zd_1 - v, h, 0.0) if zd_0 < v else 0.0
-    du = v * h
+    gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
+    inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
+    bend = bend_of(step.zd_0, step.zd_1)
+    late = after_change(step.zd_0 - move.ud_0, step.zd_1 - move.ud_1, step.h, 0.0) if step.zd_0 < move.ud_0 else 0.0
     total = 0.0
-    for i in springs(0, n_in):
+    for i in indices(0, step.n_in):
         s = z_1 - gap[i]
         e[0, i] = max(min(e[0, i] + du, s - late), -s)
         total += w[i] * e[0, i]
-    for i in springs(n_in, n_out):
-        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, du, 0.0, 0.0, inverse_dz, bend, late)[0]
+    for i in indices(step.n_in, step.n_out):
+        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, move, inverse_dz, bend, late)[0]
         total += w[i] * e[0, i]
-    for i in springs(n_out, n_at_rest):
+    for i in indices(step.n_out, n_at_rest):
         e[0, i] = 0.0
     return total
 
 
 @_jit
-def elastic_step(e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, jumps=False):
+def elastic_step(e_0, e_1, springs, step, move):
     """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
-    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
-    bend = bend_of(zd_0, zd_1)
-    late = after_change(zd_0 - ud_0, zd_1 - ud_1, h, 0.0) if zd_0 < ud_0 else 0.0
-    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
+    gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
+    inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
+    bend = bend_of(step.zd_0, step.zd_1)
+    late = after_change(step.zd_0 - move.ud_0, step.zd_1 - move.ud_1, step.h, 0.0) if step.zd_0 < move.ud_0 else 0.0
     total = 0.0
     stuck = 0.0
-    for i in springs(0, n_in):
+    for i in indices(0, step.n_in):
         s = z_1 - gap[i]
         e = max(min(e_0[0, i] + du, s - late), -s)
         e_1[0, i] = e
         total += w[i] * e
         stuck += w[i] if (e == e_0[0, i] + du or (late > 0.0 and e > 0.0)) else 0.0
-    for i in springs(n_in, n_out):
-        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, du, surge, jump, inverse_dz, bend, late)
+    for i in indices(step.n_in, step.n_out):
+        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late)
         e_1[0, i] = e
         total += w[i] * e
-        stuck += w[i] * (1.0 if jumps else travelled) if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
-    for i in springs(n_out, gap.size):
+        stuck += w[i] * (1.0 if move.jumps else travelled) if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+    for i in indices(step.n_out, gap.size):
         e_1[0, i] = 0.0
     return total, stuck
 
 
 @_jit
-def kelvin_step(
-    e_0, s_0, e_1, s_1, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, rate, decay, jumps=False
-):  # fmt: skip
+def kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay):
     """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
-    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
-    lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
+    gap, w, du, law = springs.gap, springs.w, move.du, Law(True, rate, rate)
     total = 0.0
     stuck = 0.0
-    for i in springs(0, n_in):
-        s = z_1 - gap[i]
+    for i in indices(0, step.n_in):
+        s = step.z_1 - gap[i]
         trial = e_0[0, i] + du
-        lag = s_0[0, i] - e_0[0, i]
-        lag_free = lag * decay
-        e = slip_or_stick(
-            s, trial, 1.0, lead_0, lead_1, h, True, rate, rate,
-            s_0[0, i] * decay, lag_free, lag * rate, lag_free * rate, 0.0,
-        )  # fmt: skip
+        e = slip_or_stick(s, trial, 1.0, step, move, law, kelvin_free(e_0[0, i], s_0[0, i], rate, decay))
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    for i in springs(n_in, n_out):
-        e, s, travelled, trial = kelvin_spring(
-            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1, du, surge, jump, ud_0, ud_1, h, rate, decay
-        )
+    for i in indices(step.n_in, step.n_out):
+        free = kelvin_free(e_0[0, i], s_0[0, i], rate, decay)
+        e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free)
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
-        stuck += w[i] * (1.0 if jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    for i in springs(n_out, gap.size):
+        stuck += w[i] * (1.0 if move.jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in indices(step.n_out, gap.size):
         e_1[0, i] = e_0[0, i] * decay
         s_1[0, i] = s_0[0, i] * decay
         total += w[i] * e_1[0, i]
@@ -292,60 +382,56 @@ def kelvin_step(
 
 
 @_jit
-def foresee(e, s, table, look):
-    """What compression and lag of every spring do if left alone over the step: fills look (N_LOOK, n)."""
-    look[:] = 0.0
+def free_response(e, s, table, out):
+    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows as in Free."""
+    out[:] = 0.0
     for k in range(e.shape[0]):
         free, rate, end, shed = table[L_FREE, k], table[L_RATE, k], table[L_END, k], table[L_SHED, k]
         for i in range(e.shape[1]):
             x = s[k, i]
             lag = x - e[k, i]
-            look[S_FREE, i] += free * x
-            look[S_RATE, i] += rate * x
-            look[S_END, i] += end * x
-            look[S_SHED, i] += shed * x
-            look[LAG_FREE, i] += free * lag
-            look[LAG_RATE, i] += rate * lag
-            look[LAG_END, i] += end * lag
-            look[LAG_SHED, i] += shed * lag
+            out[0, i] += free * x
+            out[1, i] += rate * x
+            out[2, i] += end * x
+            out[3, i] += shed * x
+            out[4, i] += free * lag
+            out[5, i] += rate * lag
+            out[6, i] += end * lag
+            out[7, i] += shed * lag
+
+
+@_inline
+def free_of(look, i):
+    """Column i of what `free_response` filled."""
+    return Free(look[0, i], look[1, i], look[2, i], look[3, i], look[4, i], look[5, i], look[6, i], look[7, i])
 
 
 @_jit
-def arms_step(
-    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out, z_0, z_1, zd_0, zd_1, du, ud_0, ud_1, h, stiffness, damping,
-    jumps=False,
-):  # fmt: skip
-    """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck."""
-    surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
-    lead_0, lead_1 = zd_0 - ud_0, zd_1 - ud_1
-    dashpot = stiffness > 0.0
+def arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
+    """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck.
+
+    look (8, n): of `free_response`.
+    """
+    gap, w, du = springs.gap, springs.w, move.du
     total = 0.0
     stuck = 0.0
-    for i in springs(0, n_in):
-        s = z_1 - gap[i]
+    for i in indices(0, step.n_in):
+        s = step.z_1 - gap[i]
         trial = e_0[0, i] + du
-        e = slip_or_stick(
-            s, trial, 1.0, lead_0, lead_1, h, dashpot, stiffness, damping,
-            look[S_FREE, i], look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
-        )  # fmt: skip
+        e = slip_or_stick(s, trial, 1.0, step, move, law, free_of(look, i))
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    for i in springs(n_in, n_out):
-        e, s, travelled, trial = viscous_spring(
-            e_0[0, i], s_0[0, i], gap[i], z_0, z_1, zd_0, zd_1,
-            du, surge, jump, ud_0, ud_1, h, dashpot, stiffness, damping,
-            look[S_FREE, i], look[S_RATE, i], look[S_END, i], look[S_SHED, i],
-            look[LAG_FREE, i], look[LAG_RATE, i], look[LAG_END, i], look[LAG_SHED, i],
-        )  # fmt: skip
+    for i in indices(step.n_in, step.n_out):
+        e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free_of(look, i))
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
-        stuck += w[i] * (1.0 if jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
-    for i in springs(n_out, gap.size):
-        e_1[0, i] = look[S_FREE, i] - look[LAG_FREE, i]
-        s_1[0, i] = look[S_FREE, i]
+        stuck += w[i] * (1.0 if move.jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+    for i in indices(step.n_out, gap.size):
+        e_1[0, i] = look[0, i] - look[4, i]
+        s_1[0, i] = look[0, i]
         total += w[i] * e_1[0, i]
     return total, stuck
 
@@ -360,14 +446,15 @@ def stretch_arms(x_0, x_1, table):
 
 
 @_inline
-def damping_of(table):
-    """Rate at which the lead of one mode over another is damped by the lag it makes."""
-    if table[L_STIFFNESS, 0] > 0.0:
-        return table[L_STIFFNESS, 0]
-    total = 0.0
-    for k in range(1, table.shape[1]):
-        total -= table[L_RATE, k]
-    return total
+def law_of(table):
+    """The law of a material from its table over a step."""
+    stiffness = table[L_STIFFNESS, 0]
+    damping = stiffness
+    if stiffness <= 0.0:
+        damping = 0.0
+        for k in range(1, table.shape[1]):
+            damping -= table[L_RATE, k]
+    return Law(stiffness > 0.0, stiffness, damping)
 
 
 # --- one run --------------------------------------------------------------------------------------
@@ -382,28 +469,27 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
-    stiffness, damping = table[L_STIFFNESS, 0], damping_of(table)
+    law, at_rest = law_of(table), Move(0.0, 0.0, 0.0, 0.0, 0.0, False)
     total = 0.0
-    for step in range(n_steps):
-        k = (k_0 + step) % n_z
+    for j in range(n_steps):
+        k = (k_0 + j) % n_z
         free = rate = end = shed = 0.0
-        for j in range(x.size):
-            free += table[L_FREE, j] * x[j]
-            rate += table[L_RATE, j] * x[j]
-            end += table[L_END, j] * x[j]
-            shed += table[L_SHED, j] * x[j]
-        _, value, share, _ = viscous_spring(
-            0.0, x[0], gap, z[k], z[k + 1], zd[k], zd[k + 1], 0.0, 0.0, 0.0, 0.0, 0.0, h,
-            stiffness > 0.0, stiffness, damping, free, rate, end, shed, 0.0, 0.0, 0.0, 0.0,
-        )  # fmt: skip
-        for j in range(1, x.size):
-            x[j] = table[L_DECAY, j] * x[j] + table[L_GAIN, j] * (value - x[0])
+        for a in range(x.size):
+            free += table[L_FREE, a] * x[a]
+            rate += table[L_RATE, a] * x[a]
+            end += table[L_END, a] * x[a]
+            shed += table[L_SHED, a] * x[a]
+        step = Step(0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
+        alone = Free(free, rate, end, shed, 0.0, 0.0, 0.0, 0.0)
+        _, value, share, _ = viscous_spring(0.0, x[0], gap, step, at_rest, law, alone)
+        for a in range(1, x.size):
+            x[a] = table[L_DECAY, a] * x[a] + table[L_GAIN, a] * (value - x[0])
         x[0] = value
         total += value
         if force.size > 0:
             normal = value + table[L_TIME, 0] * zd[k + 1]
-            for j in range(1, x.size):
-                normal += table[L_RATIO, j] * x[j]
+            for a in range(1, x.size):
+                normal += table[L_RATIO, a] * x[a]
             follows = value > 0.0 and value <= z[k + 1] - gap
             presses = follows and normal > 0.0
             force[(k + 1) % n_z] = normal if presses else 0.0
@@ -488,9 +574,9 @@ def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
 
 
 @_jit
-def settle_normal(s, gap, w, z, zd, table, spans):
-    """Put every spring into the periodic normal motion, at its start z[0]; return the mean of sum(w s) over a period,
-    NaN if springs with arms find none.
+def settle_normal(s, gap, w, z, zd, table, spans, S):
+    """Put every spring into the periodic normal motion, at its start z[0]; fills S (n_z,) with sum(w s) at z[0] to
+    z[n_z - 1], NaN if springs with arms find none.
 
     s: (1 + J, n). Without arms one period is the memory of a spring in the normal direction, so a second pass over the
     period is periodic; springs with arms are settled one by one. Fills spans (2, n_z): how many of the first springs
@@ -500,15 +586,17 @@ def settle_normal(s, gap, w, z, zd, table, spans):
     h = 2.0 * np.pi / n_z
     n_x = table.shape[1]
     decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
-    mean, steady = 0.0, True
+    steady, found = True, True
+    S[:] = 0.0
     inner, outer = np.full(n_z + 1, n), np.zeros(n_z + 1, dtype=np.int64)  # at z[0] ... z[n_z]
     if n_x > 1:
         force, touches, path, guess = np.empty(n_z), np.empty(n_z), np.empty(n_z), np.zeros(n_x)
         for i in range(n):
             total, change = settle_spring(s[:, i], guess, gap[i], z, zd, table, force, touches, path)
-            mean += w[i] * total
+            found = found and not np.isnan(total)
             steady = steady and change <= STEADY
             for k in range(n_z):
+                S[k] += w[i] * path[k]
                 if touches[k] == 0.0:
                     inner[k] = min(inner[k], i)
                 else:
@@ -518,26 +606,25 @@ def settle_normal(s, gap, w, z, zd, table, spans):
         for i in range(n):
             s[0, i] = max(z[0] - gap[i], 0.0)
         once = np.empty(n)
+        law, at_rest = Law(True, rate, rate), Move(0.0, 0.0, 0.0, 0.0, 0.0, False)
         for turn in range(1 if decay == 0.0 else 3):  # the third is for spans, and tells whether it is like the second
-            mean = 0.0
             once[:] = s[0]
             for k in range(n_z):
+                step = Step(0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
                 total = 0.0
                 least, most = n, 0
                 for i in range(n):
                     if decay == 0.0:
                         value = max(z[k + 1] - gap[i], 0.0)
                     else:
-                        _, value, _, _ = kelvin_spring(
-                            0.0, s[0, i], gap[i], z[k], z[k + 1], zd[k], zd[k + 1],
-                            0.0, 0.0, 0.0, 0.0, 0.0, h, rate, decay,
-                        )  # fmt: skip
+                        alone = kelvin_free(s[0, i], s[0, i], rate, decay)
+                        _, value, _, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone)
                     s[0, i] = value
                     total += w[i] * value
                     follows = value > 0.0 and value <= z[k + 1] - gap[i]
                     least = min(least, n if follows else i)
                     most = max(most, i + 1 if follows else 0)
-                mean += total
+                S[(k + 1) % n_z] = total
                 if turn > 0 or decay == 0.0:
                     inner[k + 1], outer[k + 1] = min(inner[k + 1], least), max(outer[k + 1], most)
         inner[0], outer[0] = inner[n_z], outer[n_z]
@@ -547,7 +634,8 @@ def settle_normal(s, gap, w, z, zd, table, spans):
         inner[:], outer[:] = 0, n
     for k in range(n_z):
         spans[0, k], spans[1, k] = min(inner[k], inner[k + 1]), max(outer[k], outer[k + 1])
-    return mean / n_z
+    if not found:
+        S[:] = np.nan
 
 
 @_inline
@@ -557,93 +645,76 @@ def span_of(spans, k, n):
 
 
 @_jit
-def glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s_out):
+def glide(e, held, springs, motion, k_0, out):
     """The march of elastic springs under a rigid pull, where no spring knows of another; arguments as of `march`."""
-    n_z, n = z.size - 1, gap.size
+    z, zd, n_z, n = motion.z, motion.z_dot, motion.dx.size, springs.gap.size
     h = 2.0 * np.pi / n_z
     k, n_at_rest = k_0 % n_z, n
-    S_0, S_m = history[3], history[4]
+    S_0, S_m = held.S[0], held.S[1]
     as_one = True
-    for j in range(S_out.size):
-        z_1 = z[k + 1]
-        n_in, n_out = span_of(spans, k, n)
-        S_m, S_0 = S_0, elastic_step_in_place(e, gap, w, n_in, n_out, n_at_rest, z[k], z_1, zd[k], zd[k + 1], v, h)
+    for j in range(out.S.size):
+        n_in, n_out = span_of(motion.spans, k, n)
+        step = Step(n_in, n_out, z[k], z[k + 1], zd[k], zd[k + 1], h)
+        move = moved(motion.dx[k], motion.x_dot[k], motion.x_dot[k + 1], h, False)
+        S_m, S_0 = S_0, elastic_step_in_place(e, springs, step, move, n_at_rest)
         n_at_rest = n_out
-        S_out[j] = S_0
-        as_one = as_one and e[0, 0] + max(z_1 - gap[0], 0.0) >= lump_margin
-        if j < e_out.shape[0]:
-            for i in springs(0, n):
-                e_out[j, 0, i] = e[0, i]
-                s_out[j, 0, i] = max(z_1 - gap[i], 0.0)
+        out.S[j] = S_0
+        as_one = as_one and e[0, 0] + max(z[k + 1] - springs.gap[0], 0.0) >= springs.lump_margin
+        if j < out.e.shape[0]:
+            for i in indices(0, n):
+                out.e[j, 0, i] = e[0, i]
+                out.s[j, 0, i] = max(z[k + 1] - springs.gap[i], 0.0)
         k = k + 1 if k + 1 < n_z else 0
-    history[:3] = 0.0
-    history[3], history[4] = S_0, S_m
+    out.y[:] = 0.0
+    held.y[:] = 0.0
+    held.S[0], held.S[1] = S_0, S_m
     return as_one
 
 
 @_jit
-def march(
-    e, s, history, body, gap, w, z, zd, spans, v, table, lump_margin, n_steps, k_0, y_out, S_out, e_out, s_out,
-    light=False,
-):  # fmt: skip
-    """March n_steps from step k_0 of the period; e, s and history are updated in place.
+def march(e, s, held, body, springs, motion, table, k_0, out):
+    """March out.y.size steps from step k_0 of the period; e, s and held are updated in place.
 
-    e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. table: of the material
-    over a step (operator.py). history: (5 + 2J,) y, y_old, y_older, S, S_old and the sums of w e over each arm, now and
-    one step before. body: (5 + 2J,) a_1, a_2, b_1, b_0, b_m and the weights of those sums, all zero for a rigid pull.
-    gap, w: (n,). z, zd: (n_z + 1,) normal motion over one period and its rate. v: pulling velocity. spans: (2, n_z)
-    of springs that press, or are free, throughout a step (`settle_normal`); 0 and n take all through all rules.
-    lump_margin: the first spring stands for others of its core as long as L[e + s] stays above this; negative switches
-    the watch off. light: whether the velocity of the body jumps when a flat face touches (`growth_of`). y_out, S_out:
-    (n_steps,). e_out, s_out: (n_steps, 1 + J, n), or (0, 1 + J, n) for nothing.
-    Returns whether the core moved as one all the way.
+    e, s: (1 + J, n) extension and compression, with the arms of the material in the rows below. held: BodyState, body:
+    Body, springs: Springs, motion: Motion, out: Trace. table: of the material over a step (operator.py). Returns
+    whether the core moved as one all the way.
     """
-    n_z = z.size - 1
+    gap, z, zd, n_z = springs.gap, motion.z, motion.z_dot, motion.dx.size
     n_arms = table.shape[1] - 1
     h = 2.0 * np.pi / n_z
-    a_1, a_2, b_1, b_0, b_m = body[0], body[1], body[2], body[3], body[4]
-    y_0, y_m, y_mm, S_0, S_m = history[0], history[1], history[2], history[3], history[4]
+    rigid, b_1 = body.rigid, body.b_1
+    y_0, y_m, y_mm, S_0, S_m = held.y[0], held.y[1], held.y[2], held.S[0], held.S[1]
     e_0, e_1 = e, np.empty_like(e)
     s_0, s_1 = s, np.empty_like(s)
     decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
-    stiffness, damping = table[L_STIFFNESS, 0], damping_of(table)
+    law = law_of(table)
     elastic = n_arms == 0 and decay == 0.0
-    look = np.empty((N_LOOK, gap.size if n_arms > 0 else 0))
-    rigid = b_1 == 0.0
+    look = np.empty((8, gap.size if n_arms > 0 else 0))
     if elastic and rigid:
-        y_out[:] = 0.0
-        return glide(e, history, gap, w, z, zd, spans, v, lump_margin, k_0, S_out, e_out, s_out)
+        return glide(e, held, springs, motion, k_0, out)
     as_one = True
-    for j in range(n_steps):
+    for j in range(out.y.size):
         k = (k_0 + j) % n_z
-        z_0, z_1 = z[k], z[k + 1]
-        n_in, n_out = span_of(spans, k, gap.size)
-        jumps = light and spans[1, k - 1] == 0 and touches_flat(gap, w, z_1)  # nothing was in contact before
-        pull = 0.0 if rigid else a_1 * y_0 + a_2 * y_m - b_0 * S_0 - b_m * S_m
-        for a in range(2 * n_arms):
-            pull -= body[5 + a] * history[5 + a]
+        z_1, v_0, v_1 = z[k + 1], motion.x_dot[k], motion.x_dot[k + 1]
+        n_in, n_out = span_of(motion.spans, k, gap.size)
+        step = Step(n_in, n_out, z[k], z_1, zd[k], zd[k + 1], h)
+        jumps = body.light and motion.spans[1, k - 1] == 0 and touches_flat(gap, springs.w, z_1)  # in flight before
+        pull = 0.0 if rigid else body.a_1 * y_0 + body.a_2 * y_m - body.b_0 * S_0 - body.b_m * S_m
+        for a in range(n_arms):
+            pull -= body.arms[0, a] * held.arms[0, a] + body.arms[1, a] * held.arms[1, a]
         if n_arms > 0:
-            foresee(e_0, s_0, table, look)
+            free_response(e_0, s_0, table, look)
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
-        ud_0 = v + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
+        ud_0 = v_0 + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
         for turn in range(80):
-            du = v * h + (y_1 - y_0)
-            ud_1 = v + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
+            move = moved(motion.dx[k] + (y_1 - y_0), ud_0, v_1 + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h, h, jumps)
             if elastic:
-                S_1, stuck = elastic_step(
-                    e_0, e_1, gap, w, n_in, n_out, z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, jumps
-                )  # fmt: skip
+                S_1, stuck = elastic_step(e_0, e_1, springs, step, move)
             elif n_arms == 0:
-                S_1, stuck = kelvin_step(
-                    e_0, s_0, e_1, s_1, gap, w, n_in, n_out,
-                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, rate, decay, jumps,
-                )  # fmt: skip
+                S_1, stuck = kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
             else:
-                S_1, stuck = arms_step(
-                    e_0, s_0, e_1, s_1, look, gap, w, n_in, n_out,
-                    z_0, z_1, zd[k], zd[k + 1], du, ud_0, ud_1, h, stiffness, damping, jumps,
-                )  # fmt: skip
+                S_1, stuck = arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
             if abs(excess) <= rounding:
@@ -659,8 +730,8 @@ def march(
                 break
             y_1 = y_new
         for a in range(n_arms):
-            history[5 + n_arms + a] = history[5 + a]
-            history[5 + a] = table[L_DECAY, 1 + a] * history[5 + a] + table[L_GAIN, 1 + a] * (S_1 - S_0)
+            held.arms[1, a] = held.arms[0, a]
+            held.arms[0, a] = table[L_DECAY, 1 + a] * held.arms[0, a] + table[L_GAIN, 1 + a] * (S_1 - S_0)
         if elastic:
             core = e_1[0, 0] + max(z_1 - gap[0], 0.0)
         elif n_arms == 0:
@@ -671,23 +742,23 @@ def march(
             core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
             for a in range(n_arms + 1):
                 core += table[L_RATIO, a] * (e_1[a, 0] + s_1[a, 0])
-        as_one = as_one and core >= lump_margin
+        as_one = as_one and core >= springs.lump_margin
         y_mm, y_m, y_0, S_m, S_0 = y_m, y_0, y_1, S_0, S_1
         e_0, e_1 = e_1, e_0
         s_0, s_1 = s_1, s_0
-        y_out[j] = y_1
-        S_out[j] = S_1
-        if j < e_out.shape[0]:
-            e_out[j] = e_0
+        out.y[j] = y_1
+        out.S[j] = S_1
+        if j < out.e.shape[0]:
+            out.e[j] = e_0
             if elastic:
                 for i in range(gap.size):
-                    s_out[j, 0, i] = max(z_1 - gap[i], 0.0)
+                    out.s[j, 0, i] = max(z_1 - gap[i], 0.0)
             else:
-                s_out[j] = s_0
-    if n_steps % 2 == 1:
+                out.s[j] = s_0
+    if out.y.size % 2 == 1:
         e_1[:] = e_0
         s_1[:] = s_0
-    history[0], history[1], history[2], history[3], history[4] = y_0, y_m, y_mm, S_0, S_m
+    held.y[0], held.y[1], held.y[2], held.S[0], held.S[1] = y_0, y_m, y_mm, S_0, S_m
     return as_one
 
 
@@ -752,9 +823,7 @@ def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
 
 
 @_inline
-def close_look(
-    e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, du, surge, jump, h, T, dashpot
-):  # fmt: skip
+def close_look(e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, move, h, T, dashpot):
     """One spring in one step, of which it spends the share `touched` in contact; per_time is 1/(touched h).
 
     force, trial: what would press it and what it would take to stick, over its long-time stiffness. Returns its
@@ -764,10 +833,11 @@ def close_look(
     normal = max(force, 0.0)
     stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
     squeezed = s_1 - s_0 - (1.0 - touched) * (s_free - s_0)
-    slip_rate = (touched * (du + (1.0 - touched) * surge) + (1.0 - touched) * jump - stretched) * per_time
+    travel = touched * (move.du + (1.0 - touched) * move.surge) + (1.0 - touched) * move.jump
+    slip_rate = (travel - stretched) * per_time
     # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
     # extension, else its trial force
-    pace = (1e-9 * abs(du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
+    pace = (1e-9 * abs(move.du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
     now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
     tangential = min(max(trial, -normal), normal)
     tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
@@ -788,58 +858,44 @@ def least_of(values, n):
 
 
 @_jit
-def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip, mode, f_x, f_z, light=False):
-    """Forces, modes and energies of a marched stretch of m steps, each energy from its own definition.
+def observe(e, s, y, springs, motion, light, table, k_0, seen):
+    """Forces, modes and energies of a marched stretch of m steps from step k_0, each energy from its own definition.
 
-    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. z, z_dot:
-    (m + 1,). spans: (2, m), see `march`. Adds to sums (N_SUMS,); fills F_x, F_z (m,) with the forces at the end of
-    each step, slip (m,) with the least slip velocity of a spring in contact through the step, or else at the touch of
-    those that touched in it (infinite without contact), mode (m, n) and the forces f_x, f_z (m, n) of each spring over
-    its stiffness, or (0, n) for none.
+    e, s: (m + 1, 1 + J, n) states at the instants. y: (m + 3,) body, from two steps before the first. Adds to
+    seen.sums; fills the rest of seen, F_x and F_z with the forces at the end of each step, slip with the least slip
+    velocity of a spring in contact through the step, or else at the touch of those that touched in it (infinite
+    without contact).
     """
-    T, n_x, n = table[L_TIME, 0], table.shape[1], gap.size
+    gap, w, n_z = springs.gap, springs.w, motion.dx.size
+    T, n_x, n, h = table[L_TIME, 0], table.shape[1], gap.size, 2.0 * np.pi / motion.dx.size
     dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
-    remembers = n_x > 1 or T > 0.0
     slips, first_slips = np.empty(n), np.empty(n)
     arms = np.zeros((8, n))
     free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
+    keep = seen.mode.shape[0] > 0
     S_0, P_0 = 0.0, 0.0  # sums of w e and of w s
     presses_0 = False  # whether any spring is in contact as the step begins
     for i in range(n):
-        presses_0 = presses_0 or 0.0 < s[0, 0, i] <= z[0] - gap[i]
+        presses_0 = presses_0 or 0.0 < s[0, 0, i] <= motion.z[k_0 % n_z] - gap[i]
         S_0 += w[i] * e[0, 0, i]
         P_0 += w[i] * s[0, 0, i]
-    for k in range(e.shape[0] - 1):
-        du = v * h + (y[k + 3] - y[k + 2])
-        ux_dot = v + (3.0 * y[k + 3] - 4.0 * y[k + 2] + y[k + 1]) / (2.0 * h)
-        ux_dot_0 = v + (3.0 * y[k + 2] - 4.0 * y[k + 1] + y[k]) / (2.0 * h)
-        z_0, z_1, zd_0, zd_1 = z[k], z[k + 1], z_dot[k], z_dot[k + 1]
-        surge, jump = growth_of(du, ux_dot_0, ux_dot, h, light and not presses_0 and touches_flat(gap, w, z_1))
+    sums = seen.sums
+    for j in range(e.shape[0] - 1):
+        k = (k_0 + j) % n_z
+        z_0, z_1, zd_0, zd_1 = motion.z[k], motion.z[k + 1], motion.z_dot[k], motion.z_dot[k + 1]
+        ux_dot_0 = motion.x_dot[k] + (3.0 * y[j + 2] - 4.0 * y[j + 1] + y[j]) / (2.0 * h)
+        ux_dot = motion.x_dot[k + 1] + (3.0 * y[j + 3] - 4.0 * y[j + 2] + y[j + 1]) / (2.0 * h)
+        jumps = light and not presses_0 and touches_flat(gap, w, z_1)
+        move = moved(motion.dx[k] + (y[j + 3] - y[j + 2]), ux_dot_0, ux_dot, h, jumps)
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
         S_1 = P_1 = sum_x = sum_z = stick = friction = shear_viscous = normal_viscous = shear_arms = press_arms = 0.0
         if n_x > 1:
-            shear_viscous, normal_viscous = add_arms(e[k], e[k + 1], s[k], s[k + 1], w, table, h, arms)
+            shear_viscous, normal_viscous = add_arms(e[j], e[j + 1], s[j], s[j + 1], w, table, h, arms)
             for i in range(n):
                 shear_arms += w[i] * arms[6, i]
                 press_arms += w[i] * arms[7, i]
-        e_here, e_next, s_here, s_next = e[k, 0], e[k + 1, 0], s[k, 0], s[k + 1, 0]
-        n_in, n_out = span_of(spans, k, n)
-        for i in springs(0, n_in):
-            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
-            force, trial = s_1 + T * zd_1 + arms[4, i], e_1 + T * ux_dot + arms[5, i]
-            normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
-                e_0, e_1, s_0, s_1, e_0, s_0, 1.0, 1.0 / h, force, trial, arms[7, i], du, surge, jump, h, T, dashpot
-            )
-            sum_x += w[i] * tangential
-            sum_z += w[i] * normal
-            stick += w[i] * normal if now == STICK else 0.0
-            friction += w[i] * impulse * abs(slip_rate)
-            shear_viscous += w[i] * T * (stretched * stretched / h)
-            normal_viscous += w[i] * T * (squeezed * squeezed / h)
-            S_1 += w[i] * e_1
-            P_1 += w[i] * s_1
-            slips[i] = slip_rate
-        for i in springs(n_in, n_out):
+        e_here, e_next, s_here, s_next = e[j, 0], e[j + 1, 0], s[j, 0], s[j + 1, 0]
+        for i in indices(0, n):
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
             rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
@@ -849,9 +905,8 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
             force = s_1 + T * zd_1 + arms[4, i] if follows else 0.0
             trial = e_1 + T * ux_dot + arms[5, i]
             normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
-                e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
-                du, surge, jump, h, T, dashpot,
-            )  # fmt: skip
+                e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i], move, h, T, dashpot
+            )
             flight = (1.0 - touched) / h
             sum_x += w[i] * tangential
             sum_z += w[i] * normal
@@ -864,36 +919,19 @@ def observe(e, s, y, z, z_dot, spans, gap, w, v, table, h, sums, F_x, F_z, slip,
             presses = follows and s_1 > 0.0
             slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
             first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
-        if remembers:
-            for i in springs(n_out, n):
-                shear_viscous += w[i] * T * ((e_next[i] - e_here[i]) ** 2 / h)
-                normal_viscous += w[i] * T * ((s_next[i] - s_here[i]) ** 2 / h)
-                S_1 += w[i] * e_next[i]
-                P_1 += w[i] * s_next[i]
-        least = least_of(slips, n_out)
+            if keep:
+                seen.f_z[j, i], seen.f_x[j, i], seen.mode[j, i] = normal, tangential, now
+        least = least_of(slips, n)
         if least == np.inf:  # all that press slip alike, so only the first touch of all adds
-            least = least_of(first_slips[n_in:], n_out - n_in)
-        if mode.shape[0] > 0:
-            for i in range(n):
-                e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
-                s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
-                rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
-                touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
-                per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
-                force = s_1 + T * zd_1 + arms[4, i] if s_1 <= z_1 - gap[i] else 0.0
-                trial = e_1 + T * ux_dot + arms[5, i]
-                f_z[k, i], f_x[k, i], mode[k, i], _, _, _, _ = close_look(
-                    e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i],
-                    du, surge, jump, h, T, dashpot,
-                )  # fmt: skip
+            least = least_of(first_slips, n)
         shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
         press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
-        F_x[k], F_z[k], slip[k] = sum_x, sum_z, least
+        seen.F_x[j], seen.F_z[j], seen.slip[j] = sum_x, sum_z, least
         sums[SUM_E] += 0.5 * (S_0 + S_1)
         sums[SUM_S] += 0.5 * (P_0 + P_1)
         sums[STICK_TIME] += stick * h
         sums[CONTACT_TIME] += sum_z * h
-        sums[SHEAR_WORK] += shear * du / h
+        sums[SHEAR_WORK] += shear * move.du / h
         sums[NORMAL_WORK] += press * (z_1 - z_0) / h
         sums[FRICTION_LOSS] += friction
         sums[SHEAR_VISCOUS] += shear_viscous

@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from mdr.case.motion import LoadOscillation
 from mdr.march import kernels
-from mdr.march.steady_state import MIN_PERIODS
-from mdr.march.stepper import TOLERANCE, March, too_coarse
+from mdr.march.energy import EnergyBalance, energy_balance
+from mdr.march.march import March, too_coarse
+from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
+from mdr.march.stepper import PeriodRecord
 from mdr.tools.records import ArrayRecord
 
 Array = NDArray[np.float64]
@@ -29,33 +31,6 @@ class State(IntEnum):
     STICK = kernels.STICK  #: its foot rests on the plane
     SLIP = kernels.SLIP  #: slides forward, friction holds the indenter back
     SLIP_BACK = kernels.SLIP_BACK  #: slides backward, friction drives the indenter on
-
-
-@dataclass(frozen=True)
-class EnergyBalance:
-    """Energies [J] of one period, each from its own definition.
-
-    pull_work + normal_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the residual of the
-    scheme.
-    """
-
-    pull_work: float  #: of the far end of the pull, v_0 times the pulling force
-    normal_work: float  #: of the normal drive, F_z u_z'
-    friction_loss: float  #: mu_0 F_z times the slip velocity
-    viscous_loss: float  #: gamma s'² and gamma e'² of the springs
-    damper_loss: float  #: of the system damper c_x
-    stored_change: float  #: elastic energy of springs and system, kinetic energy of the body
-
-    @property
-    def residual(self) -> float:
-        """Supply less use [J]."""
-        used = self.friction_loss + self.viscous_loss + self.damper_loss + self.stored_change
-        return self.pull_work + self.normal_work - used
-
-    @property
-    def relative(self) -> float:
-        """Residual over the energy that was lost [-]."""
-        return self.residual / (self.friction_loss + self.viscous_loss + self.damper_loss)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +85,7 @@ class SlidingRun(ArrayRecord):
 
 def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
     """From scaled form to SI."""
-    case, scaled, seen, settling = march.case, march.scaled, march.seen, march.settling
+    case, scaled, seen, settling = march.case, march.scaled, march.account.seen, march.settling
     mu_0, sums = case.mu_0, seen.sums
     n_steps = seen.F_x.size
     force_z = scaled.stiffness_z * scaled.length_z
@@ -130,7 +105,7 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
         least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
         mean_F_x=mu_0 * settling.mean * mean_F_z,
         mean_F_z=mean_F_z,
-        energy_balance=_energy_balance(march),
+        energy_balance=energy_balance(march),
         v_0=march.v_0,
         mu_0=mu_0,
         omega=scaled.omega,
@@ -165,34 +140,11 @@ def _why_not(march: March) -> str:
     return f"{change}: raise n_periods" + ("" if march.knobs.start == "full_slip" else " or start from full slip")
 
 
-def _energy_balance(march: March) -> EnergyBalance:
-    scaled, seen = march.scaled, march.seen
-    sums, v, h = seen.sums, march.v_0 / scaled.speed, scaled.h
-    unit_x = scaled.stiffness_x * scaled.length_x**2
-    unit_z = scaled.stiffness_z * scaled.length_z**2
-    pull, damper = float(sums[kernels.SHEAR_WORK]), 0.0
-    if scaled.K:
-        y = seen.y[2:]
-        y_dot = np.diff(y) / h
-        pull = -v * (scaled.K * h * float(np.sum(0.5 * (y[1:] + y[:-1]))) + scaled.C * float(y[-1] - y[0]))
-        damper = scaled.C * h * float(np.sum(y_dot**2))
-    viscous = unit_x * sums[kernels.SHEAR_VISCOUS] + unit_z * sums[kernels.NORMAL_VISCOUS]
-    return EnergyBalance(
-        pull_work=unit_x * pull,
-        normal_work=unit_z * float(sums[kernels.NORMAL_WORK]),
-        friction_loss=unit_x * float(sums[kernels.FRICTION_LOSS]),
-        viscous_loss=float(viscous),
-        damper_loss=unit_x * damper,
-        stored_change=unit_x * (seen.stored[1] - seen.stored[0]),
-    )
-
-
 def _recorded(march: March) -> dict[str, Any]:
     """The last periods in SI, the lumped core spread over the springs it stands for."""
     scaled, springs = march.scaled, march.springs
     F_x, F_z, y, e, s, f_x, f_z, mode = (
-        np.concatenate([getattr(seen, name)[3 if name == "y" else 0 :] for seen in march.record])
-        for name in ("F_x", "F_z", "y", "e", "s", "f_x", "f_z", "mode")
+        np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
     )
     n_steps = F_x.size
     t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
@@ -219,3 +171,9 @@ def _recorded(march: March) -> dict[str, Any]:
         "f_z": f_z * share * scaled.stiffness_z * scaled.length_z,
         "state": mode,
     }
+
+
+def _arrays(record: PeriodRecord) -> tuple[Array | NDArray[np.uint8], ...]:
+    """What is kept of a period, at the ends of its steps."""
+    seen = record.seen
+    return seen.F_x, seen.F_z, record.y[3:], record.e, record.s, seen.f_x, seen.f_z, seen.mode

@@ -15,8 +15,8 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.march.dimensionless import RESOLVED, fast_ratio
+from mdr.march.march import Knobs, March, march, too_coarse, touches
 from mdr.march.run import SlidingRun, finish
-from mdr.march.stepper import Knobs, March, march, too_coarse, touches
 from mdr.tools.checks import count, positive
 from mdr.tools.progress import time_is_over, time_limit
 
@@ -137,7 +137,7 @@ def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[b
             n_springs=knobs.n_springs * (2 if free[0] and error_springs > BUDGET / 2 and knobs.n_springs < 4096 else 1),
             steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < MOST_STEPS else 1),
         )
-        awaited = bool(main.scaled.K) and not main.settling.solved
+        awaited = not main.scaled.rigid and not main.settling.solved
         if run.cof_error <= BUDGET * case.mu_0 or finer == knobs or awaited or main.settling.spread > BUDGET / 4:
             return run
         knobs = finer
@@ -161,7 +161,7 @@ def _clear_of_stick(main: March, half: March) -> bool:
     change must be small beside v_0 less the slip velocity, which is v_c, so that it converges: the velocity of a light
     body may jump by more with every finer step. That of one without mass and damper, on dashpots, has no bound at all.
     """
-    if main.scaled.T and main.scaled.K and not main.scaled.M and not main.scaled.C:
+    if main.scaled.T and not main.scaled.rigid and not main.scaled.M and not main.scaled.C:
         return False
     least, moved = min(main.least_slip, half.least_slip), abs(main.least_slip - half.least_slip)
     return least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
 MIN_PERIODS = 8  #: fewer give no three windows
 UNKNOWN = 2.0  #: spread of a run too short to tell: a COF lies between -mu_0 and mu_0
 
@@ -42,8 +43,8 @@ class Settling:
         return self.gain is not None
 
 
-def judge(values: NDArray[np.float64], tolerance: float) -> Settling:
-    """Judge a run by its values per period, shape (n_periods,)."""
+def assess(values: NDArray[np.float64], tolerance: float) -> Settling:
+    """Whether a run has settled, by its values per period, shape (n_periods,)."""
     n = values.size
     if n < MIN_PERIODS:
         return Settling(float(values[-1]), UNKNOWN, False, "unsettled")

@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.case.pull import RigidPull
 from mdr.case.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.layout import Layout
@@ -36,7 +35,7 @@ class Work:
         """The order of its points."""
         velocity = next((i for i, axis in enumerate(self.axes) if axis.is_velocity), None)
         pulls = next((axis.values for axis in self.axes if axis.path == "pull"), (self.case.pull,))
-        block = IN_CLOSED_FORM if all(isinstance(pull, RigidPull) for pull in pulls) else MARCHED
+        block = IN_CLOSED_FORM if all(pull.is_rigid for pull in pulls) else MARCHED
         return Layout(tuple(len(axis) for axis in self.axes), velocity, block)
 
     def case_of(self, unit: int) -> SlidingContact:

@@ -1,0 +1,171 @@
+"""The search for the periodic orbit of a contact by shooting: which states it begins from, and how far it may be off.
+
+What periodic_orbit.py solves for any map that does not expand is put here to the map of one period of the march, in
+the norm of energy of springs, system spring and mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.march import kernels
+from mdr.march import periodic_orbit as periodic
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
+from mdr.march.stepper import MarchState, Periods, Stepper
+from mdr.materials.operator import L_RATIO
+from mdr.tools.progress import time_is_over
+
+Array = NDArray[np.float64]
+
+FULL = 1e-12  #: what is missing in the COF in full slip: rounding
+AGES = 1e6  #: periods that full slip must last to count as periodic
+SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
+SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic state that was found."""
+
+    state: MarchState  #: at the end of the period that `period` tells of
+    period: Periods
+    settling: Settling
+
+
+class _OutOfTime(Exception):
+    """The time limit of the caller is over in the middle of a search."""
+
+
+def search(stepper: Stepper, starts: tuple[MarchState, ...], gain: float | None = None) -> Orbit | None:
+    """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
+
+    gain: how far a state may be from the periodic one, over its change over a period, where that is known.
+    """
+    scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
+    slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
+    if slow and scaled.C:
+        slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
+    guaranteed_stable = bool(slow) and (scaled.rigid or scaled.C > 0)
+    for start in starts:
+        x = start.vector()
+
+        def period(x: Array, like: MarchState = start) -> Array:
+            if time_is_over():
+                raise _OutOfTime
+            return stepper.period(stepper.within_friction(like.with_vector(x))).vector()
+
+        for close in (periodic.CLOSE, periodic.CLOSEST):
+            try:
+                found = periodic.find(period, x, norm.of, norm.pushes, slow, guaranteed_stable, close, gain)
+            except _OutOfTime:
+                found = None
+            if found is None:
+                break
+            orbit = _repeated(stepper, start.with_vector(found.x), found, norm)
+            spread = orbit.settling.spread
+            if spread <= TOLERANCE or slow or (orbit.settling.settled and close == periodic.CLOSEST):
+                return orbit
+            x = found.x
+    stepper.n_periods = n_before
+    return None
+
+
+def search_from_full_slip(stepper: Stepper) -> Orbit | None:
+    """The periodic state from that of full slip, on a driven resonance from that of the body as stick limits it."""
+    driven = stepper.resonant()
+    return search(stepper, (*(() if driven is None else (driven,)), stepper.full_slip()))
+
+
+def at_other_resolution(state: MarchState, of: ScaledContact, like: MarchState, on: ScaledContact) -> MarchState:
+    """A state of a march with other springs or steps, on the springs and steps of this one."""
+    step, order = on.h / of.h, np.argsort(of.gap, kind="stable")
+    e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
+    (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S
+    rate, bend = 1.5 * y - 2 * y_old + 0.5 * y_older, y - 2 * y_old + y_older  # per step of the other, and its step
+    at = -step * np.arange(3)
+    body = kernels.BodyState(
+        y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms.copy()
+    )
+    return MarchState(e, like.s.copy(), body)
+
+
+def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
+    """The gain of a march with other springs or steps, where these move it by little; None where they may not."""
+    return gain if gain is not None and gain * max(one.h, other.h) ** 2 < SAME_GAIN else None
+
+
+def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, norm: EnergyNorm) -> Orbit:
+    """The COF of the periodic state, after one period in it, and how far it may be from the exact one."""
+    # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
+    size = float(np.linalg.norm(norm.of(found.x)))
+    spread = 2 * found.distance * size / stepper.mean_F_z
+    state, period = stepper.advance(stepper.within_friction(state), 1)
+    if spread > TOLERANCE and abs(1 - period.cof[-1]) <= FULL:
+        state, looked_at, stays = _slips_for_good(stepper, state, found.change * size)
+        period = Periods(np.append(period.cof, looked_at.cof), np.append(period.swing, looked_at.swing), period.as_one)
+        spread = 0.0 if stays else spread
+    cof = float(period.cof[-1])
+    if spread <= SOLVED_TOLERANCE:
+        return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain))
+    why = "a periodic state was found, but not how far it may be from the exact one"
+    return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why))
+
+
+def _slips_for_good(stepper: Stepper, state: MarchState, change: float) -> tuple[MarchState, Periods, bool]:
+    """Whether a period is full slip, by so much that a change of this size a period takes ages to end it; and the
+    state after it.
+
+    Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
+    """
+    scaled = stepper.scaled
+    state, record = stepper.observe(state, keep=False)
+    sums = record.seen.sums
+    drift = change / np.sqrt(scaled.M or (1.0 if scaled.rigid else scaled.K))  # under a rigid pull that of the springs
+    stays = sums[kernels.STICK_TIME] == 0 and AGES * drift < sums[kernels.LEAST_SLIP] < np.inf
+    return state, record.period, bool(stays)
+
+
+class EnergyNorm:
+    """Length of a state vector: the root of the energy of springs, arms, system spring and mass."""
+
+    def __init__(self, scaled: ScaledContact) -> None:
+        self.scaled = scaled
+        self.n_e = (1 + scaled.n_arms) * scaled.gap.size
+        self.n_x = self.n_e + 5 + 2 * scaled.n_arms
+
+    @cached_property
+    def _roots(self) -> Array:
+        """Square roots of the stiffness of every spring, and of every arm of it, (n_e,)."""
+        return np.sqrt(np.outer(self.scaled.table[L_RATIO], self.scaled.w)).ravel()
+
+    def of(self, x: Array) -> Array:
+        """State vectors (..., n_x) as vectors (..., m) whose squares are energies."""
+        scaled, n = self.scaled, self.n_e
+        out = np.empty((*x.shape[:-1], n + (0 if scaled.rigid else 2)))
+        out[..., :n] = self._roots * x[..., :n]
+        if not scaled.rigid:
+            y, y_old = x[..., n], x[..., n + 1]
+            out[..., n] = np.sqrt(scaled.K) * y
+            out[..., n + 1] = np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h
+        return out
+
+    @cached_property
+    def pushes(self) -> tuple[Array, ...]:
+        """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body."""
+        scaled, n = self.scaled, self.n_e
+        pushes = []
+        for j, rho in enumerate(scaled.rheology.rho, start=1):
+            arm = np.zeros(self.n_x)
+            arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = 1 / np.sqrt(rho)
+            pushes.append(arm)
+        if not scaled.rigid:
+            position, velocity = np.zeros((2, self.n_x))
+            position[n : n + 3] = 1 / np.sqrt(scaled.K)
+            velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
+            pushes += [position, velocity]
+        return tuple(pushes)

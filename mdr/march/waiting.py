@@ -1,0 +1,151 @@
+"""Waiting for the steady state: march on until the COF settles and the body has outlasted its beat.
+
+The last resort, where no periodic state was solved for. Now and then one is searched for from where the march has come
+to. Windows of periods decide on the COF (steady_state.py); beside a resonance the swing of the body changes long before
+the COF does, so that it is asked too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.orbit_search import Orbit, search
+from mdr.march.steady_state import TOLERANCE, Settling, assess, smooth_mean
+from mdr.march.stepper import MarchState, Periods, Stepper, joined
+from mdr.tools.progress import time_is_over
+
+BEATS = 2.0  #: of an undamped body that a settled run has seen
+E_FOLDS = 8.0  #: of a damped oscillation after which no beat is left
+NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is missing in the COF
+SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
+DYING = 0.1  #: share of the swing of a damped body that is still to die away
+SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
+
+
+class Waiting:
+    """A march that goes on until it settles."""
+
+    def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
+        self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
+        self.periods = Periods(np.empty(0), np.empty(0), True)
+
+    @property
+    def n(self) -> int:
+        """Periods so far."""
+        return self.periods.cof.size
+
+    def advance(self, n_periods: int) -> None:
+        """March on, period by period."""
+        self.state, periods = self.stepper.advance(self.state, n_periods)
+        self.append(periods)
+
+    def append(self, periods: Periods) -> None:
+        """Take down what is said of further periods."""
+        self.periods = joined([self.periods, periods])
+
+    def wait(self, most: int) -> Orbit:
+        """March until the windows agree, but not before every spring has been pulled as far as it has to go."""
+        if self.on_the_way > most:
+            self.advance(self.scaled.first_look)
+            return self._ended(replace(self.assess(), settled=False, kind="unsettled"))
+        self.advance(max(self.scaled.first_look, int(self.on_the_way)))
+        solve_at = self.n
+        while not (settling := self.assess()).settled and self.periods.as_one:
+            if not self.scaled.rigid and self.n >= solve_at:
+                solve_at = SOLVE_AGAIN * self.n
+                if (orbit := search(self.stepper, (self.state,))) is not None:
+                    return orbit
+            if time_is_over():
+                return self._ended(replace(settling, why=f"the time limit is over after {self.n} periods"))
+            if not self._may_settle_by(most):
+                break
+            self.advance(max(4, self.n // 2))
+        return self._ended(settling)
+
+    def _ended(self, settling: Settling) -> Orbit:
+        return Orbit(self.state, self.periods, settling)
+
+    def assess(self) -> Settling:
+        """Whether the COF has settled, and the body too."""
+        settling = assess(self.periods.cof, TOLERANCE)
+        if settling.settled and (why := self._still_moves(settling.mean)):
+            return replace(settling, settled=False, kind="unsettled", why=why)
+        return settling
+
+    def _still_moves(self, cof: float) -> str:
+        """Why a COF that has settled is not the end of the motion; nothing if it is."""
+        scaled, n = self.scaled, self.n
+        if not scaled.M:
+            return ""
+        changes = (abs(self.growth) if scaled.C == 0 else self.growth) * n > SWING_TOLERANCE
+        if changes or self._dies_away(cof):
+            return f"the swing of the body still grows or dies away after {n} periods"
+        if n < self.beat:
+            return f"after {n} periods the body may still be in a beat, which lasts {self.beat:.3g} of them"
+        full = abs(1 - cof) <= TOLERANCE
+        if full and not self._locks_in and self.stepper.v < (1 - NEARLY) * scaled.end_of_full_slip:
+            return f"full slip cannot last at this velocity: after {n} periods the body has not yet come to stick"
+        return ""
+
+    @cached_property
+    def _off_multiple(self) -> float:
+        """How far omega_0/omega is from a whole number; zero where it is one."""
+        ratio = float(np.sqrt(self.scaled.K / self.scaled.M))
+        off = abs(ratio - round(ratio))
+        return off if off > 1e-12 * ratio else 0.0
+
+    @cached_property
+    def _locks_in(self) -> bool:
+        """Whether a free oscillation of the body stays in step with a drive that does not feed it."""
+        driven = bool(np.isinf(self.scaled.end_of_full_slip))
+        return self.scaled.C == 0 and self._off_multiple == 0 and not driven
+
+    @cached_property
+    def beat(self) -> float:
+        """Periods that beats of the free oscillation with the drive last, or its dying away if that is shorter; where
+        the drive feeds it without end, its growth tells.
+        """
+        scaled = self.scaled
+        if scaled.C == 0 and self._off_multiple == 0:
+            return 0.0
+        beats = BEATS / self._off_multiple if self._off_multiple else np.inf
+        return min(beats, E_FOLDS * scaled.M / (np.pi * scaled.C) if scaled.C else np.inf)
+
+    def _dies_away(self, cof: float) -> bool:
+        """Whether a body that rings for many periods still loses a swing that friction depends on: springs that it
+        carries to and fro slip as it has them, however steadily. In full slip forward a smaller swing changes nothing.
+        """
+        scaled = self.scaled
+        if not (scaled.M and scaled.C) or abs(1 - cof) <= TOLERANCE:
+            return False
+        return -self.growth * scaled.M / (np.pi * scaled.C) > DYING
+
+    def _may_settle_by(self, most: int) -> bool:
+        """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""
+        driven = self.n > 64 and self.growth * self.n > SWING_TOLERANCE
+        full = abs(1 - self.periods.cof[-1]) < TOLERANCE
+        if driven and np.isinf(self.scaled.end_of_full_slip) and self.scaled.M and full:
+            at_stick = 2 * self.stepper.v * np.sqrt(self.scaled.M / self.scaled.K)  # swing of a body that reaches -v
+            return float(at_stick / (self.growth * self.periods.swing[-1])) < most and self.n < most
+        return self.n < most
+
+    @property
+    def growth(self) -> float:
+        """Growth of the swing of the body a period, over the swing, between the last two windows."""
+        n, swings = self.n, self.periods.swing
+        if n < 4 or self.scaled.rigid:
+            return 0.0
+        late, early = smooth_mean(swings[n // 2 :]), smooth_mean(swings[n // 4 : n // 2])
+        # a swing that is rounding of the position does not count
+        return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.state.body.y[0]) else 0.0
+
+
+def way_from_rest(scaled: ScaledContact, v: float) -> float:
+    """Periods until a run from rest can have stretched springs and system."""
+    load = float(scaled.w @ np.maximum(scaled.z.max() - scaled.gap, 0))
+    distance = float(scaled.z.max()) - float(scaled.gap.min()) + load / scaled.K
+    return distance / (2 * np.pi * v)
