@@ -400,12 +400,12 @@ def test_above_v_c_full_slip_stays_full_slip(shape):
 def test_a_march_of_no_relaxation_time_to_speak_of_is_elastic():
     elastic = scaled_of("paraboloid", 0.6)
     slow = Rheology(1e-8)
-    kelvin = ScaledContact(**{**vars(elastic), "rheology": slow, "table": slow.over_step(elastic.h)})
+    kelvin = replace(elastic, rheology=slow, table=slow.over_step(elastic.h))
     ours, theirs = march(elastic, 0.4, 512), march(kelvin, 0.4, 512)
     # T s' = 1e-8, and the two loops treat an event within a step in their own ways
     assert_allclose(ours["e_out"], theirs["e_out"], rtol=0, atol=elastic.h**2)
     no_time = Rheology(1e-5 * elastic.h).over_step(elastic.h)  # exp(-h/T) is 0
-    vanishing = ScaledContact(**{**vars(elastic), "table": no_time})
+    vanishing = replace(elastic, table=no_time)
     for name, value in march(vanishing, 0.4, 512).items():
         assert name == "s" or np.array_equal(value, ours[name])
 
