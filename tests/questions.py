@@ -290,9 +290,7 @@ def other_units(case, dice):
     length, time, force = (2.0 ** (dice.below(41) - 20) for _ in range(3))
     other = anything.in_units(case, length, time, force)
     v_0, knobs = velocity(case, dice), {"n_springs": 32, "steps_per_period": 64}
-    ours, theirs = (
-        mdr.slide(one, v, **knobs) for one, v in ((case, v_0), (other, v_0 * length / time))
-    )
+    ours, theirs = (mdr.slide(one, v, **knobs) for one, v in ((case, v_0), (other, v_0 * length / time)))
     slack = ROUNDING
     if isinstance(case.oscillation, mdr.LoadOscillation) and (case.oscillation.m_z or case.rheology.remembers):
         slack = 1e-3  # this depth is sought until 1e-4 of the load is missing, or less

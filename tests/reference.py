@@ -171,9 +171,7 @@ def elastic_stick(h, v_hat):
     start = np.where(always_touches(h, 0.0), steep, np.maximum(on, steep))
     end = np.where(always_touches(h, 0.0), steep + TWO_PI, np.minimum(off, steep + TWO_PI))
     sticks = start < flat
-    stop = bracketed_root(
-        lambda t: np.cos(t) - np.cos(start) - v_hat * (t - start), np.minimum(flat, end), end
-    )
+    stop = bracketed_root(lambda t: np.cos(t) - np.cos(start) - v_hat * (t - start), np.minimum(flat, end), end)
     return start, np.where(sticks, stop, start)
 
 
@@ -205,8 +203,12 @@ def rigid_elastic_cof(n, depth_ratio, v_hat, n_nodes=40, levels=2):
 def flat_punch_deficit(v_hat):
     """psi(v_hat) of a flat punch that never leaves the plane: COF / mu_0 = 1 - psi / depth_ratio."""
     phi_1 = np.pi + math.asin(v_hat)
-    phi_2 = brentq(lambda t: math.cos(phi_1) - math.cos(t) + v_hat * (t - phi_1),
-                   TWO_PI - math.asin(v_hat), phi_1 + TWO_PI, xtol=1e-15)
+    phi_2 = brentq(
+        lambda t: math.cos(phi_1) - math.cos(t) + v_hat * (t - phi_1),
+        TWO_PI - math.asin(v_hat),
+        phi_1 + TWO_PI,
+        xtol=1e-15,
+    )
     span = phi_2 - phi_1
     return (math.sin(phi_2) - math.sin(phi_1) - math.cos(phi_1) * span - v_hat * span**2 / 2) / TWO_PI
 
@@ -359,8 +361,12 @@ def extreme(f, low, high, n_scan=400):
     t = np.linspace(low, high, n_scan)
     value = np.array([f(ti) for ti in t])
     i = int(np.argmax(value))
-    found = minimize_scalar(lambda x: -f(x), bounds=(t[max(i - 1, 0)], t[min(i + 1, n_scan - 1)]),
-                            method="bounded", options={"xatol": 1e-10})
+    found = minimize_scalar(
+        lambda x: -f(x),
+        bounds=(t[max(i - 1, 0)], t[min(i + 1, n_scan - 1)]),
+        method="bounded",
+        options={"xatol": 1e-10},
+    )
     return (t[i], value[i]) if value[i] >= -found.fun else (found.x, -found.fun)
 
 
@@ -403,8 +409,7 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
                 force = full_slip_force([at], n, depth_ratio, T, reference_depth)[0] - mean
                 return matrix @ z - np.array([0.0, force / mass])
 
-            run = solve_ivp(rate, (low, high), z, method="DOP853", rtol=1e-11, atol=1e-12 / mass,
-                            dense_output=True)
+            run = solve_ivp(rate, (low, high), z, method="DOP853", rtol=1e-11, atol=1e-12 / mass, dense_output=True)
             out.append((low, high, run.sol))
             z = run.y[:, -1]
         return out, z
@@ -415,8 +420,9 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
     return motion
 
 
-def full_slip_critical_velocity(n, depth_ratio, T, k_ratio=math.inf, omega_0_ratio=1.0, c_ratio=0.0,
-                                reference_depth=None):
+def full_slip_critical_velocity(
+    n, depth_ratio, T, k_ratio=math.inf, omega_0_ratio=1.0, c_ratio=0.0, reference_depth=None
+):
     """Critical velocity / (mu_0 kappa omega du_z): the largest du_z/dt - dy/dt over the instants of contact.
 
     Every spring slides forward as long as v_hat + y' exceeds s' = -sin t of the springs in contact. k_ratio
@@ -453,8 +459,7 @@ class _Period:
     """One period of the springs, cut at every touch and loss of contact, and as finely as asked between."""
 
     def __init__(self, n, depth_ratio, T, breaks, n_nodes, reference_depth):
-        self.h, self.w = springs(n, depth_ratio, [math.hypot(1, T), *breaks], n_nodes,
-                                 reference_depth=reference_depth)
+        self.h, self.w = springs(n, depth_ratio, [math.hypot(1, T), *breaks], n_nodes, reference_depth=reference_depth)
         self.T = T
         self.on, self.off = contact_times(self.h, T)
         self.always = always_touches(self.h, T)
@@ -464,9 +469,11 @@ class _Period:
         """Times with every event among them, at most 2 pi / steps apart, and who touches in each interval."""
         cuts = np.unique(np.concatenate([[0.0, np.pi], self.events]))
         cuts = np.append(cuts[np.concatenate([[True], np.diff(cuts) > 1e-10])], TWO_PI)
-        t = [low + (high - low) * np.arange(parts) / parts
-             for low, high in pairwise(cuts)
-             for parts in [math.ceil((high - low) * steps / TWO_PI)]]
+        t = [
+            low + (high - low) * np.arange(parts) / parts
+            for low, high in pairwise(cuts)
+            for parts in [math.ceil((high - low) * steps / TWO_PI)]
+        ]
         t = np.append(np.concatenate(t), TWO_PI)
         middle = (t[:-1] + t[1:])[:, None] / 2
         return t, ((middle - self.on) % TWO_PI < self.off - self.on) | self.always
@@ -529,9 +536,24 @@ def _elastic_period(e, y, v, force_sum, v_hat, _, w, body, dt, surface):
     return e, y, v, force_sum
 
 
-def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=64,
-                    steps=(256, 1024), window=4, tol=1e-9, max_periods=4000, start="full_slip", breaks=(),
-                    reference_depth=None):
+def spring_pull_run(
+    n,
+    depth_ratio,
+    v_hat,
+    T,
+    k_ratio,
+    omega_0_ratio,
+    c_ratio,
+    *,
+    n_nodes=64,
+    steps=(256, 1024),
+    window=4,
+    tol=1e-9,
+    max_periods=4000,
+    start="full_slip",
+    breaks=(),
+    reference_depth=None,
+):
     """COF / mu_0 of the settled motion, a list with one array (n_cases,) for every entry of steps.
 
     v_hat may be an array: its cases run side by side. T > 0 is integrated by Runge-Kutta 4, T = 0 by Verlet
@@ -582,8 +604,7 @@ def spring_pull_run(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *
     return results
 
 
-def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=96, steps=None,
-                    **knobs):
+def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=96, steps=None, **knobs):
     """COF / mu_0 of the settled motion under a spring pull and an estimate of its error, both like v_hat.
 
     Stick and slip put kinks into the steps and, at any instant, into the row of springs, so both errors are
@@ -614,9 +635,17 @@ def table(depth_ratio=3.0, relaxation=(0.0, 0.3, 1.0, 3.0), shares=(0.2, 0.5, 0.
         for T in relaxation:
             v_c = full_slip_critical_velocity(n, depth_ratio, T, k, omega_0, c)
             cof, error = spring_pull_cof(n, depth_ratio, v_c * np.array(shares), T, k, omega_0, c)
-            yield {"shape": shape, "depth_ratio": depth_ratio, "T": T, **BODY, "v_c": v_c,
-                   "static_cof": static_cof(n, depth_ratio, T), "v_hat": [v_c * share for share in shares],
-                   "cof": cof.tolist(), "error": error.tolist()}
+            yield {
+                "shape": shape,
+                "depth_ratio": depth_ratio,
+                "T": T,
+                **BODY,
+                "v_c": v_c,
+                "static_cof": static_cof(n, depth_ratio, T),
+                "v_hat": [v_c * share for share in shares],
+                "cof": cof.tolist(),
+                "error": error.tolist(),
+            }
 
 
 if __name__ == "__main__":

@@ -314,9 +314,7 @@ def look_at(scaled, out, s, steps, spans):
     spans = np.ascontiguousarray((all_rules(scaled) if spans is None else spans)[:, :steps])
     y = np.concatenate([np.zeros(3), out["y"][:steps]])
     z = scaled.z, scaled.z_dot
-    kernels.observe(
-        e, s, y, *z, spans, scaled.gap, scaled.w, 0.4, scaled.table, scaled.h, sums, *forces, mode, *each
-    )
+    kernels.observe(e, s, y, *z, spans, scaled.gap, scaled.w, 0.4, scaled.table, scaled.h, sums, *forces, mode, *each)
     forces[2][~np.isfinite(forces[2])] = 1e9
     return sums[:-1], forces, each
 

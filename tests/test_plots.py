@@ -128,9 +128,7 @@ def test_spring_map_shows_every_spring_at_its_place():
     assert_allclose(np.asarray(mesh.get_array()).reshape(3, -1), run.state.T)
     corners = np.asarray(mesh.get_coordinates())
     assert_allclose(corners[:, 0, 1], [0, 20, 180, 620])  # cells from 0 on whose centres the springs are [µm]
-    assert_allclose(
-        corners[0, [0, -1], 0], [0.25 - 1 / 64, 2.25 - 1 / 64]
-    )  # the record begins at 7.25 periods
+    assert_allclose(corners[0, [0, -1], 0], [0.25 - 1 / 64, 2.25 - 1 / 64])  # the record begins at 7.25 periods
     assert legend_texts(ax) == ["free", "stick", "slip"]
     assert "[µm]" in ax.get_ylabel()
 
@@ -212,9 +210,7 @@ def test_a_run_without_a_record_is_refused():
 @pytest.mark.parametrize(("d", "unit"), [(2e-5, 1e-6), (8e-4, 1e-3)])
 def test_profile_shows_springs_down_to_the_indenter(d, unit):
     left, right = plots.plot_profile(Ball(), d, n_springs=40).axes
-    springs = {
-        drawn.get_label(): drawn for drawn in right.collections if drawn.get_label() in ("in contact", "free")
-    }
+    springs = {drawn.get_label(): drawn for drawn in right.collections if drawn.get_label() in ("in contact", "free")}
     tops = np.array([segment[1] for segment in springs["in contact"].get_segments()]) * [unit, 1e-6]
     assert_allclose(tops[:, 1], tops[:, 0] ** 2 / Ball.R - d, atol=1e-12)
     assert np.all(np.abs(tops[:, 0]) < Ball().contact_radius(d))
@@ -229,9 +225,7 @@ def test_profile_takes_positions_or_a_record_of_springs():
         assert sum(len(d.get_segments()) for d in right.collections if hasattr(d, "get_segments")) == 6
 
 
-@pytest.mark.parametrize(
-    ("largest", "expected"), [(3e-6, "µm"), (1e-3, "mm"), (0.0, "m"), (2e4, "km"), (1e-30, "pm")]
-)
+@pytest.mark.parametrize(("largest", "expected"), [(3e-6, "µm"), (1e-3, "mm"), (0.0, "m"), (2e4, "km"), (1e-30, "pm")])
 def test_prefix(largest, expected):
     factor, unit = plots.prefix([0.0, -largest, np.nan], "m")
     assert unit == expected

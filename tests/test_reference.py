@@ -121,8 +121,7 @@ def test_flat_punch_has_eq_15(T, body):
     assert_allclose(got, reference.eq_15(T, *body), rtol=1e-9)
 
 
-@pytest.mark.parametrize(("n", "depth_ratio", "T"),
-                         [(1, 3.0, 0.0), (2, 0.6, 0.0), (2, 3.0, 1.0), (4, 30.0, 0.3)])
+@pytest.mark.parametrize(("n", "depth_ratio", "T"), [(1, 3.0, 0.0), (2, 0.6, 0.0), (2, 3.0, 1.0), (4, 30.0, 0.3)])
 def test_v_c_is_the_sum_over_harmonics(n, depth_ratio, T):
     k, omega_0, c = BODY
     size = 1 << 14
@@ -136,8 +135,7 @@ def test_v_c_is_the_sum_over_harmonics(n, depth_ratio, T):
     assert_allclose(reference.full_slip_critical_velocity(n, depth_ratio, T, *BODY), slip.max(), atol=2e-7)
 
 
-@pytest.mark.parametrize(("n", "depth_ratio", "T"),
-                         [(4, 0.6, 3.0), (1, 1.0, 1.0), (2, 3.0, 0.0), (FLAT, 0.5, 1.0)])
+@pytest.mark.parametrize(("n", "depth_ratio", "T"), [(4, 0.6, 3.0), (1, 1.0, 1.0), (2, 3.0, 0.0), (FLAT, 0.5, 1.0)])
 def test_mean_force_over_time_is_that_over_springs(n, depth_ratio, T):
     on, off = (float(t[0]) for t in reference.contact_times([depth_ratio], T))
     cuts = sorted({0.0, np.pi - math.atan(T), on, off, 2 * np.pi})
@@ -155,12 +153,12 @@ def test_static_cof_of_flat_punch_is_eq_7():
 # --- spring pull --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("n", "depth_ratio", "T"),
-                         [(2, 3.0, 0.0), (2, 3.0, 1.0), (FLAT, 2.0, 0.3), (1, 1.5, 3.0)])
+@pytest.mark.parametrize(("n", "depth_ratio", "T"), [(2, 3.0, 0.0), (2, 3.0, 1.0), (FLAT, 2.0, 0.3), (1, 1.5, 3.0)])
 def test_a_very_stiff_spring_is_a_rigid_pull(n, depth_ratio, T):
     k, omega_0 = 1e6, 30.0
-    *_, cof = reference.spring_pull_run(n, depth_ratio, 0.4, T, k, omega_0,
-                                        reference.damping_for(0.5, k, omega_0), n_nodes=40, steps=(256, 768))
+    *_, cof = reference.spring_pull_run(
+        n, depth_ratio, 0.4, T, k, omega_0, reference.damping_for(0.5, k, omega_0), n_nodes=40, steps=(256, 768)
+    )
     # the give of the spring changes the COF by up to 1.4 / k_ratio; springs and steps by 1e-6
     assert_allclose(cof, _rigid_cof(n, depth_ratio, T)(0.4), rtol=0, atol=1.4e-6 + 1e-6)
 
@@ -169,8 +167,7 @@ def test_a_very_stiff_spring_is_a_rigid_pull(n, depth_ratio, T):
 def test_spring_pull_slides_fully_above_v_c_and_not_below(n):
     for T in (0.0, 1.0):
         v_c = reference.full_slip_critical_velocity(n, 3.0, T, *BODY)
-        *_, cof = reference.spring_pull_run(n, 3.0, v_c * np.array([0.95, 1.003]), T, *BODY, n_nodes=32,
-                                            steps=(512,))
+        *_, cof = reference.spring_pull_run(n, 3.0, v_c * np.array([0.95, 1.003]), T, *BODY, n_nodes=32, steps=(512,))
         # above v_c nothing but the trapezoidal mean of N is left: dt**2 / 12 times a jump of slope below 1
         assert_allclose(cof[1], 1, rtol=0, atol=2e-5 if T == 0 else 1e-9)
         assert 1e-3 < 1 - cof[0] < 0.05
@@ -189,8 +186,9 @@ def test_spring_pull_is_converged(n, T):
 def test_the_start_is_forgotten(T):
     v_hat = np.array([0.6, 1.5])
     knobs = {"n_nodes": 16, "steps": (256,)}
-    full_slip, rest = (reference.spring_pull_run(2, 3.0, v_hat, T, *BODY, **knobs, start=start)[-1]
-                       for start in ("full_slip", "rest"))
+    full_slip, rest = (
+        reference.spring_pull_run(2, 3.0, v_hat, T, *BODY, **knobs, start=start)[-1] for start in ("full_slip", "rest")
+    )
     assert_allclose(rest, full_slip, rtol=0, atol=1e-8)
 
 
@@ -202,8 +200,10 @@ def test_pulling_back_mirrors_pulling_forward(T):
 
 
 def test_a_small_relaxation_time_joins_the_two_integrators():
-    zero, one, two = (reference.spring_pull_run(2, 3.0, 1.5, T, *BODY, n_nodes=24, steps=(256, 512))[-1][0]
-                      for T in (0.0, 0.015, 0.03))
+    zero, one, two = (
+        reference.spring_pull_run(2, 3.0, 1.5, T, *BODY, n_nodes=24, steps=(256, 512))[-1][0]
+        for T in (0.0, 0.015, 0.03)
+    )
     assert_allclose(2 * one - two, zero, rtol=0, atol=4 * abs(two - zero) ** 2 + 1e-5)  # COF(T) is smooth
 
 
@@ -225,8 +225,9 @@ def test_flat_punch_agrees_with_an_adaptive_integrator():
     def march(z, periods, max_step):
         for _ in range(periods):
             for start, stop, touches in ((on, off, True), (off, on + 2 * np.pi, False)):
-                z = solve_ivp(rate, (start, stop), z, args=(touches,), method="DOP853", rtol=1e-8,
-                              atol=1e-10, max_step=max_step).y[:, -1]
+                z = solve_ivp(
+                    rate, (start, stop), z, args=(touches,), method="DOP853", rtol=1e-8, atol=1e-10, max_step=max_step
+                ).y[:, -1]
         return z
 
     z = march([0, 0, -v_hat, 0], 18, 0.3)

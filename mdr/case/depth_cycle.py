@@ -14,9 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
 

@@ -54,16 +54,18 @@ def case(args: argparse.Namespace, _: None) -> int:
 
 def _tables() -> dict[str, dict[str, Any]]:
     """{table of a file: {name: {"is": first line of its docstring, "keys": {key: {"unit", "meaning"}}}}}."""
-    from mdr.case.units import UNITS_AND_MEANINGS
+    from dataclasses import fields
+
     from mdr.files.case_files import nameable
+    from mdr.tools.fields import facts_of
 
     tables: dict[str, dict[str, Any]] = {}
     for table, records in nameable().items():
         tables[table] = {}
         for name, (record, keys) in records.items():
-            told = {key: UNITS_AND_MEANINGS.get(f"{table}.{key}", ("", "")) for key in keys}
+            told = {one.name: facts_of(one) for one in fields(record) if one.name in keys}
             tables[table][name] = {
                 "is": (record.__doc__ or "").strip().splitlines()[0],
-                "keys": {key: {"unit": unit, "meaning": meaning} for key, (unit, meaning) in told.items()},
+                "keys": {key: {"unit": unit, "meaning": meaning} for key, (unit, meaning, *_) in told.items()},
             }
     return tables

@@ -23,9 +23,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
+
 Step = Callable[[Array], Array]
 Measure = Callable[[Array], Array]
 

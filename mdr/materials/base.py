@@ -20,29 +20,31 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import FloatArray, finite, finite_array, plain
+from mdr.tools.checks import FieldError, FloatArray, finite, finite_array, plain
+from mdr.tools.fields import Record, facts
 
 
-def poisson_ratio(name: str, value: float) -> float:
+def poisson_ratio(name: str, value: Any, note: str = "") -> float:
     """Poisson's ratio of a stable isotropic body, -1 < nu <= 1/2."""
     nu = finite(name, value)
     if not -1 < nu <= 0.5:
-        raise ValueError(f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5")
+        what = f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5"
+        raise FieldError(what, name)
     return nu
 
 
-class Material(ABC):
+POISSON = facts("-", "Poisson's ratio", poisson_ratio)
+
+
+class Material(Record, ABC):
     """What every material must answer; long-time moduli are properties, the rest follows from them."""
 
     tau: float
-
-    def _set(self, **checked: float) -> None:
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
 
     @property
     @abstractmethod

@@ -34,10 +34,9 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.indenters.base import Indenter
 from mdr.materials import Material
 from mdr.normal import indentation_kernels as kernels
+from mdr.tools.arrays import Array
 from mdr.tools.checks import FloatArray, count, finite_array
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 N_SPRINGS = 512
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine

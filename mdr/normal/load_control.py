@@ -31,8 +31,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import normal_cycle
-
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 N_HARMONICS = 256  #: of the depth; its instants are eight times as many
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived

@@ -20,15 +20,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials import Material
+from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite_array, plain, positive
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

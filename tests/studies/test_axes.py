@@ -146,13 +146,14 @@ def test_axes_are_equal_by_path_and_values_records_by_label():
 def test_every_field_of_every_record_has_a_meaning():
     from dataclasses import fields
 
-    from mdr.case.units import UNITS_AND_MEANINGS
+    from mdr.case.units import facts_at
+    from mdr.tools.fields import facts_of
 
-    given = {"f", "kinks", "name", "r", "d", "F", "tip"}  # data and options, not parameters
     records = [getattr(mdr, name) for name in mdr.__all__ if isinstance(getattr(mdr, name), type)]
     homes = {"indenter": mdr.Indenter, "material": mdr.Material, "oscillation": mdr.Motion, "pull": mdr.Pull}
     for slot, base in homes.items():
         for record in records:
             if issubclass(record, base) and record is not base:
                 for field in fields(record):
-                    assert field.name in given or f"{slot}.{field.name}" in UNITS_AND_MEANINGS, (record, field.name)
+                    assert facts_of(field).meaning, (record, field.name)
+                    assert facts_at(f"{slot}.{field.name}").meaning

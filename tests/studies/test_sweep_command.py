@@ -59,7 +59,7 @@ def test_every_file_names_the_command_and_the_versions(file, tmp_path):
 
 
 def test_a_study_of_many_axes_has_no_picture_and_says_so(file, tmp_path, capsys):
-    (tmp_path / "study.toml").write_text(STUDY + 'mu_0 = [0.1, 0.2]\n')
+    (tmp_path / "study.toml").write_text(STUDY + "mu_0 = [0.1, 0.2]\n")
     assert main(["sweep", file, "-o", str(tmp_path / "study.nc")]) == 0
     assert "mdr: no picture: a picture has one or two axes" in capsys.readouterr().err
     assert not (tmp_path / "study.png").exists()
