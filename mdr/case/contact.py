@@ -14,12 +14,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.depth_cycle import Cycle
+from mdr.case.depth_cycle import Cycle, stick_limit
 from mdr.case.motion import DepthMotion, LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
 from mdr.materials.operator import Rheology
+from mdr.tools.checks import instance
 from mdr.tools.fields import check_fields, facts
 from mdr.tools.memoise import remembered
 
@@ -47,11 +48,7 @@ class SlidingContact:
 
     def __post_init__(self) -> None:
         for name, kinds in KINDS.items():
-            value = getattr(self, name)
-            if not isinstance(value, kinds):
-                hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
-                names = " or ".join(kind.__name__ for kind in kinds)
-                raise TypeError(f"{name} must be of kind {names}, got {value!r}{hint}")
+            instance(name, getattr(self, name), *kinds)
         check_fields(self)
         if self.material.E_star == 0:
             raise ValueError(
@@ -140,7 +137,7 @@ class SlidingContact:
     @property
     def unit_velocity(self) -> float:
         """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities."""
-        return self.mu_0 * self.material.mindlin_ratio * self.oscillation.omega * self.cycle.du_z
+        return stick_limit(self.mu_0, self.cycle.du_z, self.oscillation.omega, self.material.mindlin_ratio)
 
     @property
     def kept_gap(self) -> float:

@@ -86,6 +86,14 @@ def count(name: str, value: Any, least: int) -> int:
     return int(value)
 
 
+def instance(name: str, value: object, *kinds: type[Any]) -> None:
+    """FieldTypeError unless the value is of one of the kinds; a class in the place of its record is told so."""
+    if not isinstance(value, kinds):
+        hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
+        names = " or ".join(kind.__name__ for kind in kinds)
+        raise FieldTypeError(f"{name} must be of kind {names}, got {value!r}{hint}", name)
+
+
 def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
     """Real numbers of any shape as float64 (a number becomes shape ()), refused if one is NaN or infinite."""
     try:
