@@ -18,20 +18,20 @@ from mdr.tools.arrays import Array
 FloatArray = Array
 
 
-class FieldError(ValueError):
-    """A wrong value, with the `field` that is to blame: the name of a field of a record, or of an argument."""
+class _Blames(Exception):
+    """An error with the `field` that is to blame: the name of a field of a record, or of an argument."""
 
     def __init__(self, message: str, field: str = "") -> None:
         super().__init__(message)
         self.field = field
 
 
-class FieldTypeError(TypeError):
-    """A value of a wrong type, with the `field` that is to blame."""
+class FieldError(_Blames, ValueError):
+    """A wrong value."""
 
-    def __init__(self, message: str, field: str = "") -> None:
-        super().__init__(message)
-        self.field = field
+
+class FieldTypeError(_Blames, TypeError):
+    """A value of a wrong type."""
 
 
 def finite(name: str, value: Any, note: str = "") -> float:
