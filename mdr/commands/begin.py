@@ -59,13 +59,11 @@ def _tables() -> dict[str, dict[str, Any]]:
     from mdr.files.case_files import nameable
     from mdr.tools.fields import facts_of
 
-    tables: dict[str, dict[str, Any]] = {}
-    for table, records in nameable().items():
-        tables[table] = {}
-        for name, (record, keys) in records.items():
-            told = {one.name: facts_of(one) for one in fields(record) if one.name in keys}
-            tables[table][name] = {
-                "is": (record.__doc__ or "").strip().splitlines()[0],
-                "keys": {key: {"unit": unit, "meaning": meaning} for key, (unit, meaning, *_) in told.items()},
-            }
-    return tables
+    def told(record: type[Any]) -> dict[str, Any]:
+        keys = {one.name: facts_of(one) for one in fields(record) if one.init}
+        return {
+            "is": (record.__doc__ or "").strip().splitlines()[0],
+            "keys": {key: {"unit": its.unit, "meaning": its.meaning} for key, its in keys.items()},
+        }
+
+    return {table: {name: told(one) for name, one in records.items()} for table, records in nameable().items()}

@@ -115,13 +115,8 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     known = _top_level()
     content = {key: value for key, value in content.items() if key not in beside}
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
-    tables = {**_meant(content), **content}
-    parts: dict[str, Any] = {}
-    for table in _TABLES.values():
-        part, found = table.read(tables)
-        faults += found
-        if part is not None:
-            parts[table.name] = part
+    parts, of_tables = _read_tables(content)
+    faults += [fault for found in of_tables.values() for fault in found]
     given = {key: _number(value) for key, value in content.items() if key in known and key not in _TABLES}
     refused = _field_faults(SlidingContact, {**_HARMLESS, **given})
     case: Any = None
@@ -139,11 +134,17 @@ def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str
 
     To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
     """
+    parts, faults = _read_tables(content)
+    sound = {name: part for name, part in parts.items() if name not in faults}
+    return _tried(SlidingContact, **{**_HARMLESS, **sound, "mu_0": 1.0})[0], set(faults)
+
+
+def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, list[str]]]:
+    """The parts that the tables describe, and the faults of those tables that have some."""
     tables = {**_meant(content), **content}
-    read = {table.name: table.read(tables) for table in _TABLES.values()}
-    unsound = {name for name, (_, faults) in read.items() if faults}
-    parts = {name: part for name, (part, _) in read.items() if part is not None and name not in unsound}
-    return _tried(SlidingContact, **{**_HARMLESS, **parts, "mu_0": 1.0})[0], unsound
+    read = {name: table.read(tables) for name, table in _TABLES.items()}
+    parts = {name: part for name, (part, _) in read.items() if part is not None}
+    return parts, {name: faults for name, (_, faults) in read.items() if faults}
 
 
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
@@ -151,12 +152,9 @@ def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
     return _TABLES[name].read({name: table})
 
 
-def nameable() -> dict[str, dict[str, tuple[type[Any], list[str]]]]:
-    """The records that a file can name and the keys of each, {table: {name: (record, keys)}}."""
-    return {
-        table.name: {name: (record, [one.name for one in _inputs(record)]) for name, record in table.writable().items()}
-        for table in _TABLES.values()
-    }
+def nameable() -> dict[str, dict[str, type[Any]]]:
+    """The records that a file can name, {table: {name: record}}; their fields are the keys."""
+    return {name: table.writable() for name, table in _TABLES.items()}
 
 
 def read_text(path: str | PathLike[str]) -> str:
@@ -259,8 +257,9 @@ class _Table:
         known = self.keys(record)
         unknown = [self._unknown(key, record) for key in table if key not in known]
         given = {key: _number(table[key]) for key in table if key in known and key != self.choice}
-        made, faults = _build(record, given, "leave [pull] out for a rigid pull" if record is SpringPull else "")
-        return made, [*unknown, *faults]
+        faults = _field_faults(record, given, "; leave [pull] out for a rigid pull" if record is SpringPull else "")
+        made, together = (None, []) if faults else _tried(record, **given)
+        return made, [*unknown, *faults, *together]
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""
@@ -332,20 +331,11 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
-def _build(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> tuple[Any, list[str]]:
-    """The record made of the given values, or None; and every fault."""
-    faults = _field_faults(record, given, way_out)
-    return (None, faults) if faults else _tried(record, **given)
-
-
 def _field_faults(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> list[str]:
     """What is missing, then what each field refuses by its rule."""
-    absent = [field.name for field in _inputs(record) if _is_required(field) and field.name not in given]
-    faults = [f"{name} is missing" + (f"; {way_out}" if way_out else "") for name in absent]
-    for field in _inputs(record):
-        if field.name in given:
-            faults += _tried(checked, field, given[field.name])[1]
-    return faults
+    absent = [one for one in _inputs(record) if _is_required(one) and one.name not in given]
+    refused = [_tried(checked, one, given[one.name])[1] for one in _inputs(record) if one.name in given]
+    return [f"{one.name} is missing{way_out}" for one in absent] + [fault for found in refused for fault in found]
 
 
 def _tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:
