@@ -22,7 +22,7 @@ class ConstantPressure(Indenter):
     """Shape of constant pressure at the depth d_0, where its whole face touches; F_N = (π/2) E* a_0 d_0 there."""
 
     a_0: float = field(metadata=facts("m", "radius of the face"))
-    d_0: float = field(metadata=facts("m", "depth at which the whole face touches"))
+    d_0: float = field(metadata=facts("m", "depth at which the whole face touches", note="depth in m"))
 
     @property
     def max_radius(self) -> float:

@@ -26,9 +26,9 @@ FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
-    if value not in tuple(TIPS):
+    if not isinstance(value, str) or value not in TIPS:
         raise FieldError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}", name)
-    return str(value)
+    return value
 
 
 @dataclass(frozen=True, repr=False)
@@ -48,7 +48,9 @@ class FromForce(Indenter):
 
     d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m"))
     F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N"))
-    E_star: float = field(metadata=facts("Pa", "contact modulus of the body on which F was measured"))
+    E_star: float = field(
+        metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa")
+    )
     tip: str = field(default="any", kw_only=True, metadata=facts("", "any, round, sharp or flat", _tip))
     smoothing: float = field(default=0.0, kw_only=True, metadata=facts("N", NOISE, not_negative))
 

@@ -45,7 +45,9 @@ class Profile(Indenter):
     kinks: tuple[float, ...] = field(
         default=(), kw_only=True, metadata=facts("m", "radii at which the slope jumps", radii)
     )
-    r_max: float | None = field(default=None, kw_only=True, metadata=facts("m", "radius at which the shape ends", _end))
+    r_max: float | None = field(
+        default=None, kw_only=True, metadata=facts("m", "radius at which the shape ends", _end, note="radius in m")
+    )
     name: str | None = field(default=None, kw_only=True, metadata=facts("", "what it is called", _name))
 
     def __post_init__(self) -> None:

@@ -39,9 +39,9 @@ def radii(name: str, values: Any, note: str = "") -> tuple[float, ...]:
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
-    if value not in ("round", "sharp"):
+    if not isinstance(value, str) or value not in ("round", "sharp"):
         raise FieldError(f'{name} must be "round" or "sharp", got {value!r}', name)
-    return str(value)
+    return value
 
 
 @dataclass(frozen=True, repr=False)
