@@ -117,3 +117,11 @@ def test_a_path_has_the_unit_of_its_fields():
     assert facts_at("indenter.c").unit == ""  # m of one shape, m^(1-n) of another
     assert facts_at("mu_0").unit == facts_at("T").unit == "-"
     assert facts_at("pull.weight") == fields.NOTHING
+
+    @dataclass(frozen=True)
+    class Bare(mdr.Material):
+        """A material of a user, whose fields have no facts."""
+
+        tau: float
+
+    assert facts_at("material.tau").unit == "s"

@@ -35,18 +35,13 @@ def facts_at(path: str) -> Facts:
         return NO_FIELDS[path]["facts"]
     slot, _, name = path.rpartition(".")
     records = {record for kind in KINDS.get(slot, ()) for record in _kinds_of(kind)} if slot else {SlidingContact}
-    found = [
-        facts_of(field)
-        for record in sorted(records, key=lambda one: one.__name__)
-        if is_dataclass(record)
-        for field in fields(record)
-        if field.name == name
-    ]
+    named = sorted((one for one in records if is_dataclass(one)), key=lambda one: one.__name__)
+    known = [facts_of(field) for record in named for field in fields(record) if field.name == name]
+    found = Counter(one for one in known if one.meaning)
     if not found:
         return NOTHING
-    units = {one.unit for one in found}
-    usual = Counter(found).most_common(1)[0][0]
-    return usual if len(units) == 1 else usual._replace(unit="")
+    usual = found.most_common(1)[0][0]
+    return usual if len({one.unit for one in found}) == 1 else usual._replace(unit="")
 
 
 def _kinds_of(base: type[Any]) -> Iterator[type[Any]]:
