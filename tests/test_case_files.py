@@ -111,6 +111,41 @@ def test_the_keys_of_the_oscillation_tell_what_it_is():
     ]
 
 
+OSCILLATION = re.compile(r"\[oscillation\][^[]*")
+
+
+@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
+def test_an_oscillation_may_be_named(motion):
+    text = write_case(case(oscillation=motion))
+    named = text.replace("[oscillation]\n", f'[oscillation]\nmotion = "{type(motion).__name__}"\n')
+    assert parse_case(named) == parse_case(text)
+
+
+def test_a_named_oscillation_is_held_to_its_name():
+    table = '[oscillation]\nmotion = "NormalOscillation"\nF_z0 = 0.1\ndF_z = 0.01\nomega = 300.0\n\n'
+    assert [fault.split("; ")[0] for fault in faults(OSCILLATION.sub(table, GOOD))] == [
+        "[oscillation] F_z0 is no key of NormalOscillation", "[oscillation] dF_z is no key of NormalOscillation",
+        "[oscillation] u_z0 is missing", "[oscillation] du_z is missing",
+    ]  # fmt: skip
+    (fault,) = faults(changed("[oscillation]", '[oscillation]\nmotion = "Normal"'))
+    assert fault == '[oscillation] motion "Normal" is unknown; did you mean NormalOscillation?'
+
+
+@dataclass(frozen=True)
+class Beat(mdr.PeriodicMotion):
+    """A motion of later, with the keys of an old one."""
+
+
+def test_a_motion_of_later_is_named_in_its_file_and_old_files_keep_their_meaning(monkeypatch):
+    monkeypatch.setattr(case_files.motion, "Beat", Beat, raising=False)
+    monkeypatch.setitem(contact.KINDS, "oscillation", (mdr.Motion,))
+    beat = case(oscillation=Beat(300.0, 2e-5, (1e-6,)))
+    assert 'motion = "Beat"' in write_case(beat)
+    assert parse_case(write_case(beat)) == beat
+    series = case(oscillation=MOTIONS["series"])
+    assert parse_case(write_case(series)) == series
+
+
 def test_every_public_shape_and_material_is_known():
     known = {**case_files._TABLES["indenter"].records(), **case_files._TABLES["material"].records()}
     public = {name: getattr(mdr, name, None) for name in mdr.__all__}

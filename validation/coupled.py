@@ -15,7 +15,6 @@ Symbols: beta Dundurs' constant, kappa = E*/G*, lambda = 2 |beta|/(pi mu_0 kappa
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
@@ -25,8 +24,6 @@ from validation.half_space import pictures, tables
 from validation.half_space.friction import Knobs, in_three_dimensions, march
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 SHAPES = ("paraboloid", "flat punch")
 RATIOS, FRICTIONS = (0.0, 0.15, 0.3, 0.45), (0.1, 0.3, 0.6)  # nu, mu_0

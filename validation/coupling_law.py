@@ -20,19 +20,18 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import curve_fit
 
 import mdr
 from mdr.closed_forms import coupling
 from mdr.plots import style
+from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
 from validation.half_space import tables
 from validation.half_space.friction import Knobs
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Figure
 
-Array = NDArray[np.float64]
 Column = Sequence[Row]  #: of one contact
 
 VELOCITIES = (3.0, 2.0, 1.5, 1.2, 1.0, 0.9, 0.8, 0.6, 0.4, 0.2)

@@ -33,7 +33,6 @@ from collections.abc import Sequence
 from math import log
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
@@ -45,7 +44,6 @@ from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
 from validation.report import Check, Claim, Figure
 
-Array = NDArray[np.float64]
 Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
 
 MEANS = {"paraboloid": 6 * log(2) - 4, "flat punch": 2 * log(2) - 1}  # M

@@ -16,15 +16,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
 from mdr.plots import COLOURS, style
+from mdr.tools.arrays import Array
 from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 LEVELS = tuple(
     round(64 * 16 ** (i / 10)) for i in range(11)

@@ -21,17 +21,15 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.friction.surface_fields import SurfaceFields, from_line_load, surface_fields
 from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
 from mdr.plots import COLOURS, style
+from mdr.tools.arrays import Array
 from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, shape_label
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 BODY = mdr.Elastic(E=E, nu=0.5)
 MU_0 = 0.5

@@ -21,16 +21,14 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.plots import style
+from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import LOOKS, POWERS, SHAPES, contact, loss, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 STIFFNESS, DAMPING = 1.5, 0.02  # k_x/k_xc at u_z0, c_x/(2 sqrt(k_x m))
 RATIOS = (0.3, 0.6, 0.8, 1.2, 1.5, 2.5, 3.5)  # omega_0/omega of the table

@@ -12,15 +12,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import full_slip
+from mdr.tools.arrays import Array
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 #: alpha, T, k_x/k_xc, omega_0/omega of the flat punch; it keeps contact in all
 PUNCHES = ((0.5, 0.0, 0.5, 0.7), (0.5, 0.5, 0.5, 0.7), (0.2, 3.0, 3.0, 1.6), (0.3, 1.0, 1.0, 0.0))

@@ -28,17 +28,15 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.normal.kelvin_edges import contact_edge
 from mdr.plots import style
+from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 PULLS: dict[str, dict[str, Any]] = {
     "rigid pull": {},

@@ -22,7 +22,6 @@ Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.case.pull import SpringPull
@@ -33,8 +32,6 @@ from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_
 from validation.generalisation import PULLS, Point, measure
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
 SHALLOW = 0.021 * DEPTH  # of the deepest amplitudes: alpha = 0.95

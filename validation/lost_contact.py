@@ -57,7 +57,6 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.case.pull import SpringPull
@@ -68,8 +67,6 @@ from validation.cases import LOOKS, SHAPES, contact, loss, shape_label
 from validation.finite_amplitude import DAMPING, STIFFNESS, deviation, system
 from validation.measured import Measured, worst
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 SHARP = 3e-5  # bracket of 2e-5 on either side, and 6e-6 = h²/6 by which a mean over a step misses the least slip
 RATIOS = (0.6, 1.5, 2.5)  # omega_0/omega

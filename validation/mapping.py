@@ -17,14 +17,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 import mdr.indenters as shapes
+from mdr.tools.arrays import Array
 from validation.cases import CATALOGUE, DEPTH, OMEGA, RADIUS, SHAPES, E, contact, depth_of, shape_label
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 E_STAR = E / (1 - 0.5**2)  # of the rubber
 ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim

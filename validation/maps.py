@@ -18,14 +18,12 @@ Symbols: omega_0² = k_x/m, k_xc tangential contact stiffness at u_z0, T = omega
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
 
-Array = NDArray[np.float64]
 Point = tuple[mdr.SlidingContact, mdr.MeasuredVelocity]
 
 SMALL = 0.003  #: alpha of the first map

@@ -18,15 +18,12 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.normal.indentation import Indentation, indent
 from mdr.plots import COLOURS, style
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 P = 20e-3  #: duration of a press [s]
 LOAD = 0.1  #: of the creep test [N]

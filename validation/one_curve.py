@@ -23,16 +23,14 @@ Symbols: alpha = du_z/u_z0, v = v_0/v_c, phi, theta phases, <F_N> mean normal fo
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.rigid_pull import average_friction
+from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
 SHOWN = 0.3  #: alpha of the figure

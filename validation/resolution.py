@@ -13,14 +13,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.plots import COLOURS, style
+from mdr.tools.arrays import Array
 from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 LEVELS = {
     "steps": tuple(round(64 * 16 ** (i / 16)) for i in range(17)),

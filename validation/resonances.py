@@ -40,7 +40,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.full_slip import mean_normal_force, normal_force_harmonics
@@ -49,8 +48,6 @@ from mdr.tools.progress import progress
 from validation.cases import contact, loss
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
 MULTIPLES = (1, 2, 3, 4, 5)

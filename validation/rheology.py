@@ -21,7 +21,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms import paper
@@ -30,8 +29,6 @@ from mdr.tools.progress import progress
 from validation.cases import DEPTH, OMEGA, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 NU = 0.5
 RATIO = 3.0  # E_1/E_inf of the standard solid

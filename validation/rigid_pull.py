@@ -16,16 +16,15 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
+from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
 from validation.lost_contact import SHARP, amplitude_limit, late, slow_limit
 from validation.measured import worst
 from validation.report import Check, Claim, Figure
 
-Array = NDArray[np.float64]
 Measured = dict[tuple[float, float], dict[str, tuple[float | None, float]]]  #: alpha, T: shape: runs, full slip
 
 #: alpha, T, shapes

@@ -18,14 +18,12 @@ at s = 2.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.plots import COLOURS, style
+from mdr.tools.arrays import Array
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 ALPHA = 0.1
 DAMPING = 0.05  # c_x/(2 sqrt(k_x m))

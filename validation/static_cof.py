@@ -19,15 +19,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import full_slip
+from mdr.tools.arrays import Array
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 QUICK = (
     ("flat punch", 0.2, 0.0),

@@ -47,11 +47,10 @@ from mdr.march.steady_state import TOLERANCE, Settling
 from mdr.march.stepper import Stepper
 from mdr.march.waiting import Waiting, way_from_rest
 from mdr.plots import COLOURS, style
+from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
 from validation.report import Check, Claim, Figure
-
-Array = NDArray[np.float64]
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
 SYSTEMS = {"quick": 6, "full": 60, "long": 200}

@@ -1,11 +1,18 @@
-"""Docstrings of mdr are plain text: paragraphs, indented formulas, lists with *, names in backticks."""
+"""Docstrings of mdr are plain text: paragraphs, indented formulas, lists with *, names in backticks.
 
+Fields of records tell themselves, by their facts.
+"""
+
+import inspect
 import re
 from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
 from itertools import groupby
 from typing import Any
 
 from sphinx.application import Sphinx
+
+from mdr.tools.fields import facts_of
 
 MOST = 100  #: characters of a signature
 NAME = re.compile(r"``([^`]+)``|`([^`]+)`")
@@ -49,9 +56,17 @@ def _plain(text: str) -> str:
     return re.sub(r"([\\*|_`:<])", r"\\\1", text)
 
 
+def _own_fields(record: Any) -> Iterator[str]:
+    """The fields that a record declares, as attributes with the meaning and unit that their facts tell."""
+    for field in fields(record) if is_dataclass(record) else ():
+        told = str(facts_of(field))
+        if told and field.name in inspect.get_annotations(record):
+            yield from ["", f".. py:attribute:: {field.name}", "", f"   {_plain(told)}", ""]
+
+
 def set_docstring(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """In place, as autodoc asks for it."""
-    lines[:] = reading(lines)
+    lines[:] = [*reading(lines), *(_own_fields(obj) if what == "class" else ())]
 
 
 def set_signature(

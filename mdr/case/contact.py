@@ -14,13 +14,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.depth_cycle import Cycle
+from mdr.case.depth_cycle import Cycle, stick_limit
 from mdr.case.motion import DepthMotion, LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
 from mdr.materials.operator import Rheology
-from mdr.tools.checks import positive
+from mdr.tools.checks import instance
+from mdr.tools.fields import check_fields, facts
 from mdr.tools.memoise import remembered
 
 KINDS: dict[str, tuple[type, ...]] = {  #: of the parts; the rest of the chain knows these and no others
@@ -35,20 +36,20 @@ KINDS: dict[str, tuple[type, ...]] = {  #: of the parts; the rest of the chain k
 class SlidingContact:
     """An indenter that slides on a half-space while it is shaken in the normal direction."""
 
-    indenter: Indenter  #: shape
-    material: Material  #: half-space
-    mu_0: float  #: local (Amontons) coefficient of friction [-]
-    oscillation: Motion  #: imposed normal motion
-    pull: Pull = field(default_factory=RigidPull)  #: what pulls in the plane
+    indenter: Indenter = field(metadata=facts("", "shape", rule=None))
+    material: Material = field(metadata=facts("", "half-space", rule=None))
+    mu_0: float = field(
+        metadata=facts(
+            "-", "local coefficient of friction", label=r"local friction $\mu_0$", note="coefficient of friction"
+        )
+    )
+    oscillation: Motion = field(metadata=facts("", "normal motion", rule=None))
+    pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
 
     def __post_init__(self) -> None:
         for name, kinds in KINDS.items():
-            value = getattr(self, name)
-            if not isinstance(value, kinds):
-                hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
-                names = " or ".join(kind.__name__ for kind in kinds)
-                raise TypeError(f"{name} must be of kind {names}, got {value!r}{hint}")
-        object.__setattr__(self, "mu_0", positive("mu_0", self.mu_0, "coefficient of friction"))
+            instance(name, getattr(self, name), *kinds)
+        check_fields(self)
         if self.material.E_star == 0:
             raise ValueError(
                 "E_inf = 0: a mean load relaxes to nothing, or sinks in without end, so that there is no periodic "
@@ -136,7 +137,7 @@ class SlidingContact:
     @property
     def unit_velocity(self) -> float:
         """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities."""
-        return self.mu_0 * self.material.mindlin_ratio * self.oscillation.omega * self.cycle.du_z
+        return stick_limit(self.mu_0, self.cycle.du_z, self.oscillation.omega, self.material.mindlin_ratio)
 
     @property
     def kept_gap(self) -> float:

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
 
@@ -136,3 +135,8 @@ def peaks(harmonics: NDArray[np.complex128], some: int = 24, within: NDArray[np.
 def instants(n_harmonics: int) -> int:
     """Instants of the period that resolve so many harmonics, a power of two."""
     return int(2 ** np.ceil(np.log2(max(DENSE * n_harmonics, 64))))
+
+
+def stick_limit(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:
+    """Greatest rate [m/s] of the deflection at which a pressed spring slips, mu_0 kappa omega du_z: Eq. (1)."""
+    return mu_0 * mindlin_ratio * omega * du_z

@@ -8,17 +8,28 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.depth_cycle import Cycle
-from mdr.tools.checks import count, finite, finite_array, not_negative, positive
+from mdr.tools.checks import FieldError, FieldTypeError, count, finite, finite_array, not_negative
+from mdr.tools.fields import Record, facts
 
 
-class Motion(ABC):
+def _amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
+    if isinstance(values, str) or not isinstance(values, Sequence | np.ndarray):
+        raise FieldTypeError(f"{name} must be a list of amplitudes in m, got {values!r}", name)
+    return tuple(finite(f"{name}[{n}]", value) for n, value in enumerate(values))
+
+
+FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$")
+MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$")
+
+
+class Motion(Record, ABC):
     """A periodic normal motion."""
 
     omega: float
@@ -58,18 +69,17 @@ class NormalOscillation(DepthMotion):
     that is tapping, u_z0 + du_z > 0.
     """
 
-    u_z0: float  #: mean indentation depth [m]
-    du_z: float  #: amplitude [m]
-    omega: float  #: angular frequency [rad/s]
+    u_z0: float = field(metadata=MEAN_DEPTH)
+    du_z: float = field(metadata=facts("m", "amplitude of the depth", label=r"amplitude $\Delta u_z$"))
+    omega: float = field(metadata=FREQUENCY)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "u_z0", finite("u_z0", self.u_z0))
-        object.__setattr__(self, "du_z", positive("du_z", self.du_z, "amplitude in m"))
-        object.__setattr__(self, "omega", positive("omega", self.omega, "angular frequency in rad/s"))
+        super().__post_init__()
         if self.u_z0 + self.du_z <= 0:
-            raise ValueError(
+            raise FieldError(
                 f"u_z0 + du_z = {self.u_z0 + self.du_z:.6g} m: the indenter never touches; "
-                f"raise u_z0 above -du_z = {-self.du_z:.6g} m"
+                f"raise u_z0 above -du_z = {-self.du_z:.6g} m",
+                "u_z0",
             )
 
     @property
@@ -88,23 +98,22 @@ class PeriodicMotion(DepthMotion):
     list left out, or shorter than the other, is filled with zeros, and zeros at the end of both are dropped.
     """
 
-    omega: float  #: angular frequency of the period [rad/s]
-    u_z0: float  #: mean indentation depth [m]
-    cos: tuple[float, ...] = ()  #: amplitudes of cos(n omega t) [m], n = 1, 2, ...
-    sin: tuple[float, ...] = ()  #: amplitudes of sin(n omega t) [m], n = 1, 2, ...
+    omega: float = field(metadata=FREQUENCY)
+    u_z0: float = field(metadata=MEAN_DEPTH)
+    cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", _amplitudes))
+    sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", _amplitudes))
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "omega", positive("omega", self.omega, "angular frequency in rad/s"))
-        object.__setattr__(self, "u_z0", finite("u_z0", self.u_z0))
-        lists = [_amplitudes("cos", self.cos), _amplitudes("sin", self.sin)]
-        length = max((n for values in lists for n, value in enumerate(values, start=1) if value), default=0)
-        for name, values in zip(("cos", "sin"), lists, strict=True):
+        super().__post_init__()
+        lists = {"cos": self.cos, "sin": self.sin}
+        length = max((n for values in lists.values() for n, value in enumerate(values, start=1) if value), default=0)
+        for name, values in lists.items():
             object.__setattr__(self, name, (values + (0.0,) * length)[:length])
         if not length:
-            raise ValueError("cos and sin are all zero: nothing oscillates; give an amplitude in m")
+            raise FieldError("cos and sin are all zero: nothing oscillates; give an amplitude in m", "cos")
         deepest = self.u_z0 + self.cycle.du_z * self.cycle.greatest
         if deepest <= 0:
-            raise ValueError(f"u_z = {deepest:.6g} m at its deepest: the indenter never touches; raise u_z0")
+            raise FieldError(f"u_z = {deepest:.6g} m at its deepest: the indenter never touches; raise u_z0", "u_z0")
 
     @property
     def cycle(self) -> Cycle:
@@ -137,28 +146,20 @@ class LoadOscillation(Motion):
     Without mass the load must press at every instant, dF_z < F_z0; with one it may let go.
     """
 
-    F_z0: float  #: mean load [N]
-    dF_z: float  #: amplitude [N]
-    omega: float  #: angular frequency [rad/s]
-    m_z: float = 0.0  #: mass moved in the normal direction [kg]
+    F_z0: float = field(metadata=facts("N", "mean load", label="mean load $F_{z0}$"))
+    dF_z: float = field(metadata=facts("N", "amplitude of the load", label=r"load amplitude $\Delta F_z$"))
+    omega: float = field(metadata=FREQUENCY)
+    m_z: float = field(default=0.0, metadata=facts("kg", "mass that the load moves", not_negative))
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "F_z0", positive("F_z0", self.F_z0, "mean load in N"))
-        object.__setattr__(self, "dF_z", positive("dF_z", self.dF_z, "amplitude of the load in N"))
-        object.__setattr__(self, "omega", positive("omega", self.omega, "angular frequency in rad/s"))
-        object.__setattr__(self, "m_z", not_negative("m_z", self.m_z, "mass in kg"))
+        super().__post_init__()
         if self.m_z == 0 and self.dF_z >= self.F_z0:
-            raise ValueError(
+            raise FieldError(
                 f"dF_z = {self.dF_z:.6g} N must be less than F_z0 = {self.F_z0:.6g} N where nothing has mass: the load "
-                "would lift the indenter off and no contact bring it back; lower dF_z, or give m_z"
+                "would lift the indenter off and no contact bring it back; lower dF_z, or give m_z",
+                "dF_z",
             )
 
     def F_z(self, t: ArrayLike) -> NDArray[np.float64]:
         """Load [N] at times t [s]."""
         return self.F_z0 + self.dF_z * np.cos(self.omega * finite_array("t", t, "s"))
-
-
-def _amplitudes(name: str, values: Any) -> tuple[float, ...]:
-    if isinstance(values, str) or not isinstance(values, Sequence | np.ndarray):
-        raise TypeError(f"{name} must be a list of amplitudes in m, got {values!r}")
-    return tuple(finite(f"{name}[{n}]", value) for n, value in enumerate(values))

@@ -14,15 +14,18 @@ Symbols: k_x stiffness [N/m], m mass [kg], c_x damping [N s/m], omega angular fr
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import finite_array, not_negative, positive
+from mdr.tools.checks import finite_array, not_negative
+from mdr.tools.fields import Record, facts
+
+STIFFNESS = "stiffness in N/m; for a rigid pull use RigidPull()"  #: what a refused one is told
 
 
-class Pull(ABC):
+class Pull(Record, ABC):
     """What every pull must answer: the linear oscillator that it makes of the body."""
 
     @property
@@ -73,15 +76,15 @@ class RigidPull(Pull):
 class SpringPull(Pull):
     """A mass pulled through a spring, Fig. 2 of the paper; m = 0 is a quasi-static body."""
 
-    k_x: float  #: stiffness of the system spring [N/m]
-    m: float = 0.0  #: sliding mass [kg]
-    c_x: float = 0.0  #: damper in parallel to the spring [N s/m]
-
-    def __post_init__(self) -> None:
-        way_out = "for a rigid pull use RigidPull()"
-        object.__setattr__(self, "k_x", positive("k_x", self.k_x, f"stiffness in N/m; {way_out}"))
-        object.__setattr__(self, "m", not_negative("m", self.m, "mass in kg"))
-        object.__setattr__(self, "c_x", not_negative("c_x", self.c_x, "damping in N s/m"))
+    k_x: float = field(
+        metadata=facts("N/m", "stiffness of the system spring", label="system stiffness $k_x$", note=STIFFNESS)
+    )
+    m: float = field(
+        default=0.0, metadata=facts("kg", "sliding mass", not_negative, label="mass $m$", note="mass in kg")
+    )
+    c_x: float = field(
+        default=0.0, metadata=facts("N s/m", "damping of the system", not_negative, label="system damping $c_x$")
+    )
 
     @property
     def coefficients(self) -> tuple[float, float, float]:

@@ -1,59 +1,51 @@
-"""What the fields of the records are called and measured in: units and meanings for the axes of a study."""
+"""What a path of a study is called and measured in: a field of a record tells itself, a dimensionless group here."""
 
 from __future__ import annotations
 
-UNITS_AND_MEANINGS: dict[str, tuple[str, str]] = {
-    "mu_0": ("-", "local coefficient of friction"),
-    "v_0": ("m/s", "pulling velocity"),
-    "v_0/v_c": ("-", "pulling velocity over the critical velocity of the case, Eq. (15)"),
-    "alpha": ("-", "relative amplitude du_z/u_z0"),
-    "T": ("-", "omega tau, the loss tangent of a Kelvin material"),
-    "k_x/k_xc": ("-", "stiffness of the system spring over that of the contact"),
-    "omega_0/omega": ("-", "natural frequency of the body over that of the oscillation"),
-    "indenter": ("", "shape"),
-    "indenter.r": ("m", "radii of the points, from 0"),
-    "indenter.f": ("m", "heights at them"),
-    "indenter.d": ("m", "depths, from 0"),
-    "indenter.F": ("N", "normal forces at them"),
-    "indenter.tip": ("", "round or sharp"),
-    "indenter.kinks": ("m", "radii at which the slope jumps"),
-    "indenter.R": ("m", "radius of curvature"),
-    "indenter.R1": ("m", "radius of curvature of the cap"),
-    "indenter.R2": ("m", "radius of curvature around the cap"),
-    "indenter.a": ("m", "radius of the face"),
-    "indenter.a_0": ("m", "radius of the face"),
-    "indenter.b": ("m", "radius of the face or cap"),
-    "indenter.c": ("", "coefficient or half-axis across"),
-    "indenter.d_0": ("m", "depth at which the whole face touches"),
-    "indenter.h": ("m", "half-axis along the axis of revolution"),
-    "indenter.k": ("1/m", "inverse of the half-axis across"),
-    "indenter.n": ("-", "exponent of the profile"),
-    "indenter.theta": ("rad", "angle between flank and plane"),
-    "indenter.r_max": ("m", "radius at which the shape ends"),
-    "indenter.E_star": ("Pa", "contact modulus of the body on which F was measured"),
-    "indenter.smoothing": ("", "standard deviation of the noise of the data"),
-    "material": ("", "half-space"),
-    "material.E": ("Pa", "long-time Young's modulus"),
-    "material.nu": ("-", "Poisson's ratio"),
-    "material.tau": ("s", "relaxation time gamma/k"),
-    "material.E_1": ("Pa", "Young's modulus of the arm or of the first body"),
-    "material.nu_1": ("-", "Poisson's ratio of the first body"),
-    "material.E_2": ("Pa", "Young's modulus of the second body"),
-    "material.nu_2": ("-", "Poisson's ratio of the second body"),
-    "material.E_inf": ("Pa", "long-time Young's modulus"),
-    "material.tau_1": ("s", "relaxation time of the arm"),
-    "material.arms": ("", "arms (E_j [Pa], tau_j [s])"),
-    "oscillation": ("", "normal motion"),
-    "oscillation.u_z0": ("m", "mean indentation depth"),
-    "oscillation.du_z": ("m", "amplitude of the depth"),
-    "oscillation.omega": ("rad/s", "angular frequency"),
-    "oscillation.cos": ("m", "amplitudes of cos(n omega t)"),
-    "oscillation.sin": ("m", "amplitudes of sin(n omega t)"),
-    "oscillation.F_z0": ("N", "mean load"),
-    "oscillation.dF_z": ("N", "amplitude of the load"),
-    "oscillation.m_z": ("kg", "mass that the load moves"),
-    "pull": ("", "what pulls in the plane"),
-    "pull.k_x": ("N/m", "stiffness of the system spring"),
-    "pull.m": ("kg", "sliding mass"),
-    "pull.c_x": ("N s/m", "damping of the system"),
-}
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.tools.fields import NOTHING, Facts, facts, facts_of
+
+NO_FIELDS = {
+    "v_0": facts("m/s", "pulling velocity", label="pulling velocity $v_0$"),
+    "v_0/v_c": facts(
+        "-", "pulling velocity over the critical velocity of the case, Eq. (15)", label="pulling velocity $v_0/v_c$"
+    ),
+    "alpha": facts("-", "relative amplitude du_z/u_z0", label=r"amplitude $\alpha = \Delta u_z/u_{z0}$"),
+    "T": facts("-", "omega tau, the loss tangent of a Kelvin material", label=r"loss tangent $T = \omega\tau$"),
+    "k_x/k_xc": facts(
+        "-", "stiffness of the system spring over that of the contact", label="system stiffness $k_x/k_{xc}$"
+    ),
+    "omega_0/omega": facts(
+        "-", "natural frequency of the body over that of the oscillation", label=r"natural frequency $\omega_0/\omega$"
+    ),
+}  #: paths of a study that are none of a record
+
+
+def facts_at(path: str) -> Facts:
+    """The facts at a path such as "material.tau"; `NOTHING` of an unknown one.
+
+    Where several kinds of a part have the field, its unit is "" if they differ in it, and its meaning that of most.
+    """
+    if path in NO_FIELDS:
+        return NO_FIELDS[path]["facts"]
+    slot, _, name = path.rpartition(".")
+    records = {record for kind in KINDS.get(slot, ()) for record in _kinds_of(kind)} if slot else {SlidingContact}
+    named = sorted((one for one in records if is_dataclass(one)), key=lambda one: one.__name__)
+    known = [facts_of(field) for record in named for field in fields(record) if field.name == name]
+    found = Counter(one for one in known if one.meaning)
+    if not found:
+        return NOTHING
+    usual = found.most_common(1)[0][0]
+    return usual if len({one.unit for one in found}) == 1 else usual._replace(unit="")
+
+
+def _kinds_of(base: type[Any]) -> Iterator[type[Any]]:
+    """A class and all that are derived from it."""
+    yield base
+    for one in base.__subclasses__():
+        yield from _kinds_of(one)

@@ -38,11 +38,10 @@ from mdr.case.motion import LoadOscillation
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle, of_harmonics
 from mdr.normal.kelvin_edges import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
+from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.memoise import remembered
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 N_INSTANTS = 8192  #: of the period; harmonics up to half of it
 

@@ -23,7 +23,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import peaks
@@ -31,8 +30,7 @@ from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.kelvin_edges import kept_gap, leaving_phase, touching_phase, turning_phase
-
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 N_NODES = 20
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there

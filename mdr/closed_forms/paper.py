@@ -20,7 +20,7 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.case.depth_cycle import peak
+from mdr.case.depth_cycle import peak, stick_limit
 from mdr.tools.checks import finite_array
 
 _P = ParamSpec("_P")
@@ -172,7 +172,7 @@ def eq_1(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:
 
     The limit k_x -> infinity of Eq. (15); the rheology drops out, and so does the depth.
     """
-    return mu_0 * omega * du_z * mindlin_ratio
+    return stick_limit(mu_0, du_z, omega, mindlin_ratio)
 
 
 @_finite

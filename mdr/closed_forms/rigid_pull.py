@@ -51,10 +51,9 @@ from mdr.case.contact import SlidingContact, require_case
 from mdr.closed_forms.full_slip import edge_marks, mean_normal_force
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
+from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 STEPS = (0.11, 0.22)  #: of the double-exponential rule, and of the one that it is compared with
 

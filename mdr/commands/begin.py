@@ -54,16 +54,16 @@ def case(args: argparse.Namespace, _: None) -> int:
 
 def _tables() -> dict[str, dict[str, Any]]:
     """{table of a file: {name: {"is": first line of its docstring, "keys": {key: {"unit", "meaning"}}}}}."""
-    from mdr.case.units import UNITS_AND_MEANINGS
-    from mdr.files.case_files import nameable
+    from dataclasses import fields
 
-    tables: dict[str, dict[str, Any]] = {}
-    for table, records in nameable().items():
-        tables[table] = {}
-        for name, (record, keys) in records.items():
-            told = {key: UNITS_AND_MEANINGS.get(f"{table}.{key}", ("", "")) for key in keys}
-            tables[table][name] = {
-                "is": (record.__doc__ or "").strip().splitlines()[0],
-                "keys": {key: {"unit": unit, "meaning": meaning} for key, (unit, meaning) in told.items()},
-            }
-    return tables
+    from mdr.files.case_files import nameable
+    from mdr.tools.fields import facts_of
+
+    def told(record: type[Any]) -> dict[str, Any]:
+        keys = {one.name: facts_of(one) for one in fields(record) if one.init}
+        return {
+            "is": (record.__doc__ or "").strip().splitlines()[0],
+            "keys": {key: {"unit": its.unit, "meaning": its.meaning} for key, its in keys.items()},
+        }
+
+    return {table: {name: told(one) for name, one in records.items()} for table, records in nameable().items()}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from os import PathLike, fsdecode
 from typing import Any
 
 import numpy as np
 
 from mdr.files.case_files import parse_toml, read_text
+from mdr.materials import Prony
 from mdr.tools.csv_table import cells_of, fault
 from mdr.tools.messages import short
 
@@ -58,7 +60,7 @@ def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
         raise fault(name, f"material must be a table of keys, got {short(str(table))}")
     table = dict(table)
     model = table.pop("model", "Prony")
-    known = ("E_inf", "arms", "nu", "tau")
+    known = [one.name for one in fields(Prony)]
     unknown = [key for key in table if key not in known]
     if model != "Prony" or unknown:
         other = f'model "{short(str(model))}" is not Prony'

@@ -19,12 +19,12 @@ default, and no [pull] is a rigid pull:
     [pull]
     k_x = 2e4
 
-The keys of [oscillation] tell what it is: F_z0 and dF_z make a LoadOscillation, lists cos and sin a PeriodicMotion.
+[oscillation] may name its record, motion = "LoadOscillation". Without a name it is a LoadOscillation where one of the
+keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a NormalOscillation.
 A Prony material has arms = [[E_j, tau_j], ...].
 
-A file that is wrong is refused with every fault at once. Values are checked by the records themselves. To see
-behind a wrong or missing value, harmless numbers of several magnitudes take its place in turn: what is refused
-with each of them, in the same words, is a further fault.
+A file that is wrong is refused with every fault at once: what is missing, what is no key, each value that the rule of
+its field refuses; and, of a record whose values are all sound, what they are refused for together.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from inspect import isabstract
 from os import PathLike, fsdecode
@@ -42,14 +42,14 @@ from typing import Any
 from mdr import indenters, materials
 from mdr.case import motion
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.motion import Motion, NormalOscillation
+from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
+from mdr.tools.fields import checked
 from mdr.tools.messages import nearest, offer, one_line, short
 
 MAX_BYTES = 2**24  #: of a case file
-_STAND_INS = (1.0, 0.2, 1e-3, 1e-9, 50.0)  # for a number that is missing or wrong
 _DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
 
 
@@ -115,17 +115,16 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     known = _top_level()
     content = {key: value for key, value in content.items() if key not in beside}
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
-    tables = {**_meant(content), **content}
-    parts: dict[str, Any] = {}
-    for table in _TABLES.values():
-        part, found = table.read(tables)
-        faults += found
-        if part is not None:
-            parts[table.name] = part
+    parts, of_tables = _read_tables(content)
+    faults += [fault for found in of_tables.values() for fault in found]
     given = {key: _number(value) for key, value in content.items() if key in known and key not in _TABLES}
-    case, found = _build(SlidingContact, {**(_HARMLESS if faults else parts), **given})
-    if faults or found:
-        raise fault_error(source, [*faults, *found])
+    refused = _field_faults(SlidingContact, {**_HARMLESS, **given})
+    case: Any = None
+    whole: list[str] = []
+    if not faults:  # whether the parts fit each other shows whatever mu_0 is
+        case, whole = _tried(SlidingContact, **parts, **({"mu_0": 1.0} if refused else given))
+    if faults := [*faults, *refused, *whole]:
+        raise fault_error(source, faults)
     assert isinstance(case, SlidingContact)
     return case
 
@@ -135,11 +134,17 @@ def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str
 
     To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
     """
+    parts, faults = _read_tables(content)
+    sound = {name: part for name, part in parts.items() if name not in faults}
+    return _tried(SlidingContact, **{**_HARMLESS, **sound, "mu_0": 1.0})[0], set(faults)
+
+
+def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, list[str]]]:
+    """The parts that the tables describe, and the faults of those tables that have some."""
     tables = {**_meant(content), **content}
-    read = {table.name: table.read(tables) for table in _TABLES.values()}
-    unsound = {name for name, (_, faults) in read.items() if faults}
-    parts = {name: part for name, (part, _) in read.items() if part is not None and name not in unsound}
-    return _make(SlidingContact, {**_HARMLESS, **parts, "mu_0": 1.0})[0], unsound
+    read = {name: table.read(tables) for name, table in _TABLES.items()}
+    parts = {name: part for name, (part, _) in read.items() if part is not None}
+    return parts, {name: faults for name, (_, faults) in read.items() if faults}
 
 
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
@@ -147,12 +152,9 @@ def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
     return _TABLES[name].read({name: table})
 
 
-def nameable() -> dict[str, dict[str, tuple[type[Any], list[str]]]]:
-    """The records that a file can name and the keys of each, {table: {name: (record, keys)}}."""
-    return {
-        table.name: {name: (record, [one.name for one in _inputs(record)]) for name, record in table.writable().items()}
-        for table in _TABLES.values()
-    }
+def nameable() -> dict[str, dict[str, type[Any]]]:
+    """The records that a file can name, {table: {name: record}}; their fields are the keys."""
+    return {name: table.writable() for name, table in _TABLES.items()}
 
 
 def read_text(path: str | PathLike[str]) -> str:
@@ -186,9 +188,10 @@ class _Table:
     """One table of the file: the records it may describe, and the key that chooses among them."""
 
     name: str
-    choice: str  #: the key that names the record; empty where its other keys tell
+    choice: str  #: the key that names the record; empty where there is one record only
     module: ModuleType | None
     kind: type[Any]
+    unnamed: tuple[type[Any], ...] = ()  #: records that need no name: the first with a key that the last has not
 
     def records(self) -> dict[str, type[Any]]:
         """Public records by name; for a new one it is enough to be public in its module."""
@@ -230,9 +233,8 @@ class _Table:
 
     def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, str]:
         """The record that the table names, or what is wrong with the name."""
-        if not self.choice:
-            own = [(sum(key in self.keys(record) for key in table), record) for record in self.records().values()]
-            return max(own, key=lambda one: (one[0], one[1] is NormalOscillation))[1], ""
+        if self.unnamed and (not self.choice or self.choice not in table):
+            return self._told_by(table), ""
         names, name = self.writable(), table.get(self.choice)
         others = f"choose one of {', '.join(names)}"
         if self.choice not in table:
@@ -244,13 +246,20 @@ class _Table:
             return None, f'{self.choice} "{name}": {_CALLABLE}; {others}'
         return names.get(name), f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}"
 
+    def _told_by(self, keys: Iterable[str]) -> type[Any]:
+        """The record of a table that does not name it."""
+        *special, usual = self.unnamed
+        telling = set(keys).difference(self.keys(usual))
+        return next((record for record in special if telling.intersection(self.keys(record))), usual)
+
     def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, list[str]]:
         """The record made of the keys of the table, or None; and the faults."""
         known = self.keys(record)
         unknown = [self._unknown(key, record) for key in table if key not in known]
         given = {key: _number(table[key]) for key in table if key in known and key != self.choice}
-        made, faults = _build(record, given, "leave [pull] out for a rigid pull" if record is SpringPull else "")
-        return made, [*unknown, *faults]
+        faults = _field_faults(record, given, "; leave [pull] out for a rigid pull" if record is SpringPull else "")
+        made, together = (None, []) if faults else _tried(record, **given)
+        return made, [*unknown, *faults, *together]
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""
@@ -268,8 +277,8 @@ _TABLES = {
     for table in (
         _Table("indenter", "shape", indenters, Indenter),
         _Table("material", "model", materials, Material),
-        _Table("oscillation", "", motion, Motion),
-        _Table("pull", "", None, SpringPull),
+        _Table("oscillation", "motion", motion, Motion, (LoadOscillation, PeriodicMotion, NormalOscillation)),
+        _Table("pull", "", None, SpringPull, (SpringPull,)),
     )
 }
 _HARMLESS = {
@@ -322,43 +331,19 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
-def _build(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> tuple[Any, list[str]]:
-    """The record made of the given values, or None; and every fault: what is missing, then what is refused."""
-    free = [field.name for field in _inputs(record) if _is_required(field) and field.name not in given]
-    faults = [f"{name} is missing" + (f"; {way_out}" if way_out else "") for name in free]
-    while True:
-        known = {name: value for name, value in given.items() if name not in free}
-        outcomes = [_make(record, {**known, **fill}) for fill in _fillings(free)]
-        made = [one for one, _ in outcomes if one is not None]
-        refusals = {refusal for _, refusal in outcomes if _subject(refusal) not in free}
-        if made or len(refusals) != 1:
-            return (made[0] if made and not faults else None), faults
-        faults += refusals
-        subject = _subject(faults[-1])
-        if subject not in known:
-            return None, faults
-        free.append(subject)
+def _field_faults(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> list[str]:
+    """What is missing, then what each field refuses by its rule."""
+    absent = [one for one in _inputs(record) if _is_required(one) and one.name not in given]
+    refused = [_tried(checked, one, given[one.name])[1] for one in _inputs(record) if one.name in given]
+    return [f"{one.name} is missing{way_out}" for one in absent] + [fault for found in refused for fault in found]
 
 
-def _make(record: type[Any], values: Mapping[str, Any]) -> tuple[Any, str]:
-    """The record, or None and the words of its refusal."""
+def _tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:
+    """What is made, or None and the words of the refusal."""
     try:
-        return record(**values), ""
+        return make(*given, **named), []
     except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
-        return None, one_line(str(refusal) or type(refusal).__name__)
-
-
-def _fillings(names: list[str]) -> Iterator[dict[str, float]]:
-    """Numbers for fields without a usable value: several magnitudes, in both orders; nothing for no fields."""
-    for size in _STAND_INS if names else (1.0,):
-        for order in (names, names[::-1]):
-            yield {name: size * (1 + 0.1 * i) for i, name in enumerate(order)}
-
-
-def _subject(message: str) -> str:
-    """The quantity that a message is about: its first word."""
-    found = re.match(r"\w+", message)
-    return found.group() if found else ""
+        return None, [one_line(str(refusal) or type(refusal).__name__)]
 
 
 def _number(value: Any) -> Any:
@@ -386,7 +371,8 @@ def _written(table: _Table, record: Any) -> str:
         raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
     values = {field.name: getattr(record, field.name) for field in _inputs(type(record))}
     lines = [f"{key} = {toml_value(value)}" for key, value in values.items() if value is not None]
-    head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if table.choice else [])]
+    named = table._told_by(values) is not type(record) if table.unnamed else True
+    head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if named else [])]
     return "\n".join(head + lines)
 
 

@@ -5,7 +5,7 @@ Every example is a small body of rubber 20 µm deep, which touches over a disc o
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import Field, fields
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,8 @@ from mdr import indenters, materials
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
-from mdr.case.units import UNITS_AND_MEANINGS
 from mdr.files.case_files import toml_value
+from mdr.tools.fields import facts_of
 from mdr.tools.messages import offer, short
 
 DEPTH, RADIUS, E = 20e-6, 1e-3, 3e6  # m, m, Pa
@@ -88,13 +88,13 @@ def example(
 
 def example_file(case: SlidingContact) -> str:
     """The TOML text of a case, each key with its unit and meaning."""
-    tables = [
+    tables: list[tuple[str, str, str, Any]] = [
         ("indenter", "shape", "the shape that is pressed in; its fields follow", case.indenter),
         ("material", "model", "the half-space", case.material),
         ("oscillation", "", _of_motion(case.oscillation), case.oscillation),
         ("pull", "", "what drags it; a rigid pull without this table", case.pull),
     ]
-    lines = [_line("mu_0", case.mu_0, "mu_0")]
+    lines = [_line(one, case) for one in fields(case) if one.name == "mu_0"]
     for name, choice, meaning, record in tables:
         if isinstance(record, RigidPull):
             lines += ["", "# no [pull]: a rigid pull; give k_x [N/m], m [kg] and c_x [N s/m] for a body on a spring"]
@@ -102,10 +102,7 @@ def example_file(case: SlidingContact) -> str:
         lines += ["", f"{f'[{name}]':<{WIDEST}}# {meaning}"]
         if choice:
             lines.append(f'{choice} = "{type(record).__name__}"')
-        for one in fields(record):  # type: ignore[arg-type]
-            value = getattr(record, one.name) if one.init else None
-            if value is not None:
-                lines.append(_line(one.name, value, f"{name}.{one.name}"))
+        lines += [_line(one, record) for one in fields(record) if one.init and getattr(record, one.name) is not None]
     return "\n".join(lines) + "\n"
 
 
@@ -126,10 +123,11 @@ def _of_motion(motion: Motion) -> str:
     return "depth u_z0 + du_z cos(omega t)"
 
 
-def _line(key: str, value: Any, path: str) -> str:
-    unit, meaning = UNITS_AND_MEANINGS.get(path, ("", ""))
+def _line(field: Field[Any], record: Any) -> str:
+    """A key with its value, unit and meaning."""
+    unit, meaning, *_ = facts_of(field)
     comment = f"# {f'[{unit}] ' if unit else ''}{meaning}" if unit or meaning else ""
-    return f"{f'{key} = {_written(value)}':<{WIDEST}}{comment}".rstrip()
+    return f"{f'{field.name} = {_written(getattr(record, field.name))}':<{WIDEST}}{comment}".rstrip()
 
 
 def _written(value: Any) -> str:

@@ -18,11 +18,10 @@ from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.slide import slide
 from mdr.march.theorems import disordered
+from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite_array
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with

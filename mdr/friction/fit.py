@@ -12,17 +12,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.contact import KINDS, SlidingContact, require_case
-from mdr.case.units import UNITS_AND_MEANINGS
+from mdr.case.units import facts_at
 from mdr.case.vary import GROUPS, case_at, fields_of
 from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.friction_data import FrictionData
+from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
 from mdr.tools.progress import Ticker
-
-Array = NDArray[np.float64]
 
 STEP = 1e-3  #: of a logarithm, for derivatives: well above the noise of a run, well below any curvature
 VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the data hardly tell the parameter
@@ -57,8 +55,8 @@ class Fit:
 
     def __str__(self) -> str:
         rows = [
-            f"{name:<16} {self.values[name]:.6g} {_unit(name)}  ({self.low[name]:.4g} ... {self.high[name]:.4g})"
-            for name in self.values
+            f"{name:<16} {value:.6g} {_unit(self.case, name)}  ({self.low[name]:.4g} ... {self.high[name]:.4g})"
+            for name, value in self.values.items()
         ]
         return "\n".join([f"{self.confidence:.0%} intervals:", *rows, *self.warnings])
 
@@ -205,6 +203,5 @@ def _value(case: SlidingContact, path: str) -> Any:
     return getattr(getattr(case, slot), field)
 
 
-def _unit(name: str) -> str:
-    found = [unit for path, (unit, _) in UNITS_AND_MEANINGS.items() if path == name or path.endswith(f".{name}")]
-    return found[0] if found else "-"
+def _unit(case: SlidingContact, name: str) -> str:
+    return "-" if name == "mindlin_ratio" else facts_at(_path(case, name)).unit

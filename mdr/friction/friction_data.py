@@ -15,15 +15,13 @@ from dataclasses import dataclass
 from os import PathLike, fsdecode
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.files.case_files import read_text
+from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_table import cells_of, fault
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 UNITS = {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3, "um/s": 1e-6, "µm/s": 1e-6, "μm/s": 1e-6, "nm/s": 1e-9}
 NAMES = {

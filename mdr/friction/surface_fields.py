@@ -26,12 +26,10 @@ from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.march.run import SlidingRun, State
 from mdr.normal.indentation import Indentation
 from mdr.normal.partial_slip import PartialSlip
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.records import ArrayRecord
 
-Array = NDArray[np.float64]
-
-_EPS = float(np.finfo(float).eps)
 N_BETWEEN = 6  #: knots for each spring of an indentation
 N_KNOTS = 2048  #: of the displacement of a partial slip
 
@@ -83,7 +81,7 @@ def from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     x, q = _distinct(x, q)
 
     def pressure(r: Array) -> Array:
-        near = np.maximum(r, _EPS * x[-1])[:, None]
+        near = np.maximum(r, EPS * x[-1])[:, None]
         reach = _arcosh(np.maximum(x, near) / near)
         p = -(np.diff(reach, axis=1) @ (np.diff(q) / np.diff(x))) / np.pi
         inside = r < x[-1]
@@ -132,7 +130,7 @@ def _of_indentation(source: Indentation, r: ArrayLike | None, i: int) -> Surface
     w = np.interp(g, g_own, source.s[i])
     p = 0 * r
     if a > 0:
-        ends = a >= own[-1] * (1 - 4 * _EPS)
+        ends = a >= own[-1] * (1 - 4 * EPS)
         n = g_own.size if ends else 1 + int(np.max(np.flatnonzero((source.q_z[i] > 0) & (source.x < a)), initial=0))
         g_in, q_in = g_own[:n], source.q_z[i][:n]
         if not ends:
@@ -249,7 +247,7 @@ def _knots(name: str, x: ArrayLike, values: ArrayLike, unit: str, r: ArrayLike) 
 
 def _distinct(x: Array, values: Array) -> tuple[Array, Array]:
     """Without knots closer than a rounding."""
-    kept = np.concatenate([[True], np.diff(x) > 4 * _EPS * x[-1]])
+    kept = np.concatenate([[True], np.diff(x) > 4 * EPS * x[-1]])
     return x[kept], values[kept]
 
 

@@ -25,14 +25,22 @@ from mdr.indenters.mapping import abel as transform
 from mdr.indenters.mapping import chebyshev_panels as panels
 from mdr.indenters.mapping import inversion as roots
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.tools.checks import FloatArray, finite_array, plain, positive_array
+from mdr.tools.arrays import EPS
+from mdr.tools.checks import FloatArray, between, finite_array, plain, positive_array
+from mdr.tools.fields import Record, facts
 
-EPS = float(np.finfo(float).eps)
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 
 
-class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_subclass__)
+def _slope_angle(name: str, value: Any, note: str = "") -> float:
+    return between(name, value, 0, np.pi / 2, note)
+
+
+FLANK = facts("rad", "angle between flank and plane", _slope_angle)
+
+
+class Indenter(Record, ABC):
     """A rigid axisymmetric shape; give it ``profile_3d`` or ``profile_1d``."""
 
     _gives_g: ClassVar[bool] = False

@@ -3,14 +3,15 @@
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import Indenter
+from mdr.indenters.base import FLANK, Indenter
 from mdr.indenters.mapping.stable_functions import angle, leg, leg_short
-from mdr.tools.checks import FloatArray, between, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
@@ -20,13 +21,8 @@ class CappedCone(Indenter):
     cos φ = b/a; F_N = (4/3) E* a³/R while a <= b.
     """
 
-    b: float  #: radius where cap and flank meet [m]
-    theta: float  #: angle between flank and plane [rad]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "b", positive("b", self.b, "radius of the cap in m; a Cone has none"))
-        theta = between("theta", self.theta, 0, np.pi / 2, "angle between flank and plane in rad")
-        object.__setattr__(self, "theta", theta)
+    b: float = field(metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Cone has none"))
+    theta: float = field(metadata=FLANK)
 
     @property
     def R(self) -> float:

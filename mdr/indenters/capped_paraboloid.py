@@ -3,14 +3,15 @@
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019). R1 → ∞ is the truncated paraboloid, R1 = R2 the paraboloid.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import leg, leg_short
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FieldError, FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
@@ -20,18 +21,17 @@ class CappedParaboloid(Indenter):
     F_N = (4/3) E* a³/R1 while a <= b. At the edge of the cap p is infinite, and answered as one rounding away.
     """
 
-    R1: float  #: radius of curvature of the cap [m]
-    R2: float  #: radius of curvature around it [m]
-    b: float  #: radius of the cap [m]
+    R1: float = field(metadata=facts("m", "radius of curvature of the cap"))
+    R2: float = field(metadata=facts("m", "radius of curvature around the cap"))
+    b: float = field(metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Paraboloid has none"))
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "R1", positive("R1", self.R1, "radius of curvature of the cap in m"))
-        object.__setattr__(self, "R2", positive("R2", self.R2, "radius of curvature around the cap in m"))
-        object.__setattr__(self, "b", positive("b", self.b, "radius of the cap in m; a Paraboloid has none"))
+        super().__post_init__()
         if self.R2 > self.R1:
-            raise ValueError(
+            raise FieldError(
                 f"R2 must not exceed R1 = {self.R1:.6g} m, got {self.R2:.6g} m: outside a sharper cap the slope drops, "
-                "so that a ring touches before the disc inside it (annular contact); the method needs a full disc"
+                "so that a ring touches before the disc inside it (annular contact); the method needs a full disc",
+                "R2",
             )
 
     @property

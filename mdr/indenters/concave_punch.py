@@ -9,14 +9,16 @@ so that the whole face touches, and the formulas hold, from d = a²/R on. Less d
 image in one dimension; above d = −a²/2R nothing does.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import EPS, Indenter
+from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import leg
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.arrays import EPS
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
@@ -27,12 +29,8 @@ class ConcavePunch(Indenter):
     before, slip begins in the middle, where p is least, and not at the rim: that the springs do not know.
     """
 
-    a: float  #: radius of the rim [m]
-    R: float  #: radius of curvature of the hollow face [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "a", positive("a", self.a, "radius of the rim in m"))
-        object.__setattr__(self, "R", positive("R", self.R, "radius of curvature of the hollow in m"))
+    a: float = field(metadata=facts("m", "radius of the rim"))
+    R: float = field(metadata=facts("m", "radius of curvature of the hollow"))
 
     @property
     def max_radius(self) -> float:

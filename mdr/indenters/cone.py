@@ -1,23 +1,20 @@
 """Cone: f(r) = r tan θ, mapped to g(x) = (π/2) |x| tan θ (Sneddon 1965)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import EPS, Indenter
-from mdr.tools.checks import FloatArray, between, finite_array, plain
+from mdr.indenters.base import FLANK, Indenter
+from mdr.tools.arrays import EPS
+from mdr.tools.checks import FloatArray, finite_array, plain
 
 
 @dataclass(frozen=True)
 class Cone(Indenter):
     """Cone; F_N = (2/π) E* d² / tan θ. The pressure at its tip is infinite and answered as at r = 2e-16 a."""
 
-    theta: float  #: angle between flank and plane [rad]
-
-    def __post_init__(self) -> None:
-        theta = between("theta", self.theta, 0, np.pi / 2, "angle between flank and plane in rad")
-        object.__setattr__(self, "theta", theta)
+    theta: float = field(metadata=FLANK)
 
     def profile_3d(self, r: ArrayLike) -> FloatArray:
         """f(r) = r tan θ."""

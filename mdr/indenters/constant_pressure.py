@@ -4,14 +4,15 @@ f(r) = d_0 [1 − (2/π) E(r/a_0)], E the complete elliptic integral of modulus 
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import angle_less_sine, leg
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06**24 for r² < a_0²/2
 
@@ -20,12 +21,8 @@ N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06*
 class ConstantPressure(Indenter):
     """Shape of constant pressure at the depth d_0, where its whole face touches; F_N = (π/2) E* a_0 d_0 there."""
 
-    a_0: float  #: radius of the face [m]
-    d_0: float  #: depth at which it touches with its whole face [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "a_0", positive("a_0", self.a_0, "radius of the face in m"))
-        object.__setattr__(self, "d_0", positive("d_0", self.d_0, "depth in m"))
+    a_0: float = field(metadata=facts("m", "radius of the face"))
+    d_0: float = field(metadata=facts("m", "depth at which the whole face touches", note="depth in m"))
 
     @property
     def max_radius(self) -> float:

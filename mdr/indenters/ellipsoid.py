@@ -4,14 +4,23 @@ Popov, Heß, Willert, Handbook of Contact Mechanics (2019). k = 1/R is the spher
 tip is 1/(k²R). In the functions below R is the half-axis along the axis of revolution and c = 1/k the one across.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import artanh, conic_area
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FieldError, FloatArray, finite_array, plain, positive
+from mdr.tools.fields import facts
+
+
+def _invertible(name: str, value: Any, note: str = "") -> float:
+    k = positive(name, value, note)
+    if not 0 < 1 / k < np.inf:
+        raise FieldError(f"{name} = {k!r} 1/m: its inverse, the half-axis across, is beyond the range of floats", name)
+    return k
 
 
 @dataclass(frozen=True)
@@ -21,14 +30,8 @@ class Ellipsoid(Indenter):
     Its contact grows to the equator, a = 1/k, at infinite depth only: g is finite for |x| < 1/k.
     """
 
-    R: float  #: half-axis along the axis of revolution [m]
-    k: float  #: inverse of the half-axis across [1/m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "R", positive("R", self.R, "half-axis in m"))
-        object.__setattr__(self, "k", positive("k", self.k, "inverse half-axis in 1/m"))
-        if not 0 < 1 / self.k < np.inf:
-            raise ValueError(f"k = {self.k!r} 1/m: its inverse, the half-axis across, is beyond the range of floats")
+    R: float = field(metadata=facts("m", "half-axis along the axis of revolution"))
+    k: float = field(metadata=facts("1/m", "inverse of the half-axis across", _invertible))
 
     @property
     def max_radius(self) -> float:

@@ -1,22 +1,20 @@
 """Flat punch of radius a: f = g = 0 inside the rim, F_N = 2E*ad (Boussinesq 1885)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter, rim_pressure
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
 class FlatPunch(Indenter):
     """Flat-ended cylinder, touching with its whole face; both profiles end at the rim."""
 
-    a: float  #: radius [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "a", positive("a", self.a, "radius in m"))
+    a: float = field(metadata=facts("m", "radius of the face"))
 
     @property
     def max_radius(self) -> float:

@@ -10,17 +10,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import EPS, Indenter
+from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion as roots
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import fit
-from mdr.indenters.sampled_profile import MOST_JOINTS, column, require_ascent, require_pairs
-from mdr.tools.checks import FloatArray, finite_array, not_negative, plain, positive, positive_array
+from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
+from mdr.tools.arrays import EPS
+from mdr.tools.checks import FieldError, FloatArray, finite_array, not_negative, plain, positive_array
+from mdr.tools.fields import facts
 
 N_POINTS = 7  #: fewer make no spline
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 SLACK = 1e-9  #: of an exponent or a radius: rounding
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
+
+
+def _tip(name: str, value: Any, note: str = "") -> str:
+    if not isinstance(value, str) or value not in TIPS:
+        raise FieldError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}", name)
+    return value
 
 
 @dataclass(frozen=True, repr=False)
@@ -38,31 +46,28 @@ class FromForce(Indenter):
     measurement; the shape itself has none.
     """
 
-    d: tuple[float, ...]  #: depths, ascending from 0 [m]
-    F: tuple[float, ...]  #: normal forces there [N]
-    E_star: float  #: contact modulus of the body on which F was measured [Pa]
-    tip: str = field(default="any", kw_only=True)  #: "any", "round", "sharp" or "flat"
-    smoothing: float = field(default=0.0, kw_only=True)  #: standard deviation of the noise of F [N]
+    d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m"))
+    F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N"))
+    E_star: float = field(
+        metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa")
+    )
+    tip: str = field(default="any", kw_only=True, metadata=facts("", "any, round, sharp or flat", _tip))
+    smoothing: float = field(default=0.0, kw_only=True, metadata=facts("N", NOISE, not_negative))
 
     def __post_init__(self) -> None:
-        d, F = column("d", self.d, "m"), column("F", self.F, "N")
-        require_pairs("d", d, "F", F, N_POINTS)
-        require_ascent("d", d)
-        if d[0] != 0 or F[0] != 0:
-            raise ValueError(
-                f"d and F must begin with 0, got {d[0]:.6g} m and {F[0]:.6g} N: give depth and force less those of "
-                "the first touch"
+        super().__post_init__()
+        require_pairs("d", self.d, "F", self.F, N_POINTS)
+        require_ascent("d", self.d)
+        if self.d[0] != 0 or self.F[0] != 0:
+            raise FieldError(
+                f"d and F must begin with 0, got {self.d[0]:.6g} m and {self.F[0]:.6g} N: give depth and force less "
+                "those of the first touch",
+                "d" if self.d[0] != 0 else "F",
             )
-        if self.tip not in TIPS:
-            raise ValueError(f"tip must be one of {', '.join(TIPS)}, got {self.tip!r}")
-        object.__setattr__(self, "smoothing", not_negative("smoothing", self.smoothing, "standard deviation in N"))
         if self.smoothing == 0:
-            require_ascent("F", F)
-        elif F[1:].min() <= 0:
-            raise ValueError(f"F must be positive for d > 0, got {F[1:].min():.6g} N: leave such depths out")
-        object.__setattr__(self, "d", tuple(float(value) for value in d))
-        object.__setattr__(self, "F", tuple(float(value) for value in F))
-        object.__setattr__(self, "E_star", positive("E_star", self.E_star, "modulus in Pa"))
+            require_ascent("F", self.F)
+        elif (least := min(self.F[1:])) <= 0:
+            raise FieldError(f"F must be positive for d > 0, got {least:.6g} N: leave such depths out", "F")
         self._refuse_shrinking()
 
     @property

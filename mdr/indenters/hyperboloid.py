@@ -4,26 +4,23 @@ Popov, Heß, Willert, Handbook of Contact Mechanics (2019). A rounded cone: its 
 its flank the slope h/c.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import conic_area
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
 class Hyperboloid(Indenter):
     """Hyperboloid of revolution: d = g(a), F_N = E* (h/c) [(a² − c²) arctan(a/c) + ac]."""
 
-    h: float  #: half-axis along the axis of revolution [m]
-    c: float  #: half-axis across [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "h", positive("h", self.h, "half-axis in m"))
-        object.__setattr__(self, "c", positive("c", self.c, "half-axis in m"))
+    h: float = field(metadata=facts("m", "half-axis along the axis of revolution"))
+    c: float = field(metadata=facts("m", "half-axis across"))
 
     def profile_3d(self, r: ArrayLike) -> FloatArray:
         """f(r) = h (√(1 + r²/c²) − 1)."""

@@ -1,22 +1,20 @@
 """Paraboloid: f(r) = r²/(2R), mapped to g(x) = x²/R (Hertz 1882)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
 class Paraboloid(Indenter):
     """Paraboloid, the tip of any ball: a² = Rd, F_N = (4/3) E* √R d^{3/2}."""
 
-    R: float  #: radius of curvature at the tip [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "R", positive("R", self.R, "radius of curvature in m"))
+    R: float = field(metadata=facts("m", "radius of curvature"))
 
     def profile_3d(self, r: ArrayLike) -> FloatArray:
         """f(r) = r²/(2R)."""

@@ -4,26 +4,24 @@ Popov & Heß (2015). n = 1 is the cone (c = tan θ), n = 2 the paraboloid (c = 1
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import EPS, Indenter
+from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import double_exponential
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.arrays import EPS
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
 class PowerLaw(Indenter):
     """f(r) = c rⁿ with any n > 0; for n <= 1 p is infinite at the tip and answered as at r = 2e-16 a."""
 
-    n: float  #: exponent [-]
-    c: float  #: coefficient [m^(1-n)]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "n", positive("n", self.n, "exponent"))
-        object.__setattr__(self, "c", positive("c", self.c, "coefficient in m^(1-n)"))
+    n: float = field(metadata=facts("-", "exponent of the profile"))
+    c: float = field(metadata=facts("m^(1-n)", "coefficient of the profile"))
 
     @property
     def kappa_n(self) -> float:

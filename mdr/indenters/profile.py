@@ -1,6 +1,6 @@
 """Any profile f(r), mapped by quadrature: g, a, F_N and p to 1e-9 (`mapping.chebyshev_panels`, `mapping.abel`)."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -8,7 +8,25 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.indenters.sampled_profile import radii
+from mdr.tools.checks import FieldError, FieldTypeError, FloatArray, finite_array, plain, positive
+from mdr.tools.fields import facts
+
+
+def _function(name: str, value: Any, note: str = "") -> Any:
+    if not callable(value):
+        raise FieldTypeError(f"{name} must be a function of the radius, got {value!r}", name)
+    return value
+
+
+def _name(name: str, value: Any, note: str = "") -> str | None:
+    if value is not None and not isinstance(value, str):
+        raise FieldTypeError(f"{name} must be a string, got {value!r}", name)
+    return value
+
+
+def _end(name: str, value: Any, note: str = "") -> float | None:
+    return None if value is None else positive(name, value, note)
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,19 +41,19 @@ class Profile(Indenter):
     Two profiles are equal if they hold the same function object, kinks, r_max and name.
     """
 
-    f: Callable[..., Any]  #: height [m] over radius [m]
-    kinks: tuple[float, ...] = field(default=(), kw_only=True)  #: radii where f is not smooth [m]
-    r_max: float | None = field(default=None, kw_only=True)  #: where the shape ends [m]
-    name: str | None = field(default=None, kw_only=True)
+    f: Callable[..., Any] = field(metadata=facts("m", "height over radius", _function))
+    kinks: tuple[float, ...] = field(
+        default=(), kw_only=True, metadata=facts("m", "radii at which the slope jumps", radii)
+    )
+    r_max: float | None = field(
+        default=None, kw_only=True, metadata=facts("m", "radius at which the shape ends", _end, note="radius in m")
+    )
+    name: str | None = field(default=None, kw_only=True, metadata=facts("", "what it is called", _name))
 
     def __post_init__(self) -> None:
-        if not callable(self.f):
-            raise TypeError(f"f must be a function of the radius, got {self.f!r}")
-        if self.name is not None and not isinstance(self.name, str):
-            raise TypeError(f"name must be a string, got {self.name!r}")
-        if self.r_max is not None:
-            object.__setattr__(self, "r_max", positive("r_max", self.r_max, "radius in m"))
-        object.__setattr__(self, "kinks", _ascending(self.kinks, self.max_radius))
+        super().__post_init__()
+        if self.kinks and self.kinks[-1] >= self.max_radius:
+            raise FieldError(f"kinks must lie within r_max = {self.max_radius:.6g} m, got {self.kinks[-1]!r}", "kinks")
         self._refuse_offset()
         self._refuse_steps()
         if self.r_max is not None:
@@ -92,14 +110,3 @@ class Profile(Indenter):
                     f"f steps by {outside - inside:.6g} m at r = {b:.6g} m: a vertical wall ends the contact "
                     "like the rim of a punch; end the profile there (r_max)"
                 )
-
-
-def _ascending(kinks: Iterable[float], end: float) -> tuple[float, ...]:
-    """Kinks as ascending floats within the profile."""
-    try:
-        radii = tuple(sorted({positive("kinks", b, "radius in m") for b in kinks}))
-    except TypeError as not_radii:
-        raise TypeError(f"kinks must be a sequence of radii in m, got {kinks!r}") from not_radii
-    if radii and radii[-1] >= end:
-        raise ValueError(f"kinks must lie within r_max = {end:.6g} m, got {radii[-1]!r}")
-    return radii

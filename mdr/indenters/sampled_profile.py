@@ -1,6 +1,6 @@
 """A shape known at measured points: a spline through them, whose image g follows exactly (`mapping.splines`)."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -12,13 +12,36 @@ from numpy.typing import ArrayLike
 from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import SplineImage, fit
-from mdr.tools.checks import FloatArray, finite_array, not_negative, positive
+from mdr.tools.checks import FieldError, FieldTypeError, FloatArray, finite_array, not_negative, positive
+from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 STANDS_OUT = 10.0  #: times the median change of slope: at a kink; noise of 200 points stays below 8
 ROUNDING = 1e-9  #: of the steepest slope: a change below it is none
 N_POINTS = 6  #: fewer make no spline
-TIPS = ("round", "sharp")
+NOISE = "standard deviation of the noise of the data"
+
+
+def column(name: str, values: Any, unit: str) -> tuple[float, ...]:
+    """Measured numbers in a row (n,)."""
+    array = finite_array(name, values, unit)
+    if array.ndim != 1:
+        raise FieldError(f"{name} must be one row of numbers in {unit}, got an array of shape {array.shape}", name)
+    return tuple(array.tolist())
+
+
+def radii(name: str, values: Any, note: str = "") -> tuple[float, ...]:
+    """Different radii > 0 in ascending order."""
+    try:
+        return tuple(sorted({positive(name, b, "radius in m") for b in values}))
+    except TypeError as not_radii:
+        raise FieldTypeError(f"{name} must be a sequence of radii in m, got {values!r}", name) from not_radii
+
+
+def _tip(name: str, value: Any, note: str = "") -> str:
+    if not isinstance(value, str) or value not in ("round", "sharp"):
+        raise FieldError(f'{name} must be "round" or "sharp", got {value!r}', name)
+    return value
 
 
 @dataclass(frozen=True, repr=False)
@@ -34,26 +57,29 @@ class SampledProfile(Indenter):
     is unknown, so that a contact which would reach further is refused.
     """
 
-    r: tuple[float, ...]  #: radii, ascending from 0 [m]
-    f: tuple[float, ...]  #: heights there [m]
-    tip: str = field(default="round", kw_only=True)  #: "round" or "sharp"
-    kinks: tuple[float, ...] = field(default=(), kw_only=True)  #: those r where the slope jumps [m]
-    smoothing: float = field(default=0.0, kw_only=True)  #: standard deviation of the noise of f [m]
+    r: tuple[float, ...] = field(metadata=facts("m", "radii of the points, from 0", column, note="m"))
+    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m"))
+    tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
+    kinks: tuple[float, ...] = field(
+        default=(), kw_only=True, metadata=facts("m", "radii of points at which the slope jumps", radii)
+    )
+    smoothing: float = field(default=0.0, kw_only=True, metadata=facts("m", NOISE, not_negative))
 
     def __post_init__(self) -> None:
-        r, f = column("r", self.r, "m"), column("f", self.f, "m")
-        require_pairs("r", r, "f", f, N_POINTS)
-        if r[0] != 0:
-            raise ValueError(
-                f"r must begin at 0, the tip from which the depth counts, got {r[0]:.6g} m: "
-                + ("give one side of a mirrored profile" if r[0] < 0 else "sort the points by r and add f at the tip")
+        super().__post_init__()
+        require_pairs("r", self.r, "f", self.f, N_POINTS)
+        if self.r[0] != 0:
+            raise FieldError(
+                f"r must begin at 0, the tip from which the depth counts, got {self.r[0]:.6g} m: "
+                + (
+                    "give one side of a mirrored profile"
+                    if self.r[0] < 0
+                    else "sort the points by r and add f at the tip"
+                ),
+                "r",
             )
-        require_ascent("r", r)
-        if self.tip not in TIPS:
-            raise ValueError(f'tip must be "round" or "sharp", got {self.tip!r}')
-        for name, values in (("r", r), ("f", f), ("kinks", self._inner(self.kinks, r))):
-            object.__setattr__(self, name, tuple(float(value) for value in values))
-        object.__setattr__(self, "smoothing", not_negative("smoothing", self.smoothing, "standard deviation in m"))
+        require_ascent("r", self.r)
+        self._require_points(self.kinks)
         try:
             refuse_falling(self, self._image.ends, self._image.image_at_ends())
         except ValueError as ring:
@@ -121,43 +147,33 @@ class SampledProfile(Indenter):
         named = tuple(sorted({*self.kinks, b}))
         return f"if its slope jumps at r = {b!r} m, where it changes most, give kinks={named!r}"
 
-    def _inner(self, kinks: Iterable[float], r: FloatArray) -> list[float]:
-        """Kinks in ascending order, each one of the points between the first and the last."""
-        try:
-            radii = sorted({positive("kinks", b, "radius in m") for b in kinks})
-        except TypeError as not_radii:
-            raise TypeError(f"kinks must be a sequence of radii in m, got {kinks!r}") from not_radii
-        strange = [b for b in radii if b not in r[1:-1]]
+    def _require_points(self, kinks: Sequence[float]) -> None:
+        """FieldError unless each is one of the points between the first and the last."""
+        strange = [b for b in kinks if b not in self.r[1:-1]]
         if strange:
-            raise ValueError(
+            nearest = min(self.r, key=lambda r: abs(r - strange[0]))
+            raise FieldError(
                 f"kinks must be among the r between the first and the last, got {strange[0]!r} m: "
-                f"the nearest is {float(r[np.argmin(np.abs(r - strange[0]))])!r} m; add a point there"
+                f"the nearest is {nearest!r} m; add a point there",
+                "kinks",
             )
-        return radii
 
 
-def column(name: str, values: ArrayLike, unit: str) -> FloatArray:
-    """Measured numbers in a row (n,)."""
-    array = finite_array(name, values, unit)
-    if array.ndim != 1:
-        raise ValueError(f"{name} must be one row of numbers in {unit}, got an array of shape {array.shape}")
-    return array
+def require_pairs(name: str, x: Sequence[float], other: str, y: Sequence[float], least: int) -> None:
+    """FieldError unless there are as many of the one as of the other, and enough."""
+    if len(x) != len(y):
+        raise FieldError(f"{other} must have as many numbers as {name}, got {len(y)} and {len(x)}", other)
+    if len(x) < least:
+        raise FieldError(f"{name} must have at least {least} numbers, got {len(x)}", name)
 
 
-def require_pairs(name: str, x: FloatArray, other: str, y: FloatArray, least: int) -> None:
-    """ValueError unless there are as many of the one as of the other, and enough."""
-    if x.size != y.size:
-        raise ValueError(f"{other} must have as many numbers as {name}, got {y.size} and {x.size}")
-    if x.size < least:
-        raise ValueError(f"{name} must have at least {least} numbers, got {x.size}")
-
-
-def require_ascent(name: str, x: FloatArray) -> None:
-    """ValueError unless each number is above the one before."""
+def require_ascent(name: str, x: Sequence[float]) -> None:
+    """FieldError unless each number is above the one before."""
     falls = np.flatnonzero(np.diff(x) <= 0)
     if falls.size:
         i = int(falls[0])
-        raise ValueError(
+        raise FieldError(
             f"{name} must ascend, got {x[i]:.6g} and then {x[i + 1]:.6g} (numbers {i + 1} and {i + 2}): "
-            f"sort the points by {name} and take the mean of those at the same {name}"
+            f"sort the points by {name} and take the mean of those at the same {name}",
+            name,
         )

@@ -3,14 +3,15 @@
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019). The paraboloid is its limit a ≪ R.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters import ellipsoid
 from mdr.indenters.base import Indenter
-from mdr.tools.checks import FloatArray, finite_array, positive
+from mdr.tools.checks import FloatArray, finite_array
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
@@ -20,10 +21,7 @@ class Sphere(Indenter):
     Its contact grows to the equator, a = R, at infinite depth only: g is finite for |x| < R.
     """
 
-    R: float  #: radius [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "R", positive("R", self.R, "radius in m"))
+    R: float = field(metadata=facts("m", "radius of the ball"))
 
     @property
     def max_radius(self) -> float:

@@ -3,14 +3,15 @@
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import Indenter
+from mdr.indenters.base import FLANK, Indenter
 from mdr.indenters.mapping.stable_functions import angle, angle_less_sine
-from mdr.tools.checks import FloatArray, between, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
@@ -21,13 +22,8 @@ class TruncatedCone(Indenter):
     as one rounding away.
     """
 
-    b: float  #: radius of the flat face [m]
-    theta: float  #: angle between flank and plane [rad]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "b", positive("b", self.b, "radius of the face in m; a Cone has none"))
-        theta = between("theta", self.theta, 0, np.pi / 2, "angle between flank and plane in rad")
-        object.__setattr__(self, "theta", theta)
+    b: float = field(metadata=facts("m", "radius of the face", note="radius of the face in m; a Cone has none"))
+    theta: float = field(metadata=FLANK)
 
     @property
     def kinks(self) -> tuple[float, ...]:

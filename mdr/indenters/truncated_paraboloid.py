@@ -3,14 +3,15 @@
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import leg
-from mdr.tools.checks import FloatArray, finite_array, plain, positive
+from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
@@ -21,12 +22,8 @@ class TruncatedParaboloid(Indenter):
     as one rounding away.
     """
 
-    b: float  #: radius of the flat face [m]
-    R: float  #: radius of curvature of the paraboloid [m]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "b", positive("b", self.b, "radius of the face in m; a Paraboloid has none"))
-        object.__setattr__(self, "R", positive("R", self.R, "radius of curvature in m"))
+    b: float = field(metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none"))
+    R: float = field(metadata=facts("m", "radius of curvature"))
 
     @property
     def kinks(self) -> tuple[float, ...]:

@@ -30,8 +30,7 @@ from mdr.case.contact import SlidingContact
 from mdr.march import kernels
 from mdr.materials.operator import L_DECAY, L_GAIN, Rheology
 from mdr.normal.springs import SpringArray
-
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
 RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved

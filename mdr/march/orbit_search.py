@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.march import kernels
 from mdr.march import periodic_orbit as periodic
@@ -18,9 +17,8 @@ from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
 from mdr.march.stepper import MarchState, Periods, Stepper
 from mdr.materials.operator import L_RATIO
+from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
-
-Array = NDArray[np.float64]
 
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
 AGES = 1e6  #: periods that full slip must last to count as periodic

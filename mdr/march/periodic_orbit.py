@@ -23,9 +23,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mdr.tools.anderson import shares
+from mdr.tools.arrays import Array
+
 Step = Callable[[Array], Array]
 Measure = Callable[[Array], Array]
 
@@ -128,8 +129,7 @@ def _anderson(step: Step, x: Array, measure: Measure, slow: tuple[float, ...], c
 
 def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Array:
     """The combination of images, of weights that sum to one, whose change is least."""
-    steps = np.diff(np.array(changes), axis=0)
-    share = np.linalg.lstsq(measure(steps).T, measure(changes[-1]), rcond=1e-10)[0]
+    share = shares(changes, measure, rcond=1e-10)
     return np.asarray(images[-1] - share @ np.diff(np.array(images), axis=0))
 
 

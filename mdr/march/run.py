@@ -19,9 +19,8 @@ from mdr.march.energy import EnergyBalance, energy_balance
 from mdr.march.march import March, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
+from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 
 class State(IntEnum):

@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.march import kernels
 from mdr.march.dimensionless import ScaledContact
 from mdr.materials.operator import L_DECAY, L_RATIO
+from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
-
-Array = NDArray[np.float64]
 
 AT_ONCE = 2**17  #: steps of a march whose forces are kept until their periods are averaged
 IN_CACHE = 50_000  #: extensions that a close look keeps at once

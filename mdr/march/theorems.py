@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 
 def outside(cof: float, least: float, slack: float) -> str:

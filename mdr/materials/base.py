@@ -19,30 +19,48 @@ eta shear viscosity [Pa s], omega angular frequency [rad/s], t time [s].
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import FloatArray, finite, finite_array, plain
+from mdr.tools.checks import FieldError, FloatArray, finite, finite_array, plain
+from mdr.tools.fields import Record, facts
 
 
-def poisson_ratio(name: str, value: float) -> float:
+def poisson_ratio(name: str, value: Any, note: str = "") -> float:
     """Poisson's ratio of a stable isotropic body, -1 < nu <= 1/2."""
     nu = finite(name, value)
     if not -1 < nu <= 0.5:
-        raise ValueError(f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5")
+        what = f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5"
+        raise FieldError(what, name)
     return nu
 
 
-class Material(ABC):
+def complex_modulus(
+    omega: ArrayLike, modulus: float, tau: float, arms: Iterable[tuple[float, float]]
+) -> NDArray[np.complex128]:
+    """A Kelvin branch (modulus, tau) and arms (E_j, tau_j) at the frequencies omega, in their shape; any units."""
+    omega = np.asarray(omega, dtype=float)
+    answer = modulus * (1 + 1j * omega * tau)
+    for E_j, tau_j in arms:
+        answer = answer + E_j * arm(omega * tau_j)
+    return np.asarray(answer)
+
+
+def arm(phase: FloatArray) -> NDArray[np.complex128]:
+    """Modulus of a Maxwell arm at phase = omega tau_j, over E_j."""
+    return np.asarray(1j * phase / (1 + 1j * phase))
+
+
+POISSON = facts("-", "Poisson's ratio", poisson_ratio)
+
+
+class Material(Record, ABC):
     """What every material must answer; long-time moduli are properties, the rest follows from them."""
 
     tau: float
-
-    def _set(self, **checked: float) -> None:
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
 
     @property
     @abstractmethod
@@ -77,11 +95,8 @@ class Material(ABC):
     def dynamic_modulus(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """Complex contact modulus E*(omega) [Pa], see the module's docstring, in the shape of omega [rad/s]."""
         omega = finite_array("omega", omega, "rad/s")
-        modulus = self.E_star * (1 + 1j * omega * self.tau)
-        for E_j, tau_j in self.contact_arms:
-            lead = 1j * omega * tau_j
-            modulus = modulus + E_j * (lead / (1 + lead))
-        return complex(modulus) if modulus.ndim == 0 else np.asarray(modulus)
+        modulus = complex_modulus(omega, self.E_star, self.tau, self.contact_arms)
+        return complex(modulus) if modulus.ndim == 0 else modulus
 
     def relaxation_modulus(self, t: ArrayLike) -> FloatArray:
         """Contact modulus E*(t) [Pa] at times t >= 0 [s] after a sudden step of depth; a dashpot, tau > 0, adds an

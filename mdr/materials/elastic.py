@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, field
 
-from mdr.materials.base import Material, OneBody, poisson_ratio
+from mdr.materials.base import POISSON, Material, OneBody, poisson_ratio
 from mdr.tools.checks import positive
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
 class Elastic(OneBody):
     """An elastic body under a rigid indenter."""
 
-    E: float  #: Young's modulus [Pa]
-    nu: float  #: Poisson's ratio [-]
-
-    def __post_init__(self) -> None:
-        self._set(E=positive("E", self.E, "Young's modulus in Pa"), nu=poisson_ratio("nu", self.nu))
+    E: float = field(metadata=facts("Pa", "Young's modulus"))
+    nu: float = field(metadata=POISSON)
 
     @property
     def tau(self) -> float:  # type: ignore[override]
@@ -34,22 +31,10 @@ class Elastic(OneBody):
 class ElasticPair(Material):
     """Two elastic bodies in contact; their compliances add."""
 
-    E_1: float  #: Young's modulus of the first body [Pa]
-    nu_1: float  #: its Poisson's ratio [-]
-    E_2: float  #: Young's modulus of the second body [Pa]
-    nu_2: float  #: its Poisson's ratio [-]
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            value: Any = getattr(self, field.name)
-            ratio = field.name.startswith("nu")
-            self._set(
-                **{
-                    field.name: poisson_ratio(field.name, value)
-                    if ratio
-                    else positive(field.name, value, "Young's modulus in Pa")
-                }
-            )
+    E_1: float = field(metadata=facts("Pa", "Young's modulus of the first body"))
+    nu_1: float = field(metadata=facts("-", "Poisson's ratio of the first body", poisson_ratio))
+    E_2: float = field(metadata=facts("Pa", "Young's modulus of the second body"))
+    nu_2: float = field(metadata=facts("-", "Poisson's ratio of the second body", poisson_ratio))
 
     @property
     def tau(self) -> float:  # type: ignore[override]

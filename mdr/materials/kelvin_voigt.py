@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from mdr.materials.base import OneBody, poisson_ratio
+from mdr.materials.base import POISSON, OneBody, poisson_ratio
 from mdr.tools.checks import not_negative, positive
+from mdr.tools.fields import facts
 
 
 @dataclass(frozen=True)
 class KelvinVoigt(OneBody):
     """A Kelvin body under a rigid indenter: modulus E in parallel with a dashpot, tau = gamma/k, Eq. (11)."""
 
-    E: float  #: long-time Young's modulus [Pa]
-    nu: float  #: Poisson's ratio [-], constant
-    tau: float  #: relaxation time gamma/k [s]
-
-    def __post_init__(self) -> None:
-        self._set(
-            E=positive("E", self.E, "Young's modulus in Pa"),
-            nu=poisson_ratio("nu", self.nu),
-            tau=not_negative("tau", self.tau, "relaxation time in s"),
+    E: float = field(metadata=facts("Pa", "long-time Young's modulus", note="Young's modulus in Pa"))
+    nu: float = field(metadata=POISSON)
+    tau: float = field(
+        metadata=facts(
+            "s", "relaxation time gamma/k", not_negative, label=r"relaxation time $\tau$", note="relaxation time in s"
         )
+    )
 
     @classmethod
     def from_shear(cls, *, G: float, eta: float, nu: float) -> KelvinVoigt:

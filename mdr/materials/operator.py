@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.materials.base import Material
+from mdr.materials.base import Material, complex_modulus
 from mdr.tools.checks import FloatArray
 
 Table = NDArray[np.float64]
@@ -79,12 +79,7 @@ class Rheology:
 
     def response(self, n: ArrayLike) -> NDArray[np.complex128]:
         """L of exp(i n phase), over it: the dynamic modulus over the long-time one at n omega; n of any shape."""
-        n = np.asarray(n, dtype=float)
-        answer = 1 + 1j * n * self.T
-        for rho_j, theta_j in zip(self.rho, self.theta, strict=True):
-            lead = 1j * n * theta_j
-            answer = answer + rho_j * (lead / (1 + lead))
-        return np.asarray(answer)
+        return complex_modulus(n, 1.0, self.T, zip(self.rho, self.theta, strict=True))
 
 
 def over_step(T: float, rho: ArrayLike, theta: ArrayLike, h: float) -> Table:

@@ -13,17 +13,39 @@ nu Poisson's ratio [-], constant in time.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike, fsdecode
+from typing import Any
 
 from numpy.typing import ArrayLike
 
-from mdr.materials.base import OneBody, poisson_ratio
-from mdr.tools.checks import not_negative, positive
+from mdr.materials.base import POISSON, OneBody, poisson_ratio
+from mdr.tools.checks import FieldError, FieldTypeError, not_negative, positive
 from mdr.tools.csv_table import fault
+from mdr.tools.fields import facts
 
 Arms = tuple[tuple[float, float], ...]
+
+
+def _pairs(name: str, arms: Any, note: str = "") -> Arms:
+    """Arms as a tuple of pairs, each named in what is wrong with it."""
+    try:
+        pairs = [tuple(arm) for arm in arms]
+    except TypeError:
+        raise FieldTypeError(f"{name} must be a sequence of pairs (E_j, tau_j), got {arms!r}", name) from None
+    for j, pair in enumerate(pairs):
+        if len(pair) != 2:
+            raise FieldError(f"{name}[{j}] must be a pair (E_j, tau_j), got {pair!r}", name)
+    return tuple(
+        (
+            not_negative(f"{name}[{j}] modulus", E_j, "E_j in Pa"),
+            positive(f"{name}[{j}] relaxation time", tau_j, "tau_j in s"),
+        )
+        for j, (E_j, tau_j) in enumerate(pairs)
+    )
+
+
+LONG_TIME = facts("Pa", "long-time Young's modulus", not_negative)
 
 
 class _WithArms(OneBody):
@@ -49,20 +71,18 @@ class _WithArms(OneBody):
 
 @dataclass(frozen=True)
 class StandardLinearSolid(_WithArms):
-    """A spring E_inf in parallel with one Maxwell arm: glassy modulus E_inf + E_1, relaxing with tau_1."""
+    """A spring E_inf in parallel with one Maxwell arm: glassy modulus E_inf + E_1, relaxing with tau_1.
 
-    E_inf: float  #: long-time Young's modulus [Pa]; 0 is a Maxwell body, for mdr.indent alone
-    E_1: float  #: Young's modulus of the arm [Pa]
-    tau_1: float  #: relaxation time of the arm [s]
-    nu: float  #: Poisson's ratio [-], constant
+    E_inf = 0 is a Maxwell body, for `mdr.indent` alone.
+    """
+
+    E_inf: float = field(metadata=LONG_TIME)
+    E_1: float = field(metadata=facts("Pa", "Young's modulus of the arm", not_negative))
+    tau_1: float = field(metadata=facts("s", "relaxation time of the arm"))
+    nu: float = field(metadata=POISSON)
 
     def __post_init__(self) -> None:
-        self._set(
-            E_inf=not_negative("E_inf", self.E_inf, "long-time Young's modulus in Pa"),
-            E_1=not_negative("E_1", self.E_1, "Young's modulus of the arm in Pa"),
-            tau_1=positive("tau_1", self.tau_1, "relaxation time of the arm in s"),
-            nu=poisson_ratio("nu", self.nu),
-        )
+        super().__post_init__()
         _refuse_nothing(self.E_inf, ((self.E_1, self.tau_1),))
 
     @property
@@ -78,23 +98,24 @@ class StandardLinearSolid(_WithArms):
 
 @dataclass(frozen=True)
 class Prony(_WithArms):
-    """A Kelvin element (E_inf, tau) in parallel with any number of Maxwell arms (E_j, tau_j)."""
+    """A Kelvin element (E_inf, tau) in parallel with any number of Maxwell arms (E_j, tau_j).
 
-    E_inf: float  #: long-time Young's modulus [Pa]; 0 is a generalised Maxwell body, for mdr.indent alone
-    arms: Arms  #: (E_j [Pa], tau_j [s]) of each arm
-    nu: float  #: Poisson's ratio [-], constant
-    tau: float = 0.0  #: Kelvin time of the E_inf branch [s]
+    E_inf = 0 is a generalised Maxwell body, for `mdr.indent` alone.
+    """
+
+    E_inf: float = field(metadata=LONG_TIME)
+    arms: Arms = field(metadata=facts("", "arms (E_j [Pa], tau_j [s])", _pairs))
+    nu: float = field(metadata=POISSON)
+    tau: float = field(
+        default=0.0, metadata=facts("s", "Kelvin time of the E_inf branch", not_negative, note="Kelvin time in s")
+    )
 
     def __post_init__(self) -> None:
-        self._set(
-            E_inf=not_negative("E_inf", self.E_inf, "long-time Young's modulus in Pa"),
-            nu=poisson_ratio("nu", self.nu),
-            tau=not_negative("tau", self.tau, "Kelvin time in s"),
-        )
-        object.__setattr__(self, "arms", _checked(self.arms))
+        super().__post_init__()
         _refuse_nothing(self.E_inf, self.arms)
         if self.E_inf == 0 and self.tau > 0:
-            raise ValueError("tau must be 0 where E_inf = 0: it is the time of that branch; name the dashpot as an arm")
+            what = "tau must be 0 where E_inf = 0: it is the time of that branch; name the dashpot as an arm"
+            raise FieldError(what, "tau")
 
     @property
     def contact_arms(self) -> Arms:
@@ -155,24 +176,7 @@ class Prony(_WithArms):
         return prony_fit.misfit(self, omega, storage, loss)
 
 
-def _checked(arms: Sequence[Sequence[float]]) -> Arms:
-    """Arms as a tuple of pairs, each named in what is wrong with it."""
-    try:
-        pairs = [tuple(arm) for arm in arms]
-    except TypeError:
-        raise TypeError(f"arms must be a sequence of pairs (E_j, tau_j), got {arms!r}") from None
-    for j, pair in enumerate(pairs):
-        if len(pair) != 2:
-            raise ValueError(f"arms[{j}] must be a pair (E_j, tau_j), got {pair!r}")
-    return tuple(
-        (
-            not_negative(f"arms[{j}] modulus", E_j, "E_j in Pa"),
-            positive(f"arms[{j}] relaxation time", tau_j, "tau_j in s"),
-        )
-        for j, (E_j, tau_j) in enumerate(pairs)
-    )
-
-
 def _refuse_nothing(E_inf: float, arms: Arms) -> None:
     if E_inf == 0 and not any(E_j > 0 for E_j, _ in arms):
-        raise ValueError("E_inf = 0 and no arm has a modulus: nothing carries a load; give E_inf or an arm above zero")
+        what = "E_inf = 0 and no arm has a modulus: nothing carries a load; give E_inf or an arm above zero"
+        raise FieldError(what, "E_inf")

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.materials.base import OneBody
+from mdr.materials.base import OneBody, arm
 from mdr.tools.checks import FloatArray, between, count, finite_array, positive, positive_array
 
 Pairs = tuple[tuple[float, float], ...]
@@ -51,7 +51,7 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
         E_inf, moduli = _moduli(dense, wanted, times)
         if E_inf == 0:
             continue  # flows in the end
-        missed = float(np.max(np.abs(_response(dense, times) @ moduli + E_inf - wanted) / np.abs(wanted)))
+        missed = float(np.max(np.abs(arm(np.outer(dense, times)) @ moduli + E_inf - wanted) / np.abs(wanted)))
         least = min(least, missed)
         if missed <= error:
             return E_inf, tuple((float(E), float(t)) for E, t in zip(moduli, times, strict=True) if E > 0)
@@ -73,7 +73,7 @@ def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, 
     from scipy.optimize import nnls
 
     weight = 1 / np.abs(modulus)
-    columns = np.column_stack([np.ones(omega.size), _response(omega, times)]) * weight[:, None]
+    columns = np.column_stack([np.ones(omega.size), arm(np.outer(omega, times))]) * weight[:, None]
     target = modulus * weight
     found, _ = nnls(
         np.concatenate([columns.real, columns.imag]),
@@ -82,12 +82,6 @@ def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, 
     )
     found[found < USELESS * found.max()] = 0.0
     return float(found[0]), found[1:]
-
-
-def _response(omega: FloatArray, times: FloatArray) -> Any:
-    """E_j(omega)/E_j of every arm, shape (n_omega, n_arms)."""
-    lead = 1j * np.outer(omega, times)
-    return lead / (1 + lead)
 
 
 def _data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[FloatArray, Any]:

@@ -18,9 +18,8 @@ from mdr.indenters.base import Indenter
 from mdr.march import kernels
 from mdr.materials.operator import Rheology
 from mdr.normal.spring_grid import cells
+from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 N_EDGE = 512  #: springs
 N_STEPS = 4096  #: of the period

@@ -34,10 +34,9 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.indenters.base import Indenter
 from mdr.materials import Material
 from mdr.normal import indentation_kernels as kernels
-from mdr.tools.checks import FloatArray, count, finite_array
+from mdr.tools.arrays import Array
+from mdr.tools.checks import FloatArray, count, finite_array, instance
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 N_SPRINGS = 512
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
@@ -90,8 +89,8 @@ def indent(
     Raises TypeError for a wrong kind of input, ValueError for NaN, infinity, lists of different lengths, instants that
     descend, a negative force, both or neither of u_z and F_z, a shape that ends before the depth, or a hollow one.
     """
-    _require("indenter", indenter, Indenter)
-    _require("material", material, Material)
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
     if indenter.least_depth > 0:
         raise ValueError(
             f"annular contact: pressed from rest, {indenter!r} touches by its rim first, and only from the depth "
@@ -316,12 +315,6 @@ def _shares(t: Array, n: int) -> list[Array]:
 
 
 # --- what comes in --------------------------------------------------------------------------------
-
-
-def _require(name: str, value: object, kind: type) -> None:
-    if not isinstance(value, kind):
-        hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
-        raise TypeError(f"{name} must be of kind {kind.__name__}, got {value!r}{hint}")
 
 
 def _instants(t: ArrayLike) -> FloatArray:

@@ -18,9 +18,8 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 
 def turning_phase(T: float) -> float:

@@ -31,8 +31,8 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import normal_cycle
-
-Array = NDArray[np.float64]
+from mdr.tools.anderson import shares
+from mdr.tools.arrays import Array
 
 N_HARMONICS = 256  #: of the depth; its instants are eight times as many
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
@@ -185,8 +185,10 @@ def _anderson(
         if len(moves) == 1:
             u = u + 0.5 * moves[-1]
             continue
-        dm = np.diff(np.array(moves), axis=0)
-        flat = np.concatenate([dm.real, dm.imag], axis=1)
-        share = np.linalg.lstsq(flat.T, np.concatenate([moves[-1].real, moves[-1].imag]), rcond=1e-8)[0]
-        u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + dm)
+        share = shares(moves, _real, rcond=1e-8)
+        u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + np.diff(np.array(moves), axis=0))
     return best, least
+
+
+def _real(u: NDArray[np.complex128]) -> Array:
+    return np.concatenate([u.real, u.imag], axis=-1)

@@ -20,15 +20,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials import Material
-from mdr.tools.checks import count, finite_array, plain, positive
+from mdr.tools.arrays import Array
+from mdr.tools.checks import count, finite_array, instance, plain, positive
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,10 +117,8 @@ def _force_integral(indenter: Indenter, E_star: float, low: float, high: float) 
 
 
 def _checked(indenter: Indenter, material: Material, mu_0: float, u_z0: float) -> tuple[float, float]:
-    for name, value, kind in (("indenter", indenter, Indenter), ("material", material, Material)):
-        if not isinstance(value, kind):
-            hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
-            raise TypeError(f"{name} must be of kind {kind.__name__}, got {value!r}{hint}")
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
     if material.E_star == 0:
         raise ValueError(f"{material!r} flows: with E_star = 0 no tangential force stays; give it a long-time modulus")
     return positive("mu_0", mu_0, "coefficient of friction"), positive("u_z0", u_z0, "depth in m")

@@ -17,12 +17,10 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import NDArray
 
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
-
-Array = NDArray[np.float64]
+from mdr.tools.arrays import EPS, Array
 
 _NODES, _WEIGHTS = (0.5 * (leggauss(4)[0] + 1), 0.5 * leggauss(4)[1])
 
@@ -115,5 +113,5 @@ def _missing_mean(shape: Indenter, u_z0: float, panel: _Panel, mean: float) -> f
     g_lo, g_hi = u_z0 + panel.gap_lo, u_z0 + panel.gap_hi
     area = panel.x_hi * g_hi - panel.x_lo * g_lo - 0.5 * (float(shape.force(g_hi, 1.0)) - float(shape.force(g_lo, 1.0)))
     missing = area / (panel.x_hi - panel.x_lo) - u_z0 - mean
-    noise = 64 * np.finfo(float).eps * panel.x_hi * abs(g_hi) / (panel.x_hi - panel.x_lo)
+    noise = 64 * EPS * panel.x_hi * abs(g_hi) / (panel.x_hi - panel.x_lo)
     return missing if abs(missing) > noise else 0.0

@@ -14,14 +14,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.normal.spring_grid import cells
+from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 MIN_SPRINGS = 16  #: fewer cannot serve all panels
 

@@ -15,8 +15,6 @@ from mdr.plots.figures import COLOURS, MODES, mode_patches, periods_of, plot_for
 from mdr.tools.checks import count
 from mdr.tools.progress import progress
 
-Array = NDArray[np.float64]
-
 SECONDS = 4.0  #: that one period lasts in the picture
 MOST_DRAWN = 24  #: springs on each side
 LEAN = 0.06  #: greatest lean of a spring, over the width of the picture

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.case.units import facts_at
 from mdr.plots.figures import axes_of, colours, edges_of, prefix, style
 from mdr.studies.axes import Axis
 from mdr.studies.points import Status
+from mdr.tools.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,25 +25,7 @@ if TYPE_CHECKING:
 
     from mdr.studies.study import Study
 
-Array = NDArray[np.float64]
-
-SYMBOLS = {
-    "v_0": "pulling velocity $v_0$",
-    "v_0/v_c": "pulling velocity $v_0/v_c$",
-    "mu_0": r"local friction $\mu_0$",
-    "alpha": r"amplitude $\alpha = \Delta u_z/u_{z0}$",
-    "T": r"loss tangent $T = \omega\tau$",
-    "k_x/k_xc": "system stiffness $k_x/k_{xc}$",
-    "omega_0/omega": r"natural frequency $\omega_0/\omega$",
-    "oscillation.omega": r"angular frequency $\omega$",
-    "oscillation.u_z0": "mean depth $u_{z0}$",
-    "oscillation.du_z": r"amplitude $\Delta u_z$",
-    "oscillation.F_z0": "mean load $F_{z0}$",
-    "oscillation.dF_z": r"load amplitude $\Delta F_z$",
-    "material.tau": r"relaxation time $\tau$",
-    "pull.k_x": "system stiffness $k_x$",
-    "pull.m": "mass $m$",
-    "pull.c_x": "system damping $c_x$",
+LABELS = {
     "cof": r"coefficient of friction $\mu$",
     "static_cof": r"static friction $\mu_s$",
     "v_c": "critical velocity $v_c$, Eq. (15)",
@@ -49,7 +33,7 @@ SYMBOLS = {
     "measured_v_c": "measured critical velocity $v_c$",
     "stick_share": "share of contact time in stick",
     "cof_error": "error of the coefficient of friction",
-}  #: how axes and quantities are written in figures; any other by its name
+}  #: how quantities are written in figures; any other by its name
 LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
 MOST_LABELS = 10  #: values of a family that are named one by one
 
@@ -254,7 +238,11 @@ def _edges(axis: Axis, places: Array) -> Array:
 
 
 def _name(name: str, unit: str) -> str:
-    return SYMBOLS.get(name, name) + (f" [{unit}]" if unit not in ("", "-") else "")
+    return _label(name) + (f" [{unit}]" if unit not in ("", "-") else "")
+
+
+def _label(name: str) -> str:
+    return LABELS.get(name) or facts_at(name).label or name
 
 
 def _value(axis: Axis, index: int, name: bool = False) -> str:
@@ -263,7 +251,7 @@ def _value(axis: Axis, index: int, name: bool = False) -> str:
         return axis.labels[index]
     factor, unit = prefix([axis[index]], axis.unit) if axis.unit not in ("", "-") else (1.0, "")
     number = f"{axis[index] * factor:.3g}{f' {unit}' if unit else ''}"
-    return f"{SYMBOLS.get(axis.path, axis.path)} = {number}" if name else number
+    return f"{_label(axis.path)} = {number}" if name else number
 
 
 # --- what is not there ---

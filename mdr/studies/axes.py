@@ -20,15 +20,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.contact import KINDS, SlidingContact
-from mdr.case.units import UNITS_AND_MEANINGS
+from mdr.case.units import facts_at
 from mdr.case.vary import GROUPS, fields_of
+from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.messages import nearest, one_line, short
-
-Array = NDArray[np.float64]
 
 VELOCITIES = ("v_0", "v_0/v_c")
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
@@ -76,12 +74,12 @@ class Axis:
     @property
     def unit(self) -> str:
         """Unit of its values, "-" for pure numbers and "" where there is none or it depends on the record."""
-        return UNITS_AND_MEANINGS.get(self.path, ("", ""))[0]
+        return facts_at(self.path).unit
 
     @property
     def meaning(self) -> str:
         """What it is, in words."""
-        return UNITS_AND_MEANINGS.get(self.path, ("", self.path))[1]
+        return facts_at(self.path).meaning or self.path
 
     @property
     def summary(self) -> str:
@@ -155,7 +153,7 @@ def _axis(path: str, values: Any, parts: Mapping[str, tuple[Any, ...]]) -> Axis:
 
 
 def _numbers(path: str, values: Any) -> Array:
-    unit = UNITS_AND_MEANINGS.get(path, ("", ""))[0]
+    unit = facts_at(path).unit
     listed = values if isinstance(values, np.ndarray) else _listed(path, values)
     if not isinstance(listed, np.ndarray) and any(isinstance(one, bool) for one in listed):
         raise TypeError(f"{path} must be real numbers, got {short(repr(values))}")

@@ -17,11 +17,10 @@ from mdr.studies.axes import without_addresses
 from mdr.studies.quantities import CurveQuantity, Quantity
 from mdr.studies.velocities import velocities_of
 from mdr.studies.work import Work
+from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
 from mdr.tools.progress import silent
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
@@ -20,9 +19,8 @@ from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.cof_curve import CofCurve
 from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.studies.axes import VELOCITIES
+from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from mdr.studies.frame import Frame
 from mdr.studies.points import Status
+from mdr.tools.arrays import Array
 from mdr.tools.messages import nearest, short
 from mdr.tools.records import ArrayRecord
-
-Array = NDArray[np.float64]
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 MOST_REASONS = 5  #: told in print

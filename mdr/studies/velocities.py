@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
-
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 
 def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:

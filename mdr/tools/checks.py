@@ -11,61 +11,87 @@ from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from mdr.tools.arrays import Array
+
+FloatArray = Array
 
 
-def finite(name: str, value: Any, meaning: str = "a finite number") -> float:
-    """A real number that is neither NaN nor infinite.
+class _Blames(Exception):
+    """An error with the `field` that is to blame: the name of a field of a record, or of an argument."""
 
-    Raises TypeError for anything that is not a real number (bool, str, array, complex, None), ValueError for
+    def __init__(self, message: str, field: str = "") -> None:
+        super().__init__(message)
+        self.field = field
+
+
+class FieldError(_Blames, ValueError):
+    """A wrong value."""
+
+
+class FieldTypeError(_Blames, TypeError):
+    """A value of a wrong type."""
+
+
+def finite(name: str, value: Any, note: str = "") -> float:
+    """A real number that is neither NaN nor infinite; its refusals need no note.
+
+    Raises FieldTypeError for anything that is not a real number (bool, str, array, complex, None), FieldError for
     NaN and infinity.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})")
+        raise FieldTypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})", name)
     try:
         number = float(value)
     except OverflowError:
-        raise ValueError(f"{name} must be {meaning}, got a whole number beyond the range of floats") from None
+        raise FieldError(
+            f"{name} must be a finite number, got a whole number beyond the range of floats", name
+        ) from None
     if not math.isfinite(number):
-        raise ValueError(f"{name} must be {meaning}, got {number!r}")
+        raise FieldError(f"{name} must be a finite number, got {number!r}", name)
     return number
 
 
-def positive(name: str, value: Any, meaning: str = "") -> float:
+def positive(name: str, value: Any, note: str = "") -> float:
     """A number above zero."""
     number = finite(name, value)
     if number <= 0:
-        raise ValueError(f"{name} must be positive, got {number!r}" + (f" ({meaning})" if meaning else ""))
+        raise FieldError(f"{name} must be positive, got {number!r}{_noted(note)}", name)
     return number
 
 
-def not_negative(name: str, value: Any, meaning: str = "") -> float:
+def not_negative(name: str, value: Any, note: str = "") -> float:
     """A number at or above zero."""
     number = finite(name, value)
     if number < 0:
-        note = f" ({meaning})" if meaning else ""
-        raise ValueError(f"{name} must not be negative, got {number!r}{note}")
+        raise FieldError(f"{name} must not be negative, got {number!r}{_noted(note)}", name)
     return number
 
 
-def between(name: str, value: Any, low: float, high: float, meaning: str = "") -> float:
+def between(name: str, value: Any, low: float, high: float, note: str = "") -> float:
     """A number strictly between low and high."""
     number = finite(name, value)
     if not low < number < high:
-        note = f" ({meaning})" if meaning else ""
-        raise ValueError(f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}{note}")
+        raise FieldError(f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}{_noted(note)}", name)
     return number
 
 
 def count(name: str, value: Any, least: int) -> int:
     """A whole number of at least `least`."""
     if isinstance(value, bool) or not isinstance(value, Integral):
-        raise TypeError(f"{name} must be a whole number, got {value!r}")
+        raise FieldTypeError(f"{name} must be a whole number, got {value!r}", name)
     if value < least:
-        raise ValueError(f"{name} must be at least {least}, got {value}")
+        raise FieldError(f"{name} must be at least {least}, got {value}", name)
     return int(value)
+
+
+def instance(name: str, value: object, *kinds: type[Any]) -> None:
+    """FieldTypeError unless the value is of one of the kinds; a class in the place of its record is told so."""
+    if not isinstance(value, kinds):
+        hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
+        names = " or ".join(kind.__name__ for kind in kinds)
+        raise FieldTypeError(f"{name} must be of kind {names}, got {value!r}{hint}", name)
 
 
 def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
@@ -73,12 +99,12 @@ def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
     try:
         array = np.asarray(values)
     except ValueError as ragged:
-        raise TypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}") from ragged
+        raise FieldTypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}", name) from ragged
     if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}")
+        raise FieldTypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}", name)
     if not np.all(np.isfinite(array)):
         bad = array[~np.isfinite(array)].flat[0]
-        raise ValueError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}")
+        raise FieldError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}", name)
     return array.astype(np.float64, copy=False)
 
 
@@ -86,7 +112,7 @@ def positive_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
     """As `finite_array`, every number above zero."""
     array = finite_array(name, values, unit)
     if not np.all(array > 0):
-        raise ValueError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}")
+        raise FieldError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}", name)
     return array
 
 
@@ -94,6 +120,10 @@ def plain(values: Any) -> FloatArray:
     """An answer as its asker expects it: float64 array, or a float where plain numbers were asked with."""
     answer: FloatArray = np.asarray(values, dtype=np.float64)[()]
     return answer
+
+
+def _noted(note: str) -> str:
+    return f" ({note})" if note else ""
 
 
 def _in(unit: str) -> str:

@@ -141,18 +141,3 @@ def test_axes_are_equal_by_path_and_values_records_by_label():
     assert one != "indenter"
     assert Axis("v_0", np.array([1.0])) != Axis("v_0", np.array([2.0]))
     assert Axis("v_0", np.array([1.0])) == Axis("v_0", np.array([1.0]))
-
-
-def test_every_field_of_every_record_has_a_meaning():
-    from dataclasses import fields
-
-    from mdr.case.units import UNITS_AND_MEANINGS
-
-    given = {"f", "kinks", "name", "r", "d", "F", "tip"}  # data and options, not parameters
-    records = [getattr(mdr, name) for name in mdr.__all__ if isinstance(getattr(mdr, name), type)]
-    homes = {"indenter": mdr.Indenter, "material": mdr.Material, "oscillation": mdr.Motion, "pull": mdr.Pull}
-    for slot, base in homes.items():
-        for record in records:
-            if issubclass(record, base) and record is not base:
-                for field in fields(record):
-                    assert field.name in given or f"{slot}.{field.name}" in UNITS_AND_MEANINGS, (record, field.name)

@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.case.units import UNITS_AND_MEANINGS
 from mdr.plots import studies as pictures
 from mdr.studies.points import Status
 
@@ -175,7 +174,7 @@ def test_a_map_of_nothing_is_drawn(flat):
 
 
 def test_named_axes_and_quantities_exist():
-    assert set(pictures.SYMBOLS) <= set(mdr.studies.CATALOGUE) | set(UNITS_AND_MEANINGS)
+    assert set(pictures.LABELS) <= set(mdr.studies.CATALOGUE)
 
 
 # --- the picture that suits ---

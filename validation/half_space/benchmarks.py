@@ -11,15 +11,13 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mdr.tools.arrays import Array
 from validation.half_space.friction import BELOW, MARGIN
 from validation.half_space.influence import HalfSpace, X, Y, Z
 from validation.half_space.march import Contact, Step
 from validation.half_space.normal import pressure
 from validation.half_space.tangential import traction
-
-Array = NDArray[np.float64]
 
 
 def body(n: int, nu: float, side: float) -> tuple[HalfSpace, Array]:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from mdr.case.motion import DepthMotion
+from mdr.tools.arrays import Array
 from validation.half_space import springs
 from validation.half_space.influence import HalfSpace, X, Z
 from validation.half_space.march import Contact, Step
-
-Array = NDArray[np.float64]
 
 #: of the grid around the greatest contact; with coupling friction spreads it, by 9 % where beta mu_0 = 0.3: what is cut
 #: off then carries 1e-4 of F_z

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 X, Y, Z = 0, 1, 2
 

@@ -16,14 +16,12 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, gmres
 
+from mdr.tools.arrays import Array
 from validation.half_space.benchmarks import body
 from validation.half_space.friction import MARGIN
 from validation.half_space.influence import X, Y, Z
-
-Array = NDArray[np.float64]
 
 
 @cache

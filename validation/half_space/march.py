@@ -11,13 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mdr.tools.arrays import Array
 from validation.half_space.influence import HalfSpace, X, Y, Z
 from validation.half_space.normal import NotConverged, pressure
 from validation.half_space.tangential import traction
-
-Array = NDArray[np.float64]
 
 TURNS = 60  #: of pressure and tractions in a step, at most
 

@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.plots import style
+from mdr.tools.arrays import Array
 from validation.half_space.friction import MARGIN, March, stuck
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-Array = NDArray[np.float64]
 
 OPEN, SLIPS, STICKS = "#FFFFFF", "#F6D98B", "#0B3C6F"
 ARROWS = 13  #: along a side, at most

@@ -28,11 +28,10 @@ phi and psi are linear between nodes at t = tanh(xi): in xi the distance between
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
-Array = NDArray[np.float64]
+from mdr.tools.arrays import Array
 
 NODES = 100  # of the disc, and of the ring: c/a to 2e-5, to 1e-4 where beta > 0.5
 EDGE = 6.0  # where the nodes end: 1 - t = (1 - c) exp(-2 EDGE) if c is near 1

@@ -14,11 +14,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mdr.tools.arrays import Array
 from validation.half_space.normal import NotConverged
-
-Array = NDArray[np.float64]
 
 ON_THE_RIM = 1 - 1e-12  #: of its bound, from which a traction counts as at it
 CLOSE, MOST_INNER = 1e-2, 400  #: to which part of what is left a Newton step is solved, and in how many iterations

@@ -19,9 +19,8 @@ import numpy as np
 
 from mdr.indenters.mapping.quadrature import WINDOW, Function, Rule, derivatives, double_exponential
 from mdr.indenters.mapping.stable_functions import arcosh, leg
+from mdr.tools.arrays import EPS
 from mdr.tools.checks import FloatArray
-
-EPS = float(np.finfo(float).eps)
 
 Slope = Callable[[FloatArray, float, float], FloatArray]  #: dg/ds from s and the kinks before and after
 

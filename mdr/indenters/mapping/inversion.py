@@ -4,10 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.indenters.mapping.quadrature import Function
+from mdr.tools.arrays import EPS
 from mdr.tools.checks import FloatArray
 
 BoolArray = NDArray[np.bool_]
-EPS = float(np.finfo(float).eps)
 
 
 def invert(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, BoolArray]:

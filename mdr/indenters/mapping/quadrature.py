@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from mdr.tools.arrays import EPS
 from mdr.tools.checks import FloatArray, plain
 
 Function = Callable[[FloatArray], FloatArray]
@@ -112,5 +113,5 @@ def _fit(
     basis = np.cos(np.arccos(place)[:, None] * np.arange(N_FIT))
     first = np.sum(basis * (values @ to_first.T), axis=1) / scale
     second = np.sum(basis * (values @ to_second.T), axis=1) / scale / scale
-    resolved = last <= 32 * np.finfo(float).eps * np.abs(values).max(axis=1)
+    resolved = last <= 32 * EPS * np.abs(values).max(axis=1)
     return np.array([first, second, last / scale]), resolved

@@ -16,9 +16,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.indenters.mapping.abel import EPS, _kernel
+from mdr.indenters.mapping.abel import _kernel
 from mdr.indenters.mapping.quadrature import chebyshev_fit, double_exponential
 from mdr.indenters.mapping.stable_functions import arcosh, leg
+from mdr.tools.arrays import EPS
 from mdr.tools.checks import FloatArray
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in

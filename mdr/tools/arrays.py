@@ -1,0 +1,9 @@
+"""The one kind of array that carries quantities, and the rounding of its numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+EPS = float(np.finfo(float).eps)  #: rounding of a number, relative to it

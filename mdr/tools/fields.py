@@ -1,0 +1,70 @@
+"""What a field of a record is: unit, meaning, symbol and rule stand at the field and nowhere else.
+
+    R: float = field(metadata=facts("m", "radius of curvature"))
+
+Checks, messages, case files, studies, figures and the guide read them here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import Field, fields
+from typing import Any, NamedTuple
+
+from mdr.tools.checks import FieldError, FieldTypeError, positive
+
+Rule = Callable[[str, Any, str], Any]  #: (name, value, note) to the value as it is kept; raises what is wrong with it
+
+
+class Facts(NamedTuple):
+    """The facts of one field."""
+
+    unit: str  #: "-" for pure numbers, "" for what has none
+    meaning: str
+    label: str  #: words and symbol for figures, in LaTeX; empty where the name will do
+    rule: Rule | None  #: None for what its record checks
+    note: str  #: what a refusal adds in brackets
+
+    def __str__(self) -> str:
+        return self.meaning + (f" [{self.unit}]" if self.unit else "")
+
+
+NOTHING = Facts("", "", "", None, "")  #: known of a field without facts
+
+
+def facts(
+    unit: str, meaning: str, rule: Rule | None = positive, *, label: str = "", note: str | None = None
+) -> dict[str, Facts]:
+    """Metadata of a field. A refusal notes meaning and unit, or what is given as `note`."""
+    if note is None:
+        note = meaning + (f" in {unit}" if unit not in ("", "-") else "")
+    return {"facts": Facts(unit, meaning, label, rule, note)}
+
+
+def facts_of(field: Field[Any]) -> Facts:
+    """The facts of a field of a record, `NOTHING` where it has none."""
+    found: Facts = field.metadata.get("facts", NOTHING)
+    return found
+
+
+def checked(field: Field[Any], value: Any) -> Any:
+    """The value as the field keeps it. Raises FieldError or FieldTypeError, by the rule of the field."""
+    rule, note = facts_of(field).rule, facts_of(field).note
+    try:
+        return value if rule is None else rule(field.name, value, note)
+    except (FieldError, FieldTypeError) as refusal:
+        refusal.field = field.name  # the rule may blame one of its values
+        raise
+
+
+def check_fields(record: Any) -> None:
+    """Check each field of a frozen dataclass that is being made by its rule, and keep what the rule answers."""
+    for field in fields(record):
+        object.__setattr__(record, field.name, checked(field, getattr(record, field.name)))
+
+
+class Record:
+    """Base of frozen dataclasses whose fields have facts; one with relations between fields adds them after these."""
+
+    def __post_init__(self) -> None:
+        check_fields(self)
