@@ -28,6 +28,7 @@ from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, St
 from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.case.contact import SlidingContact
+from mdr.normal.resolved import resolved
 from mdr.normal.springs import SpringArray
 from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
@@ -113,6 +114,7 @@ __all__ = [
     "read_case",
     "read_friction_data",
     "read_study",
+    "resolved",
     "slide",
     "static_cof",
     "surface_fields",

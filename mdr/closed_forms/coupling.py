@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact, as_given, require_case
 from mdr.case.motion import NormalOscillation
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.full_slip import static_cof
@@ -63,7 +63,7 @@ def coupling_loss(case: SlidingContact) -> float:
 
 def unlike(case: SlidingContact) -> str:
     """What sets a case apart from those that were computed in three dimensions; empty for none."""
-    require_case(case)
+    case = as_given(case)
     if not isinstance(case.pull, RigidPull):
         return f"a {type(case.pull).__name__}, not a rigid pull"
     if not isinstance(case.oscillation, NormalOscillation):

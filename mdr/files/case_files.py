@@ -41,7 +41,7 @@ from typing import Any
 
 from mdr import indenters, materials
 from mdr.case import motion
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact, as_given
 from mdr.case.motion import Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.indenters import Indenter, Paraboloid
@@ -86,7 +86,7 @@ def write_case(case: SlidingContact) -> str:
     Raises CaseFileError for what a file cannot carry: a Profile, which is a Python function, or a class of your own.
     """
     top, tables = [], []
-    require_case(case)
+    case = as_given(case)
     for field in _inputs(SlidingContact):
         value = getattr(case, field.name)
         if field.name not in _TABLES:

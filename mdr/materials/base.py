@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,7 +39,11 @@ def poisson_ratio(name: str, value: float) -> float:
 class Material(ABC):
     """What every material must answer; long-time moduli are properties, the rest follows from them."""
 
-    tau: float
+    if TYPE_CHECKING:
+
+        @property
+        def tau(self) -> float:
+            """Relaxation time of the Kelvin branch [s], 0 for none: a field or a property of the subclass."""
 
     def _set(self, **checked: float) -> None:
         for name, value in checked.items():

@@ -20,7 +20,7 @@ class Elastic(OneBody):
         self._set(E=positive("E", self.E, "Young's modulus in Pa"), nu=poisson_ratio("nu", self.nu))
 
     @property
-    def tau(self) -> float:  # type: ignore[override]
+    def tau(self) -> float:
         """Relaxation time [s] of an elastic body: zero."""
         return 0.0
 
@@ -52,7 +52,7 @@ class ElasticPair(Material):
             )
 
     @property
-    def tau(self) -> float:  # type: ignore[override]
+    def tau(self) -> float:
         """Relaxation time [s] of elastic bodies: zero."""
         return 0.0
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.case.vary import case_at
+from mdr.normal.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.layout import Layout
 from mdr.studies.quantities import CurveQuantity, Quantity
