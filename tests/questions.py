@@ -141,13 +141,14 @@ def on_resonance(case):
         if round(ratio) >= 1 and abs(ratio / round(ratio) - 1) < 1e-11:
             return True
     m_z = getattr(case.oscillation, "m_z", 0.0)
-    return m_z > 0 and abs(at_rest(case).dynamic_stiffness(omega) - m_z * omega**2) <= 1e-12 * at_rest(case).k_zc
+    rest = at_rest(case)
+    return m_z > 0 and abs(rest.dynamic_stiffness(omega) - m_z * omega**2) <= 1e-12 * rest.k_zc
 
 
 def jolts(case):
     """Neither mass nor damper, and dashpots that touch."""
-    pull = case.pull
-    return isinstance(pull, SpringPull) and pull.m == pull.c_x == 0 and case.T > 0 and not mdr.resolved(case).keeps_contact
+    pull, keeps = case.pull, mdr.resolved(case).keeps_contact
+    return isinstance(pull, SpringPull) and pull.m == pull.c_x == 0 and case.T > 0 and not keeps
 
 
 def static(case, dice):
@@ -216,7 +217,8 @@ def pressed(case, dice):
 
 def velocity(case, dice):
     """A pulling velocity of any size, most of them about the critical one."""
-    return mdr.resolved(case).unit_velocity * dice.one_of([dice.size(1e-6, 1e6), dice.size(0.01, 3.0), dice.size(0.01, 3.0), 1.0])
+    unit = mdr.resolved(case).unit_velocity
+    return unit * dice.one_of([dice.size(1e-6, 1e6), dice.size(0.01, 3.0), dice.size(0.01, 3.0), 1.0])
 
 
 def coarse_run(case, dice):

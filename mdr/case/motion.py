@@ -20,6 +20,8 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.tools.checks import count, finite, finite_array, not_negative, positive
 
+__all__ = ["LoadOscillation", "Motion", "NormalOscillation", "PeriodicMotion"]
+
 
 class Motion(ABC):
     """A periodic normal motion: what each must answer is `omega` and `cycle`."""
@@ -40,7 +42,7 @@ class Motion(ABC):
 
     @property
     def knows_depth(self) -> bool:
-        """Whether `cycle` can answer. The depth under a load depends on shape and material: see `mdr.resolved`."""
+        """Whether `cycle` can answer. Under a load the depth follows from shape and material: see `mdr.resolved`."""
         return True
 
     @property
@@ -152,7 +154,8 @@ class LoadOscillation(Motion):
 
         m_z u_z'' = F_z(t) - F_N.
 
-    `mdr.resolved(case)` solves for it. Without mass the load must press at every instant, dF_z < F_z0; with one it may let go.
+    `mdr.resolved(case)` solves for it. Without mass the load must press at every instant, dF_z < F_z0; with one it may
+    let go.
     """
 
     F_z0: float  #: mean load [N]

@@ -44,6 +44,7 @@ from mdr.case import motion
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.motion import Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.files.own_records import own_records
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.tools.messages import nearest, offer, one_line, short
@@ -196,6 +197,7 @@ class _Table:
             return {self.kind.__name__: self.kind}
         public = [name for name in vars(self.module) if not name.startswith("_")]
         found = {name: getattr(self.module, name) for name in getattr(self.module, "__all__", public)}
+        found |= own_records(self.kind)
         return {name: found[name] for name in sorted(found) if self._is_record(found[name])}
 
     def _is_record(self, one: Any) -> bool:
