@@ -1,5 +1,7 @@
 """A shape, a material and a depth motion from outside the package, each through the whole chain."""
 
+import ast
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -9,6 +11,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr import plots
+from mdr.case import motion
 from mdr.case.depth_cycle import Cycle
 from mdr.files.own_records import _OWN
 from mdr.tools.checks import finite_array, plain, positive
@@ -157,3 +160,51 @@ def test_what_cannot_be_registered_is_refused():
             mdr.register(wrong)
     with pytest.raises(ValueError, match="Cone is the name of another record"):
         mdr.register(dataclass(frozen=True)(Cone))
+
+
+# --- the guide ---
+
+GUIDE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
+SECTIONS = {text.partition("\n")[0]: text for text in GUIDE.split("\n## ")[1:]}
+LISTS = {"A shape": mdr.indenters, "A material": mdr.materials, "A motion": motion}
+
+
+def _names_in(path):
+    """The names that the code of a file has, or all words of a page."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".md":
+        return set(re.findall(r"\w+", text))
+    tree = list(ast.walk(ast.parse(text)))
+    named = [getattr(node, name, None) for node in tree for name in ("id", "attr", "name", "value")]
+    return {one for one in named if isinstance(one, str)}
+
+
+@pytest.mark.parametrize("section", LISTS)
+def test_the_guide_names_every_file_that_a_new_part_touches(section):
+    """A file of the package or of the reference that names every shape, material or motion is a list to be edited."""
+    base = {"A shape": "Indenter", "A material": "Material", "A motion": "Motion"}[section]
+    functions = {"Profile"}  # holds a function, which no example can
+    names = set(LISTS[section].__all__) - {base} - functions
+    lists = {
+        str(path.relative_to(ROOT))
+        for folder in ("mdr", "docs/api")
+        for path in (ROOT / folder).rglob("*.*")
+        if path.suffix in (".py", ".md") and names <= _names_in(path)
+    }
+    named = set(re.findall(r"`((?:mdr|docs|tests|geometries)/[\w/.]+)`", SECTIONS[section]))
+    assert lists <= named
+    new = {"mdr/indenters/bump.py", "geometries/bump.py", "mdr/materials/kelvin_on_elastic.py"}
+    assert [path for path in sorted(named - new) if not (ROOT / path).exists()] == []
+
+
+def test_every_shape_has_a_script():
+    scripts = {path.stem.replace("_", "") for path in (ROOT / "geometries").glob("*.py")}
+    assert {name.casefold() for name in mdr.indenters.__all__} - {"indenter"} <= scripts
+
+
+def test_the_worked_examples_are_typed(tmp_path):
+    api = pytest.importorskip("mypy.api")
+    page = tmp_path / "page.py"
+    page.write_text("\n\n".join(re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)), encoding="utf-8")
+    told, failed, status = api.run(["--strict", "--ignore-missing-imports", str(page)])
+    assert status == 0, told + failed
