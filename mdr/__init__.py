@@ -4,35 +4,18 @@ The names below stand in the order of the chain: from an indenter and a material
 a sliding contact; from there to closed forms, runs, curves and the verdict on the closed-form critical velocity.
 """
 
-from mdr.indenters import (
-    CappedCone,
-    CappedParaboloid,
-    ConcavePunch,
-    Cone,
-    ConstantPressure,
-    Ellipsoid,
-    FlatPunch,
-    FromForce,
-    Hyperboloid,
-    Indenter,
-    Paraboloid,
-    PowerLaw,
-    Profile,
-    RoundedPunch,
-    SampledProfile,
-    Sphere,
-    TruncatedCone,
-    TruncatedParaboloid,
-)
-from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
-from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
+from mdr.indenters import *
+from mdr.materials import *
+from mdr.case.motion import *
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.case.contact import SlidingContact
+from mdr.normal.resolved import resolved
 from mdr.normal.springs import SpringArray
 from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.files.own_records import register
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -48,57 +31,32 @@ from mdr.friction.friction_data import FrictionData, read_friction_data
 from mdr.friction.fit import Fit, fit
 from mdr.studies import Quantity, Study, StudyError, read_study, sweep
 
+from mdr import indenters, materials
+from mdr.case import motion as _motion
+
 from mdr.tools.version import __version__ as __version__
 
 __all__ = [
-    "CappedCone",
-    "CappedParaboloid",
     "CaseFileError",
     "CofCurve",
-    "ConcavePunch",
-    "Cone",
-    "ConstantPressure",
-    "Elastic",
-    "ElasticPair",
-    "Ellipsoid",
     "EnergyBalance",
     "Fit",
-    "FlatPunch",
     "FrictionData",
-    "FromForce",
-    "Hyperboloid",
     "Indentation",
-    "Indenter",
-    "KelvinVoigt",
-    "LoadOscillation",
-    "Material",
     "MeasuredVelocity",
-    "Motion",
-    "NormalOscillation",
-    "Paraboloid",
     "PartialSlip",
-    "PeriodicMotion",
-    "PowerLaw",
-    "Profile",
-    "Prony",
     "Pull",
     "Quantity",
     "RigidPull",
-    "RoundedPunch",
-    "SampledProfile",
     "SlidingContact",
     "SlidingRun",
-    "Sphere",
     "SpringArray",
     "SpringPull",
-    "StandardLinearSolid",
     "State",
     "Study",
     "StudyError",
     "SurfaceFields",
     "TangentialLoop",
-    "TruncatedCone",
-    "TruncatedParaboloid",
     "Verdict",
     "cof_curve",
     "coupled_critical_velocity",
@@ -114,6 +72,8 @@ __all__ = [
     "read_case",
     "read_friction_data",
     "read_study",
+    "register",
+    "resolved",
     "slide",
     "static_cof",
     "surface_fields",
@@ -122,3 +82,6 @@ __all__ = [
     "verdict",
     "write_case",
 ]
+__all__ += indenters.__all__  # shapes, materials and motions are listed where they stand
+__all__ += materials.__all__
+__all__ += _motion.__all__

@@ -16,6 +16,7 @@ import numpy as np
 
 import mdr
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.normal.resolved import at_rest
 
 LIBRARY = {str(path): path.read_text("utf-8").splitlines() for path in Path(mdr.__file__).parent.rglob("*.py")}
 ROUNDING = 1e-9  #: of mu_0, or of an answer
@@ -78,7 +79,8 @@ def identity(case, dice):
 
 
 def numbers(case, dice):
-    """What the record itself knows."""
+    """What the record itself knows, once its depth is known."""
+    case = mdr.resolved(case)
     knows = ("k_zc", "k_xc", "gamma_zc", "gamma_xc", "T", "unit_velocity", "u_z_max", "kept_gap", "working_depth")
     for name in knows:
         finite(getattr(case, name))
@@ -139,13 +141,14 @@ def on_resonance(case):
         if round(ratio) >= 1 and abs(ratio / round(ratio) - 1) < 1e-11:
             return True
     m_z = getattr(case.oscillation, "m_z", 0.0)
-    return m_z > 0 and abs(case.dynamic_stiffness(omega) - m_z * omega**2) <= 1e-12 * case.k_zc
+    rest = at_rest(case)
+    return m_z > 0 and abs(rest.dynamic_stiffness(omega) - m_z * omega**2) <= 1e-12 * rest.k_zc
 
 
 def jolts(case):
     """Neither mass nor damper, and dashpots that touch."""
-    pull = case.pull
-    return isinstance(pull, SpringPull) and pull.m == pull.c_x == 0 and case.T > 0 and not case.keeps_contact
+    pull, keeps = case.pull, mdr.resolved(case).keeps_contact
+    return isinstance(pull, SpringPull) and pull.m == pull.c_x == 0 and case.T > 0 and not keeps
 
 
 def static(case, dice):
@@ -172,7 +175,7 @@ def curve(case, dice):
 
 def held(case, dice):
     """Pulled at rest: friction between nothing and mu_0 F_z, a loop that loses energy, fields that press."""
-    d = case.u_z_max
+    d = mdr.resolved(case).u_z_max
     U = case.mu_0 * case.material.mindlin_ratio * d * dice.size(1e-6, 10.0)
     found = mdr.partial_slip(case.indenter, case.material, case.mu_0, d, [0.0, U / 2, U])
     most = case.mu_0 * found.F_z * (1 + ROUNDING)
@@ -197,11 +200,11 @@ def pressed(case, dice):
     """Normal contact alone, under any history of depth or of force."""
     n, t = 2 + dice.below(8), dice.size(1e-3, 1e3) / case.oscillation.omega
     instants = t * np.cumsum([dice.share() for _ in range(n)])
-    heights = np.array([dice.between(-0.3, 1) for _ in range(n)])
+    heights, d = np.array([dice.between(-0.3, 1) for _ in range(n)]), mdr.resolved(case).u_z_max
     if dice.happens(0.5):
-        found = mdr.indent(case.indenter, case.material, instants, case.u_z_max * heights)
+        found = mdr.indent(case.indenter, case.material, instants, d * heights)
     else:
-        F_z = float(case.indenter.force(case.u_z_max, case.material.E_star)) * np.maximum(heights, 0)
+        F_z = float(case.indenter.force(d, case.material.E_star)) * np.maximum(heights, 0)
         found = mdr.indent(case.indenter, case.material, instants, F_z=F_z)
     finite(found.u_z, found.F_z, found.contact_radius)
     assert np.all(found.F_z >= 0)
@@ -214,7 +217,8 @@ def pressed(case, dice):
 
 def velocity(case, dice):
     """A pulling velocity of any size, most of them about the critical one."""
-    return case.unit_velocity * dice.one_of([dice.size(1e-6, 1e6), dice.size(0.01, 3.0), dice.size(0.01, 3.0), 1.0])
+    unit = mdr.resolved(case).unit_velocity
+    return unit * dice.one_of([dice.size(1e-6, 1e6), dice.size(0.01, 3.0), dice.size(0.01, 3.0), 1.0])
 
 
 def coarse_run(case, dice):
@@ -341,7 +345,7 @@ def swept(case, dice):
 
 def fitted(case, dice):
     """Friction that a contact of the kind shows is fitted, if by many words."""
-    v = case.unit_velocity * np.array([0.1, 0.3, 0.6, 0.9, 1.3])
+    v = mdr.resolved(case).unit_velocity * np.array([0.1, 0.3, 0.6, 0.9, 1.3])
     cof = case.mu_0 * np.array([dice.between(0.2, 1.0) for _ in v])
     found = mdr.fit(case, mdr.FrictionData(v, np.sort(cof)), ["mu_0"])
     finite(*found.values.values(), *found.low.values(), *found.high.values(), found.rms)

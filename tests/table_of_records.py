@@ -20,6 +20,7 @@ from collections import Counter
 import anything
 import questions
 
+import mdr
 from mdr.tools.progress import Meter
 
 LATE, LATER = 60, 600  #: seconds of processor time for a question, and for a dear one
@@ -37,7 +38,7 @@ def ask(seed):
     """What became of one record: rows of question, outcome, words and seconds."""
     dice, rows = anything.Dice(seed), []
     case = outcome(rows, "record", anything.contact, dice)
-    if case is None or outcome(rows, "depth under load", _depth, case) is None:
+    if case is None or outcome(rows, "depth under load", mdr.resolved, case) is None:
         return seed, repr(case), rows
     for number, (question, share) in enumerate(SHARES.items()):
         own = anything.Dice([seed, number])
@@ -64,11 +65,6 @@ def outcome(rows, name, call, *args, limit=LATE):
         signal.setitimer(signal.ITIMER_PROF, 0)
     rows.append((name, kind, words, time.process_time() - started))
     return answer
-
-
-def _depth(case):
-    """The depth over a period, which an oscillating load only brings about."""
-    return case.cycle
 
 
 def _begin():

@@ -75,7 +75,7 @@ def drawn(seed: int) -> System:
         motion = mdr.LoadOscillation(load, load * min(0.45 * alpha, 0.9), OMEGA)
     case = mdr.SlidingContact(shape, material, MU_0, motion, pull)
     full = mdr.full_slip_critical_velocity(case)
-    v_0 = float(rng.uniform(0.05, 1.2)) * (full if math.isfinite(full) else case.unit_velocity)
+    v_0 = float(rng.uniform(0.05, 1.2)) * (full if math.isfinite(full) else mdr.resolved(case).unit_velocity)
     said = f"{seed}: {name}, {type(material).__name__}, nu {nu:.4g}, alpha {alpha:.4g}, omega_0 {ratio:.8g}"
     said += f", k {k_x / k_xc:.4g}, zeta {zeta:.3g}, {type(motion).__name__}, {v_0 / full:.4g} v_c"
     return System(said, case, v_0, near)

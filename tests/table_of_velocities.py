@@ -46,7 +46,8 @@ def row(seed: int) -> Row:
         system = drawn(seed)
     except ValueError:
         return Row(f"{seed}: refused", "refused", (), 0.0)
-    case, full = system.case, mdr.full_slip_critical_velocity(system.case)
+    case = mdr.resolved(system.case)
+    full = mdr.full_slip_critical_velocity(case)
     begin = time.perf_counter()
     found = mdr.measure_critical_velocity(case, limit_s=LONGEST)
     seconds = time.perf_counter() - begin

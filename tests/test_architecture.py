@@ -35,10 +35,6 @@ OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the comma
 NAMED = {
     ("mdr.normal.followed_force", "mdr.march.kernels"): "compiled code is one file, for the sake of its cache",
 }
-#: Ways from a record to a solver that are left. The list may only shrink: a record never solves.
-RECORDS_THAT_SOLVE = {
-    ("mdr.case.contact", "mdr.normal.load_control"): "depth and stiffness under a load are asked of the record",
-}
 
 
 class Import(NamedTuple):
@@ -143,7 +139,7 @@ def test_a_room_imports_from_itself_and_from_earlier_ones(house):
     wrong = [
         f"{module} -> {imported}"
         for module, imported, door in sorted(imports)
-        if module not in OUTSIDE and not door and (module, imported) not in {**NAMED, **RECORDS_THAT_SOLVE}
+        if module not in OUTSIDE and not door and (module, imported) not in NAMED
         if not may_import(room_of(module), room_of(imported))
     ]
     assert wrong == []
@@ -172,7 +168,7 @@ def test_no_circles(house):
 def test_exceptions_are_still_needed(house):
     _, imports = house
     edges = {(module, imported) for module, imported, _ in imports}
-    assert {*NAMED, *RECORDS_THAT_SOLVE} <= edges
+    assert set(NAMED) <= edges
 
 
 def test_closed_forms_and_the_march_know_nothing_of_each_other(house):
@@ -211,10 +207,10 @@ def test_the_measured_velocity_knows_no_closed_form(house):
 
 
 def test_a_record_never_solves(house):
-    """No way from the records of a case to a solver but those that are listed as left."""
+    """No way from the records of a case to a solver."""
     known, imports = house
     solvers = inside({"normal", "closed_forms", "march", "friction", "studies"}, known)
-    assert ways_between(imports, known, inside({"case"}, known), solvers, RECORDS_THAT_SOLVE) == []
+    assert ways_between(imports, known, inside({"case"}, known), solvers) == []
 
 
 def test_pictures_compute_nothing(house):

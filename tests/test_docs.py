@@ -376,7 +376,7 @@ def test_psi_and_both_ends_of_the_curve():
 def test_oscillating_load():
     pull = mdr.SpringPull(k_x=2e4, m=0.1, c_x=5.0)
     load = mdr.LoadOscillation(F_z0=0.1, dF_z=1e-4, omega=OMEGA, m_z=0.02)
-    case = mdr.SlidingContact(CONE, mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.4, load, pull)
+    case = mdr.resolved(mdr.SlidingContact(CONE, mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.4, load, pull))
     K, H = complex(case.dynamic_stiffness(OMEGA)), 1 / (2e4 - 0.1 * OMEGA**2 + 5j * OMEGA)
     kappa = case.material.mindlin_ratio
     expected = 0.4 * OMEGA * 1e-4 * abs(kappa + K * H) / abs(K - 0.02 * OMEGA**2)
@@ -387,7 +387,7 @@ def test_oscillating_load():
 def test_oscillating_load_at_finite_amplitude():
     eps, p = 0.5, 1 / 2  # a cone
     load = mdr.LoadOscillation(F_z0=0.1, dF_z=0.05, omega=OMEGA)
-    case = mdr.SlidingContact(CONE, mdr.Elastic(E=3e6, nu=0.5), 0.4, load)
+    case = mdr.resolved(mdr.SlidingContact(CONE, mdr.Elastic(E=3e6, nu=0.5), 0.4, load))
     phi = np.linspace(0, np.pi, 100001)
     greatest = np.max(np.sin(phi) * (1 + eps * np.cos(phi)) ** -p)
     unit = 0.4 * case.material.mindlin_ratio * OMEGA * 0.05 / case.k_zc

@@ -1,11 +1,15 @@
 """Depth under an oscillating load: against the contact law inverted, an oscillator integrated, and the linear limit."""
 
+import pickle
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from conftest import SHAPES, bowl
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.case.contact import as_given
 from mdr.closed_forms.full_slip import followed
 from mdr.normal.load_control import static_depth
 
@@ -20,7 +24,7 @@ def under_load(shape, material, share, m_z=0.0, pull=None, depth=6e-6):
     indenter = SHAPES[shape][0]
     F_z0 = float(indenter.force(depth, material.E_star))
     motion = mdr.LoadOscillation(F_z0, share * F_z0, OMEGA, m_z)
-    return mdr.SlidingContact(indenter, material, 0.4, motion, pull or mdr.RigidPull())
+    return mdr.resolved(mdr.SlidingContact(indenter, material, 0.4, motion, pull or mdr.RigidPull()))
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -44,7 +48,51 @@ def test_elastic_depth_carries_the_load_at_each_instant(shape, share):
     cycle, phase = case.cycle, np.linspace(0, 6, 25)
     u_z = cycle.u_z0 + cycle.du_z * cycle.z(phase)
     F_z = np.asarray(case.indenter.force(u_z, ELASTIC.E_star))
-    assert_allclose(F_z, case.oscillation.F_z(phase / OMEGA), rtol=1e-12)
+    assert_allclose(F_z, case.oscillation.load.F_z(phase / OMEGA), rtol=1e-12)
+
+
+# --- the record, and the case whose depth is known ---
+
+LOADED = mdr.SlidingContact(mdr.Paraboloid(5e-3), KELVIN, 0.4, mdr.LoadOscillation(0.2, 0.1, OMEGA))
+OF_THE_DEPTH = ("cycle", "working_depth", "u_z_max", "k_zc", "k_xc", "gamma_zc", "gamma_xc", "alpha", "kept_gap")
+
+
+@pytest.mark.parametrize("name", [*OF_THE_DEPTH, "unit_velocity", "keeps_contact"])
+def test_the_record_says_where_the_depth_under_a_load_is_asked(name):
+    with pytest.raises(ValueError, match=rf"{name}.* ask mdr.resolved\(case\)"):
+        getattr(LOADED, name)
+    assert getattr(mdr.resolved(LOADED), name) is not None
+    assert not LOADED.is_of_the_paper
+    assert pytest.approx(0.3, rel=1e-15) == LOADED.T
+
+
+def test_resolving_twice_is_resolving_once():
+    known = mdr.resolved(LOADED)
+    assert mdr.resolved(known) is known
+    assert known == mdr.resolved(LOADED) == pickle.loads(pickle.dumps(known))
+    assert as_given(known) == LOADED
+    prescribed = replace(LOADED, oscillation=mdr.NormalOscillation(2e-6, 1e-6, OMEGA))
+    assert mdr.resolved(prescribed) is prescribed
+    with pytest.raises(TypeError, match="case must be a SlidingContact"):
+        mdr.resolved(LOADED.oscillation)
+
+
+@pytest.mark.parametrize("answer", [mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.static_cof])
+def test_a_case_and_the_resolved_one_have_one_answer(answer):
+    assert answer(LOADED) == answer(mdr.resolved(LOADED))
+
+
+@pytest.mark.parametrize("change", [{"indenter": mdr.Cone(0.05)}, {"material": ELASTIC}])
+def test_a_depth_is_not_carried_over_to_another_contact(change):
+    assert replace(mdr.resolved(LOADED), **change) == replace(LOADED, **change)
+    assert replace(mdr.resolved(LOADED), mu_0=0.1).cycle == mdr.resolved(LOADED).cycle
+
+
+@pytest.mark.parametrize("door", [mdr.resolved, mdr.critical_velocity, mdr.verdict])
+def test_a_load_beyond_the_shape_is_refused_at_the_door(door):
+    heavy = replace(LOADED, indenter=mdr.Sphere(1e-6), oscillation=mdr.LoadOscillation(9.0, 1.0, OMEGA))
+    with pytest.raises(ValueError, match=r"is more than Sphere.* carries"):
+        door(heavy)
 
 
 @pytest.mark.parametrize("material", [KELVIN, SOLID, PRONY], ids=["Kelvin", "solid", "Prony"])
@@ -59,12 +107,13 @@ def test_forces_balance(shape, material, m_z):
     inertia = -m_z * OMEGA**2 * cycle.du_z * (n**2 * cycle.harmonics * np.exp(1j * np.outer(phase, n))).real.sum(axis=1)
     # springs and instants other than those of the search, both of second order; 256 harmonics of a force with kinks
     limit = 1e-10 if shape == "flat" else 5e-5
-    assert_allclose(inertia + force, case.oscillation.F_z(phase / OMEGA), rtol=0, atol=limit * case.oscillation.F_z0)
+    load = case.oscillation.load
+    assert_allclose(inertia + force, load.F_z(phase / OMEGA), rtol=0, atol=limit * load.F_z0)
 
 
 def test_a_mass_on_a_punch_is_the_linear_oscillator():
     case = under_load("flat", KELVIN, 0.3, 0.4)
-    motion = case.oscillation
+    motion = case.oscillation.load
     u = motion.dF_z / (case.k_zc * (1 + 1j * case.T) - motion.m_z * OMEGA**2)
     assert_allclose(case.cycle.u_z0, motion.F_z0 / case.k_zc, rtol=1e-12)
     assert_allclose(case.cycle.du_z * case.cycle.harmonics[0], u, rtol=1e-9)
@@ -73,7 +122,7 @@ def test_a_mass_on_a_punch_is_the_linear_oscillator():
 
 def test_a_mass_that_lets_go_is_the_oscillator_marched():
     case = under_load("flat", mdr.KelvinVoigt(3e6, 0.4, 3e-3), 1.3, 0.02)
-    motion, k, tau = case.oscillation, case.k_zc, case.material.tau
+    motion, k, tau = case.oscillation.load, case.k_zc, case.material.tau
     n, n_periods = 4000, 40  # of damping: the contact's own
     dt = 2 * np.pi / OMEGA / n
     u, w, s, out = case.cycle.u_z0, 0.0, case.cycle.u_z0, np.empty(n)
@@ -95,7 +144,7 @@ def test_a_small_load_is_the_small_depth_that_belongs_to_it(material, m_z):
     pull = mdr.SpringPull(2e3, 0.02, 0.5)
     case = under_load("paraboloid", material, 1e-3, m_z, pull)
     impedance = complex(case.dynamic_stiffness(OMEGA)) - m_z * OMEGA**2
-    u = case.oscillation.dF_z / impedance
+    u = case.oscillation.load.dF_z / impedance
     first = case.cycle.du_z * case.cycle.harmonics[0]
     assert_allclose(first, u, rtol=1e-3)  # amplitude over depth is 1e-3 or less
     harmonic = mdr.NormalOscillation(case.working_depth, abs(u), OMEGA)
@@ -105,7 +154,7 @@ def test_a_small_load_is_the_small_depth_that_belongs_to_it(material, m_z):
     v_0 = 0.5 * mdr.critical_velocity(case)
     loaded, pressed = (mdr.slide(each, v_0, n_springs=128, steps_per_period=256) for each in (case, same))
     assert_allclose(1 - loaded.cof / 0.4, 1 - pressed.cof / 0.4, rtol=3e-3)
-    assert_allclose(loaded.mean_F_z, case.oscillation.F_z0, rtol=1e-5)
+    assert_allclose(loaded.mean_F_z, case.oscillation.load.F_z0, rtol=1e-5)
 
 
 def test_static_cof_of_a_load_is_its_least_value():
@@ -115,17 +164,17 @@ def test_static_cof_of_a_load_is_its_least_value():
 
 def test_the_undamped_natural_frequency_of_the_mass_is_refused_by_name():
     case = under_load("paraboloid", ELASTIC, 0.01)
-    resonant = mdr.LoadOscillation(case.oscillation.F_z0, case.oscillation.dF_z, OMEGA, case.k_zc / OMEGA**2)
+    resonant = mdr.LoadOscillation(case.oscillation.load.F_z0, case.oscillation.load.dF_z, OMEGA, case.k_zc / OMEGA**2)
     at_pole = mdr.SlidingContact(case.indenter, ELASTIC, 0.4, resonant)
     assert mdr.critical_velocity(at_pole) > 1e6 * mdr.critical_velocity(case)
     with pytest.raises(ValueError, match="natural frequency of m_z on the contact"):
-        _ = at_pole.cycle
+        mdr.resolved(at_pole)
 
 
 def test_units_drop_out():
     one = under_load("cone", SOLID, 0.5)
-    nano = mdr.LoadOscillation(one.oscillation.F_z0 * 1e-18, one.oscillation.dF_z * 1e-18, OMEGA)
-    small = mdr.SlidingContact(one.indenter, SOLID, 0.4, nano)  # a cone has no length: depth scales with 1e-9
+    nano = mdr.LoadOscillation(one.oscillation.load.F_z0 * 1e-18, one.oscillation.load.dF_z * 1e-18, OMEGA)
+    small = mdr.resolved(replace(one, oscillation=nano))  # a cone has no length: depth scales with 1e-9
     assert_allclose(small.cycle.z(np.arange(6.0)), one.cycle.z(np.arange(6.0)), rtol=0, atol=1e-7)
     assert_allclose(small.cycle.du_z, 1e-9 * one.cycle.du_z, rtol=1e-7)
 
@@ -143,7 +192,8 @@ def rounded_ball(r):
 @pytest.mark.filterwarnings("error")
 def test_a_shape_that_is_one_near_its_tip_only_carries_a_load():
     motion = mdr.LoadOscillation(1e-2, 2e-3, OMEGA)
-    got, expected = (mdr.SlidingContact(one, ELASTIC, 0.4, motion) for one in (mdr.Profile(ball), mdr.Sphere(1e-3)))
+    shapes = mdr.Profile(ball), mdr.Sphere(1e-3)
+    got, expected = (mdr.resolved(mdr.SlidingContact(one, ELASTIC, 0.4, motion)) for one in shapes)
     assert_allclose(got.working_depth, expected.working_depth, rtol=1e-9)
     assert_allclose(got.u_z_max, expected.u_z_max, rtol=1e-9)
 
@@ -161,7 +211,7 @@ def test_a_search_goes_on_while_its_error_falls_slowly():
     """Near the resonance of m_z the error of the balance takes some sixty iterations to fall from 0.1 to 1e-4."""
     motion = mdr.LoadOscillation(0.17664679888809828, 0.2026675736930373, 314.0, m_z=0.008852535778470783)
     body = mdr.KelvinVoigt(3e6, 0.5, tau=0.010172149149214788)
-    cycle = mdr.SlidingContact(mdr.Cone(theta=0.05), body, 0.5, motion).cycle
+    cycle = mdr.resolved(mdr.SlidingContact(mdr.Cone(theta=0.05), body, 0.5, motion)).cycle
     assert_allclose(cycle.u_z0, 5.2136e-05, rtol=1e-3)  # of a search that ends at 1e-4
 
 
@@ -171,7 +221,7 @@ def test_the_mean_load_is_carried_where_a_punch_on_dashpots_lifts_off(T, share, 
     punch, kelvin = mdr.FlatPunch(a=1e-3), mdr.KelvinVoigt(3e6, 0.5, T / OMEGA)
     F_z0 = float(punch.force(2e-5, kelvin.E_star))
     m_z = float(punch.stiffness(2e-5, kelvin.E_star)) / (ratio * OMEGA) ** 2
-    case = mdr.SlidingContact(punch, kelvin, 0.5, mdr.LoadOscillation(F_z0, share * F_z0, OMEGA, m_z))
+    case = mdr.resolved(mdr.SlidingContact(punch, kelvin, 0.5, mdr.LoadOscillation(F_z0, share * F_z0, OMEGA, m_z)))
     run = mdr.slide(case, 0.5 * case.unit_velocity)
     missing = abs(run.mean_F_z / F_z0 - 1)
     assert not case.keeps_contact

@@ -167,10 +167,9 @@ def _measured(shape: str, material: str, drive: str, eps: float, mass_ratio: flo
 def _equivalence_checks(quick: bool) -> list[Check]:
     checks = []
     for shape, material in EQUIVALENT[:1] if quick else EQUIVALENT:
-        loaded = contact(shape, material, load(shape, material, SMALL), BODY)
+        motion = load(shape, material, SMALL)
+        loaded = mdr.resolved(contact(shape, material, motion, BODY))
         K_z = complex(loaded.dynamic_stiffness(OMEGA))
-        motion = loaded.oscillation
-        assert isinstance(motion, mdr.LoadOscillation)
         depth = mdr.NormalOscillation(loaded.working_depth, abs(motion.dF_z / K_z), OMEGA)
         pressed = contact(shape, material, depth, BODY)
         for share in (0.2, 0.6):

@@ -4,32 +4,31 @@ A script, a TOML file and a study describe the same thing, and all of them end h
 the mean depth u_z0 (under an oscillating load, to the depth at which the mean load rests): k_zc = 2 E* a(u_z0),
 k_xc = 2 G* a(u_z0), and gamma = tau k in both directions, Eq. (11). E* and G* are long-time moduli; what Maxwell arms
 add is in the dynamic stiffness K_z(omega) = k_zc E*(omega)/E*.
+
+Every property is computed from the fields. Under a LoadOscillation the depth is none of them, and what depends on it is
+asked of `mdr.resolved(case)`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import lru_cache
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.depth_cycle import Cycle, stick_limit
-from mdr.case.motion import DepthMotion, LoadOscillation, Motion, NormalOscillation, PeriodicMotion
+from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
-from mdr.materials import Elastic, ElasticPair, KelvinVoigt, Material, Prony, StandardLinearSolid
+from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.tools.checks import instance
 from mdr.tools.fields import check_fields, facts
-from mdr.tools.memoise import remembered
 
-KINDS: dict[str, tuple[type, ...]] = {  #: of the parts; the rest of the chain knows these and no others
-    "indenter": (Indenter,),
-    "material": (Elastic, KelvinVoigt, ElasticPair, StandardLinearSolid, Prony),
-    "oscillation": (NormalOscillation, PeriodicMotion, LoadOscillation),
-    "pull": (RigidPull, SpringPull),
-}
+SAME = 1e-9  #: of a dynamic modulus: rounding of a sum over arms
+#: what the parts must be; each says what one of its kind must answer
+KINDS: dict[str, type[Any]] = {"indenter": Indenter, "material": Material, "oscillation": Motion, "pull": Pull}
 
 
 @dataclass(frozen=True)
@@ -47,20 +46,46 @@ class SlidingContact:
     pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
 
     def __post_init__(self) -> None:
-        for name, kinds in KINDS.items():
-            instance(name, getattr(self, name), *kinds)
+        for name, kind in KINDS.items():
+            instance(name, getattr(self, name), kind)
+        self._refuse_what_springs_do_not_know()
         check_fields(self)
         if self.material.E_star == 0:
             raise ValueError(
                 "E_inf = 0: a mean load relaxes to nothing, or sinks in without end, so that there is no periodic "
                 "state whose friction could be averaged; give the material a long-time modulus, or use indent()"
             )
-        if isinstance(self.oscillation, LoadOscillation):
-            _rests_at(self.indenter, self.material, self.oscillation.F_z0)  # a shape that does not carry it says so
-        else:
+        object.__setattr__(self, "oscillation", self.oscillation.on(self.indenter, self.material))
+        if self.oscillation.knows_depth:
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
-        if self.indenter.least_depth > 0:
-            self._refuse_incomplete()
+            if self.indenter.least_depth > 0:
+                self._refuse_incomplete()
+
+    def _refuse_what_springs_do_not_know(self) -> None:
+        """Parts of a user's own may answer what no march computes with."""
+        must: tuple[tuple[object, str, str], ...] = (
+            (self.material, "tau", "the relaxation time [s] of its Kelvin branch, 0.0 for none"),
+            (self.oscillation, "omega", "its angular frequency [rad/s]"),
+        )
+        for part, name, what in must:
+            if not hasattr(part, name):
+                raise TypeError(f"{type(part).__name__} must answer {name}, {what}: a field or a property")
+        if not isinstance(self.pull, RigidPull | SpringPull):
+            raise TypeError(
+                f"pull = {self.pull!r} has no equation of motion that is marched: give RigidPull(), or a mass on a "
+                "spring and a damper as SpringPull(k_x, m, c_x)"
+            )
+        if type(self.material).dynamic_modulus is Material.dynamic_modulus:
+            return
+        omega = self.oscillation.omega
+        own = complex(self.material.dynamic_modulus(omega))
+        known = complex(Material.dynamic_modulus(self.material, omega))
+        if not abs(own - known) <= SAME * abs(known):
+            raise ValueError(
+                f"material = {self.material!r} answers dynamic_modulus(omega) = {own:.6g} Pa, and its E_star, tau and "
+                f"contact_arms make {known:.6g} Pa: springs know a material by these three; give it arms, as "
+                "Prony.fit does"
+            )
 
     def _refuse_incomplete(self) -> None:
         """A hollow face must press everywhere at every instant."""
@@ -75,11 +100,8 @@ class SlidingContact:
 
     @property
     def cycle(self) -> Cycle:
-        """The depth over one period; under an oscillating load it is solved for, once."""
-        if isinstance(self.oscillation, DepthMotion):
-            return _prescribed(self.oscillation)
-        assert isinstance(self.oscillation, LoadOscillation)
-        return _under_load(self.indenter, self.material, self.oscillation)
+        """The depth over one period."""
+        return self.oscillation.cycle
 
     @property
     def rheology(self) -> Rheology:
@@ -95,9 +117,7 @@ class SlidingContact:
     @property
     def working_depth(self) -> float:
         """Depth [m] that stiffnesses belong to: the mean depth u_z0, or that at which the mean load rests."""
-        if isinstance(self.oscillation, LoadOscillation):
-            return _rests_at(self.indenter, self.material, self.oscillation.F_z0)
-        return self.cycle.u_z0
+        return self.oscillation.working_depth
 
     @property
     def k_zc(self) -> float:
@@ -153,27 +173,8 @@ class SlidingContact:
     @property
     def is_of_the_paper(self) -> bool:
         """Whether depth is harmonic and material without arms: as in the paper, where more is in closed form."""
-        harmonic = isinstance(self.oscillation, DepthMotion) and self.cycle.is_harmonic
-        return harmonic and not self.material.contact_arms
-
-
-@lru_cache(maxsize=256)
-def _prescribed(oscillation: DepthMotion) -> Cycle:
-    return oscillation.cycle
-
-
-@remembered(maxsize=256)
-def _rests_at(indenter: Indenter, material: Material, F_z0: float) -> float:
-    from mdr.normal.load_control import static_depth
-
-    return static_depth(indenter, material, F_z0)
-
-
-@remembered(maxsize=64)
-def _under_load(indenter: Indenter, material: Material, oscillation: LoadOscillation) -> Cycle:
-    from mdr.normal.load_control import depth_under_load
-
-    return depth_under_load(indenter, material, oscillation)
+        prescribed = self.oscillation.knows_depth and self.oscillation.load is None
+        return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
 
 
 def require_case(case: object) -> SlidingContact:
@@ -181,3 +182,9 @@ def require_case(case: object) -> SlidingContact:
     if not isinstance(case, SlidingContact):
         raise TypeError(f"case must be a SlidingContact, got {case!r}")
     return case
+
+
+def as_given(case: object) -> SlidingContact:
+    """The case with the motion that imposes its depth: of a resolved case, its load."""
+    case = require_case(case)
+    return case if case.oscillation.load is None else replace(case, oscillation=case.oscillation.load)

@@ -6,17 +6,22 @@ dF_z its amplitude [N], m_z mass that the load moves [kg].
 
 from __future__ import annotations
 
-from abc import ABC
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.depth_cycle import Cycle
+from mdr.indenters.base import Indenter
+from mdr.materials.base import Material
 from mdr.tools.checks import FieldError, FieldTypeError, count, finite, finite_array, not_negative
 from mdr.tools.fields import Record, facts
+
+__all__ = ["LoadOscillation", "Motion", "NormalOscillation", "PeriodicMotion"]
 
 
 def _amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
@@ -30,30 +35,45 @@ MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{
 
 
 class Motion(Record, ABC):
-    """A periodic normal motion."""
+    """A periodic normal motion: what each must answer is `omega` and `cycle`."""
 
-    omega: float
+    if TYPE_CHECKING:
+
+        @property
+        def omega(self) -> float:
+            """Angular frequency [rad/s]: a field or a property of the subclass."""
+
+    #: the load that the depth was solved from; None where the depth itself is prescribed
+    load: LoadOscillation | None = None
+
+    @property
+    @abstractmethod
+    def cycle(self) -> Cycle:
+        """The depth over one period."""
+
+    @property
+    def knows_depth(self) -> bool:
+        """Whether `cycle` can answer. Under a load the depth follows from shape and material: see `mdr.resolved`."""
+        return True
+
+    @property
+    def working_depth(self) -> float:
+        """Depth [m] that the stiffness of the contact belongs to: the mean depth u_z0."""
+        return self.cycle.u_z0
 
     @property
     def period(self) -> float:
         """2 pi/omega [s]."""
         return 2 * np.pi / self.omega
 
-
-class DepthMotion(Motion):
-    """A periodic motion of prescribed depth."""
-
-    u_z0: float
-
-    @property
-    def cycle(self) -> Cycle:
-        """The depth over one period."""
-        raise NotImplementedError
+    def on(self, indenter: Indenter, material: Material) -> Motion:
+        """The motion of a contact of these two: itself, unless it was solved for another contact."""
+        return self
 
     def u_z(self, t: ArrayLike) -> NDArray[np.float64]:
         """Depth [m] at times t [s]."""
         cycle = self.cycle
-        return self.u_z0 + cycle.du_z * cycle.z(self.omega * finite_array("t", t, "s"))
+        return cycle.u_z0 + cycle.du_z * cycle.z(self.omega * finite_array("t", t, "s"))
 
     def u_z_dot(self, t: ArrayLike) -> NDArray[np.float64]:
         """Its rate [m/s]."""
@@ -62,7 +82,7 @@ class DepthMotion(Motion):
 
 
 @dataclass(frozen=True)
-class NormalOscillation(DepthMotion):
+class NormalOscillation(Motion):
     """A harmonic normal motion of prescribed depth, Eq. (3): u_z(t) = u_z0 + du_z cos(omega t).
 
     The mean depth may be zero or negative as long as the indenter touches in part of the period:
@@ -89,7 +109,7 @@ class NormalOscillation(DepthMotion):
 
 
 @dataclass(frozen=True)
-class PeriodicMotion(DepthMotion):
+class PeriodicMotion(Motion):
     """A periodic normal motion of prescribed depth, as a Fourier series:
 
         u_z(t) = u_z0 + sum over n >= 1 of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t).
@@ -118,7 +138,7 @@ class PeriodicMotion(DepthMotion):
     @property
     def cycle(self) -> Cycle:
         """The depth over one period."""
-        return Cycle.series(self.u_z0, self.omega, np.array(self.cos), np.array(self.sin))
+        return _series(self)
 
     @classmethod
     def of(cls, u_z: ArrayLike, omega: float, n_harmonics: int | None = None) -> PeriodicMotion:
@@ -143,7 +163,8 @@ class LoadOscillation(Motion):
 
         m_z u_z'' = F_z(t) - F_N.
 
-    Without mass the load must press at every instant, dF_z < F_z0; with one it may let go.
+    `mdr.resolved(case)` solves for it. Without mass the load must press at every instant, dF_z < F_z0; with one it may
+    let go.
     """
 
     F_z0: float = field(metadata=facts("N", "mean load", label="mean load $F_{z0}$"))
@@ -160,6 +181,25 @@ class LoadOscillation(Motion):
                 "dF_z",
             )
 
+    @property
+    def knows_depth(self) -> bool:
+        """False: the depth follows from shape and material too."""
+        return False
+
+    @property
+    def cycle(self) -> Cycle:
+        """Raises ValueError: the depth is asked of the resolved case."""
+        raise ValueError(
+            f"the depth under {self!r}, and with it cycle, working_depth, u_z_max, k_zc, k_xc, gamma_zc, gamma_xc, "
+            "alpha, kept_gap, unit_velocity and keeps_contact, follow from shape and material too: "
+            "ask mdr.resolved(case)"
+        )
+
     def F_z(self, t: ArrayLike) -> NDArray[np.float64]:
         """Load [N] at times t [s]."""
         return self.F_z0 + self.dF_z * np.cos(self.omega * finite_array("t", t, "s"))
+
+
+@lru_cache(maxsize=256)
+def _series(motion: PeriodicMotion) -> Cycle:
+    return Cycle.series(motion.u_z0, motion.omega, np.array(motion.cos), np.array(motion.sin))

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact, as_given, require_case
 from mdr.case.motion import NormalOscillation
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -62,7 +62,7 @@ def coupling_loss(case: SlidingContact) -> float:
 
 def unlike(case: SlidingContact) -> str:
     """What sets a case apart from those that were computed in three dimensions; empty for none."""
-    require_case(case)
+    case = as_given(case)
     if not case.pull.is_rigid:
         return f"a {type(case.pull).__name__}, not a rigid pull"
     if not isinstance(case.oscillation, NormalOscillation):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
-from mdr.case.motion import LoadOscillation
+from mdr.case.contact import SlidingContact
 from mdr.closed_forms.paper import eq_1, eq_15, linear_critical_velocity
+from mdr.normal.resolved import at_rest
 
 
 def critical_velocity(case: SlidingContact) -> float:
@@ -30,7 +30,8 @@ def critical_velocity(case: SlidingContact) -> float:
     Infinite on the undamped resonance k_x = m omega², and k_zc = m_z omega². With u_z0 <= 0 (tapping) the contact has
     no stiffness at the mean depth, and Eq. (1) is left.
     """
-    oscillation, kappa, pull = require_case(case).oscillation, case.material.mindlin_ratio, case.pull
+    case = at_rest(case)
+    oscillation, kappa, pull = case.oscillation, case.material.mindlin_ratio, case.pull
     if case.is_of_the_paper:
         du_z = case.cycle.du_z
         if pull.is_rigid or case.k_zc == 0:
@@ -48,11 +49,11 @@ def critical_velocity(case: SlidingContact) -> float:
             c_x,
         )
     omega = oscillation.omega
-    if isinstance(oscillation, LoadOscillation):
-        impedance = case.dynamic_stiffness(omega) - oscillation.m_z * omega**2
+    if (load := oscillation.load) is not None:
+        impedance = case.dynamic_stiffness(omega) - load.m_z * omega**2
         if impedance == 0:
             return float("inf")
-        u_n = np.atleast_1d(oscillation.dF_z / impedance)
+        u_n = np.atleast_1d(load.dF_z / impedance)
     else:
         u_n = case.cycle.du_z * case.cycle.harmonics
     n_omega = omega * np.arange(1, u_n.size + 1)
@@ -63,7 +64,8 @@ def critical_velocity(case: SlidingContact) -> float:
 
 def formula_of(case: SlidingContact) -> str:
     """Which closed form critical_velocity(case) is, in words; without stiffness at the mean depth Eq. (1) is left."""
-    if isinstance(require_case(case).oscillation, LoadOscillation):
+    case = at_rest(case)
+    if case.oscillation.load is not None:
         return "Eq. (15) at the depth that the load brings about"
     if case.pull.is_rigid or case.k_zc == 0:
         return "Eq. (1)"

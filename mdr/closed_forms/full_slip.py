@@ -33,11 +33,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.contact import SlidingContact, require_case
-from mdr.case.motion import LoadOscillation
+from mdr.case.contact import SlidingContact
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle, of_harmonics
 from mdr.normal.kelvin_edges import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
+from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.memoise import remembered
@@ -59,7 +59,8 @@ class FullSlip(ArrayRecord):
 
 def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     """The normal force and the contact of a case over one period, at n_t instants."""
-    cycle = require_case(case).cycle
+    case = resolved(case)
+    cycle = case.cycle
     n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
     u_z_dot = cycle.omega * cycle.du_z * cycle.over_a_period(n_t)[1][:-1]
@@ -86,15 +87,15 @@ def followed(case: SlidingContact, n_t: int) -> NormalCycle:
 
 def force_of(case: SlidingContact, known: NormalCycle) -> Array:
     """F_N [N] at its instants."""
-    motion, n_t = case.oscillation, known.F_N.size
-    if not isinstance(motion, LoadOscillation):
+    load, n_t = case.oscillation.load, known.F_N.size
+    if load is None:
         return case.material.E_star * known.F_N
-    load = motion.F_z0 + motion.dF_z * np.cos(2 * np.pi * np.arange(n_t) / n_t)
-    if not motion.m_z:
-        return load
+    F_z = load.F_z0 + load.dF_z * np.cos(2 * np.pi * np.arange(n_t) / n_t)
+    if not load.m_z:
+        return F_z
     cycle = case.cycle
     n = np.arange(1.0, cycle.cos.size + 1)
-    return load + motion.m_z * motion.omega**2 * cycle.du_z * of_harmonics(n**2 * cycle.harmonics, n_t)
+    return F_z + load.m_z * load.omega**2 * cycle.du_z * of_harmonics(n**2 * cycle.harmonics, n_t)
 
 
 def normal_force(case: SlidingContact, phase: Array) -> Array:
@@ -126,7 +127,8 @@ def mean_normal_force(case: SlidingContact) -> float:
 
     While springs slide, stick or fly their mean force is that of their mean compression: it is the same in any run.
     """
-    if not require_case(case).is_of_the_paper:
+    case = resolved(case)
+    if not case.is_of_the_paper:
         return float(force_of(case, followed(case, N_STEPS)).mean())
     T, rule = case.T, double_exponential()
     turn, marks = turning_phase(T), edge_marks(case, joints=True)
@@ -145,7 +147,8 @@ def static_cof(case: SlidingContact) -> float:
     u_z0 - du_z sqrt(1 + T²) are lost and the others press as elastic ones at that depth would. So min F_N is the
     elastic force there: Eq. (7) for any shape. Materials with arms and other motions have their least force found.
     """
-    if not require_case(case).is_of_the_paper:
+    case = resolved(case)
+    if not case.is_of_the_paper:
         F_N = force_of(case, followed(case, N_STEPS))
         return case.mu_0 * max(_least(F_N), 0.0) / float(F_N.mean())
     cycle = case.cycle

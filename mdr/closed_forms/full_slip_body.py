@@ -24,12 +24,13 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.polynomial.legendre import leggauss
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import peaks
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.kelvin_edges import kept_gap, leaving_phase, touching_phase, turning_phase
+from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 
 N_NODES = 20
@@ -53,7 +54,8 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
     without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the
     tip is sharp): its velocity then has no bound at that instant, brief as it is.
     """
-    if not require_case(case).is_of_the_paper:
+    case = resolved(case)
+    if not case.is_of_the_paper:
         return _by_harmonics(case)
     omega, unit = case.oscillation.omega, case.unit_velocity
     on, off = contact_span(case)

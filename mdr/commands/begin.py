@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from mdr.case import motion
+from mdr.case.motion import Motion
 from mdr.commands.output import DONE, WrongInput, print_json
 
 
@@ -14,9 +16,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--material", default="KelvinVoigt", metavar="model", help="its material (default: KelvinVoigt)"
     )
-    motions = "NormalOscillation, PeriodicMotion or LoadOscillation"
+    motions = ", ".join(name for name in motion.__all__ if name != Motion.__name__)
     command.add_argument(
-        "--motion", default="NormalOscillation", metavar="name", help=f"{motions} (default: the first)"
+        "--motion", default="NormalOscillation", metavar="name", help=f"{motions} (default: NormalOscillation)"
     )
     command.add_argument(
         "--pull", default="SpringPull", metavar="name", help="SpringPull or RigidPull (default: SpringPull)"

@@ -21,6 +21,7 @@ from mdr.commands.output import (
     write_figure,
 )
 from mdr.files.case_files import write_case
+from mdr.normal.resolved import resolved
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented
 
@@ -68,7 +69,7 @@ def velocity_scale(case: SlidingContact) -> float:
     v_c = critical_velocity(case)
     if math.isfinite(v_c) and v_c > 0:
         return v_c
-    return case.unit_velocity
+    return resolved(case).unit_velocity
 
 
 def _points(text: str) -> int:

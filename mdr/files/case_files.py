@@ -41,9 +41,10 @@ from typing import Any
 
 from mdr import indenters, materials
 from mdr.case import motion
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact, as_given
 from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.files.own_records import own_records
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.tools.fields import checked
@@ -86,7 +87,7 @@ def write_case(case: SlidingContact) -> str:
     Raises CaseFileError for what a file cannot carry: a Profile, which is a Python function, or a class of your own.
     """
     top, tables = [], []
-    require_case(case)
+    case = as_given(case)
     for field in _inputs(SlidingContact):
         value = getattr(case, field.name)
         if field.name not in _TABLES:
@@ -199,6 +200,7 @@ class _Table:
             return {self.kind.__name__: self.kind}
         public = [name for name in vars(self.module) if not name.startswith("_")]
         found = {name: getattr(self.module, name) for name in getattr(self.module, "__all__", public)}
+        found |= own_records(self.kind)
         return {name: found[name] for name in sorted(found) if self._is_record(found[name])}
 
     def _is_record(self, one: Any) -> bool:

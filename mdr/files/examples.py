@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mdr import indenters, materials
-from mdr.case.contact import SlidingContact
+from mdr.case.contact import SlidingContact, as_given
 from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.case_files import toml_value
@@ -88,6 +88,7 @@ def example(
 
 def example_file(case: SlidingContact) -> str:
     """The TOML text of a case, each key with its unit and meaning."""
+    case = as_given(case)
     tables: list[tuple[str, str, str, Any]] = [
         ("indenter", "shape", "the shape that is pressed in; its fields follow", case.indenter),
         ("material", "model", "the half-space", case.material),

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.slide import slide
 from mdr.march.theorems import disordered
+from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite_array
 from mdr.tools.progress import progress
@@ -77,7 +78,7 @@ def cof_curve(
     takes them (None: chosen to meet the accuracy budget); the closed form has neither and is what it is with any.
     Raises ValueError for velocities that are negative, infinite or NaN.
     """
-    case = require_case(case)
+    case = resolved(case)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)

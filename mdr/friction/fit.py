@@ -13,11 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact, require_case
+from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.units import facts_at
-from mdr.case.vary import GROUPS, case_at, fields_of
 from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.friction_data import FrictionData
+from mdr.normal.resolved import at_rest, resolved
+from mdr.normal.vary import GROUPS, case_at, fields_of
 from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
 from mdr.tools.progress import Ticker
@@ -70,7 +71,7 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
     """
     from scipy.optimize import least_squares
 
-    case = require_case(case)
+    case = as_given(case)
     if not isinstance(data, FrictionData):
         raise TypeError(f"data must be FrictionData, as read_friction_data gives, got {short(repr(data))}")
     if not 0 < confidence < 1:
@@ -191,12 +192,14 @@ def _path(case: SlidingContact, name: Any) -> str:
 
 
 def _value(case: SlidingContact, path: str) -> Any:
-    if path in ("mu_0", "alpha", "T"):
+    if path in ("mu_0", "T"):
         return getattr(case, path)
+    if path == "alpha":
+        return resolved(case).alpha
     if path == "mindlin_ratio":
         return case.material.mindlin_ratio
     if path == "k_x/k_xc":
-        return getattr(case.pull, "k_x", 0.0) / case.k_xc
+        return getattr(case.pull, "k_x", 0.0) / at_rest(case).k_xc
     if path == "omega_0/omega":
         return getattr(case.pull, "omega_0", 0.0) / case.oscillation.omega
     slot, _, field = path.partition(".")

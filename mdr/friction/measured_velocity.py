@@ -29,9 +29,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
 from mdr.march.run import SlidingRun
 from mdr.march.slide import N_SPRINGS, default_steps, slide
+from mdr.normal.resolved import resolved
 from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 
@@ -86,7 +87,7 @@ def measure_critical_velocity(
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    search = _Search(require_case(case), start)
+    search = _Search(resolved(case), start)
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:
             return search.measure()

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
-from mdr.case.motion import DepthMotion, LoadOscillation
+from mdr.case.contact import SlidingContact
 from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
+from mdr.normal.resolved import resolved
 from mdr.tools.checks import between
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
@@ -102,7 +102,8 @@ def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | No
 
     Raises TypeError for what is no case or no number, ValueError for `within` not between 0 and 1.
     """
-    eq_15, full = critical_velocity(require_case(case)), full_slip_critical_velocity(case)
+    case = resolved(case)
+    eq_15, full = critical_velocity(case), full_slip_critical_velocity(case)
     within = _tolerance(within)  # before the runs, not after them
     found, least = measure_critical_velocity(case, limit_s=limit_s), LEAST * case.unit_velocity
     deviation: float | None = None
@@ -171,11 +172,11 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
         )
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"
-    if case.pull.is_rigid and isinstance(case.oscillation, DepthMotion):
+    if case.pull.is_rigid and case.oscillation.load is None:
         if full < eq_15 * (1 - SAME):
             yield "the contact is still open at the instant of fastest approach, on which Eq. (1) rests"
     elif np.isfinite(eq_15) and found.contains(full):
-        what = "depth" if isinstance(case.oscillation, LoadOscillation) else "normal force"
+        what = "normal force" if case.oscillation.load is None else "depth"
         yield (
             f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
             "with them the full-slip condition gives the measured value"

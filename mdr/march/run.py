@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.motion import LoadOscillation
 from mdr.march import kernels
 from mdr.march.energy import EnergyBalance, energy_balance
 from mdr.march.march import March, too_coarse
@@ -117,10 +116,8 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
 
 def _missing_load(march: March, mean_F_z: float) -> float:
     """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
-    motion = march.case.oscillation
-    if not isinstance(motion, LoadOscillation):
-        return 0.0
-    return max(march.case.cycle.missing, abs(mean_F_z / motion.F_z0 - 1))
+    load = march.case.oscillation.load
+    return 0.0 if load is None else max(march.case.cycle.missing, abs(mean_F_z / load.F_z0 - 1))
 
 
 def _why_not(march: March) -> str:

@@ -13,10 +13,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
 from mdr.march.dimensionless import RESOLVED, fast_ratio
 from mdr.march.march import Knobs, March, march, too_coarse, touches
 from mdr.march.run import SlidingRun, finish
+from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, positive
 from mdr.tools.progress import time_is_over, time_limit
 
@@ -57,7 +58,7 @@ def slide(
 
     Raises TypeError and ValueError for arguments out of range; v_0 = 0 is `static_cof`.
     """
-    case = require_case(case)
+    case = resolved(case)
     if not isinstance(lump, bool):
         raise TypeError(f"lump must be True or False, got {lump!r}")
     v_0 = positive("v_0", v_0, "pulling velocity in m/s; the limit of zero velocity is static_cof(case)")

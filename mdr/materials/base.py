@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,7 +60,11 @@ POISSON = facts("-", "Poisson's ratio", poisson_ratio)
 class Material(Record, ABC):
     """What every material must answer; long-time moduli are properties, the rest follows from them."""
 
-    tau: float
+    if TYPE_CHECKING:
+
+        @property
+        def tau(self) -> float:
+            """Relaxation time of the Kelvin branch [s], 0 for none: a field or a property of the subclass."""
 
     @property
     @abstractmethod

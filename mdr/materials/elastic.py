@@ -17,7 +17,7 @@ class Elastic(OneBody):
     nu: float = field(metadata=POISSON)
 
     @property
-    def tau(self) -> float:  # type: ignore[override]
+    def tau(self) -> float:
         """Relaxation time [s] of an elastic body: zero."""
         return 0.0
 
@@ -37,7 +37,7 @@ class ElasticPair(Material):
     nu_2: float = field(metadata=facts("-", "Poisson's ratio of the second body", poisson_ratio))
 
     @property
-    def tau(self) -> float:  # type: ignore[override]
+    def tau(self) -> float:
         """Relaxation time [s] of elastic bodies: zero."""
         return 0.0
 

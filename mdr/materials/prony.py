@@ -86,7 +86,7 @@ class StandardLinearSolid(_WithArms):
         _refuse_nothing(self.E_inf, ((self.E_1, self.tau_1),))
 
     @property
-    def tau(self) -> float:  # type: ignore[override]
+    def tau(self) -> float:
         """Kelvin time [s] of the E_inf branch: zero."""
         return 0.0
 

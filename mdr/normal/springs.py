@@ -15,7 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
+from mdr.normal.resolved import resolved
 from mdr.normal.spring_grid import cells
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
@@ -41,7 +42,7 @@ class SpringArray(ArrayRecord):
 
         Raises ValueError for n_springs below 16.
         """
-        case, n_springs = require_case(case), count("n_springs", n_springs, MIN_SPRINGS)
+        case, n_springs = resolved(case), count("n_springs", n_springs, MIN_SPRINGS)
         x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs)
         return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
 

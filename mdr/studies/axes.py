@@ -23,7 +23,7 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.units import facts_at
-from mdr.case.vary import GROUPS, fields_of
+from mdr.normal.vary import GROUPS, fields_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.messages import nearest, one_line, short
@@ -191,8 +191,8 @@ def _records(slot: str, values: Any) -> tuple[Any, ...]:
     records = tuple(_listed(slot, values))
     for one in records:
         if not isinstance(one, KINDS[slot]):
-            names = " or ".join(kind.__name__ for kind in KINDS[slot])
-            raise TypeError(f"{slot} must be a list of records of kind {names}, got {short(repr(one))} among them")
+            kind = KINDS[slot].__name__
+            raise TypeError(f"{slot} must be a list of records of kind {kind}, got {short(repr(one))} among them")
     return records
 
 

@@ -18,6 +18,7 @@ from mdr.closed_forms.full_slip import mean_normal_force, static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.cof_curve import CofCurve
 from mdr.friction.measured_velocity import measure_critical_velocity
+from mdr.normal.resolved import at_rest, resolved
 from mdr.studies.axes import VELOCITIES
 from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
@@ -61,23 +62,29 @@ class CurveQuantity:
 
 
 @dataclass(frozen=True)
-class _Property:
-    """A property of the case, as a function that can be sent to other processes."""
-
-    name: str
-
-    def __call__(self, case: SlidingContact) -> float:
-        return float(getattr(case, self.name))
-
-
-@dataclass(frozen=True)
 class _Column:
-    """A column of the curve, likewise."""
+    """A column of the curve, as a function that can be sent to other processes."""
 
     name: str
 
     def __call__(self, case: SlidingContact, curve: CofCurve) -> Array:
         return np.asarray(getattr(curve, self.name), dtype=float)
+
+
+def _k_zc(case: SlidingContact) -> float:
+    return at_rest(case).k_zc
+
+
+def _k_xc(case: SlidingContact) -> float:
+    return at_rest(case).k_xc
+
+
+def _alpha(case: SlidingContact) -> float:
+    return resolved(case).alpha
+
+
+def _T(case: SlidingContact) -> float:
+    return case.T
 
 
 def _mean_F_x(case: SlidingContact, curve: CofCurve) -> Array:
@@ -102,10 +109,10 @@ CATALOGUE: dict[str, Quantity | CurveQuantity] = {
         Quantity("full_slip_v_c", "m/s", full_slip_critical_velocity, "critical velocity with all harmonics of F_N"),
         Quantity("measured_v_c", "m/s", _measured, "critical velocity measured from runs"),
         Quantity("static_cof", "-", static_cof, "coefficient of friction in the limit v_0 -> 0"),
-        Quantity("k_zc", "N/m", _Property("k_zc"), "normal contact stiffness at the mean depth"),
-        Quantity("k_xc", "N/m", _Property("k_xc"), "tangential contact stiffness at the mean depth"),
-        Quantity("alpha", "-", _Property("alpha"), "relative amplitude du_z/u_z0"),
-        Quantity("T", "-", _Property("T"), "omega tau of the long-time branch"),
+        Quantity("k_zc", "N/m", _k_zc, "normal contact stiffness at the mean depth"),
+        Quantity("k_xc", "N/m", _k_xc, "tangential contact stiffness at the mean depth"),
+        Quantity("alpha", "-", _alpha, "relative amplitude du_z/u_z0"),
+        Quantity("T", "-", _T, "omega tau of the long-time branch"),
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
         CurveQuantity("cof", "-", _Column("cof"), "average coefficient of friction"),
         CurveQuantity("cof_error", "-", _Column("cof_error"), "bound on the numerical error of cof"),

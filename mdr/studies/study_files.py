@@ -26,9 +26,9 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.case.vary import GROUPS
 from mdr.files.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of, stand_in
 from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.normal.vary import GROUPS
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.tools.checks import count, finite

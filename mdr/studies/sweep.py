@@ -8,7 +8,7 @@ from numbers import Integral
 from os import PathLike, fsdecode
 from typing import Any
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.studies.axes import read_axes
 from mdr.studies.cut import Cut
@@ -56,7 +56,8 @@ def sweep(
     Raises ValueError and TypeError for what can never be computed, StudyError for a store that cannot be used and for
     workers that were lost.
     """
-    case, axes_read = require_case(case), read_axes(case, axes)
+    case = as_given(case)
+    axes_read = read_axes(case, axes)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.case.vary import case_at
+from mdr.normal.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.layout import Layout
 from mdr.studies.quantities import CurveQuantity, Quantity

@@ -48,7 +48,7 @@ REFUSED = [
     ({"indenter": [mdr.Cone]}, TypeError, "indenter must be a list of records of kind Indenter"),
     ({"indenter": SHAPES[0]}, TypeError, "indenter must be a list of values"),
     ({"indenter": [SHAPES[0], mdr.Paraboloid(R=5e-3)]}, ValueError, "indenter has the value Paraboloid(R=0.005) twice"),
-    ({"pull": [SHAPES[0]]}, TypeError, "pull must be a list of records of kind RigidPull or SpringPull"),
+    ({"pull": [SHAPES[0]]}, TypeError, "pull must be a list of records of kind Pull"),
 ]
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 import mdr
-from mdr.case.motion import DepthMotion
 from mdr.tools.arrays import Array
 from validation.half_space import springs
 from validation.half_space.influence import HalfSpace, X, Z
@@ -93,7 +92,7 @@ def of_springs(case: mdr.SlidingContact, v_0: float, knobs: Knobs) -> Friction:
 
 def contact_of(case: mdr.SlidingContact, knobs: Knobs) -> Contact:
     """The grid that holds the contact at its greatest, and the shape on it; ValueError for what it cannot judge."""
-    if not isinstance(case.pull, mdr.RigidPull) or not isinstance(case.oscillation, DepthMotion):
+    if not isinstance(case.pull, mdr.RigidPull) or not case.oscillation.knows_depth:
         raise ValueError("the half-space takes a rigid pull and a given depth: leave [pull] out, and give u_z0")
     if case.material.contact_arms:
         raise ValueError("the half-space is elastic or Kelvin: choose Elastic, ElasticPair or KelvinVoigt")
@@ -113,7 +112,6 @@ def contact_of(case: mdr.SlidingContact, knobs: Knobs) -> Contact:
 def path(case: mdr.SlidingContact, v_0: float, knobs: Knobs) -> tuple[Array, Array, float]:
     """Depth and way at the instants of a period, (steps + 1,), from the least depth on, and the step [s]."""
     motion = case.oscillation
-    assert isinstance(motion, DepthMotion)
     dt = motion.period / knobs.steps
     i = np.arange(knobs.steps + 1)
     one = motion.u_z(dt * i[:-1])

@@ -3,7 +3,8 @@
 A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, T = omega
 tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m.
 
-All fields of a record are set together, so that only the record as a whole has to be sound.
+All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
+refers to is solved for under a load, which is why this stands beside the normal problem.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from mdr.case.contact import KINDS, SlidingContact
+from mdr.normal.resolved import at_rest
 from mdr.tools.checks import positive
 
 GROUPS = {"alpha": "oscillation.du_z", "T": "material.tau", "k_x/k_xc": "pull.k_x", "omega_0/omega": "pull.m"}
@@ -65,7 +67,7 @@ def _with_pull(contact: SlidingContact, path: str, field: str, value: float) -> 
 
 def _stiffness(contact: SlidingContact) -> float:
     """k_xc [N/m], of a contact that has one."""
-    k_xc = contact.k_xc
+    k_xc = at_rest(contact).k_xc
     if k_xc == 0:
         raise ValueError("k_x/k_xc: the contact has no stiffness at its mean depth, which a ratio could refer to")
     return k_xc

@@ -1,0 +1,48 @@
+"""Shapes, materials and motions of a user's own, which case files may name beside those of the library."""
+
+from __future__ import annotations
+
+from dataclasses import is_dataclass
+from inspect import isabstract
+from typing import Any, TypeVar
+
+from mdr import indenters, materials
+from mdr.case import motion
+from mdr.case.motion import Motion
+from mdr.indenters import Indenter
+from mdr.materials import Material
+
+Record = TypeVar("Record", bound=type[Any])
+
+_KINDS = (Indenter, Material, Motion)
+_OWN: dict[str, type[Any]] = {}
+
+
+def register(record: Record) -> Record:
+    """Let case files, study files and `write_case` name a shape, a material or a motion of your own.
+
+    record: a dataclass, a subclass of `Indenter`, `Material` or `Motion` whose fields are numbers, words or lists of
+    them. Its name in a file is that of the class. Returns the class, so that it can stand as a decorator above
+    ``@dataclass(frozen=True)``. It holds for this process: a script that reads such a file registers the class first.
+
+    Raises TypeError for what is no such class, ValueError for a name that the library or another class has.
+    """
+    if not (isinstance(record, type) and is_dataclass(record) and issubclass(record, _KINDS)) or isabstract(record):
+        kinds = ", ".join(kind.__name__ for kind in _KINDS)
+        raise TypeError(f"record must be a dataclass that is an {kinds} and answers all that it must, got {record!r}")
+    name = record.__name__
+    known = _OWN.get(name, record)
+    if any(name in module.__all__ for module in (indenters, materials, motion)) or _home(known) != _home(record):
+        raise ValueError(f"{name} is the name of another record that a file can name; rename the class")
+    _OWN[name] = record
+    return record
+
+
+def own_records(kind: type[Any]) -> dict[str, type[Any]]:
+    """The registered records of a kind by name."""
+    return {name: record for name, record in _OWN.items() if issubclass(record, kind)}
+
+
+def _home(record: type[Any]) -> tuple[str, str]:
+    """Where a class is defined: a cell or a module that is run again defines it anew."""
+    return record.__module__, record.__qualname__

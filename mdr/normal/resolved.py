@@ -1,0 +1,107 @@
+"""The case whose depth is known: `resolved` solves for the depth under an oscillating load, once.
+
+A SlidingContact computes its properties from its fields. Under a LoadOscillation the depth is no field: it follows from
+shape, material and load (load_control.py). `resolved` puts it there, as a `DepthUnderLoad`; every function that needs
+the depth does this first, so that it takes either case.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from mdr.case.contact import SlidingContact, require_case
+from mdr.case.depth_cycle import Cycle
+from mdr.case.motion import LoadOscillation, Motion
+from mdr.indenters.base import Indenter
+from mdr.materials.base import Material
+from mdr.normal.load_control import depth_under_load, static_depth
+from mdr.tools.memoise import remembered
+
+
+@dataclass(frozen=True)
+class DepthUnderLoad(Motion):
+    """The depth that an oscillating load brings about, for one shape on one material."""
+
+    load: LoadOscillation = field()  #: what imposes it
+    indenter: Indenter = field(repr=False)  #: shape that it was solved for
+    material: Material = field(repr=False)  #: half-space that it was solved for
+    u_z_rest: float  #: depth at which the mean load rests [m]
+    depth: Cycle | None = field(repr=False)  #: over one period; None where only the rest was asked for
+
+    @property
+    def omega(self) -> float:
+        """Angular frequency of the load [rad/s]."""
+        return self.load.omega
+
+    @property
+    def knows_depth(self) -> bool:
+        """Whether it was solved for the whole period."""
+        return self.depth is not None
+
+    @property
+    def cycle(self) -> Cycle:
+        """The depth over one period."""
+        return self.load.cycle if self.depth is None else self.depth
+
+    @property
+    def working_depth(self) -> float:
+        """Depth [m] at which the mean load rests, to which stiffnesses belong."""
+        return self.u_z_rest
+
+    def on(self, indenter: Indenter, material: Material) -> Motion:
+        """Itself on the contact that it was solved for; on any other one the load, to be solved for anew."""
+        return self if indenter is self.indenter and material is self.material else self.load
+
+
+def resolved(case: SlidingContact) -> SlidingContact:
+    """The case whose depth is known, so that all its properties answer.
+
+    A case of prescribed depth, or one that is resolved already, is returned as it is. Under a LoadOscillation the
+    oscillation of the answer is the depth [m] that the load brings about; `dataclasses.replace` with another shape or
+    material puts the load back in its place.
+
+    Raises TypeError for what is no case. Raises ValueError where the shape does not carry the load, and where no
+    periodic depth is found: beside a resonance of the mass m_z, or where it bounces in another rhythm.
+    """
+    load = _load_of(case)
+    if load is None:
+        return case
+    rest = _rests_at(case.indenter, case.material, load.F_z0)
+    depth = _under_load(case.indenter, case.material, load)
+    return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, depth))
+
+
+def at_rest(case: SlidingContact) -> SlidingContact:
+    """The case that knows at least the depth at which its mean load rests, and with it its stiffness.
+
+    For what needs no more: a case of prescribed depth as it is; under a load, no periodic motion is sought.
+    Raises ValueError where the shape does not carry the load.
+    """
+    load = _load_of(case)
+    if load is None:
+        return case
+    rest = _rests_at(case.indenter, case.material, load.F_z0)
+    return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, None))
+
+
+def _load_of(case: SlidingContact) -> LoadOscillation | None:
+    """The load whose depth is still to be found; None where the depth is known."""
+    motion = require_case(case).oscillation
+    if motion.knows_depth:
+        return None
+    load = motion.load or motion
+    if not isinstance(load, LoadOscillation):
+        raise TypeError(
+            f"the depth under {motion!r} cannot be found: give a LoadOscillation, or a motion of known depth"
+        )
+    return load
+
+
+@remembered(maxsize=256)
+def _rests_at(indenter: Indenter, material: Material, F_z0: float) -> float:
+    return static_depth(indenter, material, F_z0)
+
+
+@remembered(maxsize=64)
+def _under_load(indenter: Indenter, material: Material, load: LoadOscillation) -> Cycle:
+    return depth_under_load(indenter, material, load)

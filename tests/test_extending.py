@@ -1,0 +1,208 @@
+"""A shape, a material and a depth motion from outside the package, each through the whole chain."""
+
+import ast
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr import plots
+from mdr.case import motion
+from mdr.case.depth_cycle import Cycle
+from mdr.files.own_records import _OWN
+from mdr.tools.checks import finite_array, plain, positive
+
+ROOT = Path(__file__).parents[1]
+OMEGA = 300.0
+KNOBS = {"n_springs": 32, "steps_per_period": 64}
+
+
+@dataclass(frozen=True)
+class Bump(mdr.Indenter):
+    """A rounded bump, f(r) = h [1 - exp(-r²/b²)] up to r = b; near its tip a paraboloid of R = b²/2h."""
+
+    h: float
+    b: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "h", positive("h", self.h, "height in m"))
+        object.__setattr__(self, "b", positive("b", self.b, "width in m"))
+
+    @property
+    def max_radius(self):
+        return self.b
+
+    def profile_3d(self, r):
+        r = self._within(finite_array("r", r, "m"))
+        return plain(-self.h * np.expm1(-((r / self.b) ** 2)))
+
+
+@dataclass(frozen=True)
+class Slow(mdr.Material):
+    """An incompressible standard solid, by its long-time modulus, its ratio of moduli and its time."""
+
+    E: float
+    ratio: float
+    time: float
+
+    @property
+    def tau(self):
+        return 0.0
+
+    @property
+    def E_star(self):
+        return self.E / 0.75
+
+    @property
+    def G_star(self):
+        return 2 / 3 * self.E_star
+
+    @property
+    def dundurs_beta(self):
+        return 0.0
+
+    @property
+    def contact_arms(self):
+        return ((self.ratio * self.E_star, self.time),)
+
+
+@dataclass(frozen=True)
+class TwoTone(mdr.Motion):
+    """u_z = u_z0 + du_z (cos omega t + share cos 2 omega t)."""
+
+    u_z0: float
+    du_z: float
+    omega: float
+    share: float
+
+    @property
+    def cycle(self):
+        return Cycle.series(self.u_z0, self.omega, np.array([self.du_z, self.share * self.du_z]), np.zeros(2))
+
+
+KNOWN = mdr.SlidingContact(
+    mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, mdr.NormalOscillation(20e-6, 4e-6, OMEGA)
+)
+#: a part from outside, what of the library it must agree with, and by how much
+OWN = {
+    "shape": ({"indenter": Bump(h=1.0, b=0.1)}, {}, 1e-3),  # u_z0/h: beyond it, the bump levels out
+    "material": (
+        {"material": Slow(3e6, 0.5, 1e-3)},
+        {"material": mdr.StandardLinearSolid(3e6, 1.5e6, 1e-3, 0.5)},
+        1e-9,
+    ),
+    "motion": (
+        {"oscillation": TwoTone(20e-6, 4e-6, OMEGA, 0.3)},
+        {"oscillation": mdr.PeriodicMotion(OMEGA, 20e-6, (4e-6, 1.2e-6))},
+        1e-12,
+    ),
+}
+
+
+@pytest.fixture(params=OWN)
+def part(request, monkeypatch):
+    """A case with one part from outside, the like of it from the library, and how far they may be apart."""
+    monkeypatch.setattr("mdr.files.own_records._OWN", dict(_OWN))
+    own, like, apart = OWN[request.param]
+    for record in own.values():
+        assert mdr.register(type(record)) is type(record)
+    return replace(KNOWN, **own), replace(KNOWN, **like), apart
+
+
+def test_it_slides_and_has_its_critical_velocity(part):
+    case, like, apart = part
+    v_c = mdr.critical_velocity(like)
+    assert_allclose(mdr.critical_velocity(case), v_c, rtol=apart)
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.full_slip_critical_velocity(like), rtol=apart)
+    ours, theirs = (mdr.slide(one, 0.3 * v_c, **KNOBS) for one in (case, like))
+    assert ours.settled
+    assert_allclose(ours.cof, theirs.cof, rtol=apart)
+
+
+def test_a_case_file_brings_it_back(part, tmp_path):
+    case, _, _ = part
+    path = tmp_path / "case.toml"
+    path.write_text(mdr.write_case(case), encoding="utf-8")
+    assert mdr.read_case(path) == case
+
+
+def test_a_study_varies_it(part, tmp_path):
+    case, like, apart = part
+    axes = {"v_0/v_c": [0.3, 0.8], "mu_0": [0.4, 0.5]}
+    ours, theirs = (mdr.sweep(one, axes, quantities=["cof", "k_zc"], **KNOBS) for one in (case, like))
+    assert ours.complete
+    assert_allclose(ours["cof"], theirs["cof"], rtol=apart)
+    ours.to_netcdf(tmp_path / "study.nc")
+    assert mdr.read_study(tmp_path / "study.nc").case == mdr.write_case(case)
+
+
+def test_figures_draw_it(part, tmp_path):
+    from matplotlib import pyplot as plt
+
+    case, _, _ = part
+    curve = mdr.cof_curve(case, mdr.critical_velocity(case) * np.array([0.0, 0.5, 1.1]), **KNOBS)
+    curve.plot().figure.savefig(tmp_path / "curve.png")
+    plots.plot_profile(case.indenter, 20e-6).savefig(tmp_path / "shape.png")
+    mdr.slide(case, 1e-4, n_periods=2, record=1, **KNOBS).plot().savefig(tmp_path / "run.png")
+    plt.close("all")
+
+
+def test_what_cannot_be_registered_is_refused():
+    class Cone(mdr.Indenter):
+        profile_1d = None
+
+    for wrong in (Bump(1e-4, 2e-3), mdr.Indenter, mdr.RigidPull, Cone, dict):
+        with pytest.raises(TypeError, match="record must be a dataclass"):
+            mdr.register(wrong)
+    with pytest.raises(ValueError, match="Cone is the name of another record"):
+        mdr.register(dataclass(frozen=True)(Cone))
+
+
+# --- the guide ---
+
+GUIDE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
+SECTIONS = {text.partition("\n")[0]: text for text in GUIDE.split("\n## ")[1:]}
+LISTS = {"A shape": mdr.indenters, "A material": mdr.materials, "A motion": motion}
+
+
+def _names_in(path):
+    """The names that the code of a file has, or all words of a page."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".md":
+        return set(re.findall(r"\w+", text))
+    tree = list(ast.walk(ast.parse(text)))
+    named = [getattr(node, name, None) for node in tree for name in ("id", "attr", "name", "value")]
+    return {one for one in named if isinstance(one, str)}
+
+
+@pytest.mark.parametrize("section", LISTS)
+def test_the_guide_names_every_file_that_a_new_part_touches(section):
+    """A file of the package or of the reference that names every shape, material or motion is a list to be edited."""
+    base = {"A shape": "Indenter", "A material": "Material", "A motion": "Motion"}[section]
+    functions = {"Profile"}  # holds a function, which no example can
+    names = set(LISTS[section].__all__) - {base} - functions
+    lists = {
+        str(path.relative_to(ROOT))
+        for folder in ("mdr", "docs/api")
+        for path in (ROOT / folder).rglob("*.*")
+        if path.suffix in (".py", ".md") and names <= _names_in(path)
+    }
+    named = set(re.findall(r"`((?:mdr|docs)/[\w/.]+)`", SECTIONS[section]))
+    assert lists <= named
+
+
+def test_every_shape_has_a_script():
+    scripts = {path.stem.replace("_", "") for path in (ROOT / "geometries").glob("*.py")}
+    assert {name.casefold() for name in mdr.indenters.__all__} - {"indenter"} <= scripts
+
+
+def test_the_worked_examples_are_typed(tmp_path):
+    api = pytest.importorskip("mypy.api")
+    page = tmp_path / "page.py"
+    page.write_text("\n\n".join(re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)), encoding="utf-8")
+    told, failed, status = api.run(["--strict", "--ignore-missing-imports", str(page)])
+    assert status == 0, told + failed
