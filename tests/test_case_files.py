@@ -9,7 +9,7 @@ import pytest
 
 import mdr
 from mdr import materials
-from mdr.files import case_files
+from mdr.files import case_files, own_records
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
 
 EXAMPLE = Path(__file__).parents[1] / "docs" / "example.toml"
@@ -136,8 +136,7 @@ class Beat(mdr.PeriodicMotion):
 
 
 def test_a_motion_of_later_is_named_in_its_file_and_old_files_keep_their_meaning(monkeypatch):
-    monkeypatch.setattr(case_files.motion, "Beat", Beat, raising=False)
-    monkeypatch.setitem(contact.KINDS, "oscillation", (mdr.Motion,))
+    monkeypatch.setitem(own_records._OWN, "Beat", Beat)
     beat = case(oscillation=Beat(300.0, 2e-5, (1e-6,)))
     assert 'motion = "Beat"' in write_case(beat)
     assert parse_case(write_case(beat)) == beat

@@ -143,8 +143,12 @@ def test_a_record_does_not_tell_an_int_from_a_float(three):
 
 
 class Rope(mdr.Pull):
+    """A pull of one's own: a spring and a damper without mass."""
+
+    coefficients = 0.0, 3.0, 2e4
+
     def receptance(self, omega):
-        return 0j
+        return mdr.SpringPull(k_x=2e4, c_x=3.0).receptance(omega)
 
 
 class Jelly(mdr.Material):
@@ -169,7 +173,6 @@ class Still(mdr.Motion):
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [
-        ({"pull": Rope()}, TypeError, r"no equation of motion .* give RigidPull\(\), or .* SpringPull"),
         ({"material": Jelly()}, ValueError, r"springs know a material by these three; .* Prony.fit"),
         ({"material": Timeless()}, TypeError, r"Timeless must answer tau, the relaxation time \[s\]"),
         ({"oscillation": Still()}, TypeError, r"Still must answer omega, its angular frequency"),
@@ -178,3 +181,11 @@ class Still(mdr.Motion):
 def test_a_part_is_refused_for_what_it_answers(change, error, message):
     with pytest.raises(error, match=message):
         replace(CASE, **change)
+
+
+def test_a_pull_is_known_by_what_it_answers():
+    """Not by its class: one of a user's own goes the same ways."""
+    own, known = (replace(CASE, pull=pull) for pull in (Rope(), mdr.SpringPull(k_x=2e4, c_x=3.0)))
+    assert mdr.critical_velocity(own) == mdr.critical_velocity(known)
+    runs = [mdr.slide(one, 1e-3, n_springs=32, steps_per_period=64, n_periods=3) for one in (own, known)]
+    assert runs[0].cof == runs[1].cof

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.depth_cycle import Cycle, stick_limit
 from mdr.case.motion import Motion
-from mdr.case.pull import Pull, RigidPull, SpringPull
+from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
@@ -70,11 +70,6 @@ class SlidingContact:
         for part, name, what in must:
             if not hasattr(part, name):
                 raise TypeError(f"{type(part).__name__} must answer {name}, {what}: a field or a property")
-        if not isinstance(self.pull, RigidPull | SpringPull):
-            raise TypeError(
-                f"pull = {self.pull!r} has no equation of motion that is marched: give RigidPull(), or a mass on a "
-                "spring and a damper as SpringPull(k_x, m, c_x)"
-            )
         if type(self.material).dynamic_modulus is Material.dynamic_modulus:
             return
         omega = self.oscillation.omega

@@ -203,3 +203,7 @@ class LoadOscillation(Motion):
 @lru_cache(maxsize=256)
 def _series(motion: PeriodicMotion) -> Cycle:
     return Cycle.series(motion.u_z0, motion.omega, np.array(motion.cos), np.array(motion.sin))
+
+
+#: what a table [oscillation] without a name may be: the first with a key that the last has not
+UNNAMED: tuple[type[Motion], ...] = (LoadOscillation, PeriodicMotion, NormalOscillation)

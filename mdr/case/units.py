@@ -34,7 +34,7 @@ def facts_at(path: str) -> Facts:
     if path in NO_FIELDS:
         return NO_FIELDS[path]["facts"]
     slot, _, name = path.rpartition(".")
-    records = {record for kind in KINDS.get(slot, ()) for record in _kinds_of(kind)} if slot else {SlidingContact}
+    records = set(_kinds_of(KINDS[slot])) if slot in KINDS else {SlidingContact} if not slot else set()
     named = sorted((one for one in records if is_dataclass(one)), key=lambda one: one.__name__)
     known = [facts_of(field) for record in named for field in fields(record) if field.name == name]
     found = Counter(one for one in known if one.meaning)

@@ -42,7 +42,7 @@ from typing import Any
 from mdr import indenters, materials
 from mdr.case import motion
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
+from mdr.case.motion import Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.indenters import Indenter, Paraboloid
@@ -279,7 +279,7 @@ _TABLES = {
     for table in (
         _Table("indenter", "shape", indenters, Indenter),
         _Table("material", "model", materials, Material),
-        _Table("oscillation", "motion", motion, Motion, (LoadOscillation, PeriodicMotion, NormalOscillation)),
+        _Table("oscillation", "motion", motion, Motion, motion.UNNAMED),
         _Table("pull", "", None, SpringPull, (SpringPull,)),
     )
 }
