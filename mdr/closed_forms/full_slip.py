@@ -140,11 +140,37 @@ def mean_normal_force(case: SlidingContact) -> float:
 
 
 def static_cof(case: SlidingContact) -> float:
-    """COF in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
+    """Coefficient of friction [-] in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
 
-    Every spring presses least, or not at all, at the same phase pi - arctan T, when those shallower than
-    u_z0 - du_z sqrt(1 + T²) are lost and the others press as elastic ones at that depth would. So min F_N is the
-    elastic force there: Eq. (7) for any shape. Materials with arms and other motions have their least force found.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    float
+        The static limit [-]; 0 where contact is lost in part of the period.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+
+    Notes
+    -----
+    Eq. (7) for any shape. On an elastic or Kelvin material under a harmonic depth every spring presses least, or not at
+    all, at the same phase pi - arctan T, T = omega tau. Springs shallower than u_z0 - du_z sqrt(1 + T²) are lost there.
+    The others press as elastic springs at that depth would. So min F_N is the elastic force there. For materials with
+    arms and for other motions the least force is computed.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), mu_0=0.4, oscillation=tapping)
+    >>> print(f"{mdr.static_cof(case):.3f}")
+    0.322
     """
     if not require_case(case).is_of_the_paper:
         F_N = force_of(case, followed(case, N_STEPS))

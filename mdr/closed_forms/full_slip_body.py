@@ -44,16 +44,43 @@ RESONANT = 1e-10  #: share of F_N that a harmonic on an undamped resonance may h
 
 
 def full_slip_critical_velocity(case: SlidingContact) -> float:
-    """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape, with all harmonics of F_N.
+    """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape.
 
-    To 1e-8 for a harmonic depth on an elastic or Kelvin material. Other materials and motions have their force followed
-    spring by spring (followed_force.py): to 1e-6 under a rigid pull or a body that keeps contact, to 1e-3 where contact
-    is lost and springs touch again on slow dashpots. The velocity of a body with neither mass nor damper follows the
-    rate of that force: to 1e-3 while contact is kept, and no better than some per cent where it is lost.
+    It is Eq. (15) with all harmonics of the normal force in the place of the first one.
 
-    Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite too for a body
-    without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the
-    tip is sharp): its velocity then has no bound at that instant, brief as it is.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    float
+        v_c [m/s]. Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite
+        too for a body without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin
+        material, unless the tip is sharp): for an instant its velocity has no bound.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+
+    Notes
+    -----
+    The error is 1e-8 for a harmonic depth on an elastic or Kelvin material. Other materials and motions have their
+    normal force computed spring by spring. The error is then 1e-6 under a rigid pull or while contact is kept, and 1e-3
+    where contact is lost and springs touch again on slow dashpots. For a body with neither mass nor damper it is 1e-3
+    while contact is kept, and some per cent where contact is lost.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> slider = mdr.SpringPull(k_x=2e4, m=0.05)
+    >>> rubber = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, 0.4, oscillation=tapping, pull=slider)
+    >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
+    0.000516 m/s
     """
     if not require_case(case).is_of_the_paper:
         return _by_harmonics(case)

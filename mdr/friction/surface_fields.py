@@ -57,13 +57,43 @@ def surface_fields(
     *,
     i: int = -1,
 ) -> SurfaceFields:
-    """What happens at the surface, at distances r [m] from the axis (None: 0 to 1.5 contact radii), at sample i.
+    """Pressure and traction [Pa] and displacements [m] of the surface at one instant.
 
-    source: an Indentation made with record=True; a PartialSlip, with i counting its u_x; or a SlidingRun made with
-    record. A rim where p is infinite answers with 0, a sharp tip with the value one rounding away.
+    Parameters
+    ----------
+    source : Indentation, PartialSlip or SlidingRun
+        An Indentation made with `record=True`, any PartialSlip, or a SlidingRun made with `record=1` or more.
+    r : array_like of float, optional
+        Distances from the axis [m]. None: 301 of them from 0 to 1.5 contact radii.
+    i : int
+        Which sample: of the time, or of the displacements u_x of a PartialSlip. The last by default.
 
-    Raises TypeError for another source, ValueError for one that was not recorded, IndexError for an i that it does
-    not have.
+    Returns
+    -------
+    SurfaceFields
+        Arrays in the shape of r.
+
+    Raises
+    ------
+    TypeError
+        For another source.
+    ValueError
+        For a source that was not recorded.
+    IndexError
+        For a sample that the source does not have.
+
+    Notes
+    -----
+    From the springs back to the half-space by Abel's transform (Popov and Heß 2015). At a rim where the pressure is
+    infinite the answer is 0; at a sharp tip it is the pressure one rounding away.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> rubber = mdr.Elastic(E=3e6, nu=0.5)
+    >>> pulled = mdr.partial_slip(mdr.Paraboloid(R=5e-3), rubber, mu_0=0.4, u_z0=20e-6, u_x=4e-6)
+    >>> mdr.surface_fields(pulled, r=[0, 1e-4]).pressure.round(-2)
+    array([161100., 152800.])
     """
     if isinstance(source, Indentation):
         return _of_indentation(source, r, i)

@@ -17,7 +17,7 @@ from mdr.tools.checks import FloatArray, finite_array, positive
 class Sphere(Indenter):
     """Ball of radius R: d = g(a), F_N = (E*/2) [(R² + a²) ln((R + a)/(R − a)) − 2aR].
 
-    Its contact grows to the equator, a = R, at infinite depth only: g is finite for |x| < R.
+    Its contact grows to the equator, a = R, at infinite depth only: g is finite for ``|x| < R``.
     """
 
     R: float  #: radius [m]
@@ -35,7 +35,7 @@ class Sphere(Indenter):
         return ellipsoid.height(self, finite_array("r", r, "m"), self.R, self.R)
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """g(x) = x artanh(x/R), |x| < R."""
+        """``g(x) = x artanh(x/R), |x| < R``."""
         return ellipsoid.image(self, finite_array("x", x, "m"), self.R, self.R)
 
     def profile_area(self, a: ArrayLike) -> FloatArray:

@@ -75,7 +75,31 @@ class Material(ABC):
         return self.E_star + sum(E_j for E_j, _ in self.contact_arms) if self.tau == 0 else np.inf
 
     def dynamic_modulus(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
-        """Complex contact modulus E*(omega) [Pa], see the module's docstring, in the shape of omega [rad/s]."""
+        """Complex contact modulus E*(omega) [Pa].
+
+        Parameters
+        ----------
+        omega : array_like of float
+            Angular frequency [rad/s].
+
+        Returns
+        -------
+        complex or ndarray
+            E*(omega) [Pa] in the shape of omega. The real part is the storage modulus, the imaginary part the loss
+            modulus.
+
+        Notes
+        -----
+        The Kelvin branch, and a sum over the Maxwell arms ::
+
+            E*(omega) = E* (1 + i omega tau) + sum_j E*_j i omega tau_j/(1 + i omega tau_j)
+
+        Examples
+        --------
+        >>> import mdr
+        >>> mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3).dynamic_modulus(300.0)
+        (4000000+1200000j)
+        """
         omega = finite_array("omega", omega, "rad/s")
         modulus = self.E_star * (1 + 1j * omega * self.tau)
         for E_j, tau_j in self.contact_arms:
@@ -84,17 +108,43 @@ class Material(ABC):
         return complex(modulus) if modulus.ndim == 0 else np.asarray(modulus)
 
     def relaxation_modulus(self, t: ArrayLike) -> FloatArray:
-        """Contact modulus E*(t) [Pa] at times t >= 0 [s] after a sudden step of depth; a dashpot, tau > 0, adds an
-        impulse E* tau at t = 0, which is left out. ValueError for t < 0.
+        """Contact modulus E*(t) [Pa] after a sudden step of depth.
+
+        Parameters
+        ----------
+        t : array_like of float
+            Time since the step [s], zero or above.
+
+        Returns
+        -------
+        float or ndarray
+            E*(t) [Pa]. A dashpot, tau > 0, adds an impulse E* tau at t = 0, which is left out.
+
+        Raises
+        ------
+        ValueError
+            For t < 0.
         """
         t = _elapsed(t)
         return plain(self.E_star + sum((E_j * np.exp(-t / tau_j) for E_j, tau_j in self.contact_arms), 0 * t))
 
     def creep_compliance(self, t: ArrayLike) -> FloatArray:
-        """Depth over load [1/Pa] of a spring of unit width at times t >= 0 [s] after a sudden unit load.
+        """Creep compliance [1/Pa]: depth over load of a spring of unit width after a sudden unit load.
 
-        The inverse of the operator whose answer to a step is `relaxation_modulus`: 1/E* after a long time, without
-        bound for a material with E_star = 0, which flows. ValueError for t < 0.
+        Parameters
+        ----------
+        t : array_like of float
+            Time since the load [s], zero or above.
+
+        Returns
+        -------
+        float or ndarray
+            J(t) [1/Pa]: 1/E* after a long time. It grows without bound for a material with E_star = 0, which flows.
+
+        Raises
+        ------
+        ValueError
+            For t < 0.
         """
         t = _elapsed(t)
         start, rates, times = self._retardation()
@@ -129,7 +179,18 @@ class Material(ABC):
             return float(start), 1 / slope, np.where(x > 0, 1 / x, np.inf)
 
     def loss_tangent(self, omega: ArrayLike) -> NDArray[np.float64] | float:
-        """Loss over storage modulus at omega [rad/s]; omega tau for a Kelvin body."""
+        """Loss tangent [-]: loss modulus over storage modulus.
+
+        Parameters
+        ----------
+        omega : array_like of float
+            Angular frequency [rad/s].
+
+        Returns
+        -------
+        float or ndarray
+            tan delta [-]; omega tau for a Kelvin body.
+        """
         modulus = np.asarray(self.dynamic_modulus(omega))
         ratio = modulus.imag / modulus.real
         return float(ratio) if ratio.ndim == 0 else ratio

@@ -46,11 +46,7 @@ LONG = 0.3  #: an interval longer than this share of the time since the last jum
 
 @dataclass(frozen=True, eq=False)
 class Indentation(ArrayRecord):
-    """Outcome of indent(), in SI: t [s], u_z [m], F_z [N], contact_radius [m], each (n_t,).
-
-    With record: x [m] (n_springs,), positions of the springs at x >= 0; s [m] and q_z [N/m] (n_t, n_springs), their
-    compressions and line loads on one side; otherwise None.
-    """
+    """Outcome of indent(), in SI. The springs are kept with `record=True` alone; otherwise x, s and q_z are None."""
 
     indenter: Indenter  #: shape
     material: Material  #: half-space
@@ -73,22 +69,56 @@ def indent(
     n_springs: int | None = None,
     record: bool = False,
 ) -> Indentation:
-    """Press an indenter on a relaxed half-space, from rest, by a history of depth u_z [m] or of normal force F_z [N].
+    """Normal force [N], or depth [m], of an indenter pressed on a half-space by any history of the other.
 
-    t [s] (n_t,) ascends, in steps of any size; between samples the given history is linear. Two samples at one instant
-    are a jump, the second one the state just after it, and so is a first value other than zero. A depth may leave the
-    surface (u_z < 0). Where the material has a dashpot (tau > 0), the force answers to the velocity, which changes at a
-    sample: given is the mean of both sides, which for samples of a smooth history errs with the square of their
-    distance. There a jump of depth takes an impulse of force, which is left out, and a jump of force changes no depth
-    at that instant.
+    The half-space is relaxed at the start. Between samples the given history is linear in time.
 
-    A force must not be negative: there is no adhesion. Under F_z = 0 the indenter lies on the surface without pressing
-    it, at the greatest depth where this is possible.
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space.
+    t : array_like of float, shape (n_t,)
+        Instants [s], ascending, in steps of any size. Two samples at one instant are a jump; the second one is the
+        state just after it. A first value other than zero is a jump too.
+    u_z : array_like of float, shape (n_t,), optional
+        History of depth [m]; below zero the indenter is above the surface. Give either u_z or F_z.
+    F_z : array_like of float, shape (n_t,), optional
+        History of normal force [N], zero or above: there is no adhesion.
+    n_springs : int, optional
+        Nodes at x >= 0. None: 512.
+    record : bool
+        Keep the compressions and loads of the springs at every sample.
 
-    n_springs: nodes at x >= 0 (None: 512). record keeps the springs' compressions and loads at every sample.
+    Returns
+    -------
+    Indentation
+        Depth, force and contact radius at the instants, arrays of shape (n_t,).
 
-    Raises TypeError for a wrong kind of input, ValueError for NaN, infinity, lists of different lengths, instants that
-    descend, a negative force, both or neither of u_z and F_z, a shape that ends before the depth, or a hollow one.
+    Raises
+    ------
+    TypeError
+        For a wrong kind of input.
+    ValueError
+        For NaN, infinity, lists of different lengths, instants that descend, a negative force, both or neither of u_z
+        and F_z, a shape that ends before the depth, or a hollow one.
+
+    Notes
+    -----
+    While the contact grows this is the half-space of Lee and Radok (1960), in the first retreat that of Ting (1966).
+
+    With a dashpot (tau > 0) the force follows the velocity, which jumps at a sample. The force given there is the mean
+    of both sides. For samples of a smooth history its error falls with the square of their distance. At a jump of depth
+    the impulse of force is left out; a jump of force changes no depth at that instant. Under F_z = 0 the indenter lies
+    on the surface without pressing it, at the greatest depth where this is possible.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> pressed = mdr.indent(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), t=[0, 1, 2], u_z=[0, 20e-6, 10e-6])
+    >>> pressed.F_z.round(4)
+    array([0.    , 0.0337, 0.0119])
     """
     _require("indenter", indenter, Indenter)
     _require("material", material, Material)
