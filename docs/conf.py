@@ -29,6 +29,7 @@ nb_execution_mode = "force"  # the notebook is stored without outputs
 nb_execution_in_temp = True
 nb_execution_timeout = -1  # of a slow machine
 nb_execution_raise_on_error = True
+nb_output_stderr = "remove"  # progress
 nb_merge_streams = True
 nb_ipywidgets_js = {}  # no script from elsewhere
 numpydoc_show_class_members = False  # autodoc lists them
@@ -42,6 +43,21 @@ autodoc_preserve_defaults = True
 python_maximum_signature_line_length = 88
 add_module_names = False
 toc_object_entries_show_parents = "hide"
+
+LONGEST = 100  #: characters of the signature of a class; a longer one is a result, which nobody makes by hand
+
+
+def shorten(app, what, name, obj, options, signature, answer):
+    """No signature for results; a default that a factory makes as one would write it."""
+    if what == "class" and signature and len(signature) > LONGEST:
+        return "", answer
+    return signature and signature.replace("<factory>", "RigidPull()"), answer
+
+
+def setup(app):
+    """Listen to autodoc."""
+    app.connect("autodoc-process-signature", shorten)
+
 
 html_theme = "furo"
 html_title = "mdr-friction"

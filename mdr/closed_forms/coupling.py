@@ -50,7 +50,8 @@ def radial_rub(case: SlidingContact) -> float:
     --------
     >>> import mdr
     >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3), mu_0=0.4, oscillation=tapping)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
     >>> print(f"{mdr.radial_rub(case):.3f}")
     0.374
     """
@@ -88,7 +89,8 @@ def coupled_critical_velocity(case: SlidingContact) -> float:
     --------
     >>> import mdr
     >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3), mu_0=0.4, oscillation=tapping)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
     >>> print(f"{mdr.coupled_critical_velocity(case):.3g} m/s, without coupling {mdr.critical_velocity(case):.3g} m/s")
     0.000401 m/s, without coupling 0.000291 m/s
     """
@@ -126,7 +128,8 @@ def coupling_loss(case: SlidingContact) -> float:
     --------
     >>> import mdr
     >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3), mu_0=0.4, oscillation=tapping)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
     >>> print(f"{mdr.coupling_loss(case):.2g}")
     0.0051
     """

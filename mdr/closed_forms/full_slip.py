@@ -168,7 +168,8 @@ def static_cof(case: SlidingContact) -> float:
     --------
     >>> import mdr
     >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), mu_0=0.4, oscillation=tapping)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
     >>> print(f"{mdr.static_cof(case):.3f}")
     0.322
     """

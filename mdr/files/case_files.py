@@ -114,7 +114,8 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     --------
     >>> import mdr
     >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), mu_0=0.4, oscillation=tapping)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
     >>> mdr.parse_case(mdr.write_case(case)) == case
     True
     """
@@ -148,7 +149,8 @@ def write_case(case: SlidingContact) -> str:
     --------
     >>> import mdr
     >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), mu_0=0.4, oscillation=tapping)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
     >>> print(mdr.write_case(case))
     mu_0 = 0.4
     <BLANKLINE>
