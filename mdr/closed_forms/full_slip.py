@@ -182,7 +182,7 @@ def static_cof(case: SlidingContact) -> float:
 
 
 def _least(values: Array) -> float:
-    """Least of equidistant values over a period, by the parabola through its neighbours."""
+    """Minimum over a period of equidistant values, by the parabola through the least one and its neighbours."""
     k = int(np.argmin(values))
     before, least, after = values[k - 1], values[k], values[(k + 1) % values.size]
     bend = before - 2 * least + after

@@ -131,7 +131,7 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
 
     bounds = np.transpose([model.bounds(name) for name in model.names])
     found = least_squares(residuals, model.start, bounds=bounds, diff_step=STEP, x_scale="jac", xtol=1e-7, ftol=1e-10)
-    return _judged(model, found.x, found.jac, found.fun, confidence)
+    return _with_intervals(model, found.x, found.jac, found.fun, confidence)
 
 
 @dataclass(frozen=True)
@@ -181,8 +181,8 @@ class _Model:
         return (curve.cof - self.data.cof) / (1.0 if self.data.error is None else self.data.error)
 
 
-def _judged(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:
-    """Intervals and warnings from the Jacobian (n, k) and the residuals (n,) at the best fit."""
+def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:
+    """The fit with intervals and warnings, from the Jacobian (n, k) and the residuals (n,) at the best values."""
     from scipy.stats import t
 
     free = left.size - x.size

@@ -145,7 +145,7 @@ def measure_critical_velocity(
 
 
 class _Undecided(Exception):
-    """No run near a velocity settles that would have to."""
+    """Raised where a run that must settle does not, nor any run near its velocity."""
 
 
 class _Search:
@@ -240,10 +240,7 @@ class _Search:
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun | None:
-        """Double steps and springs until the end of stick moves by no more than the margin; the finest run without.
-
-        A first touch falls anywhere within a step, so its error is irregular: three resolutions are compared, not two.
-        """
+        """Double steps and springs until the end of stick moves by less than the margin; the last run without stick."""
         for knob, most in (("steps", 16384), ("n_springs", 3072)):
             while (known := getattr(self, knob)) < most:
                 slips = [free.least_slip]
@@ -317,7 +314,7 @@ class _Search:
         return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
 
     def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
-        """A run of a body below the end of stick: is friction reduced there, and by how much?"""
+        """One run of a body below the end of stick: is friction lower there, and by how much?"""
         if not isinstance(self.case.pull, SpringPull):  # without a free oscillation stick takes friction away
             return self._look_above(v_c, low, high)
         multiple = self._multiple()
@@ -365,7 +362,7 @@ class _Search:
         return self._by_friction(full, full * (1 + CLOSER), why, "lock-in", CLOSER)
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
-        """Runs beyond v_c from both starts: does friction stay full?"""
+        """Runs above v_c from both starts: is friction full there?"""
         swinging, full, unsettled = False, False, []
         undamped = isinstance(self.case.pull, SpringPull) and self.case.pull.c_x == 0  # else a swing is a transient
         of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
@@ -390,7 +387,7 @@ class _Search:
         return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
 
     def _contradicted(self, v_c: float, v_0: float, start: str) -> MeasuredVelocity:
-        """The answer where a run above the end of stick has less friction, which no steady motion does."""
+        """The answer where a run above the end of stick has less friction, which cannot be for steady motions."""
         why = (
             f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {v_0:.6g} m/s: "
             "no two steady motions do that, so one of them has not settled"
@@ -398,7 +395,7 @@ class _Search:
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
     def _awaited(self, run: SlidingRun) -> SlidingRun:
-        """The same from rest for SWINGS periods, without a search for its periodic state."""
+        """The run of this velocity again, from rest for SWINGS periods, without a search for its periodic state."""
         self._begin(run.v_0)
         return slide(
             self.case,
@@ -411,12 +408,12 @@ class _Search:
 
 
 def _is_free(run: SlidingRun) -> bool:
-    """No spring sticks: a positive slip velocity throughout, in a settled run of full COF."""
+    """True if no spring sticks: positive slip velocity throughout, in a settled run of full COF."""
     return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
 
 
 def _only_grazes(run: SlidingRun) -> bool:
-    """Whether stick is there in a run, if at all, as in the rest of a free oscillation, and takes nothing away."""
+    """True if no more sticks than a free oscillation makes that just touches the stick limit, and COF is full."""
     return run.settled and not _is_reduced(run) and run.stick_share < GRAZING
 
 

@@ -1,12 +1,12 @@
-"""Back to three dimensions: pressure, traction and displacement of the surface from what the springs carry.
+"""From the springs back to three dimensions: pressure, traction and displacement of the surface.
 
 A line load q(x) on each side of the centre stands for the pressure, and a displacement w(x) for that of the surface,
 
-    p(r) = -(1/π) ∫_r^a q'(x) / √(x² - r²) dx + q(a) / (π √(a² - r²)),    u(r) = (2/π) ∫_0^r w(x) / √(r² - x²) dx,
+    p(r) = -(1/π) ∫_r^a q'(x) / √(x² - r²) dx + q(a) / (π √(a² - r²)),    u(r) = (2/π) ∫_0^r w(x) / √(r² - x²) dx.
 
-the last term of p where the load ends with a jump, at the rim of a punch or at the edge that a dashpot advances (Popov
-and Heß 2015). The traction and its displacement follow from q_x and e by the same rule, along the pull and without the
-small transverse parts. Outside the contact q = 0 and w is the compression of the free springs.
+The last term of p counts where the load ends with a jump: at the rim of a punch, or at an edge that a dashpot advances
+(Popov and Heß 2015). The traction and its displacement follow from q_x and e by the same rule, along the pull and
+without the small transverse parts. Outside the contact q = 0 and w is the compression of the free springs.
 
 Loads and displacements are taken as linear between knots, for which both integrals are closed. 2 ∫ q dx = F_N and
 2π ∫ p r dr = F_N are then the same number.
@@ -232,7 +232,7 @@ def _edge(x: Array, faces: Array, q: Array, pressed: NDArray[np.bool_]) -> float
 
 
 def _ended(x: Array, q: Array, a: float) -> tuple[Array, Array]:
-    """Knots from the axis to the edge, where the load is 0, or what it is continued to if that is no trifle."""
+    """Knots from the axis to the edge. The load there is 0, or the continued load if that is not small."""
     x, q = _from_axis(x, q)
     end = _extended(x, q, a)
     return np.append(x, a), np.append(q, end if abs(end) > 0.5 * abs(q[-1]) else 0.0)
@@ -278,7 +278,7 @@ def _knots(name: str, x: ArrayLike, values: ArrayLike, unit: str, r: ArrayLike) 
 
 
 def _distinct(x: Array, values: Array) -> tuple[Array, Array]:
-    """Without knots closer than a rounding."""
+    """Knots without those that are closer to the one before than a rounding."""
     kept = np.concatenate([[True], np.diff(x) > 4 * _EPS * x[-1]])
     return x[kept], values[kept]
 

@@ -177,7 +177,7 @@ def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> 
 
 
 def _has_mass(case: SlidingContact) -> bool:
-    """Whether a harmonic of the force can meet a natural frequency."""
+    """True if a harmonic of the force can meet a natural frequency of the body."""
     return isinstance(case.pull, SpringPull) and case.pull.m > 0
 
 
@@ -206,7 +206,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
 
 
 def _left_out(case: SlidingContact) -> Iterator[str]:
-    """What the springs leave out where it matters."""
+    """The part of the sentence about normal-tangential coupling, where it matters."""
     beta, rub = case.material.dundurs_beta, radial_rub(case)
     left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
     if unlike(case):

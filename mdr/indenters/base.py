@@ -342,7 +342,7 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         return r
 
     def _in_range(self, name: str, answer: FloatArray, d: ArrayLike) -> FloatArray:
-        """The answer, refused where it, or a term of it, lies beyond the range of floats."""
+        """The answer; ValueError where it is not finite, as one of its terms is beyond the range of floats."""
         if not np.all(np.isfinite(answer)):
             raise ValueError(
                 f"{name} of {self!r} is beyond the range of floats at d = {np.max(np.asarray(d)):.6g} m: "
@@ -362,7 +362,7 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         return a
 
     def _why_no_radius(self, d: float, end: float) -> str:
-        """Why no radius up to ``end`` belongs to the depth d: what the heights from r = d on say."""
+        """Message: why no radius up to ``end`` has the depth d, read off the heights from r = d on."""
         name, height = ("g(x)", self._g) if self._gives_g else ("f(r)", self._f)
         r = np.unique(np.minimum(np.geomspace(min(d, end), end, 2048), end))
         with np.errstate(all="ignore"):
@@ -387,7 +387,7 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         )
 
     def _why_too_deep(self, reach: float) -> str:
-        """How a message goes on about a depth beyond ``reach``, where the whole face touches."""
+        """Second half of the message about a depth beyond ``reach``, where the whole face touches."""
         return (
             f"reaches: its whole face, r <= {self.max_radius:.6g} m, touches at {reach:.6g} m; "
             "press less or describe more of it"
@@ -409,7 +409,7 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
         refuse_falling(self, x, in_chunks(self._g, x), float(np.nan_to_num(further[0], posinf=0.0)))
 
     def _check_map(self, x: FloatArray) -> None:
-        """Refuse a mapping that is not finite, warn of one that another rule does not confirm."""
+        """ValueError for a mapped profile that is not finite; a warning where a second quadrature rule disagrees."""
         if self._gives_g or x.size == 0:
             return
         some = np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest"))

@@ -156,11 +156,11 @@ class Material(ABC):
         return plain(start + sum(shares, 0 * t))
 
     def _retardation(self) -> tuple[float, FloatArray, FloatArray]:
-        """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): its start, the rates and the times of retardation.
+        """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): start, rates and retardation times theta.
 
-        They are the zeros -1/theta of E*(p), p in the place of i omega, one between any two poles -1/tau_j, one between
-        the slowest and zero (at zero for a body that flows), and one beyond the fastest where there is a dashpot. Each
-        is found for itself, so that times of many decades stand beside one another.
+        -1/theta are the zeros of E*(p), with p in the place of i omega. One lies between any two poles -1/tau_j, one
+        between the slowest pole and zero (at zero for a body that flows), and one beyond the fastest pole where there
+        is a dashpot. Each zero is found on its own, so that times of many decades do not disturb one another.
         """
         E_j, tau_j = np.array(self.contact_arms).reshape(-1, 2).T
         poles = 1 / tau_j  # ascending; x = -p
@@ -173,7 +173,7 @@ class Material(ABC):
         ends = [-np.inf, *np.log(poles), np.inf]
         first = 1 if self.E_star == 0 else 0
         last = len(ends) - (1 if self.tau > 0 else 2)
-        x = np.array([0.0] * first + [np.exp(_fall(modulus, *ends[k : k + 2])) for k in range(first, last)])
+        x = np.array([0.0] * first + [np.exp(_zero_between(modulus, *ends[k : k + 2])) for k in range(first, last)])
         slope = self.E_star * self.tau + np.sum(E_j * poles / (poles - x[:, None]) ** 2, axis=1)  # dE*/dp
         with np.errstate(divide="ignore"):
             return float(start), 1 / slope, np.where(x > 0, 1 / x, np.inf)
@@ -230,18 +230,18 @@ def _elapsed(t: ArrayLike) -> FloatArray:
     return t
 
 
-def _fall(function: Callable[[float], float], low: float, high: float) -> float:
-    """Zero of a function that falls from +infinity at `low` to -infinity at `high`; ends may be infinite."""
+def _zero_between(function: Callable[[float], float], low: float, high: float) -> float:
+    """Zero of a function that falls from +infinity at `low` to -infinity at `high`; the ends may be infinite."""
     from scipy.optimize import brentq
 
-    above, below = _beside(function, low, high, 1.0), _beside(function, high, low, -1.0)
+    above, below = _place_near_pole(function, low, high, 1.0), _place_near_pole(function, high, low, -1.0)
     if not function(above) > 0 > function(below):  # closer to a pole than numbers tell: its arm is next to nothing
         return below if function(above) > 0 else above
     return float(brentq(function, above, below, xtol=1e-15, rtol=1e-15, maxiter=500))
 
 
-def _beside(function: Callable[[float], float], end: float, other: float, sign: float) -> float:
-    """A place between two ends, close enough to the first one for the function to have the sign that it has there."""
+def _place_near_pole(function: Callable[[float], float], end: float, other: float, sign: float) -> float:
+    """A place between two ends, so close to the first that the function has the sign that it has there."""
     finite = np.isfinite(end)
     anchor = end if finite else (other if np.isfinite(other) else 0.0)
     step = 1e-3 * (abs(other - end) if np.isfinite(other) else 1.0) if finite else 1.0

@@ -150,7 +150,7 @@ def _from_depth(indenter: Indenter, material: Material, t: Array, u_z: Array, n:
     indenter.contact_radius(deepest)  # a shape that does not reach so deep says so here
     first = u_z[u_z > 0]
     row = _row(indenter, deepest, float(np.clip(first.min() / deepest, 1e-2, 0.1)), n)
-    F_z, a, s, q = kernels.follow_depth(t, u_z, row, _body(material), record)
+    F_z, a, s, q = kernels.follow_depth(t, u_z, row, _material_arrays(material), record)
     kept = {"x": row[1], "s": s, "q_z": q} if record else {}
     return Indentation(indenter, material, t, u_z, F_z, a, **kept)
 
@@ -164,13 +164,13 @@ def _from_force(indenter: Indenter, material: Material, t: Array, F_z: Array, n:
     loaded = F_z[F_z > 0][0]
     start = _depth_under(indenter, loaded / material.instantaneous_modulus, end) if material.tau == 0 else 0.0
     row = _row(indenter, reach, float(np.clip(start / reach, 1e-3, 0.1)), n)
-    n_steps, body = int(np.clip(np.ceil(STEPS / t.size), 1, 64)), _body(material)
+    n_steps, arrays = int(np.clip(np.ceil(STEPS / t.size), 1, 64)), _material_arrays(material)
     answers = []
     for share in (1, 2):
         fine, force, where = _finer(t, F_z, share * n_steps)
         V = _lee_radok(material, fine, force)
         known = _grown(V, row)
-        u, a, s, q = kernels.follow_force(fine, force, known, row, body, where if record else where[:0])
+        u, a, s, q = kernels.follow_force(fine, force, known, row, arrays, where if record else where[:0])
         answers.append((u[where], a[where], s, q))
     u_z, a = (2 * two - one for one, two in zip(answers[0][:2], answers[1][:2], strict=True))  # a step errs with dt
     grown = where < known.size
@@ -196,7 +196,7 @@ def _lee_radok(material: Material, t: Array, F_z: Array) -> Array:
 
 
 def _grown(V: Array, row: tuple[Array, ...]) -> Array:
-    """The depths [m] at the first instants, until the contact retreats for the first time."""
+    """Depths [m] at the first instants, while the contact grows."""
     shrinks = np.diff(V) < -1e-12 * V.max()
     V = np.maximum.accumulate(V[: int(np.argmax(shrinks)) + 1 if shrinks.any() else V.size])
     g, x, area, power = row
@@ -215,7 +215,7 @@ def _grown(V: Array, row: tuple[Array, ...]) -> Array:
 
 
 def _polished(indenter: Indenter, V: Array, u: Array) -> Array:
-    """The depths [m] at which F_N/E* = V, by Newton's method from close by."""
+    """Depths [m] at which F_N/E* = V, by Newton's method; the start is already close."""
     for _ in range(3):
         slope = np.asarray(indenter.stiffness(u, 1.0))
         missed = V - np.asarray(indenter.force(u, 1.0))
@@ -262,7 +262,7 @@ def _profile(indenter: Indenter, x: float) -> float:
 
 
 def _end_of(indenter: Indenter) -> float:
-    """The greatest depth [m] that a shape which ends can take; infinite for a punch, and for a shape without end."""
+    """Greatest depth [m] of a shape that ends; infinite for a punch and for a shape without end."""
     end = _profile(indenter, indenter.max_radius) if np.isfinite(indenter.max_radius) else np.inf
     try:
         return np.inf if end <= 0 or end == np.inf or indenter.contact_radius(2 * end) > 0 else end
@@ -287,11 +287,12 @@ def _depth_under(indenter: Indenter, V: float, end: float) -> float:
     return float(high)
 
 
-def _body(material: Material) -> tuple[Any, ...]:
-    """The material as the kernels read it: E, E tau, E_j, tau_j and the modes in which a free spring relaxes.
+def _material_arrays(material: Material) -> tuple[Any, ...]:
+    """The material as arrays for the kernels: E, E tau, E_j, tau_j, and the modes in which a free spring relaxes.
 
-    They relax with the times of retardation. With the roots of the energies as unknowns the free motion is a symmetric
-    matrix, a diagonal less a product of one vector with itself, whose own vectors are known from these times.
+    A free spring relaxes with the times of retardation. With the roots of the energies as unknowns its matrix is
+    symmetric: a diagonal plus a matrix of rank one. Its eigenvalues are known from these times, and its eigenvectors
+    from them.
     """
     E, tau = material.E_star, material.tau
     arms = np.array(material.contact_arms).reshape(-1, 2)
@@ -300,13 +301,13 @@ def _body(material: Material) -> tuple[Any, ...]:
     modes, inverse = np.zeros((m + 1, m + 1)), np.zeros((m + 1, m + 1))
     if tau > 0:
         roots = np.sqrt(np.concatenate([[E], E_j]))
-        vectors = _own_vectors(roots, np.concatenate([[0.0], 1 / tau_j]), relax)
+        vectors = _eigenvectors(roots, np.concatenate([[0.0], 1 / tau_j]), relax)
         rates, to_own = -relax, np.concatenate([1 / roots[:1], roots[1:]])  # z_0 = sqrt(E) s, z_j = q_j/sqrt(E_j)
         modes, inverse = to_own[:, None] * vectors, vectors.T / to_own
     else:  # E s + sum q_j = 0 all the time
         glassy = E + E_j.sum()
         roots, to_own = np.sqrt(E_j / tau_j), np.sqrt(E_j * tau_j)
-        vectors = _own_vectors(roots, 1 / tau_j, relax)
+        vectors = _eigenvectors(roots, 1 / tau_j, relax)
         rates = np.concatenate([[0.0], -relax])
         still = relax == 0  # of a fluid: never in motion when free
         modes[0, 0] = 1.0
@@ -333,7 +334,7 @@ def _finer(t: Array, F_z: Array, n: int) -> tuple[Array, Array, NDArray[np.intp]
 
 
 def _shares(t: Array, n: int) -> list[Array]:
-    """Ends of the steps of each interval, as shares of it; after a jump they begin fine, for what it left behind."""
+    """Ends of the steps of each interval, as shares of it. After a jump the first steps are fine."""
     even = np.arange(1, n + 1) / n
     shares, jumped = [], t[0]
     for low, high in pairwise(t):
@@ -372,15 +373,16 @@ def _history(name: str, values: ArrayLike | None, t: Array, unit: str) -> FloatA
 
 
 def _untouched(indenter: Indenter, material: Material, t: Array, u_z: Array, n: int, record: bool) -> Indentation:
-    """No contact at all: u_z never above the surface, or no force."""
+    """The outcome without contact: u_z never above zero, or no force."""
     zero = np.zeros(t.size)
     kept = {"x": np.zeros(1), "s": np.zeros((t.size, 1)), "q_z": np.zeros((t.size, 1))} if record else {}
     return Indentation(indenter, material, t, u_z, zero, zero, **kept)
 
 
-def _own_vectors(roots: Array, relax: Array, own: Array) -> Array:
-    """Unit vectors (n, n) that a diagonal matrix `relax` (n,) with a multiple of roots rootsᵀ added leaves in their
-    direction; own (n,): their factors.
+def _eigenvectors(roots: Array, relax: Array, own: Array) -> Array:
+    """Eigenvectors (n, n), of length one, of a diagonal plus rank-one matrix.
+
+    The diagonal is `relax` (n,), the rank-one part a multiple of roots rootsᵀ; `own` (n,) are the eigenvalues.
     """
     away = relax[:, None] - own
     away[away == 0] = np.finfo(float).tiny ** 0.25  # an arm next to nothing relaxes for itself

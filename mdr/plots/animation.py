@@ -1,4 +1,4 @@
-"""A recorded run as a moving picture: springs that stick, slip and leave, and the force they add up to."""
+"""Animated picture of a recorded run: springs that stick, slip and leave contact, and their tangential force."""
 
 from __future__ import annotations
 
