@@ -54,7 +54,7 @@ _DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key,
 
 
 class CaseFileError(ValueError):
-    """What is wrong with a case file: one line a fault, with file, table and key."""
+    """What is wrong with a case file: one line for each fault, with file, table and key."""
 
     @property
     def faults(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The COF curve of a contact: in closed form under a rigid pull, else one run a velocity.
+"""The COF curve of a contact: in closed form under a rigid pull, else one run for each velocity.
 
 The point v_0 = 0 is the static limit.
 """

@@ -1,26 +1,28 @@
 """The critical velocity measured from simulated runs alone.
 
-The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own
-error. Near v_c that deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a
-Kelvin one, whose lag behind full slip lasts for the relaxation time instead of the stick phase; so the COF alone
-reads v_c low. Two sharper signs give the digits:
+The measured v_c is the smallest v_0 above which every settled run, from either start, has a deficit 1 - cof/mu_0 below
+its own error. Near v_c the deficit vanishes like (1 - v_0/v_c)² for an elastic contact. For a Kelvin contact it
+vanishes like (1 - v_0/v_c)^(3/2), as its lag behind full slip lasts for the relaxation time instead of the stick phase.
+A threshold on the COF alone would therefore read v_c too low. Two sharper signs give the digits:
 
-* a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull
-  does not depend on v_0. One such run therefore locates v_c by v_0 less its smallest slip velocity;
-* stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket,
-  widened by what steps and springs still move.
+* In a run without any stick the slip velocity is at least v_0 - v_c, since in full slip the motion relative to the pull
+  does not depend on v_0. One such run locates v_c: it is v_0 less the smallest slip velocity.
+* Below v_c there is stick, above it there is none. Two runs close to v_c, one on either side, confirm this. They are
+the
+  bracket, which is widened by what the numbers of steps and springs still change.
 
-Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
-has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes zero. Such a
-rest of a free oscillation, with a full COF, is no friction reduction and is named, not counted.
+Runs at higher velocities, from both starts, then look for stick that returns and for friction that stays low. An
+undamped body loses a free oscillation by instants of stick alone. They reduce it until the slip velocity just touches
+zero. What is left of such a free oscillation, with a full COF, is named in the answer. It is no reduction of friction.
 
-A run further down looks whether stick means less friction at all. An undamped body whose omega_0 is a whole multiple of
-omega can keep a free oscillation in step with the drive, such that it never sticks although the motion without it
-would: there the COF, full within its error, says where friction reduction ends. With a little damping, or a little off
-the multiple, a little friction is missing, and the velocity from which that is less than NEARLY_FULL is named.
+A run at a lower velocity asks whether stick means less friction at all. An undamped body whose omega_0 is a whole
+multiple of omega can keep a free oscillation in step with the drive (lock-in). Then no spring sticks, although it would
+without this oscillation. The COF, full within its error, tells there where the reduction of friction ends. With a
+little damping, or a little off the multiple, a little friction is missing. The velocity from which on less than
+NEARLY_FULL is missing is named in the answer.
 
-A run that has not settled is no evidence of either. Where one stands in the way, others close by are asked; where these
-do not settle either, that is the answer.
+A run that has not settled is no evidence. The search then takes runs at velocities close by. If these do not settle
+either, the answer is "unsettled".
 """
 
 from __future__ import annotations
@@ -216,9 +218,10 @@ class _Search:
         raise _Undecided(v_0)
 
     def _first_free_run(self) -> SlidingRun | None:
-        """A settled run without stick, not far above v_c, by factors that do not land on it by construction.
+        """A settled run without stick, not far above v_c.
 
-        In full slip the body moves alike at any v_0: one free run, however fast, tells where stick begins.
+        In full slip the motion of the body is the same at any v_0: one run without stick, however fast, tells where
+        stick begins. The factors of velocity are chosen such that they do not hit v_c by construction.
         """
         guess, unsettled = self.scale, None
         for times in FAR:
@@ -240,7 +243,10 @@ class _Search:
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun | None:
-        """Double steps and springs until the end of stick moves by less than the margin; the last run without stick."""
+        """Double steps and springs until the end of stick moves by less than the margin; the last run without stick.
+
+        A first touch falls anywhere within a step, so that its error is irregular: three resolutions are compared.
+        """
         for knob, most in (("steps", 16384), ("n_springs", 3072)):
             while (known := getattr(self, knob)) < most:
                 slips = [free.least_slip]
@@ -277,9 +283,7 @@ class _Search:
         return 0.5 * (low + high), low, high
 
     def _jumps(self) -> bool:
-        """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid
-        first touch of a dashpot.
-        """
+        """True if the velocity of the body jumps whenever a spring touches: no inertia, and dashpots that touch."""
         case, pull = self.case, self.case.pull
         kept = case.cycle.u_z0 + case.cycle.du_z * case.kept_gap
         moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
@@ -289,8 +293,10 @@ class _Search:
     def _by_friction(
         self, full: float, high: float, why: str, kind: str = "end of friction reduction", apart: float = APART
     ) -> MeasuredVelocity:
-        """Let the COF speak: its deficit to the power 2/3 falls smoothly to zero at v_c for a Kelvin contact, to the
-        power 1/2 for an elastic one. full: a velocity at which it is full; apart: step between those that are read.
+        """The critical velocity read off the COF: a power of its deficit falls smoothly to zero at v_c.
+
+        The power is 2/3 for a Kelvin contact and 1/2 for an elastic one. `full` is a velocity at which the COF is full,
+        `apart` the step between the velocities that are read.
         """
         power = 2 / 3 if self.case.T > 0 else 1 / 2
         v_0 = full * (1 - apart)

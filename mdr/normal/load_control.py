@@ -1,20 +1,20 @@
-"""The depth under an oscillating load: the periodic solution of m_z u_z'' = F_z0 + dF_z cos(omega t) - F_N.
+"""The depth that an oscillating load brings about: m_z u_z'' = F_z0 + dF_z cos(omega t) - F_N, periodic.
 
 F_N follows from the history of depth by the contact law, viscoelastic and unilateral (followed_force.py); friction has
 no part in it. Without mass an elastic contact is at each instant at the depth that carries the load, and this is solved
-exactly. Else the depth is sought as a Fourier series, as the fixed point of an iteration with Anderson acceleration
-(1965). Each correction is the residual of the balance of forces, harmonic by harmonic divided by the dynamic stiffness
-of the contact at its mean depth less m_z (n omega)². Where contact is lost, F_N jumps between two instants as dashpots
-touch. Its harmonics are then taken from the compression of all springs, which has no jumps, times the dynamic modulus:
-that holds in flight too, where a spring relaxes without force.
+exactly. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
+divided by the dynamic stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's
+method (1965) combines the last of them. Where contact is lost, F_N jumps as dashpots touch, between two instants; its
+harmonics are then taken from the compression of all springs, which has no jumps, times the dynamic modulus: that holds
+in flight too, where a spring relaxes without force.
 
-A small amplitude is solved in one step: there
+A small amplitude arrives in one step: there
 
     du_z = dF_z/(K_z(omega) - m_z omega²),    K_z(omega) = 2 a E*(omega),
 
 which is where the critical velocity of a load-controlled contact comes from. The mean depth is that of the long-time
-modulus, however slow the material: the periodic state is sought, not the way to it. With mass and great amplitude, or
-near the resonance of the mass on the contact, several periodic motions may exist, some of them unstable. One is found.
+modulus, however slow the material: the search is for the periodic state, not for the way to it. With mass and great
+amplitude, or near its resonance on the contact, several periodic motions may exist, some unstable; found is one.
 """
 
 from __future__ import annotations
@@ -51,10 +51,7 @@ def static_depth(shape: Indenter, material: Material, F_z: float) -> float:
 
 
 def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
-    """Depths [m] at which constant loads F_z (n,) > 0 rest, on the long-time modulus.
-
-    Newton's method from above: the slope 2E*a of the force never falls with depth.
-    """
+    """The same for loads (n,) > 0. Newton's method from above, on a force whose slope 2E*a never falls with depth."""
     E_star = material.E_star
     d = np.full(F_z.shape, _depth_beyond(shape, E_star, float(np.max(F_z))))
     left = np.inf
@@ -68,7 +65,7 @@ def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
 
 
 def _depth_beyond(shape: Indenter, E_star: float, F_z: float) -> float:
-    """A depth [m] that carries the load [N] or more, not far beyond the one that carries it exactly."""
+    """A depth [m] that carries the load [N] or more, of the same size as the one that carries it."""
     reach = float(shape.profile_1d(shape.max_radius)) if np.isfinite(shape.max_radius) else np.inf
     d = max(min(shape.depth_about(F_z / E_star), reach if reach > 0 else np.inf), shape.least_depth)
     while float(shape.force(d, E_star)) < F_z:
@@ -77,7 +74,7 @@ def _depth_beyond(shape: Indenter, E_star: float, F_z: float) -> float:
 
 
 def _deeper(shape: Indenter, d: float, F_z: float) -> float:
-    """A greater depth [m] that the shape still reaches."""
+    """A greater depth, of what the shape has."""
     for factor in (4.0, 1.5, 1.05, 1.001):
         try:
             shape.contact_radius(factor * d)
@@ -101,7 +98,7 @@ def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillatio
 
 
 def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
-    """Depth of an elastic contact without mass, F(u_z) = F_z(t), with as many harmonics as it needs."""
+    """Elastic, without mass: F(u_z) = F_z(t), as many harmonics as its smoothness asks for."""
     n = 64
     while True:
         load = motion.F_z0 + motion.dF_z * np.cos(2 * np.pi * np.arange(n) / n)
@@ -167,10 +164,7 @@ def _anderson(
     u: NDArray[np.complex128],
     F_z0: float,
 ) -> tuple[NDArray[np.complex128], float]:
-    """Fixed point by Anderson acceleration: the depth with the least residual `missing`, and that residual over F_z0.
-
-    Each correction is missing/weight; the last of them are combined.
-    """
+    """Where least is missing, by corrections missing/weight of which the last are combined; and how much, over F_z0."""
     tried: list[NDArray[np.complex128]] = []
     moves: list[NDArray[np.complex128]] = []
     best, least, known, since = u, np.inf, np.inf, 0

@@ -1,4 +1,4 @@
-"""A finished study, or what there is of one: values with named axes, units, and the fate of every point."""
+"""A study, finished or not: values with named axes, units, and the status of every point."""
 
 from __future__ import annotations
 
@@ -266,7 +266,7 @@ class Study(ArrayRecord):
         return "\n".join([*lines, f"  {', '.join(counts)}", *self._most_frequent()])
 
     def _most_frequent(self) -> list[str]:
-        """The reasons that most points share, but for the numbers in them."""
+        """Lines with the most frequent reasons; reasons that differ in their numbers alone count as one."""
         codes, counts = np.unique(self.reason[self.reason > 0], return_counts=True)
         kinds: dict[str, tuple[int, str]] = {}
         for code, count in zip(codes.tolist(), counts.tolist(), strict=True):
