@@ -1,15 +1,15 @@
-"""Normal-tangential coupling, which the springs leave out: what it does to friction under a rigid pull, and how much.
+"""Normal-tangential coupling, which the springs leave out: its effect on friction under a rigid pull.
 
-On a compressible body pressing drags the surface to the middle of the contact. At the edge the surface moves radially
-at 2 |beta|/pi times the rate of the depth, with Dundurs' beta, under any shape on an elastic body; over the velocity of
-Eq. (1) that is, at most,
+On a compressible body, pressing moves the surface towards the middle of the contact. At the edge the radial velocity of
+the surface is 2 |beta|/pi times the rate of the depth, with Dundurs' beta, under any shape on an elastic body. Over
+the velocity of Eq. (1) its greatest value is
 
     lambda = 2 |beta| / (pi mu_0 kappa),    kappa = E*/G*.
 
-Three-dimensional computations (validation/coupled.py, end_of_stick.py and coupling_law.py, where this is derived and
-measured) show: something sticks up to about 1 + lambda times the velocity at which the last spring does, and below
-friction is lower than that of the springs, by a share of what they lose at rest, 1 - static_cof/mu_0, that depends on
-lambda and beta²/kappa.
+Computations in three dimensions (validation/coupled.py, end_of_stick.py and coupling_law.py, where this is derived and
+measured) show two effects. Something sticks up to about 1 + lambda times the velocity at which the last spring does.
+Below that velocity friction is lower than that of the springs; the difference is a share, which depends on lambda and
+beta²/kappa, of what the springs lose at rest, 1 - static_cof/mu_0.
 """
 
 from __future__ import annotations

@@ -83,9 +83,16 @@ def read_case(path: str | PathLike[str]) -> SlidingContact:
     CaseFileError
         With every fault of the file, one a line.
 
-    See Also
+    Examples
     --------
-    write_case : the text of a case file.
+    >>> from pathlib import Path
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> _ = Path("case.toml").write_text(mdr.write_case(case))
+    >>> mdr.read_case("case.toml") == case
+    True
     """
     return parse_case(read_text(path), source=fsdecode(path))
 

@@ -85,7 +85,20 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
 
 
 def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
-    """Measured coefficients of friction with their errors, and the curve of the fitted contact through them."""
+    """Draw measured coefficients of friction with their errors, and the curve of the fitted contact.
+
+    Parameters
+    ----------
+    fitted : Fit
+        What `fit` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw. None makes a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where it was drawn.
+    """
     data, curve = fitted.data, fitted.curve
     factor, unit = prefix(data.v_0, "m/s")
     with style():
@@ -177,9 +190,19 @@ def plot_run(run: Any) -> "Figure":
 
 
 def plot_traces(run: Any) -> "Figure":
-    """Show forces, displacements seen from the pulled end, and foot-point velocities against time.
+    """Draw forces, displacements relative to the pulled end, and velocities of the foot points over time.
 
-    A foot point whose velocity is zero sticks; one that is off the plane is left out.
+    A foot point whose velocity is zero sticks. One that is off the plane is left out.
+
+    Parameters
+    ----------
+    run : SlidingRun
+        A run made with `record=1` or more.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
     """
     import matplotlib.pyplot as plt
 
@@ -197,10 +220,23 @@ def plot_traces(run: Any) -> "Figure":
 
 
 def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLike | None" = None) -> "Figure":
-    """Show the shape f(r) and its image g(x) pressed to depth d into its springs, with the contact radius.
+    """Draw the shape f(r) and its image g(x), pressed to the depth d into its springs, with the contact radius.
 
-    `springs` gives their positions x ≥ 0 (or a record with `.x`); otherwise `n_springs` stand evenly on both
-    sides. Heights are exaggerated: the two axes have their own scales.
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    d : float
+        Depth [m].
+    n_springs : int
+        Number of springs, evenly on both sides.
+    springs : array_like of float, optional
+        Positions x >= 0 of the springs [m], or a record with `.x`, in the place of n_springs.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure. Heights are exaggerated: the two axes have their own scales.
     """
     import matplotlib.pyplot as plt
 
