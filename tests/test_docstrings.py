@@ -50,7 +50,7 @@ def faults(function):
     named = [name.strip(" *") for one in doc["Parameters"] for name in one.name.split(",")]
     if named != given:
         found.append(f"Parameters names {named}, the function takes {given}")
-    if inspect.signature(function).return_annotation != "None" and not doc["Returns"]:
+    if inspect.signature(function).return_annotation not in (None, "None") and not doc["Returns"]:
         found.append("no Returns")
     if any(not one.desc for section in ("Parameters", "Returns", "Raises") for one in doc[section]):
         found.append("an entry without a word")

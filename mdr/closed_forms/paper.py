@@ -1,8 +1,8 @@
 """Closed forms of the paper, on plain floats. No solver here.
 
 "Eq. (n)" is M. Popov, Critical velocity of controllability of sliding friction by normal oscillations in viscoelastic
-contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. All of it is one Kelvin element, or an
-array of them that all stay in contact, while every one slides forward; each function says when it holds. NaN and
+contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. The equations are those of one Kelvin
+element, or of an array whose elements all stay in contact, while all slide forward; each function says when it holds. NaN and
 infinities are refused.
 
 Symbols (SI): mu_0 coefficient of friction [-]; u_z0, du_z, omega mean depth, amplitude [m], angular frequency [rad/s]

@@ -49,7 +49,7 @@ class Indenter(ABC):  # noqa: B024  (either of two methods will do, see __init_s
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Radii > 0 where f, and with it g, is not smooth [m]: springs, quadrature and plots heed them."""
+        """Radii > 0 where f, and with it g, is not smooth [m]; springs, quadrature and plots take account of them."""
         return ()
 
     @property
