@@ -1,9 +1,9 @@
 """Closed forms of the paper, on plain floats. No solver here.
 
 "Eq. (n)" is M. Popov, Critical velocity of controllability of sliding friction by normal oscillations in viscoelastic
-contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. The equations are those of one Kelvin
-element, or of an array whose elements all stay in contact, while all slide forward; each function says when it holds. NaN and
-infinities are refused.
+contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. The equations hold for one Kelvin element,
+or for an array whose elements all stay in contact, while all slide forward; each function says when. NaN and infinities
+are refused.
 
 Symbols (SI): mu_0 coefficient of friction [-]; u_z0, du_z, omega mean depth, amplitude [m], angular frequency [rad/s]
 of Eq. (3); k_zc, k_xc, gamma_zc contact stiffness [N/m] and damping [N s/m]; k_x, m, c_x system spring, mass, damper;
