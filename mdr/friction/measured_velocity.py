@@ -72,7 +72,7 @@ class MeasuredVelocity:
     v_c: float | None  #: [m/s]; None where there is none
     low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
     high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
-    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "lock-in", "none", "unsettled"
+    kind: str  #: one of the kinds of end above
     why: str  #: in words
     nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
     n_runs: int = field(default=0, compare=False)  #: how many runs it took

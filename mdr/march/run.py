@@ -60,7 +60,7 @@ class EnergyBalance:
 
 @dataclass(frozen=True, eq=False)
 class SlidingRun(ArrayRecord):
-    """Outcome of slide(), in SI. Arrays are kept with `record` alone; otherwise they are None.
+    """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
     Recorded forces are those at the end of a step. Where dashpots make them jump within a step, as under a Kelvin punch
     that loses contact, mean F_x over mean F_z of the record differs from `cof` by up to 1e-4.

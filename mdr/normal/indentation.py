@@ -46,7 +46,7 @@ LONG = 0.3  #: an interval longer than this share of the time since the last jum
 
 @dataclass(frozen=True, eq=False)
 class Indentation(ArrayRecord):
-    """Outcome of indent(), in SI. The springs are kept with `record=True` alone; otherwise x, s and q_z are None."""
+    """Outcome of indent(), in SI. The springs are kept only with `record=True`; otherwise x, s and q_z are None."""
 
     indenter: Indenter  #: shape
     material: Material  #: half-space
