@@ -1,7 +1,7 @@
 """The guide as a site: `python -m sphinx -W docs site` writes pages into site/ that need no network.
 
 Pages are plain Markdown, readable as they are. What a page cannot say of itself stands here: their order, and how
-equations and docstrings are set (extensions/).
+equations are set (extensions/). Docstrings are numpydoc; the notebook is run while the pages are built (myst-nb).
 """
 
 import sys
@@ -20,10 +20,19 @@ PAGES = {  #: in the order of the navigation, under their headings
     "Reference": ["api/shapes", "api/contact", "api/friction", "api/normal", "api/studies"],
 }
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "equations", "docstrings", "notebooks", "navigation"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "facts", "equations", "navigation"]
 exclude_patterns = ["extensions", "paper.md"]  # the paper is set by the journal
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+default_role = "literal"  # `name` in a docstring is code
+nb_execution_mode = "force"  # the notebook is stored without outputs
+nb_execution_in_temp = True
+nb_execution_timeout = -1  # of a slow machine
+nb_execution_raise_on_error = True
+nb_output_stderr = "remove"  # progress
+nb_merge_streams = True
+nb_ipywidgets_js = {}  # no script from elsewhere
+numpydoc_show_class_members = False  # autodoc lists them
 smartquotes = False  # a prime is no apostrophe
 highlight_language = "none"
 html_math_renderer = "mathml"
@@ -34,6 +43,21 @@ autodoc_preserve_defaults = True
 python_maximum_signature_line_length = 88
 add_module_names = False
 toc_object_entries_show_parents = "hide"
+
+LONGEST = 100  #: characters of the signature of a class; a longer one is a result, which nobody makes by hand
+
+
+def shorten(app, what, name, obj, options, signature, answer):
+    """No signature for results; a default that a factory makes as one would write it."""
+    if what == "class" and signature and len(signature) > LONGEST:
+        return "", answer
+    return signature and signature.replace("<factory>", "RigidPull()"), answer
+
+
+def setup(app):
+    """Listen to autodoc."""
+    app.connect("autodoc-process-signature", shorten)
+
 
 html_theme = "furo"
 html_title = "mdr-friction"

@@ -176,7 +176,8 @@ class Sources(HTMLParser):
 
 def test_the_site_builds_without_a_warning_and_needs_no_network(tmp_path):
     pytest.importorskip("sphinx")
-    pytest.importorskip("myst_parser")
+    pytest.importorskip("myst_nb")
+    pytest.importorskip("numpydoc")
     pytest.importorskip("furo")
     site = tmp_path / "site"
     command = [
@@ -187,7 +188,7 @@ def test_the_site_builds_without_a_warning_and_needs_no_network(tmp_path):
         "-W",
         "--keep-going",
         "-D",
-        "run_notebooks=0",
+        "nb_execution_mode=off",
         "-d",
         tmp_path / "trees",
         DOCS,

@@ -135,7 +135,18 @@ class SlidingContact:
         return self.material.tau * self.k_xc
 
     def dynamic_stiffness(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """K_z(omega) = 2 a(u_z0) E*(omega) [N/m], complex, in the shape of omega [rad/s]."""
+        """Complex normal stiffness of the contact K_z(omega) = 2 a(u_z0) E*(omega) [N/m].
+
+        Parameters
+        ----------
+        omega : array_like of float
+            Angular frequency [rad/s].
+
+        Returns
+        -------
+        ndarray
+            K_z [N/m] in the shape of omega.
+        """
         return np.asarray(self.k_zc / self.material.E_star * np.asarray(self.material.dynamic_modulus(omega)))
 
     @property

@@ -71,12 +71,34 @@ class Motion(Record, ABC):
         return self
 
     def u_z(self, t: ArrayLike) -> NDArray[np.float64]:
-        """Depth [m] at times t [s]."""
+        """Depth [m] over time.
+
+        Parameters
+        ----------
+        t : array_like of float
+            Time [s].
+
+        Returns
+        -------
+        ndarray
+            Depth [m] in the shape of t.
+        """
         cycle = self.cycle
         return cycle.u_z0 + cycle.du_z * cycle.z(self.omega * finite_array("t", t, "s"))
 
     def u_z_dot(self, t: ArrayLike) -> NDArray[np.float64]:
-        """Its rate [m/s]."""
+        """Rate of the depth [m/s] over time.
+
+        Parameters
+        ----------
+        t : array_like of float
+            Time [s].
+
+        Returns
+        -------
+        ndarray
+            Rate [m/s] in the shape of t.
+        """
         cycle = self.cycle
         return cycle.du_z * self.omega * cycle.rate(self.omega * finite_array("t", t, "s"))
 
@@ -110,9 +132,9 @@ class NormalOscillation(Motion):
 
 @dataclass(frozen=True)
 class PeriodicMotion(Motion):
-    """A periodic normal motion of prescribed depth, as a Fourier series:
+    """A periodic normal motion of prescribed depth, as a Fourier series ::
 
-        u_z(t) = u_z0 + sum over n >= 1 of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t).
+        u_z(t) = u_z0 + sum over n >= 1 of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t)
 
     Several frequencies are harmonics of a common omega; a square-like tapping is a series of many. Amplitudes in m; a
     list left out, or shorter than the other, is filled with zeros, and zeros at the end of both are dropped.
@@ -142,9 +164,26 @@ class PeriodicMotion(Motion):
 
     @classmethod
     def of(cls, u_z: ArrayLike, omega: float, n_harmonics: int | None = None) -> PeriodicMotion:
-        """The series through depths u_z [m] at equidistant instants of one period, shape (n,), starting at t = 0.
+        """The Fourier series [m] through depths at equidistant instants of one period.
 
-        n_harmonics keeps only the first ones (None: all that n instants define, below n/2).
+        Parameters
+        ----------
+        u_z : array_like of float, shape (n,)
+            Depths [m], starting at t = 0.
+        omega : float
+            Angular frequency of the period [rad/s].
+        n_harmonics : int, optional
+            Keep only the first ones. None: all that n instants define, below n/2.
+
+        Returns
+        -------
+        PeriodicMotion
+            The motion.
+
+        Raises
+        ------
+        ValueError
+            For fewer than three depths.
         """
         u_z = finite_array("u_z", u_z, "m")
         if u_z.ndim != 1 or u_z.size < 3:
@@ -159,9 +198,9 @@ class PeriodicMotion(Motion):
 class LoadOscillation(Motion):
     """A normal load that oscillates, the drive of most experiments: F_z(t) = F_z0 + dF_z cos(omega t).
 
-    The depth follows from the contact law, with the inertia of the mass that the load moves:
+    The depth follows from the contact law, with the inertia of the mass that the load moves ::
 
-        m_z u_z'' = F_z(t) - F_N.
+        m_z u_z'' = F_z(t) - F_N
 
     `mdr.resolved(case)` solves for it. Without mass the load must press at every instant, dF_z < F_z0; with one it may
     let go.
@@ -196,7 +235,18 @@ class LoadOscillation(Motion):
         )
 
     def F_z(self, t: ArrayLike) -> NDArray[np.float64]:
-        """Load [N] at times t [s]."""
+        """Load F_z0 + dF_z cos(omega t) [N].
+
+        Parameters
+        ----------
+        t : array_like of float
+            Time [s].
+
+        Returns
+        -------
+        ndarray
+            Load [N] in the shape of t.
+        """
         return self.F_z0 + self.dF_z * np.cos(self.omega * finite_array("t", t, "s"))
 
 

@@ -54,7 +54,18 @@ class Pull(Record, ABC):
 
     @abstractmethod
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
-        """Displacement over force H(omega) [m/N], in the shape of omega [rad/s]; infinite on an undamped resonance."""
+        """Receptance H(omega) [m/N]: displacement over an oscillating force.
+
+        Parameters
+        ----------
+        omega : array_like of float
+            Angular frequency [rad/s].
+
+        Returns
+        -------
+        complex or ndarray
+            H [m/N] in the shape of omega; infinite on an undamped resonance.
+        """
 
 
 @dataclass(frozen=True)

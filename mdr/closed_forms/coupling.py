@@ -1,15 +1,15 @@
-"""Normal-tangential coupling, which the springs leave out: what it does to friction under a rigid pull, and how much.
+"""Normal-tangential coupling, which the springs leave out: its effect on friction under a rigid pull.
 
-On a compressible body pressing drags the surface to the middle of the contact. At the edge the surface moves radially
-at 2 |beta|/pi times the rate of the depth, with Dundurs' beta, under any shape on an elastic body; over the velocity of
-Eq. (1) that is, at most,
+On a compressible body, pressing moves the surface towards the middle of the contact. At the edge the radial velocity of
+the surface is 2 |beta|/pi times the rate of the depth, with Dundurs' beta, under any shape on an elastic body. Over
+the velocity of Eq. (1) its greatest value is
 
     lambda = 2 |beta| / (pi mu_0 kappa),    kappa = E*/G*.
 
-Three-dimensional computations (validation/coupled.py, end_of_stick.py and coupling_law.py, where this is derived and
-measured) show: something sticks up to about 1 + lambda times the velocity at which the last spring does, and below
-friction is lower than that of the springs, by a share of what they lose at rest, 1 - static_cof/mu_0, that depends on
-lambda and beta²/kappa.
+Computations in three dimensions (validation/coupled.py, end_of_stick.py and coupling_law.py, where this is derived and
+measured) show two effects. Something sticks up to about 1 + lambda times the velocity at which the last spring does.
+Below that velocity friction is lower than that of the springs; the difference is a share, which depends on lambda and
+beta²/kappa, of what the springs lose at rest, 1 - static_cof/mu_0.
 """
 
 from __future__ import annotations
@@ -27,32 +27,110 @@ TRIED_RUB, TRIED_BETA = 3.2, 0.5  #: greatest lambda and |beta| that were comput
 
 
 def radial_rub(case: SlidingContact) -> float:
-    """Lambda [-]: greatest radial velocity of the surface at the edge of the contact, over that of Eq. (1).
+    """Ratio lambda [-]: greatest radial velocity of the surface at the edge of the contact over that of Eq. (1).
 
-    lambda = 2 |beta|/(pi mu_0 kappa), from Boussinesq's radial displacement (1 - 2 nu)/(4 pi G r) of the surface.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    float
+        lambda [-]; zero on an incompressible body, nu = 1/2.
+
+    Notes
+    -----
+    From Boussinesq's radial displacement (1 - 2 nu)/(4 pi G r) of the surface, with Dundurs' beta ::
+
+        lambda = 2 |beta| / (pi mu_0 kappa),    kappa = E*/G*
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> print(f"{mdr.radial_rub(case):.3f}")
+    0.374
     """
     material = require_case(case).material
     return 2 * abs(material.dundurs_beta) / (math.pi * case.mu_0 * material.mindlin_ratio)
 
 
 def coupled_critical_velocity(case: SlidingContact) -> float:
-    """Pulling velocity [m/s] up to which about something sticks, with normal-tangential coupling.
+    """Velocity [m/s] up to which about something sticks, with normal-tangential coupling.
 
-    (1 + lambda) times the full-slip critical velocity, (mu_0 kappa + 2 |beta|/pi) omega du_z where that is Eq. (1): an
-    estimate of lowest order in mu_0 and lambda, from the radial velocity of the surface at the edge. In three
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact. The pull is rigid, the depth harmonic about u_z0 > 0, the material elastic or Kelvin with
+        ``|beta| <= 0.5`` and lambda <= 3.2 (`radial_rub`): other cases were not computed.
+
+    Returns
+    -------
+    float
+        (1 + lambda) times the full-slip critical velocity [m/s]. Where that is Eq. (1) it is
+        (mu_0 kappa + 2 abs(beta)/pi) omega du_z.
+
+    Raises
+    ------
+    ValueError
+        For a case unlike those that were computed.
+
+    Notes
+    -----
+    An estimate of lowest order in mu_0 and lambda, from the radial velocity of the surface at the edge. In three
     dimensions (elastic, mu_0 from 0.1 to 0.6, lambda up to 1.5) stick ended within 12 % of it. Friction is not full
-    above, only free of stick. Raises ValueError for a case unlike those that were computed (`coupling_loss`).
+    above it, only free of stick.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> print(f"{mdr.coupled_critical_velocity(case):.3g} m/s, without coupling {mdr.critical_velocity(case):.3g} m/s")
+    0.000401 m/s, without coupling 0.000291 m/s
     """
     _require_known(case)
     return (1 + radial_rub(case)) * full_slip_critical_velocity(case)
 
 
 def coupling_loss(case: SlidingContact) -> float:
-    """About how much of mu_0 [-] the springs are too high by, at the velocity where it is most.
+    """Error of the springs [-] that normal-tangential coupling makes: how much of mu_0 they are too high by, at most.
 
-    (1 - static_cof/mu_0) [0.210 lambda²/(0.313 + lambda) + 0.122 beta²/kappa], to some 25 % of itself for lambda up to
-    1.1; beyond, a flat punch lost 1.9 to 2.4 times as much, at the lowest velocity tried. Raises ValueError unless the
-    pull is rigid, the depth harmonic about u_z0 > 0, the material elastic or Kelvin, |beta| <= 0.5 and lambda <= 3.2.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact, with the same limits as in `coupled_critical_velocity`.
+
+    Returns
+    -------
+    float
+        Greatest loss over mu_0 [-], at the velocity where it is most.
+
+    Raises
+    ------
+    ValueError
+        For a case unlike those that were computed.
+
+    Notes
+    -----
+    A fit to computations in three dimensions, good to some 25 % of itself for lambda up to 1.1 ::
+
+        (1 - static_cof/mu_0) [0.210 lambda²/(0.313 + lambda) + 0.122 beta²/kappa]
+
+    Beyond, a flat punch lost 1.9 to 2.4 times as much, at the lowest velocity tried.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> print(f"{mdr.coupling_loss(case):.2g}")
+    0.0051
     """
     _require_known(case)
     rub, material = radial_rub(case), case.material

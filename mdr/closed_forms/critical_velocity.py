@@ -10,25 +10,61 @@ from mdr.normal.resolved import at_rest
 
 
 def critical_velocity(case: SlidingContact) -> float:
-    """Critical velocity [m/s], Eq. (15), with the contact stiffness k_zc, k_xc and damping gamma_zc at the mean depth:
+    """Critical velocity [m/s] in closed form, Eq. (15): pulled faster, the oscillation no longer lowers friction.
 
-        v_c = mu_0 du_z omega |kappa (D - k_xc) - i gamma_zc omega| / |D|,   D = m omega² - k_x - i omega c_x,
+    The stiffnesses k_zc, k_xc and the damping gamma_zc of the contact are those at the mean depth.
 
-    kappa = k_zc/k_xc. Without the system's damper, c_x = 0, it reads as in the paper (M. Popov, Facta Universitatis,
-    Series: Mechanical Engineering 14 (2016) 335),
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
 
-        v_c = mu_0 du_z omega sqrt((gamma_zc omega)² + (kappa (m omega² - k_xc - k_x))²) / |m omega² - k_x|;
+    Returns
+    -------
+    float
+        v_c [m/s]. Infinite on an undamped resonance, k_x = m omega² or k_zc = m_z omega².
 
-    c_x is included here as k_x + i omega c_x in the place of k_x. A rigid pull is the limit k_x -> infinity, Eq. (1):
-    v_c = mu_0 du_z omega kappa.
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
 
-    Materials with arms enter by their dynamic stiffness, periodic motions by all their harmonics
-    (`linear_critical_velocity`), and an oscillating load by the depth it brings about at small amplitude, so that
+    See Also
+    --------
+    full_slip_critical_velocity : for any amplitude.
+    measure_critical_velocity : from runs alone.
+    verdict : how good Eq. (15) is.
 
-        v_c = mu_0 omega dF_z |kappa + K_z H|/|K_z - m_z omega²|,   K_z(omega) = 2 a E*(omega) at the depth of F_z0.
+    Notes
+    -----
+    With kappa = k_zc/k_xc and D = m omega² - k_x - i omega c_x ::
 
-    Infinite on the undamped resonance k_x = m omega², and k_zc = m_z omega². With u_z0 <= 0 (tapping) the contact has
-    no stiffness at the mean depth, and Eq. (1) is left.
+        v_c = mu_0 du_z omega |kappa (D - k_xc) - i gamma_zc omega| / |D|
+
+    Without the damper of the system, c_x = 0, this is Eq. (15) as M. Popov wrote it (Facta Universitatis, Series:
+    Mechanical Engineering 14 (2016) 335) ::
+
+        v_c = mu_0 du_z omega sqrt((gamma_zc omega)² + (kappa (m omega² - k_xc - k_x))²) / |m omega² - k_x|
+
+    and c_x enters as k_x + i omega c_x in the place of k_x. A rigid pull is the limit k_x -> infinity, Eq. (1):
+    v_c = mu_0 du_z omega kappa. Eq. (1) is also left with u_z0 <= 0 (tapping), where the contact has no stiffness at
+    the mean depth.
+
+    Materials with arms enter by their dynamic stiffness K_z(omega) = 2 a E*(omega). A periodic motion enters with all
+    its harmonics (`mdr.closed_forms.paper.linear_critical_velocity`). An oscillating load enters by the depth that it
+    causes at small amplitude, with K_z at the depth of F_z0 ::
+
+        v_c = mu_0 omega dF_z |kappa + K_z H|/|K_z - m_z omega²|
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> slider = mdr.SpringPull(k_x=2e4, m=0.05)
+    >>> rubber = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, 0.4, oscillation=tapping, pull=slider)
+    >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
+    0.000486 m/s
     """
     case = at_rest(case)
     oscillation, kappa, pull = case.oscillation, case.material.mindlin_ratio, case.pull

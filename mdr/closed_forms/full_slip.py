@@ -141,11 +141,38 @@ def mean_normal_force(case: SlidingContact) -> float:
 
 
 def static_cof(case: SlidingContact) -> float:
-    """COF in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
+    """Coefficient of friction [-] in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
 
-    Every spring presses least, or not at all, at the same phase pi - arctan T, when those shallower than
-    u_z0 - du_z sqrt(1 + T²) are lost and the others press as elastic ones at that depth would. So min F_N is the
-    elastic force there: Eq. (7) for any shape. Materials with arms and other motions have their least force found.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    float
+        The static limit [-]; 0 where contact is lost in part of the period.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+
+    Notes
+    -----
+    Eq. (7) for any shape. On an elastic or Kelvin material under a harmonic depth every spring presses least, or not at
+    all, at the same phase pi - arctan T, T = omega tau. Springs shallower than u_z0 - du_z sqrt(1 + T²) are lost there.
+    The others press as elastic springs at that depth would. So min F_N is the elastic force there. For materials with
+    arms and for other motions the least force is computed.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> print(f"{mdr.static_cof(case):.3f}")
+    0.322
     """
     case = resolved(case)
     if not case.is_of_the_paper:
@@ -157,7 +184,7 @@ def static_cof(case: SlidingContact) -> float:
 
 
 def _least(values: Array) -> float:
-    """Least of equidistant values over a period, by the parabola through its neighbours."""
+    """Minimum over a period of equidistant values, by the parabola through the least one and its neighbours."""
     k = int(np.argmin(values))
     before, least, after = values[k - 1], values[k], values[(k + 1) % values.size]
     bend = before - 2 * least + after

@@ -43,16 +43,43 @@ RESONANT = 1e-10  #: share of F_N that a harmonic on an undamped resonance may h
 
 
 def full_slip_critical_velocity(case: SlidingContact) -> float:
-    """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape, with all harmonics of F_N.
+    """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape.
 
-    To 1e-8 for a harmonic depth on an elastic or Kelvin material. Other materials and motions have their force followed
-    spring by spring (followed_force.py): to 1e-6 under a rigid pull or a body that keeps contact, to 1e-3 where contact
-    is lost and springs touch again on slow dashpots. The velocity of a body with neither mass nor damper follows the
-    rate of that force: to 1e-3 while contact is kept, and no better than some per cent where it is lost.
+    It is Eq. (15) with all harmonics of the normal force in the place of the first one.
 
-    Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite too for a body
-    without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the
-    tip is sharp): its velocity then has no bound at that instant, brief as it is.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    float
+        v_c [m/s]. Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite
+        too for a body without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin
+        material, unless the tip is sharp): for an instant its velocity has no bound.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+
+    Notes
+    -----
+    The error is 1e-8 for a harmonic depth on an elastic or Kelvin material. Other materials and motions have their
+    normal force computed spring by spring. The error is then 1e-6 under a rigid pull or while contact is kept, and 1e-3
+    where contact is lost and springs touch again on slow dashpots. For a body with neither mass nor damper it is 1e-3
+    while contact is kept, and some per cent where contact is lost.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> slider = mdr.SpringPull(k_x=2e4, m=0.05)
+    >>> rubber = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, 0.4, oscillation=tapping, pull=slider)
+    >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
+    0.000516 m/s
     """
     case = resolved(case)
     if not case.is_of_the_paper:
@@ -61,9 +88,9 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
     on, off = contact_span(case)
     if case.pull.is_rigid:
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
-    panels = _panels(case, SMALLEST_RATE if case.pull.coefficients[:2] == (0, 0) else SMALLEST)
+    panels = _time_panels(case, SMALLEST_RATE if case.pull.coefficients[:2] == (0, 0) else SMALLEST)
     resonant = _resonant_harmonic(case.pull, omega)
-    if _touches_with_a_jolt(case) or (
+    if _velocity_unbounded_at_touch(case) or (
         resonant and abs(panels.harmonic(panels.force, resonant)) > RESONANT * panels.mean
     ):
         return np.inf
@@ -77,7 +104,7 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
 
 
 def _by_harmonics(case: SlidingContact) -> float:
-    """The same for any material and motion, harmonic by harmonic of a force that is known at N_STEPS instants."""
+    """Full-slip critical velocity [m/s] of any material and motion, from the harmonics of the normal force."""
     cycle, pull, omega = case.cycle, case.pull, case.oscillation.omega
     known = followed(case, N_STEPS)
     rates = np.zeros(N_STEPS // 2 - 1, dtype=complex)  # of mu_0 kappa u_z - y
@@ -87,7 +114,7 @@ def _by_harmonics(case: SlidingContact) -> float:
         F_n = np.fft.rfft(force_of(case, known))[1:-1] / N_STEPS
         resonant = _resonant_harmonic(pull, omega)
         drives = resonant and abs(F_n[resonant - 1]) > RESONANT_FOLLOWED * known.F_N.mean() * case.material.E_star
-        if drives or _touches_with_a_jolt(case):
+        if drives or _velocity_unbounded_at_touch(case):
             return np.inf
         H = np.asarray(pull.receptance(n * omega))
         if resonant:
@@ -98,7 +125,7 @@ def _by_harmonics(case: SlidingContact) -> float:
 
 
 def contact_span(case: SlidingContact) -> tuple[float, float]:
-    """Phases (touch, leave) of the centre: contact lasts from touch to leave + 2 pi; (0, 2 pi) where it is kept."""
+    """Phases (touch, leave) of the centre: contact from touch to leave + 2 pi; (0, 2 pi) where it is never lost."""
     gap = -case.cycle.u_z0 / case.cycle.du_z
     if gap <= kept_gap(case.T):
         return 0.0, 2 * np.pi
@@ -106,8 +133,8 @@ def contact_span(case: SlidingContact) -> tuple[float, float]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Panels:
-    """The period cut into panels, and the normal force [N] on the Gauss nodes of each."""
+class _TimePanels:
+    """The period, cut into panels of time, and the normal force [N] on the Gauss nodes of each."""
 
     low: Array  # (n_panels,) phases
     high: Array
@@ -121,7 +148,7 @@ class _Panels:
         return complex(np.sum((values * np.exp(-1j * n * self.phase)) @ across * (self.high - self.low)) / (2 * np.pi))
 
 
-def _panels(case: SlidingContact, smallest: float) -> _Panels:
+def _time_panels(case: SlidingContact, smallest: float) -> _TimePanels:
     T, pull = case.T, case.pull
     cuts = {0.0, turning_phase(T), 2 * np.pi}
     for gap in edge_marks(case):
@@ -137,7 +164,7 @@ def _panels(case: SlidingContact, smallest: float) -> _Panels:
         ends = np.append(np.repeat(ends[:-1], parts) + part * np.repeat(length / parts, parts), 2 * np.pi)
     low, high = ends[:-1], ends[1:]
     phase = low[:, None] + (high - low)[:, None] * _collocation()[0]
-    return _Panels(low, high, phase, normal_force(case, phase), mean_normal_force(case))
+    return _TimePanels(low, high, phase, normal_force(case, phase), mean_normal_force(case))
 
 
 @lru_cache
@@ -154,7 +181,7 @@ def _series() -> Array:
     return np.asarray(np.linalg.inv(legendre.legvander(leggauss(N_NODES)[0], N_NODES - 1)))
 
 
-def _velocity(pull: Pull, panels: _Panels, mu_0: float, omega: float) -> Array:
+def _velocity(pull: Pull, panels: _TimePanels, mu_0: float, omega: float) -> Array:
     """y' [m/s] of the body on the nodes, shape (n_panels, N_NODES); the phase is its time, so that all are lengths."""
     nodes, into, across = _collocation()
     force = -mu_0 * (panels.force - panels.mean)
@@ -180,7 +207,10 @@ def _velocity(pull: Pull, panels: _Panels, mu_0: float, omega: float) -> Array:
 
 
 def _periodic(maps: Array) -> Array:
-    """State at the start of every panel that returns after a period; maps (n_panels, d, 1 + d): x -> q + P x."""
+    """Fixed point of the map over one period: the state at the start of every panel, (n_panels, d).
+
+    maps (n_panels, d, 1 + d) carry a state x from the start of a panel to its end: x -> q + P x.
+    """
     d = maps.shape[1]
     q, P = np.zeros(d), np.eye(d)
     for step in maps:
@@ -194,7 +224,7 @@ def _periodic(maps: Array) -> Array:
 
 
 def _resonant_harmonic(pull: Pull, omega: float) -> int:
-    """The n with k_x = m (n omega)² of an undamped body, or 0."""
+    """The n with k_x = m (n omega)² for a body without damper; 0 if there is none."""
     m, c_x, k_x = pull.coefficients
     if c_x > 0 or m == 0:
         return 0
@@ -202,8 +232,8 @@ def _resonant_harmonic(pull: Pull, omega: float) -> int:
     return n if abs(m * (n * omega) ** 2 / k_x - 1) < 1e-12 else 0
 
 
-def _touches_with_a_jolt(case: SlidingContact) -> bool:
-    """Whether a light body gets infinitely fast as dashpots touch: a(d) rises more steeply than d from its tip."""
+def _velocity_unbounded_at_touch(case: SlidingContact) -> bool:
+    """True if a body without mass and damper has unbounded velocity as dashpots touch: a(d) rises faster than d."""
     m, c_x, _ = case.pull.coefficients
     if case.pull.is_rigid or m > 0 or c_x > 0 or case.T == 0 or case.keeps_contact:
         return False
@@ -212,7 +242,7 @@ def _touches_with_a_jolt(case: SlidingContact) -> bool:
 
 
 def _peak(values: Array) -> float:
-    """Largest value in a panel of the polynomial through its nodes, ends included."""
+    """Largest value in a panel, ends included, of the polynomial through the nodes."""
     series = _series() @ values
     turns = legendre.legroots(legendre.legder(series))
     inner = turns.real[(abs(turns.imag) < 1e-6) & (abs(turns.real) < 1)]

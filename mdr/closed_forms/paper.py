@@ -1,9 +1,9 @@
 """Closed forms of the paper, on plain floats. No solver here.
 
 "Eq. (n)" is M. Popov, Critical velocity of controllability of sliding friction by normal oscillations in viscoelastic
-contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. All of it is one Kelvin element, or an
-array of them that all stay in contact, while every one slides forward; each function says when it holds. NaN and
-infinities are refused.
+contacts, Facta Universitatis, Series: Mechanical Engineering 14 (2016) 335. The equations hold for one Kelvin element,
+or for an array whose elements all stay in contact, while all slide forward; each function says when. NaN and infinities
+are refused.
 
 Symbols (SI): mu_0 coefficient of friction [-]; u_z0, du_z, omega mean depth, amplitude [m], angular frequency [rad/s]
 of Eq. (3); k_zc, k_xc, gamma_zc contact stiffness [N/m] and damping [N s/m]; k_x, m, c_x system spring, mass, damper;
@@ -210,15 +210,16 @@ def eq_15(
 def linear_critical_velocity(
     mu_0: float, omega: float, u_n: ArrayLike, mindlin_ratio: float, K_n: ArrayLike, H_n: ArrayLike
 ) -> float:
-    """Critical velocity [m/s] of a contact that answers linearly, of any rheology, to a periodic depth with the
-    harmonics u_z = u_z0 + Re of sum over n >= 1 of u_n exp(i n omega t) [m], arrays (N,):
+    """Critical velocity [m/s] of a contact that answers linearly, of any rheology, to a periodic depth.
 
-        v_c = max over t of mu_0 Re of sum i n omega [kappa + K_z(n omega) H(n omega)] u_n exp(i n omega t),
+    The depth is u_z = u_z0 + Re of sum over n >= 1 of u_n exp(i n omega t) [m], arrays (N,) ::
 
-    K_n = K_z(n omega) the dynamic contact stiffness [N/m], H_n = H(n omega) the receptance of the pull [m/N]. In full
-    slip every spring in contact slips at u_x' - mu_0 kappa u_z', and the body moves by -mu_0 H F_N. One harmonic
-    of a Kelvin contact is Eq. (15), v_c = mu_0 omega du_z |kappa + K_z H|. Holds under the conditions of Eq. (15). An
-    infinite H_n of a harmonic that is there makes it infinite.
+        v_c = max over t of mu_0 Re of sum i n omega [kappa + K_z(n omega) H(n omega)] u_n exp(i n omega t)
+
+    K_n = K_z(n omega) is the dynamic contact stiffness [N/m], H_n = H(n omega) the receptance of the pull [m/N]. In
+    full slip every spring in contact slips at u_x' - mu_0 kappa u_z', and the body moves by -mu_0 H F_N. One harmonic
+    of a Kelvin contact is Eq. (15), ``v_c = mu_0 omega du_z |kappa + K_z H|``. Holds under the conditions of Eq. (15).
+    It is infinite where H_n is infinite and u_n is not zero.
     """
     u_n, K_n, H_n = (np.atleast_1d(np.asarray(values, dtype=complex)) for values in (u_n, K_n, H_n))
     there = u_n != 0

@@ -8,17 +8,18 @@ normal motion s (normal/kelvin_edges.py) and the extension e; its lag behind ful
 and the COF is mu_0 (1 - sum of the mean lags / sum of the mean s). In contact s' = -sin(phase) is the same for all
 springs, so they differ only in the phase theta at which they touch. Three facts make the mean a single integral.
 
-1. One stick a period. D = s' - v + p/T is positive in stick. Those that touch before the core starts to stick, at the
-   phase where D of the core rises through zero, do as the core does; those that touch later stick at once, from theta
-   to b = theta + sigma, if D(theta) > 0, and never otherwise.
-2. The periodic stick is known. With E = exp(-(2 pi - sigma)/T), what survives of a lag from b to the next touch,
+1. A spring sticks at most once in a period. D = s' - v + p/T is positive in stick. The core starts to stick at the
+   phase where its D rises through zero. Springs that touch before this phase stick as the core does. Those that touch
+   later stick at once, from theta to b = theta + sigma, if D(theta) > 0, and never otherwise.
+2. The periodic stick is known. E = exp(-(2 pi - sigma)/T) is the share of a lag that is left from b to the next touch:
 
        p(b) (1 - E) = cos b - cos theta - v sigma,   p(b) = T (v + sin b)  [D(b) = 0],
 
    which for a given sigma is linear in sin b and cos b: b(sigma) and theta(sigma) are explicit. The phases run from
    sigma = 0, where sin b = -v, to the longest stick, that of the core, where D(theta) = 0.
-3. Neighbours differ by a source at their touch. A spring that touches d theta earlier gains the lag D d theta at once;
-   this lives through its stick and decays through its slip, so its mean grows by D [T + sigma/(1 - E)] d theta/(2 pi).
+3. Neighbouring springs differ only at their touch. A spring that touches d theta earlier has the lag D d theta more at
+   once. This difference is constant through its stick and decays through its slip. The mean of its lag is larger by
+   D [T + sigma/(1 - E)] d theta/(2 pi).
 
 Summed by parts over the array, with k_zc the stiffness 2E*a of the contact at the instant theta,
 
@@ -77,7 +78,7 @@ class Asymptote:
 
 @dataclass(frozen=True, eq=False)
 class _Stick:
-    """The stick of springs, by its length; arrays of one shape."""
+    """One stick phase, as a function of its length; arrays of one shape."""
 
     sigma: Array  # its length
     begin: Array  # phase of its start, a touch
@@ -187,7 +188,7 @@ def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
 
 
 def _stick(sigma: Array, v: Array, T: float) -> _Stick:
-    """The periodic stick of this length; its D is negative, or NaN, where there is none so long."""
+    """The periodic stick phase of this length. D is negative, or NaN, if no spring sticks so long."""
     rest = 2 * np.pi - sigma
     kept = np.exp(-rest / T) if T else np.zeros_like(sigma)
     lost = -T * np.expm1(-rest / T) if T else np.zeros_like(sigma)  # T (1 - E)
@@ -203,17 +204,17 @@ def _stick(sigma: Array, v: Array, T: float) -> _Stick:
 
 
 def _longest_stick(v: Array, T: float) -> Array:
-    """The stick of the core, which begins where D rises through zero; (n_v,)."""
+    """The stick phase of the core; it begins where D rises through zero; shape (n_v,)."""
     return _bisect(lambda sigma: _stick(sigma, v, T).D > 0, np.zeros_like(v), np.full_like(v, 2 * np.pi))
 
 
 def _stick_of_touch(begin: float, v: Array, T: float, longest: Array) -> Array:
-    """Length of the stick of a spring that touches at this phase; 0 or the longest if it does not stick at once."""
+    """Length of the stick phase of a spring that touches at `begin`; 0 or the longest if it does not stick at once."""
     return _bisect(lambda sigma: _stick(sigma, v, T).begin > begin, np.zeros_like(v), longest)
 
 
 def _bisect(is_low: Callable[[Array], NDArray[np.bool_]], low: Array, high: Array) -> Array:
-    """Where a condition that holds at `low` ends, element by element, to rounding."""
+    """End of the interval from `low` in which a condition holds, by bisection to rounding, element by element."""
     for _ in range(54):
         middle = 0.5 * (low + high)
         below = is_low(middle)

@@ -55,7 +55,7 @@ _DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key,
 
 
 class CaseFileError(ValueError):
-    """What is wrong with a case file: one line a fault, with file, table and key."""
+    """What is wrong with a case file: one line for each fault, with file, table and key."""
 
     @property
     def faults(self) -> tuple[str, ...]:
@@ -67,12 +67,66 @@ class CaseFileError(ValueError):
 
 
 def read_case(path: str | PathLike[str]) -> SlidingContact:
-    """The case in a TOML file. Raises CaseFileError with every fault."""
+    """The sliding contact that a TOML file describes, in SI.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The case file.
+
+    Returns
+    -------
+    SlidingContact
+        The contact.
+
+    Raises
+    ------
+    CaseFileError
+        With every fault of the file, one a line.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> _ = Path("case.toml").write_text(mdr.write_case(case))
+    >>> mdr.read_case("case.toml") == case
+    True
+    """
     return parse_case(read_text(path), source=fsdecode(path))
 
 
 def parse_case(text: str, source: str = "<string>") -> SlidingContact:
-    """The case in a TOML text; messages call it `source`. Raises CaseFileError with every fault."""
+    """The sliding contact that a TOML text describes, in SI.
+
+    Parameters
+    ----------
+    text : str
+        The text of a case file.
+    source : str
+        What messages call the text.
+
+    Returns
+    -------
+    SlidingContact
+        The contact.
+
+    Raises
+    ------
+    CaseFileError
+        With every fault of the text, one a line.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> mdr.parse_case(mdr.write_case(case)) == case
+    True
+    """
     if not isinstance(text, str):
         raise TypeError(f"text must be a string of TOML, got {text!r}")
     try:
@@ -82,9 +136,36 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
 
 
 def write_case(case: SlidingContact) -> str:
-    """The TOML text that reads back as an equal case.
+    """The text of a case file, TOML, that reads back as an equal case.
 
-    Raises CaseFileError for what a file cannot carry: a Profile, which is a Python function, or a class of your own.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    str
+        The text.
+
+    Raises
+    ------
+    CaseFileError
+        For what a file cannot carry: a Profile, which is a Python function, or a class of your own.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> print(mdr.write_case(case))
+    mu_0 = 0.4
+    <BLANKLINE>
+    [indenter]
+    shape = "Cone"
+    theta = 0.0127
+    ...
     """
     top, tables = [], []
     case = as_given(case)

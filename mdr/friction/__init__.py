@@ -1,1 +1,1 @@
-"""What runs and closed forms say of friction: curves, the measured velocity, the verdict, a fit."""
+"""Friction from runs and closed forms: curve, measured critical velocity, verdict, fit to data, surface fields."""

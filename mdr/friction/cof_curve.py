@@ -1,4 +1,4 @@
-"""The COF curve of a contact: in closed form under a rigid pull, else one run a velocity.
+"""The COF curve of a contact: in closed form under a rigid pull, else one run for each velocity.
 
 The point v_0 = 0 is the static limit.
 """
@@ -30,9 +30,9 @@ LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions
 
 @dataclass(frozen=True, eq=False)
 class CofCurve(ArrayRecord):
-    """COF over pulling velocity; arrays of shape (n_v,). The point v_0 = 0 is the static limit.
+    """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
 
-    v_0 [m/s]; cof, cof_error [-], absolute; settled; stick_share [-]; v_c [m/s] of Eq. (15), the scale of the curve.
+    The point v_0 = 0 is the static limit.
     """
 
     v_0: Array  #: pulling velocities [m/s]
@@ -46,17 +46,40 @@ class CofCurve(ArrayRecord):
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw cof/mu_0 over v_0/v_c; returns the matplotlib Axes."""
+        """Draw cof/mu_0 over v_0/v_c.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw. None makes a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it was drawn.
+        """
         from mdr.plots import plot_curve
 
         return plot_curve(self, ax)
 
     def to_csv(self, path: str | Path) -> None:
-        """Write v_0, cof, cof_error, settled, stick_share, with units in the header."""
+        """Write v_0, cof, cof_error, settled and stick_share as CSV, with units in the header.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+        """
         Path(path).write_text(self.table(), encoding="utf-8")
 
     def table(self) -> str:
-        """The text of the CSV file."""
+        """The text of the CSV file.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes.
+        """
         columns = (self.v_0, self.cof, self.cof_error, self.settled.astype(int), self.stick_share)
         lines = ["v_0 [m/s],cof [-],cof_error [-],settled,stick_share [-]"]
         lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
@@ -71,12 +94,44 @@ def cof_curve(
     n_springs: int | None = None,
     steps_per_period: int | None = None,
 ) -> CofCurve:
-    """COF of a case over pulling velocities v_0 >= 0 [m/s], shape (n_v,).
+    """Coefficient of friction [-] of a contact over the pulling velocity.
 
-    method: None takes the closed form of a rigid pull (rigid_pull.py) under a harmonic depth, elastic or Kelvin, and a
-    run a velocity for every other case; "march" forces the runs. n_springs, steps_per_period: of every run, as `slide`
-    takes them (None: chosen to meet the accuracy budget); the closed form has neither and is what it is with any.
-    Raises ValueError for velocities that are negative, infinite or NaN.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+    v_0 : array_like of float, shape (n_v,)
+        Pulling velocities [m/s], zero or above. Zero is the static limit.
+    method : {None, "march"}
+        None takes the closed form where there is one (a rigid pull, a harmonic depth, an elastic or Kelvin material)
+        and one run for each velocity elsewhere. "march" takes runs for every case.
+    n_springs, steps_per_period : int, optional
+        Springs and time steps of every run, as in `slide`. None chooses them. The closed form has neither.
+
+    Returns
+    -------
+    CofCurve
+        Friction, its error and the share of stick, arrays of shape (n_v,).
+
+    Raises
+    ------
+    ValueError
+        For velocities that are negative, infinite or NaN.
+    TypeError
+        For a case that is no SlidingContact.
+
+    Notes
+    -----
+    The closed form holds for any shape and any amplitude; `mdr.closed_forms.rigid_pull` derives it.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> rubber = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, mu_0=0.4, oscillation=tapping)
+    >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
+    array([0.319, 0.364, 0.398, 0.4  ])
     """
     case = resolved(case)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):

@@ -49,7 +49,18 @@ class Fit:
         return cof_curve(self.case, v_0, n_springs=N_SPRINGS, steps_per_period=STEPS)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw the data with their errors and the fitted curve; returns the matplotlib Axes."""
+        """Draw the data with their errors, and the fitted curve.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw. None makes a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it was drawn.
+        """
         from mdr.plots import plot_fit
 
         return plot_fit(self, ax)
@@ -63,11 +74,43 @@ class Fit:
 
 
 def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, confidence: float = 0.95) -> Fit:
-    """Fit parameters of a case to measured friction, beginning with their values in the case.
+    """Parameters of a contact, in SI, from measured friction, by least squares, with confidence intervals.
 
-    parameters: "mu_0", "mindlin_ratio" (by Poisson's ratio), field paths ("material.tau", "pull.k_x", "indenter.R") or
-    their last part where that is unique ("tau", "k_x", "m", "c_x"), or groups ("alpha", "T"). All but mindlin_ratio
-    must be positive in the case. Raises ValueError for what cannot be fitted, such as more parameters than points.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact. The search begins with its values.
+    data : FrictionData
+        Measured friction over velocity.
+    parameters : iterable of str
+        What is fitted: "mu_0", "mindlin_ratio" (by Poisson's ratio), paths of fields ("material.tau", "pull.k_x",
+        "indenter.R") or their last part where that is unique ("tau", "k_x", "m", "c_x"), or groups ("alpha", "T"). All
+        but mindlin_ratio must be positive in the case.
+    confidence : float
+        Level of the intervals [-], between 0 and 1.
+
+    Returns
+    -------
+    Fit
+        The fitted case, values and intervals by name, and warnings about what the data do not tell.
+
+    Raises
+    ------
+    ValueError
+        For what cannot be fitted, such as more parameters than points.
+    TypeError
+        For data or parameters of another type.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.5, oscillation=tapping)
+    >>> data = mdr.FrictionData(v_0=[1e-4, 2e-4, 4e-4], cof=[0.365, 0.388, 0.4])
+    >>> found = mdr.fit(case, data, ["mu_0"])
+    >>> print(f"{found.values['mu_0']:.2f}")
+    0.40
     """
     from scipy.optimize import least_squares
 
@@ -87,7 +130,7 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
 
     bounds = np.transpose([model.bounds(name) for name in model.names])
     found = least_squares(residuals, model.start, bounds=bounds, diff_step=STEP, x_scale="jac", xtol=1e-7, ftol=1e-10)
-    return _judged(model, found.x, found.jac, found.fun, confidence)
+    return _with_intervals(model, found.x, found.jac, found.fun, confidence)
 
 
 @dataclass(frozen=True)
@@ -137,8 +180,8 @@ class _Model:
         return (curve.cof - self.data.cof) / (1.0 if self.data.error is None else self.data.error)
 
 
-def _judged(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:
-    """Intervals and warnings from the Jacobian (n, k) and the residuals (n,) at the best fit."""
+def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:
+    """The fit with intervals and warnings, from the Jacobian (n, k) and the residuals (n,) at the best values."""
     from scipy.stats import t
 
     free = left.size - x.size

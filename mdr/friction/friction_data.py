@@ -58,7 +58,32 @@ class FrictionData(ArrayRecord):
 
 
 def read_friction_data(path: str | PathLike[str]) -> FrictionData:
-    """The measurements in a CSV file. Raises ValueError with file and line for what is wrong with it."""
+    r"""Measured friction [-] over velocity from a CSV file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file. Its header names the columns and the unit of the velocity, `v_0 [mm/s], cof, error`; the last is
+        optional.
+
+    Returns
+    -------
+    FrictionData
+        Velocities in m/s, ascending.
+
+    Raises
+    ------
+    ValueError
+        With file and line of what is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import mdr
+    >>> _ = Path("measured.csv").write_text("v_0 [mm/s], cof\n0.5, 0.31\n1.0, 0.35\n")
+    >>> mdr.read_friction_data("measured.csv").v_0
+    array([0.0005, 0.001 ])
+    """
     source = fsdecode(path)
     lines = [(n, line) for n, line in enumerate(read_text(path).splitlines(), start=1)]
     lines = [(n, line) for n, line in lines if line.strip() and not line.lstrip().startswith("#")]

@@ -1,26 +1,28 @@
 """The critical velocity measured from simulated runs alone.
 
-The measured v_c is the smallest v_0 above which every settled run, from either start, has 1 - cof/mu_0 below its own
-error. Near v_c that deficit vanishes like (1 - v_0/v_c)² for an elastic contact and like (1 - v_0/v_c)^(3/2) for a
-Kelvin one, whose lag behind full slip lasts for the relaxation time instead of the stick phase; so the COF alone
-reads v_c low. Two sharper signs give the digits:
+The measured v_c is the smallest v_0 above which every settled run, from either start, has a deficit 1 - cof/mu_0 below
+its own error. Near v_c the deficit vanishes like (1 - v_0/v_c)² for an elastic contact. For a Kelvin contact it
+vanishes like (1 - v_0/v_c)^(3/2), as its lag behind full slip lasts for the relaxation time instead of the stick phase.
+A threshold on the COF alone would therefore read v_c too low. Two sharper signs give the digits:
 
-* a run without any stick slips at the velocity v_0 - v_c at least, since in full slip the motion relative to the pull
-  does not depend on v_0. One such run therefore locates v_c by v_0 less its smallest slip velocity;
-* stick is present below v_c and absent above, which two runs close to it on either side confirm. They are the bracket,
-  widened by what steps and springs still move.
+* In a run without any stick the slip velocity is at least v_0 - v_c, since in full slip the motion relative to the pull
+  does not depend on v_0. One such run locates v_c: it is v_0 less the smallest slip velocity.
+* Below v_c there is stick, above it there is none. Two runs close to v_c, one on either side, confirm this. They are
+the
+  bracket, which is widened by what the numbers of steps and springs still change.
 
-Runs further up, from both starts, then look for stick that returns and for friction that stays low: an undamped body
-has no other way to lose a free oscillation than to trim it by instants of stick, until slip just grazes zero. Such a
-rest of a free oscillation, with a full COF, is no friction reduction and is named, not counted.
+Runs at higher velocities, from both starts, then look for stick that returns and for friction that stays low. An
+undamped body loses a free oscillation by instants of stick alone. They reduce it until the slip velocity just touches
+zero. What is left of such a free oscillation, with a full COF, is named in the answer. It is no reduction of friction.
 
-A run further down looks whether stick means less friction at all. An undamped body whose omega_0 is a whole multiple of
-omega can keep a free oscillation in step with the drive, such that it never sticks although the motion without it
-would: there the COF, full within its error, says where friction reduction ends. With a little damping, or a little off
-the multiple, a little friction is missing, and the velocity from which that is less than NEARLY_FULL is named.
+A run at a lower velocity asks whether stick means less friction at all. An undamped body whose omega_0 is a whole
+multiple of omega can keep a free oscillation in step with the drive (lock-in). Then no spring sticks, although it would
+without this oscillation. The COF, full within its error, tells there where the reduction of friction ends. With a
+little damping, or a little off the multiple, a little friction is missing. The velocity from which on less than
+NEARLY_FULL is missing is named in the answer.
 
-A run that has not settled is no evidence of either. Where one stands in the way, others close by are asked; where these
-do not settle either, that is the answer.
+A run that has not settled is no evidence. The search then takes runs at velocities close by. If these do not settle
+either, the answer is "unsettled".
 """
 
 from __future__ import annotations
@@ -54,36 +56,85 @@ HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, th
 
 @dataclass(frozen=True)
 class MeasuredVelocity:
-    """A critical velocity found from runs alone: v_c between low and high [m/s], all None where there is none.
+    """A critical velocity found from runs alone: v_c between low and high [m/s].
 
-    kind: "end of stick" (least slip velocity, stick and COF name one velocity), "free oscillation" (so
-    too, but above it a body that starts from rest keeps one, which grazes stick now and then, at full COF), "end of
-    friction reduction" (read off the COF, a bracket of per cents), "lock-in" (so too, as a free oscillation in step
-    with the drive keeps springs from sticking down to v_c), "none" (no run without stick up to the highest velocity, or
-    no stick that reduces friction) or "unsettled" (runs that would tell do not settle, or contradict one another).
+    The kinds of end:
+
+    * "end of stick": the least slip velocity, stick and the COF all name one velocity.
+    * "free oscillation": so too, but above v_c a body that starts from rest keeps a free oscillation. It touches the
+      stick limit now and then, at full COF.
+    * "end of friction reduction": read off the COF, within a bracket of some per cent.
+    * "lock-in": read off the COF, as a free oscillation in step with the drive keeps springs from sticking down to v_c.
+    * "none": no run without stick up to the highest velocity, or no stick that lowers friction. v_c is None.
+    * "unsettled": the runs that would tell do not settle, or contradict one another. v_c is None.
     """
 
     v_c: float | None  #: [m/s]; None where there is none
     low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
     high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
-    kind: str  #: "end of stick", "free oscillation", "end of friction reduction", "lock-in", "none", "unsettled"
+    kind: str  #: one of the kinds of end above
     why: str  #: in words
     nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
 
     def contains(self, v_0: float) -> bool:
-        """Whether a velocity [m/s] lies within the bracket."""
+        """True if a velocity lies within the bracket.
+
+        Parameters
+        ----------
+        v_0 : float
+            Velocity [m/s].
+
+        Returns
+        -------
+        bool
+            False also where there is no bracket.
+        """
         return self.low is not None and self.high is not None and self.low <= v_0 <= self.high
 
 
 def measure_critical_velocity(
     case: SlidingContact, *, start: str = "full_slip", limit_s: float | None = None
 ) -> MeasuredVelocity:
-    """Measure v_c of a case from simulated runs alone; `start` is that of the runs that locate it.
+    """Critical velocity [m/s] from simulated runs alone, with its bracket.
 
-    The bracket is some 4e-5 of v_c wide, and wider where steps or springs still move it. The answer does not depend on
-    where the search begins. It takes 10 to 40 runs, a second to a minute; after limit_s seconds (None: no limit) it
-    ends unsettled. Raises ValueError for an unknown start.
+    No closed form takes part, so that the agreement with Eq. (15) is evidence.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+    start : {"full_slip", "rest"}
+        First state of the runs that locate v_c, as in `slide`.
+    limit_s : float, optional
+        Seconds of computing after which the search ends unsettled. None sets no limit.
+
+    Returns
+    -------
+    MeasuredVelocity
+        `v_c` between `low` and `high` [m/s], and the `kind` of end. All three are None where there is no v_c.
+
+    Raises
+    ------
+    ValueError
+        For an unknown start.
+    TypeError
+        For a case that is no SlidingContact.
+
+    Notes
+    -----
+    The bracket is some 4e-5 of v_c wide, and wider where the number of steps or springs still moves it. The search
+    takes 10 to 40 runs, a second to a minute.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> found = mdr.measure_critical_velocity(case)
+    >>> print(f"{found.v_c:.3g} m/s, {found.kind}; Eq. (1) gives {mdr.critical_velocity(case):.3g} m/s")
+    0.00036 m/s, end of stick; Eq. (1) gives 0.00036 m/s
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
@@ -96,7 +147,7 @@ def measure_critical_velocity(
 
 
 class _Undecided(Exception):
-    """No run near a velocity settles that would have to."""
+    """Raised where a run that must settle does not, nor any run near its velocity."""
 
 
 class _Search:
@@ -167,9 +218,10 @@ class _Search:
         raise _Undecided(v_0)
 
     def _first_free_run(self) -> SlidingRun | None:
-        """A settled run without stick, not far above v_c, by factors that do not land on it by construction.
+        """A settled run without stick, not far above v_c.
 
-        In full slip the body moves alike at any v_0: one free run, however fast, tells where stick begins.
+        In full slip the motion of the body is the same at any v_0: one run without stick, however fast, tells where
+        stick begins. The factors of velocity are chosen such that they do not hit v_c by construction.
         """
         guess, unsettled = self.scale, None
         for times in FAR:
@@ -191,9 +243,9 @@ class _Search:
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun | None:
-        """Double steps and springs until the end of stick moves by no more than the margin; the finest run without.
+        """Double steps and springs until the end of stick moves by less than the margin; the last run without stick.
 
-        A first touch falls anywhere within a step, so its error is irregular: three resolutions are compared, not two.
+        A first touch falls anywhere within a step, so that its error is irregular: three resolutions are compared.
         """
         for knob, most in (("steps", 16384), ("n_springs", 3072)):
             while (known := getattr(self, knob)) < most:
@@ -231,9 +283,7 @@ class _Search:
         return 0.5 * (low + high), low, high
 
     def _jumps(self) -> bool:
-        """Whether the velocity of the body jumps with every single spring that touches: no inertia against the rigid
-        first touch of a dashpot.
-        """
+        """True if the velocity of the body jumps whenever a spring touches: no inertia, and dashpots that touch."""
         case = self.case
         kept = case.cycle.u_z0 + case.cycle.du_z * case.kept_gap
         moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
@@ -243,8 +293,10 @@ class _Search:
     def _by_friction(
         self, full: float, high: float, why: str, kind: str = "end of friction reduction", apart: float = APART
     ) -> MeasuredVelocity:
-        """Let the COF speak: its deficit to the power 2/3 falls smoothly to zero at v_c for a Kelvin contact, to the
-        power 1/2 for an elastic one. full: a velocity at which it is full; apart: step between those that are read.
+        """The critical velocity read off the COF: a power of its deficit falls smoothly to zero at v_c.
+
+        The power is 2/3 for a Kelvin contact and 1/2 for an elastic one. `full` is a velocity at which the COF is full,
+        `apart` the step between the velocities that are read.
         """
         power = 2 / 3 if self.case.T > 0 else 1 / 2
         v_0 = full * (1 - apart)
@@ -268,7 +320,7 @@ class _Search:
         return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
 
     def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
-        """A run of a body below the end of stick: is friction reduced there, and by how much?"""
+        """One run of a body below the end of stick: is friction lower there, and by how much?"""
         if self.case.pull.is_rigid:  # without a free oscillation stick takes friction away
             return self._look_above(v_c, low, high)
         multiple = self._multiple()
@@ -316,7 +368,7 @@ class _Search:
         return self._by_friction(full, full * (1 + CLOSER), why, "lock-in", CLOSER)
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
-        """Runs beyond v_c from both starts: does friction stay full?"""
+        """Runs above v_c from both starts: is friction full there?"""
         swinging, full, unsettled = False, False, []
         undamped = not self.case.pull.is_rigid and self.case.pull.damping_ratio == 0  # else a swing is a transient
         of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
@@ -341,7 +393,7 @@ class _Search:
         return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
 
     def _contradicted(self, v_c: float, v_0: float, start: str) -> MeasuredVelocity:
-        """The answer where a run above the end of stick has less friction, which no steady motion does."""
+        """The answer where a run above the end of stick has less friction, which cannot be for steady motions."""
         why = (
             f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {v_0:.6g} m/s: "
             "no two steady motions do that, so one of them has not settled"
@@ -349,7 +401,7 @@ class _Search:
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
     def _awaited(self, run: SlidingRun) -> SlidingRun:
-        """The same from rest for SWINGS periods, without a search for its periodic state."""
+        """The run of this velocity again, from rest for SWINGS periods, without a search for its periodic state."""
         self._begin(run.v_0)
         return slide(
             self.case,
@@ -362,12 +414,12 @@ class _Search:
 
 
 def _is_free(run: SlidingRun) -> bool:
-    """No spring sticks: a positive slip velocity throughout, in a settled run of full COF."""
+    """True if no spring sticks: positive slip velocity throughout, in a settled run of full COF."""
     return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
 
 
 def _only_grazes(run: SlidingRun) -> bool:
-    """Whether stick is there in a run, if at all, as in the rest of a free oscillation, and takes nothing away."""
+    """True if no more sticks than a free oscillation makes that just touches the stick limit, and COF is full."""
     return run.settled and not _is_reduced(run) and run.stick_share < GRAZING
 
 

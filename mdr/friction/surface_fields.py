@@ -1,12 +1,12 @@
-"""Back to three dimensions: pressure, traction and displacement of the surface from what the springs carry.
+"""From the springs back to three dimensions: pressure, traction and displacement of the surface.
 
 A line load q(x) on each side of the centre stands for the pressure, and a displacement w(x) for that of the surface,
 
-    p(r) = -(1/π) ∫_r^a q'(x) / √(x² - r²) dx + q(a) / (π √(a² - r²)),    u(r) = (2/π) ∫_0^r w(x) / √(r² - x²) dx,
+    p(r) = -(1/π) ∫_r^a q'(x) / √(x² - r²) dx + q(a) / (π √(a² - r²)),    u(r) = (2/π) ∫_0^r w(x) / √(r² - x²) dx.
 
-the last term of p where the load ends with a jump, at the rim of a punch or at the edge that a dashpot advances (Popov
-and Heß 2015). The traction and its displacement follow from q_x and e by the same rule, along the pull and without the
-small transverse parts. Outside the contact q = 0 and w is the compression of the free springs.
+The last term of p counts where the load ends with a jump: at the rim of a punch, or at an edge that a dashpot advances
+(Popov and Heß 2015). The traction and its displacement follow from q_x and e by the same rule, along the pull and
+without the small transverse parts. Outside the contact q = 0 and w is the compression of the free springs.
 
 Loads and displacements are taken as linear between knots, for which both integrals are closed. 2 ∫ q dx = F_N and
 2π ∫ p r dr = F_N are then the same number.
@@ -55,13 +55,43 @@ def surface_fields(
     *,
     i: int = -1,
 ) -> SurfaceFields:
-    """What happens at the surface, at distances r [m] from the axis (None: 0 to 1.5 contact radii), at sample i.
+    """Pressure and traction [Pa] and displacements [m] of the surface at one instant.
 
-    source: an Indentation made with record=True; a PartialSlip, with i counting its u_x; or a SlidingRun made with
-    record. A rim where p is infinite answers with 0, a sharp tip with the value one rounding away.
+    Parameters
+    ----------
+    source : Indentation, PartialSlip or SlidingRun
+        An Indentation made with `record=True`, any PartialSlip, or a SlidingRun made with `record=1` or more.
+    r : array_like of float, optional
+        Distances from the axis [m]. None: 301 of them from 0 to 1.5 contact radii.
+    i : int
+        Which sample: of the time, or of the displacements u_x of a PartialSlip. The last by default.
 
-    Raises TypeError for another source, ValueError for one that was not recorded, IndexError for an i that it does
-    not have.
+    Returns
+    -------
+    SurfaceFields
+        Arrays in the shape of r.
+
+    Raises
+    ------
+    TypeError
+        For another source.
+    ValueError
+        For a source that was not recorded.
+    IndexError
+        For a sample that the source does not have.
+
+    Notes
+    -----
+    From the springs back to the half-space by Abel's transform (Popov and Heß 2015). At a rim where the pressure is
+    infinite the answer is 0; at a sharp tip it is the pressure one rounding away.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> rubber = mdr.Elastic(E=3e6, nu=0.5)
+    >>> pulled = mdr.partial_slip(mdr.Paraboloid(R=5e-3), rubber, mu_0=0.4, u_z0=20e-6, u_x=4e-6)
+    >>> mdr.surface_fields(pulled, r=[0, 1e-4]).pressure.round(-2)
+    array([161100., 152800.])
     """
     if isinstance(source, Indentation):
         return _of_indentation(source, r, i)
@@ -200,7 +230,7 @@ def _edge(x: Array, faces: Array, q: Array, pressed: NDArray[np.bool_]) -> float
 
 
 def _ended(x: Array, q: Array, a: float) -> tuple[Array, Array]:
-    """Knots from the axis to the edge, where the load is 0, or what it is continued to if that is no trifle."""
+    """Knots from the axis to the edge. The load there is 0, or the continued load if that is not small."""
     x, q = _from_axis(x, q)
     end = _extended(x, q, a)
     return np.append(x, a), np.append(q, end if abs(end) > 0.5 * abs(q[-1]) else 0.0)
@@ -246,7 +276,7 @@ def _knots(name: str, x: ArrayLike, values: ArrayLike, unit: str, r: ArrayLike) 
 
 
 def _distinct(x: Array, values: Array) -> tuple[Array, Array]:
-    """Without knots closer than a rounding."""
+    """Knots without those that are closer to the one before than a rounding."""
     kept = np.concatenate([[True], np.diff(x) > 4 * EPS * x[-1]])
     return x[kept], values[kept]
 

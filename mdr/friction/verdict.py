@@ -23,15 +23,9 @@ WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the str
 
 @dataclass(frozen=True)
 class Verdict:
-    """How good is Eq. (15) for this contact? Velocities in m/s; print it for the sentence.
+    """How good Eq. (15) is for a contact; print it for the sentence. Velocities in m/s.
 
-    eq_15 at the mean depth, full_slip with all harmonics of the force, measured from runs (None where they found no
-    critical velocity); deviation = measured/eq_15 - 1. good: whether its size is at most `within`, so that the formula
-    may be used. holds: the strict answer, whether Eq. (15) lies within the bracket of the measurement, some 4e-5 of v_c
-    wide; None where that cannot be judged. why in words; measurement: bracket, kind and number of runs.
-
-    `dataclasses.replace(found, within=0.003)` judges by another tolerance, without a run; ValueError unless it lies
-    between 0 and 1.
+    `dataclasses.replace(found, within=0.003)` judges by another tolerance, without a run.
     """
 
     eq_15: float  #: Eq. (15) at the mean depth; Eq. (1) for a rigid pull
@@ -42,7 +36,7 @@ class Verdict:
     why: str  #: in the words of the physics
     measurement: MeasuredVelocity  #: bracket and kind
     formula: str = "Eq. (15)"  #: the closed form judged
-    within: float = WITHIN  #: largest |deviation| that is called good [-]
+    within: float = WITHIN  #: largest deviation, up or down, that is called good [-]
     least: float = 0.0  #: 1e-4 of Eq. (1) [m/s]: a velocity below it is not told from zero
 
     def __post_init__(self) -> None:
@@ -50,7 +44,7 @@ class Verdict:
 
     @property
     def good(self) -> bool | None:
-        """Whether |deviation| <= within; None without a measured v_c or a finite formula."""
+        """True if ``|deviation| <= within``; None without a measured v_c or a finite formula."""
         return None if self.deviation is None else abs(self.deviation) <= self.within
 
     def __str__(self) -> str:
@@ -93,14 +87,40 @@ class Verdict:
 
 
 def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | None = None) -> Verdict:
-    """Measure v_c [m/s] of a case and set it beside Eq. (15) (Eq. (1) for a rigid pull) and the full-slip value.
+    """How good Eq. (15) is for this contact: its v_c [m/s] beside the full-slip value and the one measured from runs.
 
-    within: largest |measured/Eq. (15) - 1| [-] at which the formula is called good, 0.01 for 1 %; it changes no run.
-    limit_s: seconds after which the measurement ends unsettled (None: no limit).
-    Returns a `Verdict`: `.good` to that tolerance, `.holds` to the bracket of the measurement, some 4e-5 of v_c wide,
-    where small deviations count.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact. For a rigid pull Eq. (15) is Eq. (1).
+    within : float
+        Largest relative deviation [-] of the measured v_c from Eq. (15) at which the formula is called good, between 0
+        and 1. It changes no run.
+    limit_s : float, optional
+        Seconds of computing after which the measurement ends unsettled. None sets no limit.
 
-    Raises TypeError for what is no case or no number, ValueError for `within` not between 0 and 1.
+    Returns
+    -------
+    Verdict
+        Print it for the sentence. `good` judges by the tolerance `within`. `holds` judges by the bracket of the
+        measurement, some 4e-5 of v_c wide, so that small deviations count.
+
+    Raises
+    ------
+    TypeError
+        For what is no case or no number.
+    ValueError
+        For `within` not between 0 and 1.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> found = mdr.verdict(case)
+    >>> found.good, found.holds, found.formula
+    (True, True, 'Eq. (1)')
     """
     case = resolved(case)
     eq_15, full = critical_velocity(case), full_slip_critical_velocity(case)
@@ -157,7 +177,7 @@ def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> 
 
 
 def _has_mass(case: SlidingContact) -> bool:
-    """Whether a harmonic of the force can meet a natural frequency."""
+    """True if a harmonic of the force can meet a natural frequency of the body."""
     return bool(np.isfinite(case.pull.omega_0))
 
 
@@ -186,7 +206,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
 
 
 def _left_out(case: SlidingContact) -> Iterator[str]:
-    """What the springs leave out where it matters."""
+    """The part of the sentence about normal-tangential coupling, where it matters."""
     beta, rub = case.material.dundurs_beta, radial_rub(case)
     left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
     if unlike(case):

@@ -1,4 +1,4 @@
-"""Shapes of indenters: f(r), g(x), a(d), F_N(d), k_zc(d) and p(r); `Indenter` says what one must answer."""
+"""Shapes of indenters: f(r), g(x), a(d), F_N(d), k_zc(d) and p(r). `Indenter` lists what a shape must answer."""
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.capped_cone import CappedCone

@@ -57,7 +57,7 @@ class Indenter(Record, ABC):
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Radii > 0 where f, and with it g, is not smooth [m]: springs, quadrature and plots heed them."""
+        """Radii > 0 where f, and with it g, is not smooth [m]; springs, quadrature and plots take account of them."""
         return ()
 
     @property
@@ -76,19 +76,79 @@ class Indenter(Record, ABC):
         return 0.0
 
     def profile_3d(self, r: ArrayLike) -> FloatArray:
-        """Height f(r) of the shape above its tip [m], at the distance r from the axis."""
+        """Height f(r) of the shape above its tip [m].
+
+        Parameters
+        ----------
+        r : array_like of float
+            Distance from the axis [m].
+
+        Returns
+        -------
+        float or ndarray
+            f [m] in the shape of r.
+
+        Raises
+        ------
+        ValueError
+            Beyond the end of the shape (`max_radius`).
+        """
         r = self._within(finite_array("r", r, "m"))
         return in_chunks(lambda r: transform.profile_3d(self.profile_1d, self._edges, r), r)
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """Height g(x) of the one-dimensional image [m], even in x."""
+        """Height g(x) of the one-dimensional image of the shape [m], even in x.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Position [m].
+
+        Returns
+        -------
+        float or ndarray
+            g [m] in the shape of x.
+
+        Raises
+        ------
+        ValueError
+            Beyond the end of the shape (`max_radius`).
+
+        Notes
+        -----
+        The mapping of the Method of Dimensionality Reduction (Popov and Heß 2015) ::
+
+            g(x) = |x| ∫₀^|x| f'(r)/√(x² − r²) dr
+
+        Examples
+        --------
+        >>> import mdr
+        >>> mdr.Paraboloid(R=5e-3).profile_1d([1e-4, 2e-4])
+        array([2.e-06, 8.e-06])
+        """
         x = self._within(finite_array("x", x, "m"))
         g = panels.image(self._f, self._edges, np.ravel(x))
         self._check_map(np.ravel(x))
         return plain(g.reshape(x.shape))
 
     def contact_radius(self, d: ArrayLike) -> FloatArray:
-        """Radius a [m] of the contact at the depth d: g(a) = d, and 0 where d <= 0."""
+        """Radius a of the contact [m]: g(a) = d, and 0 where d <= 0.
+
+        Parameters
+        ----------
+        d : array_like of float
+            Depth [m].
+
+        Returns
+        -------
+        float or ndarray
+            a [m] in the shape of d.
+
+        Raises
+        ------
+        ValueError
+            Deeper than the shape reaches, and where the contact would be a ring.
+        """
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
         a = np.zeros(d.shape)
@@ -99,16 +159,49 @@ class Indenter(Record, ABC):
         return plain(a)
 
     def profile_area(self, a: ArrayLike) -> FloatArray:
-        """∫₀^a g dx [m²], the area between the one-dimensional image and its tangent at the tip."""
+        """Area between the one-dimensional image and its tangent at the tip, ∫₀^a g dx [m²].
+
+        Parameters
+        ----------
+        a : array_like of float
+            Contact radius [m].
+
+        Returns
+        -------
+        float or ndarray
+            The area [m²] in the shape of a.
+        """
         a = self._within(finite_array("a", a, "m"))
         if self._gives_g:
             return in_chunks(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
         return in_chunks(lambda a: transform.area_from_f(self._f, self._edges, a), a)
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
-        """Normal force F_N [N] at the depth d, 0 where d <= 0.
+        """Normal force F_N [N] of an elastic contact, 0 where d <= 0.
 
-        Written as 2E*(d a − ∫g dx) it is stationary in a, so that a's rounding does not show in it.
+        Parameters
+        ----------
+        d : array_like of float
+            Depth [m].
+        E_star : array_like of float
+            Contact modulus E* [Pa].
+
+        Returns
+        -------
+        float or ndarray
+            F_N = 2 E* (d a − ∫₀^a g dx) [N]. In this form it is stationary in a, so that the rounding of a does not
+            show.
+
+        Raises
+        ------
+        ValueError
+            Deeper than the shape reaches.
+
+        Examples
+        --------
+        >>> import mdr
+        >>> print(f"{mdr.Paraboloid(R=5e-3).force(20e-6, E_star=4e6):.4f} N")
+        0.0337 N
         """
         d, E_star = finite_array("d", d, "m"), positive_array("E_star", E_star, "Pa")
         with np.errstate(over="ignore", invalid="ignore"):
@@ -117,16 +210,41 @@ class Indenter(Record, ABC):
         return plain(np.maximum(self._in_range("F_N", F_N, d), 0))
 
     def stiffness(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
-        """Contact stiffness k_zc = dF_N/dd = 2E*a [N/m], 0 where d <= 0."""
+        """Normal stiffness k_zc = dF_N/dd = 2 E* a of the contact [N/m], 0 where d <= 0.
+
+        Parameters
+        ----------
+        d : array_like of float
+            Depth [m].
+        E_star : array_like of float
+            Contact modulus E* [Pa].
+
+        Returns
+        -------
+        float or ndarray
+            k_zc [N/m].
+        """
         with np.errstate(over="ignore"):
             k_zc = 2 * positive_array("E_star", E_star, "Pa") * self.contact_radius(d)
         return plain(self._in_range("k_zc", k_zc, d))
 
     def pressure(self, r: ArrayLike, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
-        """Pressure p [Pa] at the distance r from the axis and the depth d, 0 for r >= a.
+        """Pressure p [Pa] of an elastic contact, 0 for r >= a.
 
-        It is infinite at a sharp tip, at a kink that points down, and at the rim of a punch. Tip and kink
-        answer with the value one rounding away (the infinity is logarithmic), the rim itself, r = a, with 0.
+        Parameters
+        ----------
+        r : array_like of float
+            Distance from the axis [m].
+        d : array_like of float
+            Depth [m].
+        E_star : array_like of float
+            Contact modulus E* [Pa].
+
+        Returns
+        -------
+        float or ndarray
+            p [Pa]. It is infinite at a sharp tip, at a kink that points down, and at the rim of a punch. The answer at
+            tip and kink is the pressure one rounding away (the infinity is logarithmic); at the rim, r = a, it is 0.
         """
         r, d = np.abs(finite_array("r", r, "m")), finite_array("d", d, "m")
         a = self.contact_radius(d)
@@ -136,9 +254,25 @@ class Indenter(Record, ABC):
         return plain(p)
 
     def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
-        """p/E* where the shape touches, 0 <= r < a = a(d), for a closed form to override. Arrays (n,).
+        """Pressure over E* [-] where the shape touches; a shape may override it by a closed form.
 
-        Just outside a flat face g rises to d within a rounding of a: the step left to d presses like a rim.
+        Parameters
+        ----------
+        r : ndarray, shape (n,)
+            Distance from the axis [m], 0 <= r < a.
+        a : ndarray, shape (n,)
+            Contact radius a(d) [m].
+        d : ndarray, shape (n,)
+            Depth [m].
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            p/E* [-].
+
+        Notes
+        -----
+        Just outside a flat face g rises to d within a rounding of a. The step left to d presses like a rim.
         """
         step = d - np.asarray(self.profile_1d(a))
         for _ in range(4):  # roundings that the search may be off
@@ -153,9 +287,20 @@ class Indenter(Record, ABC):
         return p
 
     def depth_about(self, V: float) -> float:
-        """A depth [m] of the size of that at which F_N/E* = V [m²], to begin a search with: V ~ a d with d ~ f(a).
+        """A depth [m] of the size of that at which F_N/E* = V, to begin a search with.
 
-        Only heights are asked for, as a shape may be one near its tip only, and say so if it is pressed too deep.
+        Only heights are asked for: far from its tip a shape may have none, and raise an error if it is pressed too
+        deep.
+
+        Parameters
+        ----------
+        V : float
+            Normal force over E* [m²].
+
+        Returns
+        -------
+        float
+            V ~ a d with d ~ f(a) [m].
         """
         height = self._g if self._gives_g else self._f
 
@@ -205,7 +350,7 @@ class Indenter(Record, ABC):
         return r
 
     def _in_range(self, name: str, answer: FloatArray, d: ArrayLike) -> FloatArray:
-        """The answer, refused where it, or a term of it, lies beyond the range of floats."""
+        """The answer; ValueError where it is not finite, as one of its terms is beyond the range of floats."""
         if not np.all(np.isfinite(answer)):
             raise ValueError(
                 f"{name} of {self!r} is beyond the range of floats at d = {np.max(np.asarray(d)):.6g} m: "
@@ -225,7 +370,7 @@ class Indenter(Record, ABC):
         return a
 
     def _why_no_radius(self, d: float, end: float) -> str:
-        """Why no radius up to ``end`` belongs to the depth d: what the heights from r = d on say."""
+        """Message: why no radius up to ``end`` has the depth d, read off the heights from r = d on."""
         name, height = ("g(x)", self._g) if self._gives_g else ("f(r)", self._f)
         r = np.unique(np.minimum(np.geomspace(min(d, end), end, 2048), end))
         with np.errstate(all="ignore"):
@@ -250,7 +395,7 @@ class Indenter(Record, ABC):
         )
 
     def _why_too_deep(self, reach: float) -> str:
-        """How a message goes on about a depth beyond ``reach``, where the whole face touches."""
+        """Second half of the message about a depth beyond ``reach``, where the whole face touches."""
         return (
             f"reaches: its whole face, r <= {self.max_radius:.6g} m, touches at {reach:.6g} m; "
             "press less or describe more of it"
@@ -272,7 +417,7 @@ class Indenter(Record, ABC):
         refuse_falling(self, x, in_chunks(self._g, x), float(np.nan_to_num(further[0], posinf=0.0)))
 
     def _check_map(self, x: FloatArray) -> None:
-        """Refuse a mapping that is not finite, warn of one that another rule does not confirm."""
+        """ValueError for a mapped profile that is not finite; a warning where a second quadrature rule disagrees."""
         if self._gives_g or x.size == 0:
             return
         some = np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest"))

@@ -25,8 +25,8 @@ from mdr.tools.fields import facts
 class ConcavePunch(Indenter):
     """Punch with a hollow face, in complete contact: a given, F_N = 2E* [a d + a³/(3R)], k_zc = 2E*a for d >= a²/R.
 
-    Sliding to one side it acts as a flat punch does, all of it sticking and slipping at once. Where it slips back
-    before, slip begins in the middle, where p is least, and not at the rim: that the springs do not know.
+    While it slides to one side it acts as a flat punch: all of it sticks, or all of it slips. Where it slips
+    back before, slip begins in the middle, where p is least, and not at the rim. The springs do not describe this.
     """
 
     a: float = field(metadata=facts("m", "radius of the rim"))

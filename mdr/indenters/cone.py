@@ -21,7 +21,7 @@ class Cone(Indenter):
         return plain(np.abs(finite_array("r", r, "m")) * np.tan(self.theta))
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """g(x) = (π/2) |x| tan θ."""
+        """``g(x) = (π/2) |x| tan θ``."""
         return plain(np.pi / 2 * np.abs(finite_array("x", x, "m")) * np.tan(self.theta))
 
     def contact_radius(self, d: ArrayLike) -> FloatArray:

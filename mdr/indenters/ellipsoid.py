@@ -27,7 +27,7 @@ def _invertible(name: str, value: Any, note: str = "") -> float:
 class Ellipsoid(Indenter):
     """Ellipsoid of half-axes R and 1/k: d = g(a), F_N = E* (R/k) [(1 + k²a²) artanh(ka) − ka].
 
-    Its contact grows to the equator, a = 1/k, at infinite depth only: g is finite for |x| < 1/k.
+    Its contact grows to the equator, a = 1/k, at infinite depth only: g is finite for ``|x| < 1/k``.
     """
 
     R: float = field(metadata=facts("m", "half-axis along the axis of revolution"))
@@ -43,7 +43,7 @@ class Ellipsoid(Indenter):
         return height(self, finite_array("r", r, "m"), self.R, 1 / self.k)
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """g(x) = x k R artanh(kx), |x| < 1/k."""
+        """``g(x) = x k R artanh(kx), |x| < 1/k``."""
         return image(self, finite_array("x", x, "m"), self.R, 1 / self.k)
 
     def profile_area(self, a: ArrayLike) -> FloatArray:

@@ -26,7 +26,7 @@ class FlatPunch(Indenter):
         return plain(0 * self._within(finite_array("r", r, "m")))
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """Height g = 0 for |x| <= a."""
+        """Height g = 0 for ``|x| <= a``."""
         return plain(0 * self._within(finite_array("x", x, "m")))
 
     def contact_radius(self, d: ArrayLike) -> FloatArray:

@@ -33,17 +33,17 @@ def _tip(name: str, value: Any, note: str = "") -> str:
 
 @dataclass(frozen=True, repr=False)
 class FromForce(Indenter):
-    """The shape whose force is F at the depths d on a body of modulus E_star: ascending from d = 0, F = 0.
+    """The shape whose normal force is F at the depths d, measured on a body of modulus E_star.
 
-    Of "any" tip, ln F is a quintic spline in ln d, and below the first depth F goes on as a power of d: powers, as of
-    cone, paraboloid and punch, come out to rounding, 1e-12, and 100 even points of a sphere up to a = R/2 give g to
-    1e-6 of the greatest depth and F to 4e-4 at a thousandth of it. Where the tip is known to be "round", "sharp" or
-    "flat" (F ~ d^3/2, d², d) ln F less that power is a spline in d, and the same points give a and F to 1e-11. The
-    pressure is good to 2e-7.
+    Depths and forces ascend from d = 0, F = 0. F' must not fall: the contact does not shrink while it is pressed
+    deeper. For noisy forces ``smoothing`` is their standard deviation; the spline then keeps that far from them on
+    average. E_star belongs to the measurement; the shape itself has none.
 
-    F' may not fall, as the contact does not shrink while it is pressed deeper: for noisy forces ``smoothing`` is
-    their standard deviation, and the spline keeps that far from them on the average. E_star belongs to the
-    measurement; the shape itself has none.
+    With ``tip="any"``, ln F is a quintic spline in ln d, and below the first depth F goes on as a power of d. Powers,
+    as of cone, paraboloid and punch, are then exact to rounding, 1e-12. 100 even points of a sphere up to a = R/2 give
+    g to 1e-6 of the greatest depth and F to 4e-4 at a thousandth of it. Where the tip is known to be "round" (F ~
+    d^3/2), "sharp" (d²) or "flat" (d), the spline is that of ln F less this power, over d. The same points then give a
+    and F to 1e-11, and the pressure to 2e-7.
     """
 
     d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m"))

@@ -35,7 +35,7 @@ class PowerLaw(Indenter):
         return plain(self.c * np.abs(finite_array("r", r, "m")) ** self.n)
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """g(x) = κ_n c |x|ⁿ."""
+        """``g(x) = κ_n c |x|ⁿ``."""
         return plain(self.kappa_n * self.c * np.abs(finite_array("x", x, "m")) ** self.n)
 
     def contact_radius(self, d: ArrayLike) -> FloatArray:

@@ -31,14 +31,14 @@ def _end(name: str, value: Any, note: str = "") -> float | None:
 
 @dataclass(frozen=True, eq=False)
 class Profile(Indenter):
-    """A shape given as a function f(r) with f(0) = 0, smooth but for the radii named in ``kinks``.
+    """A shape given as a function f(r) with f(0) = 0, smooth except at the radii named in ``kinks``.
 
-    ``f`` takes an array of radii and returns as many heights; one that takes only single numbers works too,
-    slowly. It is asked for radii within [0, r_max] alone, or to beyond the edge of contact if r_max is None, and
-    must answer alike each time: g is kept once mapped. To change a parameter of f make a new Profile.
-    ``kinks`` are the radii where the slope jumps or a flat part ends; one left out costs accuracy, and a
-    warning says how much. ``name`` tells the shape in print and in stored studies, as a function has none.
-    Two profiles are equal if they hold the same function object, kinks, r_max and name.
+    ``f`` takes an array of radii and returns as many heights; a function of single numbers works too, slowly. It is
+    called within [0, r_max] only, or to beyond the edge of contact if r_max is None. It must return the same each time:
+    g is kept once mapped. To change a parameter of f make a new Profile. ``kinks`` are the radii where the slope jumps
+    or a flat part ends. A kink that is not named costs accuracy, and a warning says how much. ``name`` is what the
+    shape is called in print and in stored studies, as a function has no such text. Two profiles are equal if they hold
+    the same function object, kinks, r_max and name.
     """
 
     f: Callable[..., Any] = field(metadata=facts("m", "height over radius", _function))

@@ -18,7 +18,7 @@ from mdr.tools.fields import facts
 class RoundedPunch(Indenter):
     """Flat punch with a rounded edge: d = g(a), F_N = E* (a³/R) [(4/3) sin φ − φ cos φ − (1/3) sin φ cos²φ].
 
-    cos φ = b/a. Hardly pressed it is a flat punch, a → b and k_zc → 2E*b.
+    cos φ = b/a. Under a small load it is a flat punch: a → b and k_zc → 2E*b.
     """
 
     b: float = field(metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none"))

@@ -46,15 +46,15 @@ def _tip(name: str, value: Any, note: str = "") -> str:
 
 @dataclass(frozen=True, repr=False)
 class SampledProfile(Indenter):
-    """A shape through the points (r, f): a quintic spline in r, four times continuously differentiable.
+    """A shape through measured points (r, f): a quintic spline in r, four times continuously differentiable.
 
-    r ascends from 0; heights count from f at r = 0, wherever the instrument's zero is. A "round" tip has no corner:
-    the spline is even in r, as f ~ r² needs; a "sharp" one may begin with any slope, like a cone. Where the slope
-    jumps, name that r in ``kinks``. The spline of noisy heights would follow the noise, until g falls and is refused:
-    with ``smoothing``, their standard deviation, the spline keeps that far from the points on the average.
+    r ascends from 0. Heights count from f at r = 0, wherever the zero of the instrument is. A "round" tip has no
+    corner: the spline is even in r, as f ~ r² needs. A "sharp" tip may begin with any slope, like a cone. Where the
+    slope jumps, name that r in ``kinks``. For noisy heights ``smoothing`` is their standard deviation: the spline keeps
+    that far from the points on average. Without it the spline follows the noise, until g falls and is refused.
 
-    200 even points of a sphere up to a = R/2 give g and F_N to 1e-11, 50 to 1e-8, 20 to 1e-6. What lies beyond r[-1]
-    is unknown, so that a contact which would reach further is refused.
+    200 even points of a sphere up to a = R/2 give g and F_N to 1e-11, 50 to 1e-8, 20 to 1e-6. Nothing is known beyond
+    r[-1]: a contact that would reach further is refused.
     """
 
     r: tuple[float, ...] = field(metadata=facts("m", "radii of the points, from 0", column, note="m"))

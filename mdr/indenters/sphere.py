@@ -18,7 +18,7 @@ from mdr.tools.fields import facts
 class Sphere(Indenter):
     """Ball of radius R: d = g(a), F_N = (E*/2) [(R² + a²) ln((R + a)/(R − a)) − 2aR].
 
-    Its contact grows to the equator, a = R, at infinite depth only: g is finite for |x| < R.
+    Its contact grows to the equator, a = R, at infinite depth only: g is finite for ``|x| < R``.
     """
 
     R: float = field(metadata=facts("m", "radius of the ball"))
@@ -33,7 +33,7 @@ class Sphere(Indenter):
         return ellipsoid.height(self, finite_array("r", r, "m"), self.R, self.R)
 
     def profile_1d(self, x: ArrayLike) -> FloatArray:
-        """g(x) = x artanh(x/R), |x| < R."""
+        """``g(x) = x artanh(x/R), |x| < R``."""
         return ellipsoid.image(self, finite_array("x", x, "m"), self.R, self.R)
 
     def profile_area(self, a: ArrayLike) -> FloatArray:

@@ -18,7 +18,7 @@ from mdr.tools.fields import facts
 class TruncatedCone(Indenter):
     """Worn cone: d = g(a), F_N = E* a² tan θ (φ + cos φ sin φ) with cos φ = b/a.
 
-    Hardly pressed it is a flat punch, a → b and k_zc → 2E*b; at the edge of its face p is infinite, and answered
+    Under a small load it is a flat punch: a → b and k_zc → 2E*b; at the edge of its face p is infinite, and answered
     as one rounding away.
     """
 

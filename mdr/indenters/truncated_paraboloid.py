@@ -18,7 +18,7 @@ from mdr.tools.fields import facts
 class TruncatedParaboloid(Indenter):
     """Worn ball: d = g(a), F_N = (2E*/3R) (2a² + b²) √(a² − b²).
 
-    Hardly pressed it is a flat punch, a → b and k_zc → 2E*b; at the edge of its face p is infinite, and answered
+    Under a small load it is a flat punch: a → b and k_zc → 2E*b; at the edge of its face p is infinite, and answered
     as one rounding away.
     """
 

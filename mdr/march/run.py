@@ -33,16 +33,10 @@ class State(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class SlidingRun(ArrayRecord):
-    """Outcome of slide(), in SI.
+    """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
-    cof, cof_error: mean F_x over mean F_z and the bound on its numerical error [-]. settled, kind: whether the motion
-    is steady, and which: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"; why: what to change
-    if it is not. stick_share: force-weighted share of contact time spent sticking. least_slip [m/s]: smallest slip
-    velocity of a spring in contact. mean_F_x, mean_F_z [N]. energy_balance [J] of one period. With record: t [s],
-    u_x, u_z [m], F_x, F_z [N] of shape (n_t,), x, width [m] (n_springs,), e, s [m], f_x, f_z [N] and state
-    (n_t, n_springs), modes as in State; otherwise None. Recorded forces are those at the end of a step; where dashpots
-    make them jump within one, as under a Kelvin punch that loses contact, mean F_x over mean F_z of the record differs
-    from cof by up to 1e-4.
+    Recorded forces are those at the end of a step. Where dashpots make them jump within a step, as under a Kelvin punch
+    that loses contact, mean F_x over mean F_z of the record differs from `cof` by up to 1e-4.
     """
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
@@ -75,7 +69,13 @@ class SlidingRun(ArrayRecord):
     state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
 
     def plot(self) -> Any:
-        """Draw what was recorded: the mode of every spring over time, and the forces below; returns the Figure."""
+        """Draw what was recorded: the mode of every spring over time, and the forces below.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
         from mdr import plots
 
         return plots.plot_run(self)

@@ -43,20 +43,64 @@ def slide(
     lump: bool = True,
     limit_s: float | None = None,
 ) -> SlidingRun:
-    """Slide a contact at v_0 > 0 [m/s] under its normal oscillation; returns a SlidingRun.
+    """Friction [-] of a contact that slides at v_0 under its normal oscillation, by a run in time.
 
-    `run.cof` is mean F_x over mean F_z [-], `run.cof_error` bounds step, springs and settling together, both absolute;
-    `run.settled` says whether it is periodic, or has outlasted its beat, `run.why` what to change where it is not.
+    Every spring has its own state: free, stick or slip. The run goes on until the motion repeats (`run.settled`).
 
-    n_springs (pairs at +-x), steps_per_period: None chooses them, so that cof_error meets 1e-5 mu_0 where possible.
-    n_periods: None goes on until settled; a number runs exactly that many and makes no companion runs, so that
-    cof_error holds settling only. start: "full_slip", from which the periodic state of a body is solved for, or "rest"
-    (unloaded in the plane), from which the run waits for it and solves for it now and then. record: number of last
-    periods kept as arrays. lump: let springs that provably move as one be computed once. limit_s: seconds after which a
-    run that has not settled is given up, with that as its reason (None: no limit; what it waits for is told on standard
-    error after two seconds).
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+    v_0 : float
+        Pulling velocity [m/s], above zero. The limit of zero velocity is `static_cof`.
+    n_springs : int, optional
+        Springs at x > 0, each for the pair at +x and -x. None chooses them, and the steps, so that `cof_error` is at
+        most 1e-5 mu_0 where that is possible.
+    steps_per_period : int, optional
+        Time steps of one period of the oscillation. None chooses them.
+    n_periods : int, optional
+        None goes on until the motion has settled. A number runs exactly so many periods, without the companion runs
+        that bound the error: `cof_error` then holds settling only.
+    start : {"full_slip", "rest"}
+        First state. "full_slip": all springs slide; the periodic state of a body is then solved for. "rest": no spring
+        is loaded in the plane; the run waits for the periodic state.
+    record : int
+        Number of last periods whose forces and springs are kept as arrays. 0 keeps none.
+    lump : bool
+        Compute springs that provably move as one only once.
+    limit_s : float, optional
+        Seconds of computing after which a run that has not settled ends. None sets no limit.
 
-    Raises TypeError and ValueError for arguments out of range; v_0 = 0 is `static_cof`.
+    Returns
+    -------
+    SlidingRun
+        `cof` is mean F_x over mean F_z [-], `cof_error` the bound on its numerical error. `settled` says whether the
+        motion is periodic, or how long it was waited for; `why` says what to change where it is not.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For an argument out of range, with its name, the rule and a way out.
+
+    See Also
+    --------
+    cof_curve : friction over many velocities.
+    static_cof : the limit of zero velocity.
+
+    Notes
+    -----
+    The scheme is of second order in time. Two companion runs with coarser steps and one with half the springs bound the
+    error of the friction.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> run = mdr.slide(case, 1e-4, n_springs=64, steps_per_period=256)
+    >>> f"{run.cof:.3f}", run.settled
+    ('0.365', True)
     """
     case = resolved(case)
     if not isinstance(lump, bool):

@@ -1,4 +1,4 @@
-"""The half-space: how stiff and how slow a material makes each spring; `Material` says what one must answer."""
+"""Materials of the half-space: moduli, relaxation, damping. `Material` lists what a material must answer."""
 
 from mdr.materials.base import Material
 from mdr.materials.elastic import Elastic, ElasticPair

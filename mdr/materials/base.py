@@ -97,23 +97,73 @@ class Material(Record, ABC):
         return self.E_star + sum(E_j for E_j, _ in self.contact_arms) if self.tau == 0 else np.inf
 
     def dynamic_modulus(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
-        """Complex contact modulus E*(omega) [Pa], see the module's docstring, in the shape of omega [rad/s]."""
+        """Complex contact modulus E*(omega) [Pa].
+
+        Parameters
+        ----------
+        omega : array_like of float
+            Angular frequency [rad/s].
+
+        Returns
+        -------
+        complex or ndarray
+            E*(omega) [Pa] in the shape of omega. The real part is the storage modulus, the imaginary part the loss
+            modulus.
+
+        Notes
+        -----
+        The Kelvin branch, and a sum over the Maxwell arms ::
+
+            E*(omega) = E* (1 + i omega tau) + sum_j E*_j i omega tau_j/(1 + i omega tau_j)
+
+        Examples
+        --------
+        >>> import mdr
+        >>> mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3).dynamic_modulus(300.0)
+        (4000000+1200000j)
+        """
         omega = finite_array("omega", omega, "rad/s")
         modulus = complex_modulus(omega, self.E_star, self.tau, self.contact_arms)
         return complex(modulus) if modulus.ndim == 0 else modulus
 
     def relaxation_modulus(self, t: ArrayLike) -> FloatArray:
-        """Contact modulus E*(t) [Pa] at times t >= 0 [s] after a sudden step of depth; a dashpot, tau > 0, adds an
-        impulse E* tau at t = 0, which is left out. ValueError for t < 0.
+        """Contact modulus E*(t) [Pa] after a sudden step of depth.
+
+        Parameters
+        ----------
+        t : array_like of float
+            Time since the step [s], zero or above.
+
+        Returns
+        -------
+        float or ndarray
+            E*(t) [Pa]. A dashpot, tau > 0, adds an impulse E* tau at t = 0, which is left out.
+
+        Raises
+        ------
+        ValueError
+            For t < 0.
         """
         t = _elapsed(t)
         return plain(self.E_star + sum((E_j * np.exp(-t / tau_j) for E_j, tau_j in self.contact_arms), 0 * t))
 
     def creep_compliance(self, t: ArrayLike) -> FloatArray:
-        """Depth over load [1/Pa] of a spring of unit width at times t >= 0 [s] after a sudden unit load.
+        """Creep compliance [1/Pa]: depth over load of a spring of unit width after a sudden unit load.
 
-        The inverse of the operator whose answer to a step is `relaxation_modulus`: 1/E* after a long time, without
-        bound for a material with E_star = 0, which flows. ValueError for t < 0.
+        Parameters
+        ----------
+        t : array_like of float
+            Time since the load [s], zero or above.
+
+        Returns
+        -------
+        float or ndarray
+            J(t) [1/Pa]: 1/E* after a long time. It grows without bound for a material with E_star = 0, which flows.
+
+        Raises
+        ------
+        ValueError
+            For t < 0.
         """
         t = _elapsed(t)
         start, rates, times = self._retardation()
@@ -125,11 +175,11 @@ class Material(Record, ABC):
         return plain(start + sum(shares, 0 * t))
 
     def _retardation(self) -> tuple[float, FloatArray, FloatArray]:
-        """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): its start, the rates and the times of retardation.
+        """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): start, rates and retardation times theta.
 
-        They are the zeros -1/theta of E*(p), p in the place of i omega, one between any two poles -1/tau_j, one between
-        the slowest and zero (at zero for a body that flows), and one beyond the fastest where there is a dashpot. Each
-        is found for itself, so that times of many decades stand beside one another.
+        -1/theta are the zeros of E*(p), with p in the place of i omega. One lies between any two poles -1/tau_j, one
+        between the slowest pole and zero (at zero for a body that flows), and one beyond the fastest pole where there
+        is a dashpot. Each zero is found on its own, so that times of many decades do not disturb one another.
         """
         E_j, tau_j = np.array(self.contact_arms).reshape(-1, 2).T
         poles = 1 / tau_j  # ascending; x = -p
@@ -142,13 +192,24 @@ class Material(Record, ABC):
         ends = [-np.inf, *np.log(poles), np.inf]
         first = 1 if self.E_star == 0 else 0
         last = len(ends) - (1 if self.tau > 0 else 2)
-        x = np.array([0.0] * first + [np.exp(_fall(modulus, *ends[k : k + 2])) for k in range(first, last)])
+        x = np.array([0.0] * first + [np.exp(_zero_between(modulus, *ends[k : k + 2])) for k in range(first, last)])
         slope = self.E_star * self.tau + np.sum(E_j * poles / (poles - x[:, None]) ** 2, axis=1)  # dE*/dp
         with np.errstate(divide="ignore"):
             return float(start), 1 / slope, np.where(x > 0, 1 / x, np.inf)
 
     def loss_tangent(self, omega: ArrayLike) -> NDArray[np.float64] | float:
-        """Loss over storage modulus at omega [rad/s]; omega tau for a Kelvin body."""
+        """Loss tangent [-]: loss modulus over storage modulus.
+
+        Parameters
+        ----------
+        omega : array_like of float
+            Angular frequency [rad/s].
+
+        Returns
+        -------
+        float or ndarray
+            tan delta [-]; omega tau for a Kelvin body.
+        """
         modulus = np.asarray(self.dynamic_modulus(omega))
         ratio = modulus.imag / modulus.real
         return float(ratio) if ratio.ndim == 0 else ratio
@@ -188,18 +249,18 @@ def _elapsed(t: ArrayLike) -> FloatArray:
     return t
 
 
-def _fall(function: Callable[[float], float], low: float, high: float) -> float:
-    """Zero of a function that falls from +infinity at `low` to -infinity at `high`; ends may be infinite."""
+def _zero_between(function: Callable[[float], float], low: float, high: float) -> float:
+    """Zero of a function that falls from +infinity at `low` to -infinity at `high`; the ends may be infinite."""
     from scipy.optimize import brentq
 
-    above, below = _beside(function, low, high, 1.0), _beside(function, high, low, -1.0)
+    above, below = _place_near_pole(function, low, high, 1.0), _place_near_pole(function, high, low, -1.0)
     if not function(above) > 0 > function(below):  # closer to a pole than numbers tell: its arm is next to nothing
         return below if function(above) > 0 else above
     return float(brentq(function, above, below, xtol=1e-15, rtol=1e-15, maxiter=500))
 
 
-def _beside(function: Callable[[float], float], end: float, other: float, sign: float) -> float:
-    """A place between two ends, close enough to the first one for the function to have the sign that it has there."""
+def _place_near_pole(function: Callable[[float], float], end: float, other: float, sign: float) -> float:
+    """A place between two ends, so close to the first that the function has the sign that it has there."""
     finite = np.isfinite(end)
     anchor = end if finite else (other if np.isfinite(other) else 0.0)
     step = 1e-3 * (abs(other - end) if np.isfinite(other) else 1.0) if finite else 1.0

@@ -23,7 +23,20 @@ class Elastic(OneBody):
 
     @classmethod
     def from_shear(cls, *, G: float, nu: float) -> Elastic:
-        """The body of shear modulus G [Pa]: E = 2 G (1 + nu)."""
+        """The elastic body of a shear modulus: E = 2 G (1 + nu) [Pa].
+
+        Parameters
+        ----------
+        G : float
+            Shear modulus [Pa].
+        nu : float
+            Poisson's ratio [-].
+
+        Returns
+        -------
+        Elastic
+            The body.
+        """
         return cls(E=2 * positive("G", G, "shear modulus in Pa") * (1 + poisson_ratio("nu", nu)), nu=nu)
 
 

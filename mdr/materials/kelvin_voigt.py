@@ -23,12 +23,50 @@ class KelvinVoigt(OneBody):
 
     @classmethod
     def from_shear(cls, *, G: float, eta: float, nu: float) -> KelvinVoigt:
-        """The body of shear modulus G [Pa] and shear viscosity eta [Pa s]: tau = eta/G."""
+        """The Kelvin body of a shear modulus and a shear viscosity: tau = eta/G [s].
+
+        Parameters
+        ----------
+        G : float
+            Shear modulus [Pa].
+        eta : float
+            Shear viscosity [Pa s].
+        nu : float
+            Poisson's ratio [-].
+
+        Returns
+        -------
+        KelvinVoigt
+            The body.
+
+        Examples
+        --------
+        >>> import mdr
+        >>> mdr.KelvinVoigt.from_shear(G=1e6, eta=1e3, nu=0.5)
+        KelvinVoigt(E=3000000.0, nu=0.5, tau=0.001)
+        """
         G, eta = positive("G", G, "shear modulus in Pa"), not_negative("eta", eta, "shear viscosity in Pa s")
         return cls(E=2 * G * (1 + poisson_ratio("nu", nu)), nu=nu, tau=eta / G)
 
     @classmethod
     def from_loss_tangent(cls, *, E: float, nu: float, tan_delta: float, omega: float) -> KelvinVoigt:
-        """The body of storage modulus E [Pa] and loss tangent tan_delta at omega [rad/s]: tau = tan_delta/omega."""
+        """The Kelvin body of a loss tangent that was measured at one frequency: tau = tan_delta/omega [s].
+
+        Parameters
+        ----------
+        E : float
+            Storage modulus [Pa], Young's.
+        nu : float
+            Poisson's ratio [-].
+        tan_delta : float
+            Loss tangent [-].
+        omega : float
+            Angular frequency of the measurement [rad/s].
+
+        Returns
+        -------
+        KelvinVoigt
+            The body.
+        """
         tan_delta = not_negative("tan_delta", tan_delta, "loss tangent")
         return cls(E=E, nu=nu, tau=tan_delta / positive("omega", omega, "angular frequency in rad/s"))

@@ -117,7 +117,7 @@ def _table(T: float, rho: tuple[float, ...], theta: tuple[float, ...], h: float)
 
 
 def _free_motion(T: float, ratios: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What a free spring does at once, and its rates: x -> shed x, x' = rates x, both (1 + J, 1 + J)."""
+    """Free motion of a spring: the jump at its start, x -> shed x, then x' = rates x; both (1 + J, 1 + J)."""
     n = ratios.size
     if T > 0:
         first = -ratios / T

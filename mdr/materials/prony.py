@@ -126,12 +126,42 @@ class Prony(_WithArms):
     def fit(
         cls, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, *, nu: float, n_arms: int | None = None
     ) -> Prony:
-        """The body whose E(omega) comes closest to measured storage and loss moduli E', E'' [Pa], arrays (n,) over
-        omega [rad/s]: least squares of the relative deviation, with no negative arm.
+        """The body whose Young's modulus E(omega) [Pa] comes closest to measured storage and loss moduli.
 
-        n_arms relaxation times are spread evenly in log time over the measured range (None: three a decade, but no more
-        than half the data can tell); those of no use are dropped. `misfit` says how close it came. Outside the
-        measured range the answer is the body's own. Raises ValueError for data that are negative, infinite or NaN.
+        Parameters
+        ----------
+        omega : array_like of float, shape (n,)
+            Angular frequencies [rad/s].
+        storage : array_like of float, shape (n,)
+            Storage modulus E' [Pa].
+        loss : array_like of float, shape (n,)
+            Loss modulus E'' [Pa].
+        nu : float
+            Poisson's ratio [-].
+        n_arms : int, optional
+            Relaxation times, spread evenly in log time over the measured range. None: three a decade, but no more than
+            half the data can tell. Those of no use are dropped.
+
+        Returns
+        -------
+        Prony
+            The body. `misfit` says how close it is. It says nothing about frequencies outside the measured range.
+
+        Raises
+        ------
+        ValueError
+            For data that are negative, infinite or NaN.
+
+        Notes
+        -----
+        Non-negative least squares of the relative deviation (Lawson and Hanson 1974).
+
+        Examples
+        --------
+        >>> import mdr
+        >>> body = mdr.Prony.fit([1, 10, 100], storage=[1e6, 1.5e6, 2e6], loss=[2e5, 3e5, 2e5], nu=0.5)
+        >>> body.arms[0][1]
+        0.1
         """
         from mdr.materials import prony_fit
 
@@ -141,11 +171,38 @@ class Prony(_WithArms):
     def power_law(
         cls, *, modulus: float, exponent: float, omega: tuple[float, float], nu: float, error: float = 1e-3
     ) -> Prony:
-        """A fractional material, E(omega) = modulus (i omega tau_0)^exponent with tau_0 = 1/omega[0], spread over arms.
+        """A fractional material as a sum of arms: Young's modulus E(omega) = modulus (i omega tau_0)^exponent [Pa].
 
-        modulus [Pa] is |E| at omega[0]; exponent lies between 0 (elastic) and 1 (viscous). As many arms are taken as
-        bring the relative deviation of E(omega) below `error` for all omega[0] <= omega <= omega[1] [rad/s]; beyond
-        this range the body is stiffer, or less lossy, than a power law. ValueError where no 60 arms reach it.
+        Parameters
+        ----------
+        modulus : float
+            Absolute value of E [Pa] at omega[0] = 1/tau_0.
+        exponent : float
+            Between 0 (elastic) and 1 (viscous) [-].
+        omega : tuple of float
+            Lowest and highest angular frequency [rad/s]. Beyond this range the body is stiffer, or less lossy, than a
+            power law.
+        nu : float
+            Poisson's ratio [-].
+        error : float
+            Largest relative deviation of E(omega) in the range [-]. As many arms are taken as it needs.
+
+        Returns
+        -------
+        Prony
+            The body.
+
+        Raises
+        ------
+        ValueError
+            Where 60 arms do not reach the error.
+
+        Examples
+        --------
+        >>> import mdr
+        >>> body = mdr.Prony.power_law(modulus=1e6, exponent=0.2, omega=(1, 1e3), nu=0.5, error=0.01)
+        >>> len(body.arms)
+        6
         """
         from mdr.materials import prony_fit
 
@@ -153,11 +210,26 @@ class Prony(_WithArms):
 
     @classmethod
     def read(cls, path: str | PathLike[str], *, nu: float | None = None) -> Prony:
-        """The body of a table of arms, .csv or .toml.
+        """The body of a table of arms (E_j [Pa], tau_j [s]) in a file, .csv or .toml.
 
-        CSV: columns E_j [Pa] and tau_j [s] under a header that names them; the row with tau_j = inf, or an empty one,
-        is E_inf. nu is given here. TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted,
-        tau, as in a case file; a nu given here takes its place. Raises ValueError with the line or key that is wrong.
+        Parameters
+        ----------
+        path : str or path-like
+            CSV: columns E_j [Pa] and tau_j [s] under a header that names them; the row with tau_j = inf, or an empty
+            one, is E_inf. TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted, tau, as
+            in a case file.
+        nu : float, optional
+            Poisson's ratio [-]. A CSV file needs it; it takes the place of the one in a TOML file.
+
+        Returns
+        -------
+        Prony
+            The body.
+
+        Raises
+        ------
+        ValueError
+            With the line or key that is wrong.
         """
         from mdr.files.arm_tables import from_table
 
@@ -170,7 +242,22 @@ class Prony(_WithArms):
             raise fault(fsdecode(path), str(refusal)) from None
 
     def misfit(self, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
-        """Greatest relative deviation |E(omega) - E' - i E''|/|E' + i E''| [-] from data [Pa], arrays (n,)."""
+        """Greatest relative deviation [-] of E(omega) from measured moduli.
+
+        Parameters
+        ----------
+        omega : array_like of float, shape (n,)
+            Angular frequencies [rad/s].
+        storage : array_like of float, shape (n,)
+            Storage modulus E' [Pa].
+        loss : array_like of float, shape (n,)
+            Loss modulus E'' [Pa].
+
+        Returns
+        -------
+        float
+            ``max |E(omega) - E' - i E''| / |E' + i E''|`` [-].
+        """
         from mdr.materials import prony_fit
 
         return prony_fit.misfit(self, omega, storage, loss)

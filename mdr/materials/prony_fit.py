@@ -1,7 +1,7 @@
-"""Arms from what people measure: dynamic moduli, or a power law.
+"""Maxwell arms from measured dynamic moduli, or from a power law.
 
-Relaxation times are spread evenly in log time; the moduli that go with them are the non-negative least squares of the
-relative deviation of E(omega) (Lawson and Hanson 1974, in scipy.optimize.nnls), so that every arm is a passive one.
+Relaxation times are spread evenly in log time. The moduli follow by non-negative least squares of the relative
+deviation of E(omega) (Lawson and Hanson 1974, `scipy.optimize.nnls`), so that every arm is passive.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The normal problem, in which friction has no part: springs, their forces, the depth under a load."""
+"""Normal contact: springs and their forces, the depth under a load, indentation; and partial slip at a fixed depth."""

@@ -93,7 +93,7 @@ class _Band:
 
 
 def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array]:
-    """When the tip itself presses (n_t,), a little longer than the first spring; phases of its touches."""
+    """When the tip itself presses (n_t,), slightly longer than the first spring does; phases at which it touches."""
     z, rate = cycle.over_a_period(n_t)
     force, shares, path = np.empty((3, n_t))
     table = rheology.over_step(2 * np.pi / n_t)

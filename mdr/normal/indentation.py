@@ -45,11 +45,7 @@ LONG = 0.3  #: an interval longer than this share of the time since the last jum
 
 @dataclass(frozen=True, eq=False)
 class Indentation(ArrayRecord):
-    """Outcome of indent(), in SI: t [s], u_z [m], F_z [N], contact_radius [m], each (n_t,).
-
-    With record: x [m] (n_springs,), positions of the springs at x >= 0; s [m] and q_z [N/m] (n_t, n_springs), their
-    compressions and line loads on one side; otherwise None.
-    """
+    """Outcome of indent(), in SI. The springs are kept only with `record=True`; otherwise x, s and q_z are None."""
 
     indenter: Indenter  #: shape
     material: Material  #: half-space
@@ -72,22 +68,56 @@ def indent(
     n_springs: int | None = None,
     record: bool = False,
 ) -> Indentation:
-    """Press an indenter on a relaxed half-space, from rest, by a history of depth u_z [m] or of normal force F_z [N].
+    """Normal force [N], or depth [m], of an indenter pressed on a half-space by any history of the other.
 
-    t [s] (n_t,) ascends, in steps of any size; between samples the given history is linear. Two samples at one instant
-    are a jump, the second one the state just after it, and so is a first value other than zero. A depth may leave the
-    surface (u_z < 0). Where the material has a dashpot (tau > 0), the force answers to the velocity, which changes at a
-    sample: given is the mean of both sides, which for samples of a smooth history errs with the square of their
-    distance. There a jump of depth takes an impulse of force, which is left out, and a jump of force changes no depth
-    at that instant.
+    The half-space is relaxed at the start. Between samples the given history is linear in time.
 
-    A force must not be negative: there is no adhesion. Under F_z = 0 the indenter lies on the surface without pressing
-    it, at the greatest depth where this is possible.
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space.
+    t : array_like of float, shape (n_t,)
+        Instants [s], ascending, in steps of any size. Two samples at one instant are a jump; the second one is the
+        state just after it. A first value other than zero is a jump too.
+    u_z : array_like of float, shape (n_t,), optional
+        History of depth [m]; below zero the indenter is above the surface. Give either u_z or F_z.
+    F_z : array_like of float, shape (n_t,), optional
+        History of normal force [N], zero or above: there is no adhesion.
+    n_springs : int, optional
+        Nodes at x >= 0. None: 512.
+    record : bool
+        Keep the compressions and loads of the springs at every sample.
 
-    n_springs: nodes at x >= 0 (None: 512). record keeps the springs' compressions and loads at every sample.
+    Returns
+    -------
+    Indentation
+        Depth, force and contact radius at the instants, arrays of shape (n_t,).
 
-    Raises TypeError for a wrong kind of input, ValueError for NaN, infinity, lists of different lengths, instants that
-    descend, a negative force, both or neither of u_z and F_z, a shape that ends before the depth, or a hollow one.
+    Raises
+    ------
+    TypeError
+        For a wrong kind of input.
+    ValueError
+        For NaN, infinity, lists of different lengths, instants that descend, a negative force, both or neither of u_z
+        and F_z, a shape that ends before the depth, or a hollow one.
+
+    Notes
+    -----
+    While the contact grows this is the half-space of Lee and Radok (1960), in the first retreat that of Ting (1966).
+
+    With a dashpot (tau > 0) the force follows the velocity, which jumps at a sample. The force given there is the mean
+    of both sides. For samples of a smooth history its error falls with the square of their distance. At a jump of depth
+    the impulse of force is left out; a jump of force changes no depth at that instant. Under F_z = 0 the indenter lies
+    on the surface without pressing it, at the greatest depth where this is possible.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> pressed = mdr.indent(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), t=[0, 1, 2], u_z=[0, 20e-6, 10e-6])
+    >>> pressed.F_z.round(4)
+    array([0.    , 0.0337, 0.0119])
     """
     instance("indenter", indenter, Indenter)
     instance("material", material, Material)
@@ -119,7 +149,7 @@ def _from_depth(indenter: Indenter, material: Material, t: Array, u_z: Array, n:
     indenter.contact_radius(deepest)  # a shape that does not reach so deep says so here
     first = u_z[u_z > 0]
     row = _row(indenter, deepest, float(np.clip(first.min() / deepest, 1e-2, 0.1)), n)
-    F_z, a, s, q = kernels.follow_depth(t, u_z, row, _body(material), record)
+    F_z, a, s, q = kernels.follow_depth(t, u_z, row, _material_arrays(material), record)
     kept = {"x": row[1], "s": s, "q_z": q} if record else {}
     return Indentation(indenter, material, t, u_z, F_z, a, **kept)
 
@@ -133,13 +163,13 @@ def _from_force(indenter: Indenter, material: Material, t: Array, F_z: Array, n:
     loaded = F_z[F_z > 0][0]
     start = _depth_under(indenter, loaded / material.instantaneous_modulus, end) if material.tau == 0 else 0.0
     row = _row(indenter, reach, float(np.clip(start / reach, 1e-3, 0.1)), n)
-    n_steps, body = int(np.clip(np.ceil(STEPS / t.size), 1, 64)), _body(material)
+    n_steps, arrays = int(np.clip(np.ceil(STEPS / t.size), 1, 64)), _material_arrays(material)
     answers = []
     for share in (1, 2):
         fine, force, where = _finer(t, F_z, share * n_steps)
         V = _lee_radok(material, fine, force)
         known = _grown(V, row)
-        u, a, s, q = kernels.follow_force(fine, force, known, row, body, where if record else where[:0])
+        u, a, s, q = kernels.follow_force(fine, force, known, row, arrays, where if record else where[:0])
         answers.append((u[where], a[where], s, q))
     u_z, a = (2 * two - one for one, two in zip(answers[0][:2], answers[1][:2], strict=True))  # a step errs with dt
     grown = where < known.size
@@ -165,7 +195,7 @@ def _lee_radok(material: Material, t: Array, F_z: Array) -> Array:
 
 
 def _grown(V: Array, row: tuple[Array, ...]) -> Array:
-    """The depths [m] at the first instants, until the contact retreats for the first time."""
+    """Depths [m] at the first instants, while the contact grows."""
     shrinks = np.diff(V) < -1e-12 * V.max()
     V = np.maximum.accumulate(V[: int(np.argmax(shrinks)) + 1 if shrinks.any() else V.size])
     g, x, area, power = row
@@ -184,7 +214,7 @@ def _grown(V: Array, row: tuple[Array, ...]) -> Array:
 
 
 def _polished(indenter: Indenter, V: Array, u: Array) -> Array:
-    """The depths [m] at which F_N/E* = V, by Newton's method from close by."""
+    """Depths [m] at which F_N/E* = V, by Newton's method; the start is already close."""
     for _ in range(3):
         slope = np.asarray(indenter.stiffness(u, 1.0))
         missed = V - np.asarray(indenter.force(u, 1.0))
@@ -231,7 +261,7 @@ def _profile(indenter: Indenter, x: float) -> float:
 
 
 def _end_of(indenter: Indenter) -> float:
-    """The greatest depth [m] that a shape which ends can take; infinite for a punch, and for a shape without end."""
+    """Greatest depth [m] of a shape that ends; infinite for a punch and for a shape without end."""
     end = _profile(indenter, indenter.max_radius) if np.isfinite(indenter.max_radius) else np.inf
     try:
         return np.inf if end <= 0 or end == np.inf or indenter.contact_radius(2 * end) > 0 else end
@@ -256,11 +286,12 @@ def _depth_under(indenter: Indenter, V: float, end: float) -> float:
     return float(high)
 
 
-def _body(material: Material) -> tuple[Any, ...]:
-    """The material as the kernels read it: E, E tau, E_j, tau_j and the modes in which a free spring relaxes.
+def _material_arrays(material: Material) -> tuple[Any, ...]:
+    """The material as arrays for the kernels: E, E tau, E_j, tau_j, and the modes in which a free spring relaxes.
 
-    They relax with the times of retardation. With the roots of the energies as unknowns the free motion is a symmetric
-    matrix, a diagonal less a product of one vector with itself, whose own vectors are known from these times.
+    A free spring relaxes with the times of retardation. With the roots of the energies as unknowns its matrix is
+    symmetric: a diagonal plus a matrix of rank one. Its eigenvalues are known from these times, and its eigenvectors
+    from them.
     """
     E, tau = material.E_star, material.tau
     arms = np.array(material.contact_arms).reshape(-1, 2)
@@ -269,13 +300,13 @@ def _body(material: Material) -> tuple[Any, ...]:
     modes, inverse = np.zeros((m + 1, m + 1)), np.zeros((m + 1, m + 1))
     if tau > 0:
         roots = np.sqrt(np.concatenate([[E], E_j]))
-        vectors = _own_vectors(roots, np.concatenate([[0.0], 1 / tau_j]), relax)
+        vectors = _eigenvectors(roots, np.concatenate([[0.0], 1 / tau_j]), relax)
         rates, to_own = -relax, np.concatenate([1 / roots[:1], roots[1:]])  # z_0 = sqrt(E) s, z_j = q_j/sqrt(E_j)
         modes, inverse = to_own[:, None] * vectors, vectors.T / to_own
     else:  # E s + sum q_j = 0 all the time
         glassy = E + E_j.sum()
         roots, to_own = np.sqrt(E_j / tau_j), np.sqrt(E_j * tau_j)
-        vectors = _own_vectors(roots, 1 / tau_j, relax)
+        vectors = _eigenvectors(roots, 1 / tau_j, relax)
         rates = np.concatenate([[0.0], -relax])
         still = relax == 0  # of a fluid: never in motion when free
         modes[0, 0] = 1.0
@@ -302,7 +333,7 @@ def _finer(t: Array, F_z: Array, n: int) -> tuple[Array, Array, NDArray[np.intp]
 
 
 def _shares(t: Array, n: int) -> list[Array]:
-    """Ends of the steps of each interval, as shares of it; after a jump they begin fine, for what it left behind."""
+    """Ends of the steps of each interval, as shares of it. After a jump the first steps are fine."""
     even = np.arange(1, n + 1) / n
     shares, jumped = [], t[0]
     for low, high in pairwise(t):
@@ -335,15 +366,16 @@ def _history(name: str, values: ArrayLike | None, t: Array, unit: str) -> FloatA
 
 
 def _untouched(indenter: Indenter, material: Material, t: Array, u_z: Array, n: int, record: bool) -> Indentation:
-    """No contact at all: u_z never above the surface, or no force."""
+    """The outcome without contact: u_z never above zero, or no force."""
     zero = np.zeros(t.size)
     kept = {"x": np.zeros(1), "s": np.zeros((t.size, 1)), "q_z": np.zeros((t.size, 1))} if record else {}
     return Indentation(indenter, material, t, u_z, zero, zero, **kept)
 
 
-def _own_vectors(roots: Array, relax: Array, own: Array) -> Array:
-    """Unit vectors (n, n) that a diagonal matrix `relax` (n,) with a multiple of roots rootsᵀ added leaves in their
-    direction; own (n,): their factors.
+def _eigenvectors(roots: Array, relax: Array, own: Array) -> Array:
+    """Eigenvectors (n, n), of length one, of a diagonal plus rank-one matrix.
+
+    The diagonal is `relax` (n,), the rank-one part a multiple of roots rootsᵀ; `own` (n,) are the eigenvalues.
     """
     away = relax[:, None] - own
     away[away == 0] = np.finfo(float).tiny ** 0.25  # an arm next to nothing relaxes for itself

@@ -11,7 +11,7 @@ exponentials, known exactly; the instants of release (L[s] = 0) and of touch (s 
 Springs stand at nodes of g, in ascending order. Between two nodes b = E s + sum q_j is taken as linear in g, which
 makes the elastic part of the force exact for any number of springs; the rest is extrapolated from every second node.
 
-body = (E, eta, E_j, tau_j, rates, modes, inverse), eta = E tau; y(t) = modes exp(rates t) inverse y(0).
+material = (E, eta, E_j, tau_j, rates, modes, inverse), eta = E tau; y(t) = modes exp(rates t) inverse y(0).
 row = (g, x, area, power): depths, radii, int_0^x g dx, and the local exponents of x - x_0 ~ g^power.
 """
 
@@ -30,9 +30,9 @@ _EVENTS = 12  # releases and touches of a spring in one step, more than there ev
 
 
 @_jit
-def load(theta, s, q, v, body):
+def load(theta, s, q, v, material):
     """L[s] of a spring in contact, a time theta later: its value and its rate."""
-    E, eta, E_j, tau_j = body[0], body[1], body[2], body[3]
+    E, eta, E_j, tau_j = material[0], material[1], material[2], material[3]
     value = E * (s + v * theta) + eta * v
     rate = E * v
     for j in range(E_j.size):
@@ -43,9 +43,9 @@ def load(theta, s, q, v, body):
 
 
 @_jit
-def height(theta, s, q, body):
+def height(theta, s, q, material):
     """Compression of a free spring, a time theta later: its value and its rate."""
-    rates, modes, inverse = body[4], body[5], body[6]
+    rates, modes, inverse = material[4], material[5], material[6]
     value, rate = 0.0, 0.0
     for k in range(rates.size):
         share = inverse[k, 0] * s
@@ -58,25 +58,25 @@ def height(theta, s, q, body):
 
 
 @_jit
-def margin(contact, theta, s, q, g, u, v, body):
+def margin(contact, theta, s, q, g, u, v, material):
     """What must stay positive, and its rate: L[s] in contact, the gap to the indenter when free."""
     if contact:
-        return load(theta, s, q, v, body)
-    value, rate = height(theta, s, q, body)
+        return load(theta, s, q, v, material)
+    value, rate = height(theta, s, q, material)
     return value - (u + v * theta - g), rate - v
 
 
 @_jit
-def next_event(contact, left, s, q, g, u, v, body):
+def next_event(contact, left, s, q, g, u, v, material):
     """Time to the release or touch within the time left, or -1 if there is none."""
     scale = abs(s) + abs(u) + abs(v * left) + g  # of what rounding there is in a depth
     if contact:
-        scale = (body[0] + np.sum(body[2])) * scale + body[1] * abs(v) + np.sum(np.abs(q))
+        scale = (material[0] + np.sum(material[2])) * scale + material[1] * abs(v) + np.sum(np.abs(q))
     least = -16 * _EPS * scale
-    at_start, rate = margin(contact, 0.0, s, q, g, u, v, body)
+    at_start, rate = margin(contact, 0.0, s, q, g, u, v, material)
     if at_start < least:
         return 0.0
-    at_end, rate_at_end = margin(contact, left, s, q, g, u, v, body)
+    at_end, rate_at_end = margin(contact, left, s, q, g, u, v, material)
     high = left
     if at_end >= least:
         if rate >= 0.0 or rate_at_end <= 0.0:
@@ -84,16 +84,16 @@ def next_event(contact, left, s, q, g, u, v, body):
         low = 0.0  # it falls at first and rises in the end: is its lowest value below zero?
         for _ in range(60):
             middle = 0.5 * (low + high)
-            if margin(contact, middle, s, q, g, u, v, body)[1] < 0.0:
+            if margin(contact, middle, s, q, g, u, v, material)[1] < 0.0:
                 low = middle
             else:
                 high = middle
-        if margin(contact, high, s, q, g, u, v, body)[0] >= least:
+        if margin(contact, high, s, q, g, u, v, material)[0] >= least:
             return -1.0
     low = 0.0
     for _ in range(60):
         middle = 0.5 * (low + high)
-        if margin(contact, middle, s, q, g, u, v, body)[0] >= 0.0:
+        if margin(contact, middle, s, q, g, u, v, material)[0] >= 0.0:
             low = middle
         else:
             high = middle
@@ -101,9 +101,9 @@ def next_event(contact, left, s, q, g, u, v, body):
 
 
 @_jit
-def move(contact, theta, s, q, v, body):
+def move(contact, theta, s, q, v, material):
     """Carry a spring on by theta, in its mode: new compression; its arms q change in place."""
-    E_j, tau_j, rates, modes, inverse = body[2], body[3], body[4], body[5], body[6]
+    E_j, tau_j, rates, modes, inverse = material[2], material[3], material[4], material[5], material[6]
     if contact:
         for j in range(q.size):
             kept = np.exp(-theta / tau_j[j])
@@ -122,28 +122,28 @@ def move(contact, theta, s, q, v, body):
 
 
 @_jit
-def spring_step(contact, dt, s, q, g, u, v, body):
+def spring_step(contact, dt, s, q, g, u, v, material):
     """One spring over one step: new mode and compression; its arms q change in place."""
     left = dt
     for _ in range(_EVENTS):
-        theta = next_event(contact, left, s, q, g, u, v, body)
+        theta = next_event(contact, left, s, q, g, u, v, material)
         if theta < 0.0:
             break
-        s = move(contact, theta, s, q, v, body)
+        s = move(contact, theta, s, q, v, material)
         left -= theta
         u += v * theta
         contact = not contact
         if contact:
             s = u - g
-            if body[1] == 0.0 and q.size:  # no load yet: roundings of a long flight would pass for tension
-                q -= (body[0] * s + np.sum(q)) * body[2] / np.sum(body[2])
-    return contact, move(contact, left, s, q, v, body)
+            if material[1] == 0.0 and q.size:  # no load yet: roundings of a long flight would pass for tension
+                q -= (material[0] * s + np.sum(q)) * material[2] / np.sum(material[2])
+    return contact, move(contact, left, s, q, v, material)
 
 
 @_jit
-def spring_jump(contact, s, q, g, u, du, body):
+def spring_jump(contact, s, q, g, u, du, material):
     """One spring in a sudden change of depth by du to u: new mode and compression; its arms q change in place."""
-    E, eta, E_j = body[0], body[1], body[2]
+    E, eta, E_j = material[0], material[1], material[2]
     ds = du if contact else u - g - s
     if not contact and ds <= 0.0:
         return False, s
@@ -165,12 +165,12 @@ def spring_jump(contact, s, q, g, u, du, body):
 
 
 @_jit
-def step(s, q, c, dt, u, v, row, body):
+def step(s, q, c, dt, u, v, row, material):
     """All springs over one step, in place; the indenter moves from u with velocity v.
 
     Every exponential is monotonic: where the sum of their least values is positive there is no release and no touch.
     """
-    E, eta, E_j, tau_j, rates, modes, inverse = body
+    E, eta, E_j, tau_j, rates, modes, inverse = material
     g = row[0]
     m = E_j.size
     kept = np.exp(-dt / tau_j)
@@ -203,28 +203,28 @@ def step(s, q, c, dt, u, v, row, body):
                 for j in range(m):
                     q[i, j] = np.sum(modes[j + 1] * shares)
                 continue
-        contact, s[i] = spring_step(c[i] > 0, dt, s[i], q[i], g[i], u, v, body)
+        contact, s[i] = spring_step(c[i] > 0, dt, s[i], q[i], g[i], u, v, material)
         c[i] = contact
         if contact:
             s[i] = u_1 - g[i]
 
 
 @_jit
-def jump(s, q, c, u, du, row, body):
+def jump(s, q, c, u, du, row, material):
     """All springs in a sudden change of depth by du to u, in place."""
     g = row[0]
     for i in range(g.size):
-        contact, s[i] = spring_jump(c[i] > 0, s[i], q[i], g[i], u, du, body)
+        contact, s[i] = spring_jump(c[i] > 0, s[i], q[i], g[i], u, du, material)
         c[i] = contact
 
 
 @_jit
-def edge(s, q, c, u, v, row, body):
+def edge(s, q, c, u, v, row, material):
     """The outermost spring in contact (-1: none), the depth of the profile at the edge, and b = E s + sum q there.
 
     An advancing edge is where the gap outside closes, a receding one where the load L[s] inside vanishes.
     """
-    E, eta = body[0], body[1]
+    E, eta = material[0], material[1]
     g = row[0]
     n = g.size
     i = n - 1
@@ -237,7 +237,7 @@ def edge(s, q, c, u, v, row, body):
         return i, g[i], b
     o = i + 1
     b_out = E * s[o] + np.sum(q[o]) if eta > 0.0 else 0.0
-    if v > height(0.0, s[o], q[o], body)[1]:  # advancing
+    if v > height(0.0, s[o], q[o], material)[1]:  # advancing
         gap = s[o] - (u - g[o])
         slope, b_slope = 1.0, 0.0
         if o + 1 < n:
@@ -248,7 +248,7 @@ def edge(s, q, c, u, v, row, body):
         g_e = min(max(g_e, g[i]), g[o])
         return i, g_e, b_out + b_slope * (g_e - g[o])
     rest = b + eta * v
-    fall = (E + np.sum(body[2])) if i == 0 else (E * s[i - 1] + np.sum(q[i - 1]) - b) / (g[i] - g[i - 1])
+    fall = (E + np.sum(material[2])) if i == 0 else (E * s[i - 1] + np.sum(q[i - 1]) - b) / (g[i] - g[i - 1])
     g_e = g[i] + rest / fall if fall > 0.0 else g[o]
     return i, min(max(g_e, g[i]), g[o]), -eta * v
 
@@ -275,11 +275,11 @@ def cell(b_0, b_1, g_0, g_1, x_0, x_1, area_0, area_1):
 
 
 @_jit
-def total(s, q, c, u, v, row, body):
+def total(s, q, c, u, v, row, material):
     """2 int b dx over the contact, its radius, and int_0^a g dx."""
-    E = body[0]
+    E = material[0]
     g, x, area, _ = row
-    i, g_e, b_e = edge(s, q, c, u, v, row, body)
+    i, g_e, b_e = edge(s, q, c, u, v, row, material)
     if i < 0:
         return 0.0, 0.0, 0.0
     a, area_e = at_depth(i, g_e, row)
@@ -312,14 +312,14 @@ def bend(b_0, b_1, b_2, g, x, area):
 
 
 @_jit
-def follow_depth(t, u, row, body, record):
+def follow_depth(t, u, row, material, record):
     """Force, contact radius and, on record, compressions and line loads, for depths u at instants t.
 
     A dashpot answers to the velocity, which changes at a sample: the answer there is the mean of both sides.
     """
-    g, E, eta = row[0], body[0], body[1]
+    g, E, eta = row[0], material[0], material[1]
     n, n_t = g.size, t.size
-    s, q, c = np.zeros(n), np.zeros((n, body[2].size)), np.zeros(n, np.uint8)
+    s, q, c = np.zeros(n), np.zeros((n, material[2].size)), np.zeros(n, np.uint8)
     F, radius = np.zeros(n_t), np.zeros(n_t)
     size = n_t if record else 0
     compressions, loads = np.zeros((size, n)), np.zeros((size, n))
@@ -329,20 +329,20 @@ def follow_depth(t, u, row, body, record):
         ends = k + 1 == n_t or t[k + 1] == t[k]
         v_next = 0.0 if ends else (u[k + 1] - u[k]) / (t[k + 1] - t[k])
         if sudden:
-            jump(s, q, c, u[k], rise, row, body)
+            jump(s, q, c, u[k], rise, row, material)
             v = v_next
             way = v if eta > 0.0 else rise
         else:
             v = rise / (t[k] - t[k - 1])
             way = v
-            step(s, q, c, t[k] - t[k - 1], u[k - 1], v, row, body)
+            step(s, q, c, t[k] - t[k - 1], u[k - 1], v, row, material)
         if eta > 0.0 and sudden:
-            step(s, q, c, 0.0, u[k], v, row, body)  # what the motion that begins here releases at once
-        B, a, _ = total(s, q, c, u[k], way, row, body)
+            step(s, q, c, 0.0, u[k], v, row, material)  # what the motion that begins here releases at once
+        B, a, _ = total(s, q, c, u[k], way, row, material)
         F[k], radius[k] = max(B + 2.0 * eta * v * a, 0.0), a
         if eta > 0.0 and not sudden and not ends:
-            step(s, q, c, 0.0, u[k], v_next, row, body)
-            B, a, _ = total(s, q, c, u[k], v_next, row, body)
+            step(s, q, c, 0.0, u[k], v_next, row, material)
+            B, a, _ = total(s, q, c, u[k], v_next, row, material)
             F[k] = 0.5 * (F[k] + max(B + 2.0 * eta * v_next * a, 0.0))
             radius[k] = 0.5 * (radius[k] + a)
             v = 0.5 * (v + v_next)
@@ -354,12 +354,12 @@ def follow_depth(t, u, row, body, record):
 
 
 @_jit
-def solve_depth(u_0, guess, dt, aim, scale, stride, old, new, row, body):
+def solve_depth(u_0, guess, dt, aim, scale, stride, old, new, row, material):
     """Depth at the end of a step (dt = 0: of a jump) at which the springs carry the force `aim`.
 
     Widens a bracket, then secants inside it; new holds the springs there. A dashpot acts with the mean velocity.
     """
-    eta = body[1]
+    eta = material[1]
     s, q, c = new
     u = guess
     low, high, f_low, f_high = 0.0, 0.0, 1.0, -1.0  # no bracket yet
@@ -368,11 +368,11 @@ def solve_depth(u_0, guess, dt, aim, scale, stride, old, new, row, body):
         s[:], q[:], c[:] = old[0], old[1], old[2]
         v = u - u_0
         if dt == 0.0:
-            jump(s, q, c, u, v, row, body)
+            jump(s, q, c, u, v, row, material)
         else:
             v /= dt
-            step(s, q, c, dt, u_0, v, row, body)
-        B, a, _ = total(s, q, c, u, v, row, body)
+            step(s, q, c, dt, u_0, v, row, material)
+        B, a, _ = total(s, q, c, u, v, row, material)
         f = B - aim + (2.0 * eta * v * a if dt > 0.0 else 0.0)
         if abs(f) <= 1e-12 * scale:
             break
@@ -398,10 +398,10 @@ def solve_depth(u_0, guess, dt, aim, scale, stride, old, new, row, body):
 
 
 @_jit
-def pressed(loads, F, now, row, body):
+def pressed(loads, F, now, row, material):
     """Line loads under the force F: dashpots, all with the same velocity, take up what the rest does not carry."""
     s, q, c = now
-    E, eta = body[0], body[1]
+    E, eta = material[0], material[1]
     x = row[1]
     b = E * s + q.sum(axis=1)
     low = high = 0.0
@@ -421,12 +421,12 @@ def pressed(loads, F, now, row, body):
 
 
 @_jit
-def follow_force(t, F, known, row, body, record):
+def follow_force(t, F, known, row, material, record):
     """Depth, contact radius and, at the instants on record, compressions and line loads, for normal forces F at t.
 
     known: the depths at the first instants, while the contact has only grown.
     """
-    g, E, eta, E_j = row[0], body[0], body[1], body[2]
+    g, E, eta, E_j = row[0], material[0], material[1], material[2]
     n, n_t = g.size, t.size
     old = (np.zeros(n), np.zeros((n, E_j.size)), np.zeros(n, np.uint8))
     new = (np.zeros(n), np.zeros((n, E_j.size)), np.zeros(n, np.uint8))
@@ -442,14 +442,14 @@ def follow_force(t, F, known, row, body, record):
         if k < known.size:
             u = known[k]
             if dt > 0.0:
-                step(old[0], old[1], old[2], dt, was, (u - was) / dt, row, body)
+                step(old[0], old[1], old[2], dt, was, (u - was) / dt, row, material)
             elif u > was:
-                jump(old[0], old[1], old[2], u, u - was, row, body)
+                jump(old[0], old[1], old[2], u, u - was, row, material)
         elif before == 0.0 and F[k] == 0.0:  # loose: every spring relaxes for itself
             for i in range(n):
                 old[2][i] = 0
                 if old[0][i] != 0.0 or np.any(old[1][i]):
-                    old[0][i] = move(False, dt, old[0][i], old[1][i], 0.0, body)
+                    old[0][i] = move(False, dt, old[0][i], old[1][i], 0.0, material)
             u = np.min(old[0] + g)
         elif dt > 0.0 or (F[k] != before and eta == 0.0):
             stiffness = (E + np.sum(E_j) + (eta / dt if dt > 0.0 else 0.0)) * 2.0 * max(a, 1e-6 * row[1][-1])
@@ -457,7 +457,7 @@ def follow_force(t, F, known, row, body, record):
                 1e-9 * g[-1], 1e-3 * abs(v * dt), 1e-3 * abs(F[k] - before) / stiffness, 1e-12 * most / stiffness
             )
             aim = max(F[k], 1e-11 * most)
-            u = solve_depth(was, was + v * dt, dt, aim, most, stride, old, new, row, body)
+            u = solve_depth(was, was + v * dt, dt, aim, most, stride, old, new, row, material)
             for i in range(n):
                 old[0][i], old[2][i] = new[0][i], new[2][i]
                 old[1][i] = new[1][i]
@@ -471,11 +471,11 @@ def follow_force(t, F, known, row, body, record):
                 u = np.min(old[0] + g)
         if dt > 0.0:
             v = (u - was) / dt
-        a = total(old[0], old[1], old[2], u, v if dt > 0.0 else u - was, row, body)[1] if F[k] > 0.0 else 0.0
+        a = total(old[0], old[1], old[2], u, v if dt > 0.0 else u - was, row, material)[1] if F[k] > 0.0 else 0.0
         depth[k], radius[k] = u, a
         if at < record.size and record[at] == k:
             compressions[at] = old[0]
             if F[k] > 0.0:
-                pressed(loads[at], F[k], old, row, body)
+                pressed(loads[at], F[k], old, row, material)
             at += 1
     return depth, radius, compressions, loads

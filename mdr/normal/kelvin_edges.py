@@ -1,12 +1,12 @@
-"""The unilateral normal motion of one spring under u_z0 + du_z cos(phase): when it leaves and when it touches again.
+"""Unilateral motion of one Kelvin spring under u_z0 + du_z cos(phase): when it leaves and when it touches again.
 
-A spring of gap c (the depth of its foot below the mean surface position, over du_z) presses by w = cos(phase) - c
-while in contact. Its force w + T w' vanishes while it is still compressed; it then relaxes like exp(-phase/T) and
+A spring of gap c (the depth of its foot below the mean surface position, over du_z) has the compression w = cos(phase)
+- c while in contact. Its force w + T w' vanishes while it is still compressed. It then relaxes like exp(-phase/T), and
 touches again where w reaches this relaxed surface, not zero. Both edges of an array follow:
 
-* leaving, c = cos(phase) - T sin(phase), which is sqrt(1 + T²) cos(phase + arctan T), from phase 0, where every spring
-  that ever touches is in contact, to pi - arctan T, where only those with c <= -sqrt(1 + T²) are;
-* touching, on to 2 pi: the spring that comes back at this phase left at an earlier one, `off`, with
+* leaving, c = cos(phase) - T sin(phase), which is sqrt(1 + T²) cos(phase + arctan T). It begins at phase 0, where every
+  spring that ever touches is in contact, and ends at pi - arctan T, where only those with c <= -sqrt(1 + T²) are;
+* touching, from there to 2 pi. The spring that touches at this phase left at an earlier one, `off`, with
 
       T sin(off) [1 - exp(-(phase - off)/T)] = cos(off) - cos(phase).
 
@@ -28,7 +28,7 @@ def turning_phase(T: float) -> float:
 
 
 def kept_gap(T: float) -> float:
-    """Gap of the last spring that never leaves, -sqrt(1 + T²): Eq. (5) spring by spring."""
+    """Gap of the shallowest spring that never leaves, -sqrt(1 + T²): Eq. (5) for each spring."""
     return -float(np.hypot(1, T))
 
 
@@ -68,14 +68,14 @@ def edge_rate(phase: Array, gap: Array, T: float) -> Array:
 
 
 def _ahead(flight: Array | float, phase: Array | float, T: float) -> Array:
-    """Height of the relaxed surface over the indenter at `phase` for a spring that left so long before."""
+    """Height of the relaxed surface above the indenter at `phase`, for a spring that left at phase - flight."""
     off = np.asarray(phase - flight)
     rise = 2 * np.sin(off + flight / 2) * np.sin(flight / 2)  # cos(off) - cos(phase) without cancellation
     return np.asarray(rise + T * np.sin(off) * np.expm1(-flight / T))
 
 
 def _flight(phase: Array, T: float) -> Array:
-    """How long the spring that touches at `phase` was free: Newton from a table."""
+    """Duration, in phase, for which the spring that touches at `phase` was free, by Newton's method from a table."""
     flights, phases = _flights(T)
     flight = np.interp(phase, phases, flights)
     turn = turning_phase(T)
@@ -90,7 +90,7 @@ def _flight(phase: Array, T: float) -> Array:
 
 @lru_cache(maxsize=64)
 def _flights(T: float) -> tuple[Array, Array]:
-    """Times of flight and the phases at which they end, which are a closed form of them."""
+    """Table of free durations and of the phases at which they end, in closed form."""
     flight = np.concatenate([min(T, 1) * np.geomspace(1e-2, 1, 200)[:-1], np.linspace(min(T, 1), 2 * np.pi, 400)])
     lag = -T * np.expm1(-flight / T)
     across, along = lag * np.sin(flight) - 2 * np.sin(flight / 2) ** 2, lag * np.cos(flight) - np.sin(flight)

@@ -55,13 +55,47 @@ class TangentialLoop(ArrayRecord):
 
 
 def partial_slip(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: ArrayLike) -> PartialSlip:
-    """Pull an indenter pressed to the fixed depth u_z0 [m] sideways by u_x >= 0 [m], each from rest, monotonically.
+    """Tangential force [N] and stick radius [m] of an indenter at a fixed depth that is pulled sideways by u_x.
 
-    F_x and stick_radius come in the shape of u_x, F_z is one number. The material acts with its long-time moduli.
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space. It acts with its long-time moduli: the pull is slow.
+    mu_0 : float
+        Local coefficient of friction [-].
+    u_z0 : float
+        Depth [m].
+    u_x : array_like of float
+        Displacements [m], zero or above. Each is reached from rest, monotonically.
 
-    Raises TypeError for a wrong kind of input; ValueError for NaN, for u_x < 0 (after a turn see tangential_loop), for
-    mu_0 or u_z0 <= 0, a material that flows (E_star = 0), and a shape that ends before the depth or is so hollow that
-    a ring would stick.
+    Returns
+    -------
+    PartialSlip
+        `F_x` and `stick_radius` in the shape of u_x; `F_z` is one number.
+
+    Raises
+    ------
+    TypeError
+        For a wrong kind of input.
+    ValueError
+        For NaN, for u_x < 0 (after a turn see `tangential_loop`), for mu_0 or u_z0 <= 0, a material that flows (E_star
+        = 0), and a shape that ends before the depth or is so hollow that a ring would stick.
+
+    Notes
+    -----
+    Cattaneo (1938) and Mindlin (1949) for the sphere; for every shape Popov and Heß (2015) ::
+
+        F_x = mu_0 [F_N(d) - F_N(d_c)],    g(c) = d_c = d - u_x/(mu_0 kappa)
+
+    Examples
+    --------
+    >>> import mdr
+    >>> rubber = mdr.Elastic(E=3e6, nu=0.5)
+    >>> pulled = mdr.partial_slip(mdr.Paraboloid(R=5e-3), rubber, mu_0=0.4, u_z0=20e-6, u_x=[4e-6, 2e-5])
+    >>> pulled.F_x.round(5), pulled.stick_radius.round(5)
+    (array([0.00615, 0.01349]), array([0.00026, 0.     ]))
     """
     mu_0, u_z0 = _checked(indenter, material, mu_0, u_z0)
     u_x = finite_array("u_x", u_x, "m")
@@ -75,9 +109,37 @@ def partial_slip(indenter: Indenter, material: Material, mu_0: float, u_z0: floa
 def tangential_loop(
     indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: float, *, n: int = 201
 ) -> TangentialLoop:
-    """Move an indenter pressed to the fixed depth u_z0 [m] to and fro between u_x and -u_x [m], by Masing's rule.
+    """Hysteresis loop of the tangential force [N] and its energy loss [J], at a fixed depth.
 
-    n instants on each way. Raises as partial_slip.
+    Parameters
+    ----------
+    indenter, material, mu_0, u_z0
+        As in `partial_slip`.
+    u_x : float
+        Amplitude U [m]: the indenter moves to and fro between U and -U.
+    n : int
+        Instants on each way.
+
+    Returns
+    -------
+    TangentialLoop
+        One turn from U to -U and back, arrays of shape (2 n - 1,), and its loss.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `partial_slip`.
+
+    Notes
+    -----
+    Masing's rule: after a turn of the motion each spring answers with twice its first force to twice its first stretch.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> loop = mdr.tangential_loop(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), mu_0=0.4, u_z0=20e-6, u_x=4e-6)
+    >>> print(f"{loop.loss:.3g} J")
+    3.29e-09 J
     """
     mu_0, u_z0 = _checked(indenter, material, mu_0, u_z0)
     U, n = positive("u_x", u_x, "amplitude in m"), count("n", n, 2)

@@ -38,9 +38,24 @@ class SpringArray(ArrayRecord):
 
     @classmethod
     def of(cls, case: SlidingContact, n_springs: int = 512) -> SpringArray:
-        """The springs of a sliding contact.
+        """The springs of a sliding contact, placed finely where they touch and leave.
 
-        Raises ValueError for n_springs below 16.
+        Parameters
+        ----------
+        case : SlidingContact
+            The contact.
+        n_springs : int
+            Springs at x > 0, at least 16; each stands for the pair at +x and -x.
+
+        Returns
+        -------
+        SpringArray
+            The springs, from the centre outwards.
+
+        Raises
+        ------
+        ValueError
+            For fewer than 16 springs.
         """
         case, n_springs = resolved(case), count("n_springs", n_springs, MIN_SPRINGS)
         x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs)
@@ -57,9 +72,35 @@ class SpringArray(ArrayRecord):
         return self.G_star * self.width
 
     def normal_stiffness(self, u_z: float, u_z0: float) -> float:
-        """Stiffness [N/m] of the springs that reach the surface at depth u_z [m]; u_z0 is the mean depth."""
+        """Stiffness [N/m] of the springs that reach the surface.
+
+        Parameters
+        ----------
+        u_z : float
+            Depth of the indenter [m].
+        u_z0 : float
+            Mean depth [m], from which the gaps count.
+
+        Returns
+        -------
+        float
+            Normal stiffness [N/m].
+        """
         return float(np.sum(self.dk_z[self.gap < u_z - u_z0]))
 
     def normal_force(self, u_z: float, u_z0: float) -> float:
-        """Elastic force [N] of the array at depth u_z [m]; u_z0 is the mean depth."""
+        """Elastic force [N] of the springs.
+
+        Parameters
+        ----------
+        u_z : float
+            Depth of the indenter [m].
+        u_z0 : float
+            Mean depth [m], from which the gaps count.
+
+        Returns
+        -------
+        float
+            Normal force [N].
+        """
         return float(np.sum(self.dk_z * np.maximum(u_z - u_z0 - self.gap, 0)))

@@ -1,4 +1,4 @@
-"""A recorded run as a moving picture: springs that stick, slip and leave, and the force they add up to."""
+"""Animated picture of a recorded run: springs that stick, slip and leave contact, and their tangential force."""
 
 from __future__ import annotations
 
@@ -35,12 +35,33 @@ class Gif:
 
 
 def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title: str | None = None) -> Gif:
-    """Write an animated GIF of the recorded periods of a run, slide(..., record=1); a notebook shows what is returned.
+    """Write an animated GIF of the recorded periods of a run.
 
-    Above, seen from the indenter, its image g(x) goes up and down on springs that stand on the ground. Their feet lag
-    behind as far as they are sheared (exaggerated), and their colour is their mode: a spring that sticks is sheared
-    further by the pull, one that slips holds the limit. Below, the tangential force and its limit mu_0 F_z, the instant
-    shown marked. `frames` is the number of pictures of one period, `title` what stands above them.
+    Above, seen from the indenter: its image g(x) goes up and down on springs that stand on the ground. Their feet lag
+    behind as far as they are sheared (exaggerated). Their colour is their state: a spring that sticks is sheared
+    further by the pull, one that slips holds the limit. Below: the tangential force and its limit mu_0 F_z, with the
+    instant shown.
+
+    Parameters
+    ----------
+    run : SlidingRun
+        A run made with `record=1` or more.
+    path : str or path-like
+        The file, ending in .gif.
+    frames : int
+        Number of pictures of one period.
+    title : str, optional
+        What stands above them. None: velocity and friction.
+
+    Returns
+    -------
+    Gif
+        The file; a notebook shows it.
+
+    Raises
+    ------
+    ValueError
+        For a run that kept no arrays, or another ending of the path.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

@@ -47,9 +47,23 @@ def style() -> AbstractContextManager[None]:
 
 
 def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | None = None) -> "Axes":
-    """COF over mu_0 against v_0 over v_c, for one CofCurve or several; hollow points are not settled.
+    """Draw COF over mu_0 against v_0 over v_c, for one CofCurve or several; hollow points have not settled.
 
-    Where a curve has no finite v_c (resonance), all are drawn over v_0 itself.
+    Where a curve has no finite v_c (resonance), all are drawn against v_0 itself.
+
+    Parameters
+    ----------
+    curves : CofCurve or sequence of CofCurve
+        What is drawn.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw. None makes a new figure.
+    labels : sequence of str, optional
+        One name for each curve.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where it was drawn.
     """
     curves = [curves] if hasattr(curves, "cof") else list(curves)
     if labels is not None and len(labels) != len(curves):
@@ -71,7 +85,20 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
 
 
 def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
-    """Measured coefficients of friction with their errors, and the curve of the fitted contact through them."""
+    """Draw measured coefficients of friction with their errors, and the curve of the fitted contact.
+
+    Parameters
+    ----------
+    fitted : Fit
+        What `fit` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw. None makes a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where it was drawn.
+    """
     data, curve = fitted.data, fitted.curve
     factor, unit = prefix(data.v_0, "m/s")
     with style():
@@ -85,7 +112,20 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
 
 
 def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
-    """Which mode every spring is in: position against time, coloured by `run.state`."""
+    """Draw the mode of every spring, free, stick or slip, over time and position.
+
+    Parameters
+    ----------
+    run : SlidingRun
+        A run made with `record=1` or more.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw. None makes a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where it was drawn.
+    """
     with style():
         ax = axes_of(ax)
         _draw_map(ax, run, prefix(_recorded(run).x, "m"))
@@ -150,9 +190,19 @@ def plot_run(run: Any) -> "Figure":
 
 
 def plot_traces(run: Any) -> "Figure":
-    """Show forces, displacements seen from the pulled end, and foot-point velocities against time.
+    """Draw forces, displacements relative to the pulled end, and velocities of the foot points over time.
 
-    A foot point whose velocity is zero sticks; one that is off the plane is left out.
+    A foot point whose velocity is zero sticks. One that is off the plane is left out.
+
+    Parameters
+    ----------
+    run : SlidingRun
+        A run made with `record=1` or more.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
     """
     import matplotlib.pyplot as plt
 
@@ -170,10 +220,23 @@ def plot_traces(run: Any) -> "Figure":
 
 
 def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLike | None" = None) -> "Figure":
-    """Show the shape f(r) and its image g(x) pressed to depth d into its springs, with the contact radius.
+    """Draw the shape f(r) and its image g(x), pressed to the depth d into its springs, with the contact radius.
 
-    `springs` gives their positions x ≥ 0 (or a record with `.x`); otherwise `n_springs` stand evenly on both
-    sides. Heights are exaggerated: the two axes have their own scales.
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    d : float
+        Depth [m].
+    n_springs : int
+        Number of springs, evenly on both sides.
+    springs : array_like of float, optional
+        Positions x >= 0 of the springs [m], or a record with `.x`, in the place of n_springs.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure. Heights are exaggerated: the two axes have their own scales.
     """
     import matplotlib.pyplot as plt
 
@@ -241,7 +304,7 @@ def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> None:
     every = -(-len(t) // _MAX_COLUMNS)
     ax.pcolormesh(
         edges_of(t[::every]),
-        _cells(np.asarray(run.x)[order]) * unit[0],
+        _boundaries(np.asarray(run.x)[order]) * unit[0],
         np.asarray(run.state)[::every, order].T,
         cmap=ListedColormap([colour for _, colour in MODES]),
         norm=BoundaryNorm(np.arange(5) - 0.5, 4),
@@ -259,7 +322,7 @@ def mode_patches(*states: Any) -> list[Any]:
 
 
 def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
-    """Body and foot points less v_0 t, each about its own mean, so that only the oscillation is left."""
+    """Draw body and foot points less v_0 t, each about its own mean: only the oscillation is left."""
     moved = np.asarray(run.v_0 * run.t)
     lines: list[tuple[Any, dict[str, Any]]] = [(run.u_x - moved, {"label": "body", "color": "k"})]
     lines += [(foot - moved, look) for foot, look in _feet(run)]
@@ -385,7 +448,7 @@ def edges_of(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
     return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])
 
 
-def _cells(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
+def _boundaries(centres: "NDArray[np.float64]") -> "NDArray[np.float64]":
     """Boundaries (n + 1,) of adjoining cells from 0 on with these centres (n,); half-way between if none fit."""
     edges = np.zeros(len(centres) + 1)
     for i, centre in enumerate(centres):

@@ -1,4 +1,4 @@
-"""Pictures of studies: a map over two axes, a family of curves, and small multiples of either.
+"""Figures of studies: a map over two axes, a family of curves, and small multiples of either.
 
 A study of more axes is cut down by `Study.select` first. What failed or is missing is hatched, what did not settle is
 dotted or hollow, and both are named in the legend, so that no point hides. Axes whose values grow by a constant factor

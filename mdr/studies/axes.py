@@ -92,11 +92,11 @@ class Axis:
         return f"{numbers.size} values from {numbers.min():.6g} to {numbers.max():.6g}"
 
     def told(self, index: int) -> str:
-        """One of its values as text."""
+        """One value of the axis as text."""
         return repr(self[index]) if self.is_numeric else self.labels[index]
 
     def index(self, value: Any) -> int:
-        """Where a value stands; ValueError for one that is not there, with the nearest."""
+        """Position of a value on the axis; ValueError, with the nearest value, if it is not there."""
         if not self.is_numeric:
             return self._index_of_label(value)
         try:
@@ -132,12 +132,12 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
 
 
 def label_of(value: Any) -> str:
-    """What a value is called that is no number: alike in every run."""
+    """Label of a value that is no number, the same in every run."""
     return one_line(without_addresses(repr(value)), 160)
 
 
 def without_addresses(text: str) -> str:
-    """A text without what Python says of an object's place in memory."""
+    """A text without addresses in memory, which Python prints for some objects."""
     return _ADDRESS.sub("", text)
 
 
@@ -197,7 +197,7 @@ def _records(slot: str, values: Any) -> tuple[Any, ...]:
 
 
 def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
-    """Labels, each of its own; ValueError for a value that is there twice."""
+    """A label for each value, all different; ValueError for a value that is given twice."""
     labels: list[str] = []
     seen: dict[str, list[Any]] = {}
     for value in values:

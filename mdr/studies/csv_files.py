@@ -1,4 +1,4 @@
-"""A study as a table: one row a point, the axes first, then the quantities, status and reason."""
+"""A study as a CSV table, one row for each point: the axes, the quantities, status and reason."""
 
 from __future__ import annotations
 

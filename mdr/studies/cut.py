@@ -1,4 +1,4 @@
-"""How the work of a study is cut into chunks: runs of consecutive units, each long enough to be worth a file."""
+"""How the work of a study is cut into chunks: consecutive units, enough of them to be worth a file."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ GOLDEN = 0.6180339887498949
 
 @dataclass(frozen=True)
 class Cut:
-    """Chunks of equally many units, but for the last."""
+    """Chunks of equally many units; the last may have fewer."""
 
     n_units: int
     units_per_chunk: int
 
     @property
     def n_chunks(self) -> int:
-        """How many chunks there are."""
+        """Number of chunks."""
         return -(-self.n_units // self.units_per_chunk)
 
     def units(self, chunk: int) -> tuple[int, int]:
-        """First unit of a chunk, and the first that is no longer of it."""
+        """First unit of a chunk, and the first unit after it."""
         start = chunk * self.units_per_chunk
         return start, min(start + self.units_per_chunk, self.n_units)
 
     @classmethod
     def in_memory(cls, work: Work) -> Cut:
-        """Chunks that only have to share the work evenly."""
+        """Chunks that share the work evenly among workers, for a study without a store."""
         n = work.layout.n_units
         return cls(n, max(1, n // IN_MEMORY))
 
     @classmethod
     def timed(cls, work: Work, seconds: float) -> Cut:
-        """Chunks of about so many seconds, as some units spread over the grid take."""
+        """Chunks of about so many seconds, estimated from trial units spread over the grid."""
         n = work.layout.n_units
         most = max(1, n // LEAST_CHUNKS)
         times = list(_times(work)) if most > 1 else [seconds]
@@ -52,7 +52,7 @@ class Cut:
 
 
 def _times(work: Work) -> Iterator[float]:
-    """How long units take [s], once the kernels are compiled."""
+    """Computing times of trial units [s], after compilation."""
     trials = [int((0.5 + k * GOLDEN) % 1 * work.layout.n_units) for k in range(MOST_TRIALS)]
     coarse = replace(work, n_springs=COARSE, steps_per_period=COARSE)
     compute(coarse, trials[0], trials[0] + 1)

@@ -1,4 +1,4 @@
-"""A study before its values: its axes and quantities, and what it was made of."""
+"""A study without its values: axes, quantities, and the case, version and identity it was made of."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mdr.tools import version
 
 @dataclass(frozen=True)
 class Column:
-    """What the values of one quantity are."""
+    """Name, unit and meaning of one quantity."""
 
     name: str
     unit: str  #: "-" for a pure number
@@ -32,7 +32,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Frame:
-    """A study before its values."""
+    """A study without its values."""
 
     grid: tuple[Axis, ...]  #: in the order of the arrays' axes
     columns: tuple[Column, ...]

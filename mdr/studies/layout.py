@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Layout:
-    """How the points of a grid follow one another."""
+    """Order of the points of a grid."""
 
     shape: tuple[int, ...]  #: how many values each axis has, in the order of the user
     velocity: int | None  #: which of the axes is the velocity
@@ -24,27 +24,27 @@ class Layout:
 
     @property
     def of_cases(self) -> tuple[int, ...]:
-        """The shape without the velocity."""
+        """Shape of the grid without the velocity."""
         return tuple(n for i, n in enumerate(self.shape) if i != self.velocity)
 
     @property
     def n_velocities(self) -> int:
-        """How many points each case has."""
+        """Number of points of each case."""
         return 1 if self.velocity is None else self.shape[self.velocity]
 
     @property
     def n_points(self) -> int:
-        """How many points there are."""
+        """Number of points."""
         return prod(self.shape)
 
     @property
     def blocks(self) -> int:
-        """How many units each case has."""
+        """Number of units of each case."""
         return -(-self.n_velocities // self.block)
 
     @property
     def n_units(self) -> int:
-        """How many units there are."""
+        """Number of units."""
         return prod(self.of_cases) * self.blocks
 
     def first_point(self, unit: int) -> int:
@@ -53,7 +53,7 @@ class Layout:
         return case * self.n_velocities + block * self.block
 
     def case(self, unit: int) -> tuple[int, ...]:
-        """Where the case of a unit stands on each of the axes but the velocity."""
+        """Index of the case of a unit along each axis but the velocity."""
         return tuple(int(i) for i in np.unravel_index(unit // self.blocks, self.of_cases)) if self.of_cases else ()
 
     def velocities(self, unit: int) -> slice:

@@ -1,4 +1,4 @@
-"""From consecutive units of work to the values of their points, with a status and a reason for each."""
+"""Values of the points of consecutive units, with a status and a reason for each."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Status(IntEnum):
 
 
 class Ended(Exception):
-    """The sweep is to end before its work is done."""
+    """Raised to end a sweep before its work is done."""
 
 
 @dataclass(frozen=True, eq=False)

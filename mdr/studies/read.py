@@ -15,9 +15,32 @@ from mdr.studies.study import Study
 
 
 def read_study(path: str | PathLike[str]) -> Study:
-    """The study in a NetCDF file or in the folder of a store, with what is there of it; records come back as labels.
+    """A study from its NetCDF file or from the folder of its store, finished or not.
 
-    Raises StudyError for what is neither.
+    Parameters
+    ----------
+    path : str or path-like
+        A NetCDF file, or the folder that `sweep` was given as store.
+
+    Returns
+    -------
+    Study
+        With what is there of it. Records among the axes come back as their labels.
+
+    Raises
+    ------
+    StudyError
+        For what is neither.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> mdr.sweep(case, {"alpha": [0.05, 0.1]}, quantities=["v_c"]).to_netcdf("study.nc")
+    >>> mdr.read_study("study.nc")["v_c"].round(5)
+    array([0.00018, 0.00036])
     """
     place = Path(path)
     return _read_store(Store(place)) if place.is_dir() else _read_file(place)

@@ -1,4 +1,4 @@
-"""The points of a study while they come in, in the order of the work."""
+"""The points of a study while they are computed, in the order of the work."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mdr.tools.progress import in_words
 
 
 class Results:
-    """All points, missing at first; parts are put where they belong, in any order."""
+    """All points. They are missing at first; computed parts are put in their place, in any order."""
 
     def __init__(self, layout: Layout, n_quantities: int) -> None:
         self.layout = layout
@@ -40,13 +40,13 @@ class Results:
         self.slow += part.slow
 
     def tell_slow(self) -> None:
-        """Say on standard error how many cases took how long, if any took long."""
+        """Print on standard error how many cases took long, and how long."""
         if self.slow:
             most = in_words(max(self.slow))
             cases = "1 case" if len(self.slow) == 1 else f"{len(self.slow)} cases"
             print(f"sweep: {cases} took more than {SLOW:g} s, at most {most}", file=sys.stderr)
 
     def study(self, frame: Frame) -> Study:
-        """The study of what there is, its arrays in the order of the axes."""
+        """The study of the points that are there, its arrays in the order of the axes."""
         place = self.layout.in_place
         return study_of(frame, place(self.values), place(self.status), place(self.reason), tuple(self.reasons))

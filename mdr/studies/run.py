@@ -1,4 +1,4 @@
-"""Chunks on an executor: threads of one's own, or any executor of concurrent.futures that the user brings."""
+"""Chunks computed by an executor: threads, or any executor of concurrent.futures that the user gives."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MOST_IN_FLIGHT = 1024  #: chunks that an executor of the user is given at a time
 
 
 class WorkersLost(Exception):
-    """An executor has lost its processes and cannot go on."""
+    """Raised where an executor has lost its processes and cannot go on."""
 
 
 def run(work: Work, cut: Cut, chunks: Iterable[int], executor: Any, take: Callable[[int, Part], None]) -> None:

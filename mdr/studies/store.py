@@ -48,13 +48,13 @@ class Store:
 
     @property
     def kept(self) -> str:
-        """How many chunks are there, in words; empty before they are counted."""
+        """Number of chunks that are there, in words; empty before they are counted."""
         return f"{self.n_kept} of {self.n_chunks} chunks are safe in {self.folder}" if self.n_chunks else ""
 
     # --- the study as a whole ---
 
     def open(self, head: Mapping[str, Any]) -> None:
-        """Make the store of a study, or find that it is of this very study."""
+        """Make the store of a study; if there is one, check that it is of the same study."""
         with self._told("study.json"):
             if self.folder.exists() and not self.folder.is_dir():
                 raise StudyError(f"{self.folder}: is a file; give a folder for the store")
@@ -111,7 +111,7 @@ class Store:
     # --- its chunks ---
 
     def require_writable(self) -> None:
-        """Find out before the work whether its outcome can be kept."""
+        """Check before the work that its outcome can be written."""
         with self._told("chunks"):
             self.chunks.mkdir(exist_ok=True)
             write_whole(self.chunks / "plan.try", b"")
@@ -132,7 +132,7 @@ class Store:
             raise StudyError(message) from None
 
     def settle(self, plan: Mapping[str, int]) -> dict[str, int]:
-        """Cut the work so, unless another process has cut it meanwhile; how it is cut."""
+        """Write down how the work is cut, unless another process has done so meanwhile; returns the cut that holds."""
         with self._told("plan.json"):
             write_once(self.chunks / "plan.json", json.dumps(dict(plan)).encode("ascii"))
         return self.plan() or dict(plan)

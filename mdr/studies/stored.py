@@ -1,4 +1,4 @@
-"""One call of sweep() on a store: find what is there, compute what is missing, merge once all is there."""
+"""One call of sweep() with a store: find what is there, compute what is missing, merge once all is there."""
 
 from __future__ import annotations
 

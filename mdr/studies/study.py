@@ -1,4 +1,4 @@
-"""A finished study, or what there is of one: values with named axes, units, and the fate of every point."""
+"""A study, finished or not: values with named axes, units, and the status of every point."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class Study(ArrayRecord):
     """
 
     frame: Frame
-    values: Array  #: (n_quantities, *shape), NaN where there is none
-    status: NDArray[np.uint8]  #: (*shape,), see `Status`: 0 done, 1 unsettled, 2 failed, 3 missing
-    reason: NDArray[np.int32]  #: (*shape,), which of the reasons
+    values: Array  #: of shape ``(n_quantities, *shape)``, NaN where there is none
+    status: NDArray[np.uint8]  #: of shape ``(*shape,)``, see `Status`: 0 done, 1 unsettled, 2 failed, 3 missing
+    reason: NDArray[np.int32]  #: of shape ``(*shape,)``, which of the reasons
     reasons: tuple[str, ...] = ("",)  #: distinct, in the order of the points; the first is "", none
 
     def __getitem__(self, name: str) -> Array:
@@ -68,7 +68,7 @@ class Study(ArrayRecord):
 
     @property
     def why(self) -> NDArray[np.object_]:
-        """(*shape,) why a point failed or did not settle, "" where nothing is to be said."""
+        """Why a point failed or did not settle, "" where there is nothing to say; of shape ``(*shape,)``."""
         return np.array(self.reasons, dtype=object)[self.reason]
 
     @property
@@ -87,13 +87,39 @@ class Study(ArrayRecord):
         return self.frame.case
 
     def count(self, status: Status) -> int:
-        """How many points ended so."""
+        """Number of points that ended in one way.
+
+        Parameters
+        ----------
+        status : Status
+            DONE, UNSETTLED, FAILED or MISSING.
+
+        Returns
+        -------
+        int
+            How many.
+        """
         return int(np.count_nonzero(self.status == status))
 
     def select(self, values: Mapping[str, Any]) -> Study:
-        """The part of the study at these values, {path: value}, each a value of its axis, which it then lacks.
+        """The part of the study at given values of some of its axes.
 
-        Raises KeyError for a path that is no axis, ValueError for a value that is not there.
+        Parameters
+        ----------
+        values : mapping of str to object
+            One value for each path, {path: value}. Each must be a value of its axis.
+
+        Returns
+        -------
+        Study
+            Without these axes.
+
+        Raises
+        ------
+        KeyError
+            For a path that is no axis.
+        ValueError
+            For a value that is not there.
         """
         if not isinstance(values, Mapping):
             raise TypeError(f"values must map paths to values, got {short(repr(values))}")
@@ -107,45 +133,123 @@ class Study(ArrayRecord):
         return study_of(frame, self.values[(slice(None), *where)], self.status[where], self.reason[where], self.reasons)
 
     def to_netcdf(self, path: str | PathLike[str]) -> None:
-        """Write NetCDF (classic, 64-bit offsets), with labelled axes, units, status and reasons."""
+        """Write NetCDF (classic, 64-bit offsets), with labelled axes, units, status and reasons.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+        """
         from mdr.studies.netcdf import packed
         from mdr.tools.atomic_write import write_whole
 
         write_whole(Path(path), packed(self))
 
     def to_csv(self, path: str | PathLike[str]) -> None:
-        """Write one row a point, with units in the header."""
+        """Write CSV, one row for each point, with units in the header.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+        """
         from mdr.studies.csv_files import table
         from mdr.tools.atomic_write import write_whole
 
         write_whole(Path(path), table(self).encode("utf-8"))
 
     def to_xarray(self) -> Any:
-        """The study as an xarray.Dataset, as xarray opens the NetCDF file; needs the extra `xarray`."""
+        """The study as an xarray.Dataset, as xarray opens the NetCDF file; needs the extra `xarray`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Quantities with labelled axes and units.
+        """
         from mdr.studies.netcdf import to_xarray
 
         return to_xarray(self)
 
     def plot(self, quantity: str | None = None) -> Any:
-        """Draw the picture that suits the axes; see `mdr.plots.studies.plot`."""
+        """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
+
+        Parameters
+        ----------
+        quantity : str, optional
+            What is drawn. None: the first quantity.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
         from mdr.plots.studies import plot
 
         return plot(self, quantity)
 
     def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
-        """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`."""
+        """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`.
+
+        Parameters
+        ----------
+        quantity : str
+            What is drawn.
+        x : str, optional
+            Path of the axis across. None: the last one.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw. None makes a new figure.
+        **knobs
+            As in `mdr.plots.studies.plot_map`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it was drawn.
+        """
         from mdr.plots.studies import plot_map
 
         return plot_map(self, quantity, x, ax, **knobs)
 
     def plot_curves(self, quantity: str, x: str | None = None, ax: Any = None) -> Any:
-        """Draw a family of curves; see `mdr.plots.studies.plot_curves`."""
+        """Draw a family of curves; see `mdr.plots.studies.plot_curves`.
+
+        Parameters
+        ----------
+        quantity : str
+            What is drawn.
+        x : str, optional
+            Path of the axis across. None: the last one.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw. None makes a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it was drawn.
+        """
         from mdr.plots.studies import plot_curves
 
         return plot_curves(self, quantity, x, ax)
 
     def plot_multiples(self, quantity: str, over: str, x: str | None = None, **knobs: Any) -> Any:
-        """Draw a map or a family for each value of an axis; see `mdr.plots.studies.plot_multiples`."""
+        """Draw a map or a family of curves for each value of an axis; see `mdr.plots.studies.plot_multiples`.
+
+        Parameters
+        ----------
+        quantity : str
+            What is drawn.
+        over : str
+            Path of the axis that has one picture for each of its values.
+        x : str, optional
+            Path of the axis across. None: the last one.
+        **knobs
+            As in `mdr.plots.studies.plot_multiples`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
         from mdr.plots.studies import plot_multiples
 
         return plot_multiples(self, quantity, over, x, **knobs)
@@ -161,7 +265,7 @@ class Study(ArrayRecord):
         return "\n".join([*lines, f"  {', '.join(counts)}", *self._most_frequent()])
 
     def _most_frequent(self) -> list[str]:
-        """The reasons that most points share, but for the numbers in them."""
+        """Lines with the most frequent reasons; reasons that differ in their numbers alone count as one."""
         codes, counts = np.unique(self.reason[self.reason > 0], return_counts=True)
         kinds: dict[str, tuple[int, str]] = {}
         for code, count in zip(codes.tolist(), counts.tolist(), strict=True):

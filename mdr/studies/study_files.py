@@ -150,7 +150,7 @@ def _range(path: str, written: Mapping[str, Any]) -> tuple[Any, list[str]]:
 
 
 def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
-    """Each axis beside those of records, then all of them together."""
+    """Faults of each axis together with those of records, then of all axes together."""
     records = {path: axes[path] for path in axes if path in KINDS}
     alone = [_tried(read_axes, case, {**records, path: axes[path]}) for path in axes]
     found = list(dict.fromkeys(fault for faults in alone for fault in faults))
@@ -158,7 +158,7 @@ def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
 
 
 def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[str]:
-    """Faults of the axes that show although the case is refused: of all but those that set what is wrong in it."""
+    """Faults of the axes although the case is refused: of those axes that do not set what is wrong in the case."""
     case, unsound = stand_in(content)
     slots = {path: GROUPS.get(path, path).partition(".")[0] for path in axes}
     seen = {path: axes[path] for path, slot in slots.items() if slot not in unsound}
@@ -166,7 +166,7 @@ def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[
 
 
 def _faults_of_names(quantities: Any) -> list[str]:
-    """Each quantity for itself, as if there were a velocity."""
+    """Faults of each quantity, as if there were an axis of velocity."""
     if not isinstance(quantities, list):
         return [f'quantities must be a list of names, ["cof"], got {short(str(quantities))}']
     return [fault for one in quantities for fault in _tried(read_quantities, [one], ["v_0"])]

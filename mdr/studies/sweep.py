@@ -41,20 +41,55 @@ def sweep(
     n_springs: int | None = None,
     steps_per_period: int | None = None,
 ) -> Study:
-    """Compute quantities over a grid of cases; returns a Study.
+    """Quantities, each in its unit, over a grid of cases: a parameter study.
 
-    axes: values by path, as `mdr.studies.axes` lists them: a field ("oscillation.u_z0", "indenter"), a dimensionless
-    group ("alpha", "T", "k_x/k_xc", "omega_0/omega") or the velocity ("v_0" in m/s, "v_0/v_c"). quantities: names of
-    `mdr.studies.CATALOGUE`, or Quantity records. A point that cannot be computed is NaN, with its reason.
+    It is computed in parallel, and goes on where it was interrupted.
 
-    store: a folder that finished chunks of about chunk_seconds [s] are kept in; the same call, after whatever end, goes
-    on from there. shard: "k/n" or (k, n), computes only every n-th chunk, from the k-th on, k = 1 ... n; the points of
-    the others are missing until all are in the store. executor: None takes a thread a core, and any
-    concurrent.futures.Executor will do, of processes that are spawned, or of a cluster (Dask: client.get_executor()).
-    n_springs, steps_per_period: of every run, as `slide` takes them. No value depends on store, shard or executor.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact that the axes vary.
+    axes : mapping of str to array_like
+        Values by path (`mdr.studies.axes`): a field ("oscillation.u_z0", "indenter"), a dimensionless group ("alpha",
+        "T", "k_x/k_xc", "omega_0/omega") or the velocity ("v_0" in m/s, "v_0/v_c").
+    store : str or path-like, optional
+        Folder that finished chunks are kept in. The same call goes on from there, however the last one ended. None
+        keeps the study in memory.
+    executor : concurrent.futures.Executor, optional
+        Who computes: None takes one thread for each core. Any Executor will do, of processes that are spawned, or of a
+        cluster (Dask: `client.get_executor()`).
+    quantities : iterable of str or Quantity
+        Names of `mdr.studies.CATALOGUE`, or records of your own.
+    chunk_seconds : float
+        Length of a chunk of work [s].
+    shard : str or tuple of int, optional
+        "k/n" or (k, n) computes every n-th chunk, from the k-th on, k = 1 ... n. The points of the other chunks are
+        missing until all are in the store.
+    n_springs, steps_per_period : int, optional
+        Springs and time steps of every run, as in `slide`.
 
-    Raises ValueError and TypeError for what can never be computed, StudyError for a store that cannot be used and for
-    workers that were lost.
+    Returns
+    -------
+    Study
+        Values with named axes. A point that cannot be computed is NaN, with its reason. No value depends on store,
+        shard or executor.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For what can never be computed.
+    StudyError
+        For a store that cannot be used, and for workers that were lost.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> study = mdr.sweep(case, {"alpha": [0.05, 0.1], "v_0/v_c": [0.2, 0.6]})
+    >>> study["cof"].shape, study.complete
+    ((2, 2), True)
     """
     case = as_given(case)
     axes_read = read_axes(case, axes)

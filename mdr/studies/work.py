@@ -1,4 +1,4 @@
-"""The work of a study: a case, the axes that vary it, and what is to be computed for every point."""
+"""The work of a study: a case, the axes that vary it, and the quantities that are computed at every point."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What is not physics: checks, records, messages, compiled functions, progress, files that are whole."""
+"""Tools without physics: checks, array records, messages, compilation, memoisation, progress, atomic writes."""

@@ -1,4 +1,4 @@
-"""Files that are whole or not there: written beside their place, brought to the disk, and moved in."""
+"""Atomic writes: a file is there whole or not at all. It is written beside its place, synced and renamed."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ _PART = ".part"
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write a file, or replace it, in one instant."""
+    """Write or replace a file in one instant."""
     with _beside(path, data) as partial:
         os.replace(partial, path)
     _sync_folder(path.parent)
 
 
 def write_once(path: Path, data: bytes) -> bool:
-    """Write a file in one instant unless there is one; whether it was written. One of several writers succeeds."""
+    """Write a file in one instant unless it exists; True if written. Of several writers one succeeds."""
     with _beside(path, data) as partial:
         try:
             os.link(partial, path)
@@ -35,13 +35,13 @@ def write_once(path: Path, data: bytes) -> bool:
 
 
 def is_partial(name: str) -> bool:
-    """Whether a file of this name was left behind by a write that was cut off."""
+    """True if a file of this name was left by a write that was cut off."""
     return name.startswith(".") and name.endswith(_PART)
 
 
 @contextmanager
 def _beside(path: Path, data: bytes) -> Iterator[Path]:
-    """The data in a file of the same folder, on the disk; it is gone at the end."""
+    """Write the data to a temporary file in the same folder and sync it; the file is removed at the end."""
     partial = path.parent / f".{path.name}-{os.getpid()}-{secrets.token_hex(4)}{_PART}"
     if not path.parent.is_dir():
         raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
@@ -57,7 +57,7 @@ def _beside(path: Path, data: bytes) -> Iterator[Path]:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Bring the names in a folder to the disk, where its system can."""
+    """Sync the names in a folder to the disk, where the system can."""
     if os.name == "nt":
         return
     descriptor = os.open(folder, os.O_RDONLY)

@@ -117,7 +117,7 @@ def positive_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
 
 
 def plain(values: Any) -> FloatArray:
-    """An answer as its asker expects it: float64 array, or a float where plain numbers were asked with."""
+    """The answer in the form of the question: a float for a plain number, else a float64 array."""
     answer: FloatArray = np.asarray(values, dtype=np.float64)[()]
     return answer
 

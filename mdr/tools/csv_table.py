@@ -1,4 +1,4 @@
-"""Tables that people write: the cells of a line of CSV, and what is wrong with it, in one line that names the file."""
+"""CSV tables written by hand: the cells of one line, and errors that name the file."""
 
 from __future__ import annotations
 

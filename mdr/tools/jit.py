@@ -1,4 +1,4 @@
-"""Compiled functions: kept on disk for the next process, wherever there is a folder to keep them in."""
+"""Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written."""
 
 from __future__ import annotations
 

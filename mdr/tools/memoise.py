@@ -1,7 +1,8 @@
-"""Results that are remembered for the next call with equal records, unless equal records may mean different things.
+"""Memoisation: the result of a function is kept for the next call with an equal record.
 
-A shape that holds a function, such as a Profile, equals another with the same function, which may have come to return
-something else since; so its results are remembered for that very object. A shape that can be written to has none.
+A record that holds a function, such as a Profile, equals another one with the same function, although the function may
+since return something else. Results are kept for that very object alone. Nothing is kept for a record that can be
+changed.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ T = TypeVar("T")
 
 
 class _Itself:
-    """Equal to nothing but the same object."""
+    """Wrapper that compares by identity: equal to nothing but a wrapper of the same object."""
 
     def __init__(self, one: Any) -> None:
         self.one = one
@@ -49,5 +50,5 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
 
 
 def _is_frozen(record: Any) -> bool:
-    """Whether a record cannot be written to, and has a hash."""
+    """True if a record cannot be changed and has a hash."""
     return is_dataclass(record) and type(record).__dataclass_params__.frozen and type(record).__hash__ is not None  # type: ignore[union-attr]

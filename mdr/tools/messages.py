@@ -1,4 +1,4 @@
-"""Words of messages: the spelling that was meant, and text cut to one bearable line."""
+"""Text of messages: the spelling that was meant, and long text cut to one line."""
 
 from __future__ import annotations
 
@@ -30,6 +30,6 @@ def short(text: str, longest: int = 60) -> str:
 
 
 def one_line(text: str, longest: int = LONGEST) -> str:
-    """One printable line of bearable length."""
+    """The text as one printable line, cut where it is too long."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return short(" ".join(plain.split()), longest)

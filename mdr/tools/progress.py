@@ -1,6 +1,6 @@
-"""Progress on standard error for everything that lasts; silence for what is over within two seconds.
+"""Progress on standard error; nothing is printed by what ends within two seconds.
 
-A terminal gets a bar, anything else plain lines; both tell how much is done and about how long the rest takes.
+On a terminal a bar; anywhere else plain lines. Both tell how much is done, and about how long the rest takes.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _watch: ContextVar[Callable[[], None] | None] = ContextVar("watch", default=None
 
 
 def progress(items: Sequence[T], what: str) -> Iterator[T]:
-    """Iterate, with a bar after two seconds when standard error is a terminal, and plain lines when it is none."""
+    """Loop over items with progress: a bar on a terminal, plain lines elsewhere."""
     meter = Meter(what, len(items))
     try:
         for item in items:
@@ -34,7 +34,7 @@ def progress(items: Sequence[T], what: str) -> Iterator[T]:
 
 @contextmanager
 def silent(watch: Callable[[], None]) -> Iterator[None]:
-    """Nothing inside speaks; at each of its ticks `watch` is called instead, and may end the work by raising."""
+    """Print no progress inside. `watch` is called at each step instead; it may end the work by raising an error."""
     token = _watch.set(watch)
     try:
         yield
@@ -44,7 +44,7 @@ def silent(watch: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def time_limit(seconds: float | None) -> Iterator[None]:
-    """Within it `time_is_over` after so many seconds, or when that of an outer limit is over; None sets no limit."""
+    """Limit of computing time, after which `time_is_over` is true. None sets none; an earlier outer limit stays."""
     token = _deadline.set(min(_deadline.get(), float("inf") if seconds is None else time.monotonic() + seconds))
     try:
         yield
@@ -53,12 +53,12 @@ def time_limit(seconds: float | None) -> Iterator[None]:
 
 
 def time_is_over() -> bool:
-    """Whether the time that was given for this work is over."""
+    """True once the time limit of this work has passed."""
     return time.monotonic() > _deadline.get()
 
 
 class Meter:
-    """How many of so many parts are done: a bar, or a line now and then."""
+    """Progress of a known number of parts: a bar on a terminal, plain lines elsewhere."""
 
     def __init__(self, what: str, total: int, parts: str = "", done: int = 0) -> None:
         self.bar: Any = None
@@ -82,7 +82,7 @@ class Meter:
 
 
 class Ticker:
-    """Says now and then how far something has got whose end may be unknown; `done` parts were there before."""
+    """Progress line for loops of any or unknown length, at most one every ten seconds; starts at `done` parts."""
 
     def __init__(self, what: str, total: int | None = None, parts: str = "", done: int = 0) -> None:
         self.what, self.total, self.parts = what, total, parts
@@ -109,7 +109,7 @@ class Ticker:
 
 
 def in_words(seconds: float) -> str:
-    """A time in the unit that suits it."""
+    """A duration with a unit that suits it: 90 s, 5 min, 3 h, 4 days."""
     for unit, length, most in (("s", 1, 100), ("min", 60, 100), ("h", 3600, 50)):
         if seconds < most * length:
             return f"{seconds / length:.0f} {unit}"

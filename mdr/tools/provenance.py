@@ -29,7 +29,7 @@ def commented(*texts: str) -> str:
 
 
 def figure_metadata(kind: str, command: str) -> dict[str, str | None]:
-    """What `savefig` of matplotlib is told to keep in a "png" or "svg", without the date: same input, same bytes."""
+    """Metadata for `savefig` of a "png" or "svg", without the date: the same input gives the same bytes."""
     if kind == "svg":
         return {"Creator": versions(), "Description": command, "Date": None}
     return {"Software": versions(), "Description": command}

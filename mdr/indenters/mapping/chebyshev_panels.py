@@ -62,7 +62,7 @@ class Panel(NamedTuple):
 
 
 def image(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
-    """g(x) for x >= 0."""
+    """The one-dimensional image g(x) [m] for x >= 0 [m], from its panels."""
     ends, g = cuts(edges), np.zeros_like(x)
     panel = np.minimum(np.searchsorted(ends, x, side="right") - 1, ends.size - 2)
     with np.errstate(all="ignore"):
@@ -77,7 +77,7 @@ def invert(f: Function, edges: Edges, d: FloatArray, start: FloatArray) -> tuple
     ends = [np.argmin(d), np.argmax(d)]
     with np.errstate(all="ignore"):
         low, high, *_ = roots.bracket(lambda x: direct(f, edges, x), d[ends], start[ends], edges[-1])
-        ladder = _ladder(edges, low[0], high[1])
+        ladder = _cuts_between(edges, low[0], high[1])
         heights = direct(f, edges, ladder)
         heights = np.maximum.accumulate(np.where(np.isnan(heights), np.inf, heights))
         panel = np.clip(np.searchsorted(heights, d) - 1, 0, ladder.size - 2)
@@ -89,7 +89,7 @@ def invert(f: Function, edges: Edges, d: FloatArray, start: FloatArray) -> tuple
 
 
 def direct(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
-    """g(x) by quadrature, without panels."""
+    """g(x) [m] by quadrature at every x, without panels."""
     return in_chunks(lambda x: transform.profile_1d(f, edges, x), x)
 
 
@@ -105,8 +105,8 @@ def cuts(edges: Edges) -> FloatArray:
     return np.unique(np.concatenate([*rows, [min(edges[-1], np.finfo(float).max)]]))
 
 
-def _ladder(edges: Edges, low: float, high: float) -> FloatArray:
-    """The cuts from the one at or below ``low`` to the one at or above ``high``."""
+def _cuts_between(edges: Edges, low: float, high: float) -> FloatArray:
+    """The panel ends from the one at or below ``low`` to the one at or above ``high``."""
     ends = cuts(edges)
     first = np.clip(np.searchsorted(ends, low, side="right") - 1, 0, ends.size - 2)
     return ends[first : max(np.searchsorted(ends, high), first + 1) + 1]
@@ -153,12 +153,12 @@ def _panel(f: Function, edges: Edges, low: float, high: float) -> Panel:
     coefficients = to_coefficients @ G
     tail = np.max(np.abs(coefficients[-3:]))
     scale = np.min(np.abs(G)) if rises else np.fmax(np.max(np.abs(G)), g_high)
-    fits = tail <= TAIL * scale or not np.isfinite(g).any() or tail <= _doubt(f, edges, x, g, factor)
+    fits = tail <= TAIL * scale or not np.isfinite(g).any() or tail <= _quadrature_error(f, edges, x, g, factor)
     return panel._replace(coefficients=coefficients, fits=bool(fits))
 
 
-def _doubt(f: Function, edges: Edges, x: FloatArray, g: FloatArray, factor: FloatArray) -> float:
-    """How far another rule comes from g, over ``factor``: a polynomial need not be closer (f of few digits)."""
+def _quadrature_error(f: Function, edges: Edges, x: FloatArray, g: FloatArray, factor: FloatArray) -> float:
+    """Difference of a second quadrature rule from g, over ``factor``: a polynomial need not be closer."""
     some = slice(2, None, 5)
     other = transform.profile_1d(f, edges, x[some], double_exponential(0.077))
     return float(np.median(np.abs(g[some] - other) / factor[some]))

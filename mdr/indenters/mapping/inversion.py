@@ -90,7 +90,7 @@ def refine(
 
 
 def _step(a: FloatArray, b: FloatArray, c: FloatArray, fa: FloatArray, fb: FloatArray, fc: FloatArray) -> FloatArray:
-    """Share of the bracket to go: inverse quadratic interpolation where it is safe, else one half."""
+    """Share of the bracket to go in one step: inverse quadratic interpolation where it is safe, else bisection."""
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     safe = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
     quadratic = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)

@@ -1,4 +1,4 @@
-"""Elementary functions of two lengths, written so that no digits cancel: the bricks of the closed forms.
+"""Elementary functions of two lengths that lose no digits by cancellation; the closed forms are built of them.
 
 Every shape with a flat or capped centre of radius b has an image in s = √(x² − b²) and φ = arccos(b/x). Taken
 from their definitions these, and the small differences that areas are made of, lose all digits at x → b or
@@ -15,7 +15,7 @@ N_TERMS = 30  #: of a power series in w, |w| <= 1/4: 0.25**30 = 9e-19
 
 
 def leg(x: ArrayLike, b: ArrayLike) -> FloatArray:
-    """√(x² − b²), the way s from a kink at b; 0 for x <= b."""
+    """√(x² − b²), the length s from a kink at b; 0 for x <= b."""
     return np.asarray(np.sqrt(np.maximum(np.subtract(x, b), 0)) * np.sqrt(np.add(x, b)), dtype=np.float64)
 
 

@@ -1,0 +1,94 @@
+"""Docstrings of what users call: sections that name each argument, and examples that run."""
+
+import doctest
+import inspect
+import sys
+
+import pytest
+
+import mdr
+from mdr import plots
+from mdr.plots import animation
+
+numpydoc = pytest.importorskip("numpydoc.docscrape")
+
+
+def functions():
+    """Public functions, and the public methods of public classes where they are first defined, {path: function}."""
+    drawing = (plots.plot_curve, plots.plot_fit, plots.plot_spring_map, plots.plot_traces, plots.plot_profile)
+    found = {f"plots.{one.__name__}": one for one in (*drawing, animation.animate_springs)}
+    for name in mdr.__all__:
+        one = getattr(mdr, name)
+        if inspect.isfunction(one):
+            found[name] = one
+        elif inspect.isclass(one):
+            homes = [home for home in reversed(one.__mro__) if home.__module__.startswith("mdr.")]
+            for home in homes:
+                for method, raw in vars(home).items():
+                    function = getattr(raw, "__func__", raw)
+                    first = next(base for base in homes if method in vars(base))
+                    if inspect.isfunction(function) and not method.startswith("_") and first is home:
+                        found[f"{home.__name__}.{method}"] = function
+    return found
+
+
+FUNCTIONS = functions()
+WITH_EXAMPLES = [name for name in mdr.__all__ if inspect.isfunction(getattr(mdr, name))]
+
+
+def test_there_is_something_to_ask():
+    assert {"slide", "sweep", "Indenter.force", "Material.creep_compliance", "DepthMotion.u_z", "Prony.fit"} <= set(
+        FUNCTIONS
+    )
+
+
+def faults(function):
+    """What a docstring lacks."""
+    found = []
+    doc = numpydoc.FunctionDoc(function)
+    given = [name for name in inspect.signature(function).parameters if name not in ("self", "cls")]
+    named = [name.strip(" *") for one in doc["Parameters"] for name in one.name.split(",")]
+    if named != given:
+        found.append(f"Parameters names {named}, the function takes {given}")
+    if inspect.signature(function).return_annotation not in (None, "None") and not doc["Returns"]:
+        found.append("no Returns")
+    if any(not one.desc for section in ("Parameters", "Returns", "Raises") for one in doc[section]):
+        found.append("an entry without a word")
+    if len(" ".join(doc["Summary"])) > 120 or len(doc["Summary"]) != 1:
+        found.append("the summary is not one line")
+    return found
+
+
+@pytest.mark.parametrize("path", FUNCTIONS)
+def test_sections_name_the_arguments(path):
+    assert not faults(FUNCTIONS[path])
+
+
+def test_a_docstring_without_sections_is_refused():
+    def bare(v_0: "float") -> "float":
+        """Velocity."""
+
+    def other(v_0: "float") -> "float":
+        """Velocity.
+
+        Parameters
+        ----------
+        v : float
+            Velocity [m/s].
+        """
+
+    assert len(faults(bare)) == 2
+    assert len(faults(other)) == 2
+
+
+@pytest.mark.parametrize("path", FUNCTIONS)
+def test_examples_run(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    function = FUNCTIONS[path]
+    tests = doctest.DocTestFinder(recurse=False).find(function, path, module=False, globs={})
+    examples = [one for test in tests for one in test.examples]
+    assert examples or path not in WITH_EXAMPLES
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    for test in tests:
+        runner.run(test, out=sys.stdout.write)
+    assert runner.summarize(verbose=False).failed == 0
