@@ -33,6 +33,7 @@ from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -106,6 +107,7 @@ __all__ = [
     "fit",
     "full_slip_critical_velocity",
     "indent",
+    "laws",
     "measure_critical_velocity",
     "parse_case",
     "partial_slip",
