@@ -167,9 +167,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
         sentence=(
-            f"Springs overstate friction by about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
-            f" of μ_0 where it is most, λ = 2|β|/(π μ_0 κ), with μ_s the COF of the springs at rest; good to"
-            f" {100 * rms:.0f} % (rms) up to λ = {coupling.FARTHEST:g}, and too low for a flat face beyond."
+            f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
+            f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms)."
         ),
         checks=(
             *_constant_checks(constants[None]),
