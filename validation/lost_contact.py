@@ -133,8 +133,8 @@ def claim(effort: str) -> Claim:
         f"Eq. (15) grows with ωτ: measured are {100 * (1 + least.deviation):.1f} % of it ({least.where}). The "
         "full-slip condition with the true times of contact lies in the bracket of every measurement.",
         verdict="holds if contact is kept; under a rigid pull also if it is back in time",
-        sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ, but ends Eq. (15) of "
-        "a punch at once; a slow rubber that taps gives the body blows, whose v_c does not grow with viscosity.",
+        sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ, but ends Eq. (15) "
+        "of a punch at once; a slow rubber that taps gives the body blows, whose v_c does not grow with viscosity.",
         checks=(*_rigid_checks(rigid), *_limit_checks(), *_onset_checks(), *_slow_checks(), *_body_checks(body)),
         figures=(_rigid_figure(rigid), _onset_figure(effort), _slow_figure(body, effort)),
     )

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 import mdr
 from mdr import laws
 from mdr.closed_forms import paper as theory
-from mdr.closed_forms.full_slip import mean_normal_force
+from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
@@ -108,18 +108,19 @@ def approach(shape: str, alpha: float, T: float, v: Array) -> Approach:
     v_c, static = mdr.critical_velocity(case), mdr.static_cof(case)
     runs = [mdr.slide(case, x * v_c) for x in v]
     rise = np.array([run.cof - static for run in runs]) / case.mu_0
-    miss = alpha * np.hypot(1, T) * SAMPLED * case.k_zc * case.oscillation.u_z0 / mean_normal_force(case)
+    mean = float(np.mean(full_slip(case).F_N))
+    miss = alpha * np.hypot(1, T) * SAMPLED * case.k_zc * case.oscillation.u_z0 / mean
     error = np.array([run.cof_error / case.mu_0 if run.settled else np.inf for run in runs]) + miss
-    law = _law(case)
+    law = _law(case, mean)
     return Approach(f"{shape}, ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}", v, rise, error, law.power, law.coefficient)
 
 
-def _law(case: mdr.SlidingContact) -> Asymptote:
-    """Leading term of the rise."""
+def _law(case: mdr.SlidingContact, mean: float) -> Asymptote:
+    """Leading term of the rise; mean: of the normal force [N]."""
     if case.T == 0 or case.keeps_contact:
         return small_velocity(case)
     drag = laws.rise_of_lost_punch(1 / case.alpha, case.T)
-    return Asymptote(1.0, case.k_zc * case.cycle.du_z / mean_normal_force(case) * drag)
+    return Asymptote(1.0, case.k_zc * case.cycle.du_z / mean * drag)
 
 
 # --- checks ---
