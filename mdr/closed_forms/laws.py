@@ -286,7 +286,7 @@ def rise_of_lost_punch(depth: float, T: float) -> float:
 def stiffness_exponent(indenter: Indenter, d: float) -> float:
     """Exponent s = d ln k_zc/d ln d [-] with which the contact stiffness of a shape changes about a depth.
 
-    All that v_c knows of a shape at small amplitude (`first_order`): 0 for a flat face, 1/n for f ~ r^n [catalogue].
+    All that v_c knows of a shape at small amplitude (`first_order`): 0 for a flat face, 1/n for f ~ r^n [generalisation].
 
     Parameters
     ----------
@@ -373,7 +373,7 @@ def load_error(eps: float, n: float) -> float:
     """Error [-] of the linear v_c under an oscillating load and a rigid pull, to second order in dF_z.
 
     eps²/(2 (n + 1)²) for an elastic shape f ~ r^n whose mass is negligible: the maximum of |sin phi| (1 + eps cos
-    phi)^(-p), p = 1/(n + 1), less 1. The next term is of order eps⁴ [motions].
+    phi)^(-p), p = 1/(n + 1), less 1. The next term is of order eps⁴ [generalisation].
 
     Parameters
     ----------
@@ -406,7 +406,7 @@ def depth_sensitivity(case: SlidingContact) -> float:
         S = Re[-z k_xc/(q - z k_xc)]
 
     As the stiffness goes with the depth, d ln v_c/d ln u_z0 = S s, s the `stiffness_exponent`. S is 0 for a rigid pull
-    and 1 at k_x = m omega². Holds at small amplitude, harmonic depth, elastic or Kelvin material [indentation].
+    and 1 at k_x = m omega². Holds at small amplitude, harmonic depth, elastic or Kelvin material [generalisation].
 
     Parameters
     ----------
@@ -450,7 +450,7 @@ def least_over_depth(case: SlidingContact) -> LeastOverDepth:
     """Contact stiffness at which Eq. (15) is least over the depth, at a given du_z, and v_c there.
 
     k_xc = Re(q/z) and ``v_c/v_1 = |Im(q/z)| |z|/|q|``, with q and z of `depth_sensitivity`. There v_c changes only by
-    the square of a change in depth. It takes a body above its resonance, q > 0 but for the damper [indentation].
+    the square of a change in depth. It takes a body above its resonance, q > 0 but for the damper [generalisation].
 
     Parameters
     ----------
