@@ -286,7 +286,8 @@ def rise_of_lost_punch(depth: float, T: float) -> float:
 def stiffness_exponent(indenter: Indenter, d: float) -> float:
     """Exponent s = d ln k_zc/d ln d [-] with which the contact stiffness of a shape changes about a depth.
 
-    All that v_c knows of a shape at small amplitude (`first_order`): 0 for a flat face, 1/n for f ~ r^n [generalisation].
+    All that v_c knows of a shape at small amplitude (`first_order`): 0 for a flat face, 1/n for f ~ r^n
+    [generalisation].
 
     Parameters
     ----------
@@ -372,8 +373,11 @@ def _second_order_force(T: float, n_t: int) -> NDArray[np.complex128]:
 def load_error(eps: float, n: float) -> float:
     """Error [-] of the linear v_c under an oscillating load and a rigid pull, to second order in dF_z.
 
-    eps²/(2 (n + 1)²) for an elastic shape f ~ r^n whose mass is negligible: the maximum of |sin phi| (1 + eps cos
-    phi)^(-p), p = 1/(n + 1), less 1. The next term is of order eps⁴ [generalisation].
+    eps²/(2 (n + 1)²) for an elastic shape f ~ r^n whose mass is negligible: the maximum over phi, less 1, of::
+
+        |sin phi| (1 + eps cos phi)^(-p),    p = 1/(n + 1)
+
+    The next term is of order eps⁴ [generalisation].
 
     Parameters
     ----------
