@@ -133,15 +133,11 @@ def _equal_checks(quick: bool) -> list[Check]:
         )
     pair = Point("paraboloid", 0.5, 0.3, ALPHA, 0.0, 0.6, nu_2=0.0)  # beta < 0
     turned = replace(pair, nu=0.0, nu_2=0.5)
-    one, two = (_quick_loss(point) for point in (pair, turned))
+    one, two = (tables.loss(point, Knobs(cells=17, steps=24, cycles=3)) for point in (pair, turned))
     checks.append(
         Check("two bodies, β → −β: loss over that of +β", one / two, 1, 1e-3, "of the solver, over a loss of 2 %")
     )
     return checks
-
-
-def _quick_loss(point: Point) -> float:
-    return tables.column([point], Knobs(cells=17, steps=24, cycles=3))[0].loss
 
 
 def _table_checks(rows: list[Row]) -> list[Check]:
