@@ -145,7 +145,7 @@ def _measured_checks(points: list[Point]) -> list[Check]:
     checks, why = [], "bracket of the measurement and second order in its step"
     for p in points:
         checks.append(Check(f"measured v_c over the full-slip value: {p.where}", 1 + p.miss, 1.0, TOLERANCE, why))
-        if p.where.startswith("flat punch"):
+        if isinstance(p.case.indenter, mdr.FlatPunch):
             name = f"measured v_c over the closed form: {p.where}"
             checks.append(Check(name, 1 + p.deviation, 1.0, TOLERANCE, why))
     return checks
