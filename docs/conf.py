@@ -17,7 +17,7 @@ version = release = version_of("mdr-friction")
 PAGES = {  #: in the order of the navigation, under their headings
     "Guide": ["tutorial", "springs", "own_data", "studies", "extending", "report"],
     "Physics": ["theory", "limits"],
-    "Reference": ["api/shapes", "api/contact", "api/friction", "api/normal", "api/studies"],
+    "Reference": ["api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
 }
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "facts", "equations", "navigation"]

@@ -16,6 +16,7 @@ from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, t
 
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
 from mdr.files.own_records import register
+from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -65,6 +66,7 @@ __all__ = [
     "fit",
     "full_slip_critical_velocity",
     "indent",
+    "laws",
     "measure_critical_velocity",
     "parse_case",
     "partial_slip",

@@ -9,24 +9,28 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr import laws
 from mdr.march.steady_state import Settling
 from validation import (
     CLAIMS,
     coupling_law,
     end_of_stick,
-    finite_amplitude,
-    indentation,
     judge,
     lost_contact,
+    one_curve,
+    rigid_pull,
     static_cof,
     transverse_slip,
     uncoupled,
     uniqueness,
 )
 from validation.__main__ import run_all
-from validation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure, system
+from validation.cases import RADIUS, SHAPES, contact, driven
+from validation.generalisation import finite_amplitude, indentation
+from validation.generalisation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure
 from validation.half_space import benchmarks, tables
 from validation.report import plain
+from validation.rigid_pull import leading_term, read_off
 from validation.written import RECORD
 
 
@@ -50,6 +54,8 @@ def test_every_check_of_the_claim_holds(outcomes, name):
     missed = [f"{c.name}: got {c.got}, expected {c.expected}" for c in claim.checks if not c.held]
     assert not missed, "\n".join([trace, *missed])
     assert plain(claim.verdict) == recorded_verdicts()[name], "run python -m validation, then validation.written"
+    assert len(claim.verdict) <= 100
+    assert len(claim.sentence) <= 200, "a row of README's table is read at a glance"
     assert claim.figures
     assert all(figure.caption and figure.alt for figure in claim.figures)
 
@@ -77,25 +83,25 @@ def test_a_full_slip_value_that_is_off_is_seen(monkeypatch):
 
 @pytest.mark.parametrize("wrong", [0.9, 1.1])
 def test_an_onset_that_is_off_is_seen(monkeypatch, wrong):
-    right = lost_contact.onset
-    monkeypatch.setattr(lost_contact, "onset", lambda *knobs: wrong * right(*knobs))
+    right = laws.onset
+    monkeypatch.setattr(laws, "onset", lambda case: wrong * right(case))
     assert sum("passes 1e-9" in c.name and not c.held for c in lost_contact._onset_checks()) == 4
 
 
 def test_limits_of_lost_contact_that_are_off_are_seen(monkeypatch):
     points = [lost_contact.measure(shape, alpha, T) for alpha, T, shape in lost_contact.RIGID["quick"]]
     assert all(c.held for c in lost_contact._rigid_checks(points))
-    late, limit = lost_contact.late, lost_contact.amplitude_limit
-    monkeypatch.setattr(lost_contact, "late", lambda *knobs: 1.0001 * late(*knobs))
-    monkeypatch.setattr(lost_contact, "amplitude_limit", lambda T: 1.001 * limit(T))
+    late, limit = laws.late_return, laws.amplitude_limit
+    monkeypatch.setattr(laws, "late_return", lambda *knobs: 1.0001 * late(*knobs))
+    monkeypatch.setattr(laws, "amplitude_limit", lambda T: 1.001 * limit(T))
     assert not any(c.held for c in lost_contact._rigid_checks(points))
     assert not any(c.held for c in lost_contact._limit_checks())
 
 
 def test_a_slope_over_depth_that_is_off_is_seen(monkeypatch):
-    right, flat = indentation.sensitivity, indentation.flattest
-    monkeypatch.setattr(indentation, "sensitivity", lambda case: 1.001 * right(case))
-    monkeypatch.setattr(indentation, "flattest", lambda case: (1.01 * flat(case)[0], 1.001 * flat(case)[1]))
+    right, least = laws.depth_sensitivity, laws.least_over_depth
+    monkeypatch.setattr(laws, "depth_sensitivity", lambda case: 1.001 * right(case))
+    monkeypatch.setattr(laws, "least_over_depth", lambda case: (1.01 * least(case)[0], 1.001 * least(case)[1]))
     assert not any(c.held for c in indentation._slope_checks("quick"))
     assert not any(c.held for c in indentation._minimum_checks())
 
@@ -130,7 +136,7 @@ def test_the_full_grid_loses_contact_with_every_shape():
     for T in (0.0, 1.0):
         assert {s for s, alpha, loss, _ in known if alpha == 1.3 and loss == T} == set(finite_amplitude.SHAPES)
     assert {ratio for *_, ratio in known} == {*RATIOS, 2.0}
-    assert all(system(*knobs).oscillation.du_z > 0 for knobs in known)
+    assert all(driven(*knobs).oscillation.du_z > 0 for knobs in known)
 
 
 def test_a_half_space_whose_coupling_is_off_is_seen(monkeypatch):
@@ -180,3 +186,68 @@ def test_slip_across_that_does_something_by_itself_would_be_seen():
     assert all(check.held for check in transverse_slip._checks([right, below]))
     wrong = [replace(right, along=1e-4, coupled=1e-4), replace(below, uncoupled=1e-3, along=0.029)]
     assert not any(check.held for check in transverse_slip._checks(wrong))
+
+
+def test_all_shapes_touch_over_the_same_disc():
+    radii = [shape.contact_radius(20e-6) for shape in SHAPES.values()]
+    np.testing.assert_allclose(radii, RADIUS, rtol=1e-14)
+    stiffness = [contact(shape, 0.1, 1.0, k_ratio=2.0).pull.k_x for shape in SHAPES]
+    np.testing.assert_allclose(stiffness, 2 * 8000 / 1.5, rtol=1e-13)  # kappa = 1.5 at nu = 0.5
+
+
+def test_the_groups_of_a_spring_pull_are_met():
+    case = contact("cone", 0.1, 2.0, k_ratio=0.5, omega_0_ratio=1.7, damping_ratio=0.05)
+    omega = case.oscillation.omega
+    got = case.T, case.alpha, case.pull.k_x / case.k_xc, case.pull.omega_0 / omega, case.pull.damping_ratio
+    np.testing.assert_allclose(got, (2.0, 0.1, 0.5, 1.7, 0.05), rtol=1e-14)
+    with pytest.raises(ValueError, match="mass"):
+        contact("cone", 0.1, k_ratio=0.5, damping_ratio=0.05)
+
+
+def test_a_leading_term_is_found_under_its_successors():
+    x = np.geomspace(1e-4, 1e-3, 25)
+    found = leading_term(x, 0.3 * x**1.5 * (1 + 2 * np.sqrt(x) - x + x**2), 1 / 2)
+    assert found.power == pytest.approx(1.5, abs=5e-6)
+    assert found.coefficient == pytest.approx(0.3, rel=1e-4)
+
+
+def test_a_curve_is_read_off_where_it_has_come_close():
+    case = contact("cone", 0.3)
+    v = read_off(case, 1e-3)
+    assert 0.9 < v < 1
+    found = rigid_pull.average_friction(case, v * rigid_pull.mdr.critical_velocity(case))
+    assert float(found.cof) == pytest.approx(case.mu_0 * (1 - 1e-3), rel=1e-9)
+
+
+def test_a_closed_form_that_is_off_is_seen_by_the_runs(monkeypatch):
+    right, marched = rigid_pull.average_friction, rigid_pull._marched("quick")[:3]
+    assert all(check.held for check in rigid_pull._march_checks(marched))
+    monkeypatch.setattr(
+        rigid_pull, "average_friction", lambda case, v_0: replace(known := right(case, v_0), cof=1.0001 * known.cof)
+    )
+    assert not any(check.held for check in rigid_pull._march_checks(marched))
+
+
+@pytest.mark.parametrize(("end", "where"), [("near_critical", "near v_c"), ("small_velocity", "near rest")])
+@pytest.mark.parametrize("wrong", ["coefficient", "power"])
+def test_an_asymptote_that_is_off_is_seen(monkeypatch, end, where, wrong):
+    right = getattr(rigid_pull, end)
+
+    def off(case):
+        law = right(case)
+        return replace(law, **{wrong: 1.001 * getattr(law, wrong)})
+
+    monkeypatch.setattr(rigid_pull, end, off)
+    missed = [check.name for check in rigid_pull._end_checks() if not check.held]
+    assert len(missed) == 2  # elastic and Kelvin
+    assert all(name.startswith(wrong) and where in name for name in missed)
+
+
+def test_a_wrong_correction_is_seen(monkeypatch):
+    right = laws.edge_band
+    monkeypatch.setattr(laws, "edge_band", lambda v: 1.05 * right(v))
+    missed = [check.name for check in one_curve.claim("quick").checks if not check.held]
+    assert sum("elastic cone" in name for name in missed) == 6  # closed form and runs at three amplitudes
+    assert not any("flat punch" in name for name in missed)  # which has no such term
+    assert sum("first-order term C" in name for name in missed) == 3
+    assert sum(name.startswith("power") and "1 + C" in name for name in missed) == 2

@@ -1,12 +1,14 @@
 """The guide: its code runs and prints what is shown, its links lead somewhere, its formulas are those of the code."""
 
 import os
+import pkgutil
 import re
 import shlex
 import subprocess
 import sys
 from dataclasses import replace
 from html.parser import HTMLParser
+from inspect import isfunction
 
 import matplotlib as mpl
 import numpy as np
@@ -149,10 +151,11 @@ def test_every_public_name_is_documented():
         for path in pages.documented(block.text)
     ]
     assert len(set(documented)) == len(documented)
-    assert {f"mdr.{name}" for name in mdr.__all__} <= set(documented)
+    functions = [one for one in vars(mdr.laws).values() if isfunction(one) and one.__module__ == mdr.laws.__name__]
+    laws = {f"laws.{one.__name__}" for one in functions if one.__name__[0] != "_"}
+    assert {f"mdr.{name}" for name in {*mdr.__all__, *laws} - {"laws"}} <= set(documented)
     for path in documented:
-        parent, _, name = path.rpartition(".")
-        assert (getattr(sys.modules[parent], name).__doc__ or "").strip(), path
+        assert (pkgutil.resolve_name(path).__doc__ or "").strip(), path
 
 
 class Sources(HTMLParser):

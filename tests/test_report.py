@@ -18,7 +18,7 @@ import pytest
 
 import validation
 import validation.__main__ as command
-from validation.report import Check, Claim, Figure, html_page, markup, number, text_table, write_report
+from validation.report import Check, Claim, Figure, Part, html_page, markup, number, text_table, write_report
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -176,6 +176,34 @@ def test_checks_are_folded_unless_one_failed():
         "<details open><summary>1 of 2 checks held</summary>",
     ]
     assert page.count("</details>") == 2
+
+
+def test_a_claim_with_parts_shows_each_with_its_evidence():
+    def part(name, held, figures=()):
+        check = Check(f"v_c, {name}", 1.0, 1.0 if held else 2.0, 0.1, "w")
+        return Part(name, f"Of {name}", "", "α < 1", "much", f"As v_c, {name}.", (check,), figures)
+
+    parts = (part("shape", True, (made_up_figure("glance"),)), part("depth", False, (made_up_figure(),)))
+    claim = made_up_claim(parts=parts, checks=())
+    assert [check.name for check in claim.checks] == ["v_c, shape", "v_c, depth"]
+    assert [figure.name for figure in claim.figures] == ["glance", "curve"]
+    assert not claim.held
+    page = html_page([claim])
+    tags = Tags(page)
+    assert [one for one in tags.ids if one.startswith(("pull", "glance"))] == [
+        "glance", "pull", "pull-shape", "pull-depth", "pull-curve"
+    ]  # fmt: skip
+    assert page.count("<section") == 1
+    assert re.findall("<details.*</summary>", page) == [
+        "<details><summary>1 of 1 checks held</summary>",
+        "<details open><summary>0 of 1 checks held</summary>",
+    ]
+
+
+def test_two_checks_of_one_name_are_refused():
+    twice = [Check("v_c", 1.0, 1.0, 0.0, "w")] * 2
+    with pytest.raises(ValueError, match="two checks have the same name"):
+        made_up_claim(checks=twice)
 
 
 def test_checks_json_has_exactly_the_promised_keys(tmp_path):

@@ -1,7 +1,7 @@
 """What the paper claims, one claim a module, each measured with the springs of `mdr`.
 
-A module has `claim(effort) -> Claim` with effort "quick", "full" or "long" and is listed here, in the
-order of the report. `python -m validation` runs them all and writes the page.
+A module, or a package of parts, has `claim(effort) -> Claim` with effort "quick", "full" or "long" and is listed here,
+in the order of the report. `python -m validation` runs them all and writes the page.
 """
 
 import importlib
@@ -26,12 +26,7 @@ CLAIMS = (
     "rigid_pull",
     "one_curve",
     "spring_pull",
-    "indentation",
     "generalisation",
-    "catalogue",
-    "rheology",
-    "motions",
-    "finite_amplitude",
     "lost_contact",
     "resonances",
     "uniqueness",

@@ -18,6 +18,7 @@ from validation import Outcome, not_tested, send_claim
 from validation.report import text_table, write_report
 
 LONGEST = (
+    "generalisation",
     "end_of_stick",
     "transverse_slip",
     "maps",

@@ -46,6 +46,9 @@ CATALOGUE: dict[str, mdr.Indenter] = {  # each touches over the disc of 1 mm at 
 LOOKS = dict(zip(SHAPES, zip(COLOURS, "sv^o", strict=False), strict=False))  #: colour and marker
 POWERS = dict(zip(SHAPES, (math.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n, of which k_zc ~ d^(1/n)
 
+BODY = {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05}  #: groups of a body whose omega_0 is above omega
+STIFFNESS, DAMPING = 1.5, 0.02  #: k_x/k_xc at u_z0 and damping ratio of `driven`
+
 
 def depth_of(indenter: mdr.Indenter) -> float:
     """Depth at which a shape of the CATALOGUE touches over the disc of 1 mm."""
@@ -87,6 +90,11 @@ def contact(
     if k_ratio is not None:
         pull = body(SHAPES[shape], material, u_z0, k_ratio, omega_0_ratio, damping_ratio)
     return mdr.SlidingContact(SHAPES[shape], material, mu_0, oscillation, pull)
+
+
+def driven(shape: str, alpha: float, T: float, ratio: float, damping_ratio: float = DAMPING) -> mdr.SlidingContact:
+    """A contact under a spring, a light damper and a mass of omega_0 = ratio * omega."""
+    return contact(shape, alpha, T, k_ratio=STIFFNESS, omega_0_ratio=ratio, damping_ratio=damping_ratio)
 
 
 def body(

@@ -1,54 +1,11 @@
 """Lost contact: where Eq. (1) and Eq. (15) end, and what v_c is beyond.
 
 A spring of the depth d is lost in every period if its amplitude du_z sqrt(1 + T²) exceeds d, the reverse of Eq. (5).
+The laws tested here are derived in mdr/closed_forms/laws.py:
 
-Rigid pull. In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 of Eq. (1), so v_c = v_1 if any
-spring touches at phi = -pi/2, where the depth grows fastest. The centre touches longest. A Kelvin surface that was left
-relaxes like exp(-theta/T), so by the definition of unilateral contact the centre touches at the phase phi if u_z0/du_z
-is at least
-
-    max over theta > 0 of [cos(phi - theta) exp(-theta/T) - cos(phi)]/[1 - exp(-theta/T)]
-
-(theta: how long ago). It comes back at phi_c, where both are equal: v_c/v_1 = 1 if that is before -pi/2, and
-sin|phi_c| after. With u_z0 > 0 the limit phi_c = -pi/2 is
-
-    alpha_1(T) = min over pi < theta < 2 pi of [exp(theta/T) - 1]/(-sin theta),
-
-which tends to sqrt(1 + theta²)/T at tan theta = theta for large T: far above the limit 1/sqrt(1 + T²) of Eq. (5).
-
-Mass and spring, flat punch. It is exact until it is lost, which with alpha sqrt(1 + T²) = 1 + eps happens around phase
-pi - arctan T, where it would press by F = k_zc u_z0 (x² - a²)/2, a² = 2 eps, x the phase from there. To leading order:
-
-* elastic: a pull lasting from -a to a is missing, an impulse of k_zc u_z0 times (4 sqrt(2)/3) eps^(3/2);
-* Kelvin: the spring stays off until its relaxed surface is met, that is until the integral of F exp(x/T) vanishes, at
-  x = 2 a: what was missing as a pull is missing again as pressure. What remains is of the next order, a doublet with
-  the impulse and the first moment k_zc u_z0 (9/2) eps² times 1/T and -1.
-
-The body passes these on by its free oscillation, lambda = -c_x/2m + i omega_d, for the time t* from there until Eq.
-(15) has its maximum,
-
-    v_c - v_c15 = mu_0 k_zc u_z0/(m omega_d omega)
-                  Im{[A lambda + B lambda²/omega] exp(lambda t*)/(1 - exp(2 pi lambda/omega))},
-
-with A = (4 sqrt(2)/3) eps^(3/2), B = 0 if elastic; A = B/T, B = (9/2) eps² if Kelvin.                            (*)
-
-Mass and spring, slow material, T >> 1, any shape. The surface hardly recovers while it is left. A spring of stiffness
-k whose greatest compression is d loses 2 pi d/T of it in a period, and is pressed back through as much from the phase
--delta to the deepest point, so du_z delta²/2 = 2 pi d/T. It presses like a dashpot, by k T du_z times the phase that is
-left: a blow, whose impulse is that of k d over the whole period. The blows of all springs end together, at the deepest
-point; the body then falls behind fastest, with the velocity
-
-    v_c = 2 pi mu_0/(m omega omega_d) Im{lambda sum[k d exp(2 lambda delta/3 omega)]/[1 - exp(2 pi lambda/omega)]},
-
-delta = sqrt(4 pi d/(T du_z)), up to terms in 1/T.                                                              (**)
-
-For T to infinity and a light damper this is half of what one blow gives to the body, whatever its spring and the shape,
-
-    v_c -> pi mu_0 F_N(u_z0 + du_z)/(m omega),
-
-F_N the elastic force at the deepest point, unless omega_0 is near a whole multiple n of omega, where the blows add up:
-on it, by a factor of 2/[1 - exp(-2 pi n zeta)], zeta the damping ratio. Eq. (15), whose force keeps pulling in the time
-of flight, grows with T.
+* rigid pull: when the centre of the contact touches again (`mdr.laws.late_return`, `amplitude_limit`, `slow_limit`);
+* a punch that has just been lost under a body (`onset`), (*) below;
+* a slow material under a body (`blow`), (**) below, and its limit (`half_a_blow`).
 
 Symbols: alpha = du_z/u_z0, T = omega tau, phi phase, omega_0² = k_x/m.
 """
@@ -59,16 +16,14 @@ from functools import cache
 import numpy as np
 
 import mdr
-from mdr.case.pull import SpringPull
-from mdr.normal.kelvin_edges import contact_edge, turning_phase
+from mdr import laws
+from mdr.normal.kelvin_edges import contact_edge
 from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
-from validation.cases import LOOKS, SHAPES, contact, loss, shape_label
-from validation.finite_amplitude import DAMPING, STIFFNESS, deviation, system
-from validation.measured import Measured, worst
+from validation.cases import DAMPING, LOOKS, SHAPES, STIFFNESS, contact, driven, loss, shape_label
+from validation.measured import SHARP, Measured, deviation, worst
 from validation.report import Check, Claim, Figure
 
-SHARP = 3e-5  # bracket of 2e-5 on either side, and 6e-6 = h²/6 by which a mean over a step misses the least slip
 RATIOS = (0.6, 1.5, 2.5)  # omega_0/omega
 TIMES = (0.0, 1.0, 10.0, 30.0, 100.0)  # of the curves under a rigid pull
 RIGID = {  # alpha, T, shape
@@ -94,87 +49,12 @@ BODY = {  # shape, alpha, T, omega_0/omega
 }
 
 
-# --- rigid pull: when the centre touches again ---
+# --- a punch that has just been lost ---
 
 
-def touch_depth(phase: float, T: float) -> float:
-    """u_z0/du_z from which the centre is in contact at a phase in [3 pi/2, 2 pi]: the maximum over its past above."""
-    from scipy.optimize import minimize_scalar
-
-    if T == 0:
-        return float(-np.cos(phase))
-    found = minimize_scalar(
-        lambda theta: (np.cos(phase - theta) * np.exp(-theta / T) - np.cos(phase)) / np.expm1(-theta / T),
-        bounds=(phase - np.pi + np.arctan(T), phase),  # left while the depth fell
-        method="bounded",
-        options={"xatol": 1e-12},
-    )
-    return float(-found.fun)
-
-
-def late(depth: float, T: float) -> float:
-    """v_c over Eq. (1) of a rigid pull, 1 or sin|phi_c|, for the depth ratio u_z0/du_z > -1 and T = omega tau."""
-    from scipy.optimize import brentq
-
-    if depth >= touch_depth(1.5 * np.pi, T):
-        return 1.0
-    return float(-np.sin(brentq(lambda phase: touch_depth(phase, T) - depth, 1.5 * np.pi, 2 * np.pi, xtol=1e-14)))
-
-
-def amplitude_limit(T: float) -> float:
-    """alpha_1(T): the greatest du_z/u_z0 for which the centre touches at phi = -pi/2; T > 0."""
-    return 1 / touch_depth(1.5 * np.pi, T)
-
-
-def slow_limit() -> float:
-    """alpha_1 T for T to infinity: the minimum of theta/(-sin theta)."""
-    from scipy.optimize import brentq
-
-    return float(np.hypot(1, brentq(lambda theta: np.sin(theta) - theta * np.cos(theta), 1.1 * np.pi, 1.5 * np.pi)))
-
-
-# --- a body: the onset for a punch, and the limit of a slow material ---
-
-
-def onset(eps: float, T: float, ratio: float) -> float:
-    """Deviation of the punch that has just been lost, alpha sqrt(1 + T²) = 1 + eps: (*) of the module."""
-    case = system("flat punch", 1 / np.hypot(1, T), T, ratio)
-    pull, omega, k_zc = _spring(case), case.oscillation.omega, case.k_zc
-    single = case.material.mindlin_ratio + k_zc * (1 + 1j * T) * complex(pull.receptance(omega))
-    later = (-np.angle(1j * single) - turning_phase(T)) % (2 * np.pi) / omega  # t*
-    A, B = (4 * np.sqrt(2) / 3 * eps**1.5, 0.0) if T == 0 else (4.5 * eps**2 / T, 4.5 * eps**2)
-    lam = free_oscillation(case)
-    passed_on = (A * lam + B * lam**2 / omega) * np.exp(lam * later) / (1 - np.exp(2 * np.pi * lam / omega))
-    faster = case.mu_0 * k_zc * case.oscillation.u_z0 / (pull.m * lam.imag * omega) * passed_on.imag
-    return float(faster / mdr.critical_velocity(case))
-
-
-def blow(case: mdr.SlidingContact, n_springs: int = 4096) -> float:
-    """v_c [m/s] of a slow material under a body, (**) of the module."""
-    pull, oscillation, lam = _spring(case), case.oscillation, free_oscillation(case)
-    springs = mdr.SpringArray.of(case, n_springs)
-    depth = np.maximum(oscillation.du_z - springs.gap, 0)
-    early = 2 / 3 * np.sqrt(4 * np.pi * depth / (case.T * oscillation.du_z)) / oscillation.omega
-    impulse = 2 * np.pi / oscillation.omega * case.mu_0 * springs.dk_z * depth
-    answer = lam * np.exp(lam * early) / (1 - np.exp(2 * np.pi * lam / oscillation.omega))
-    return float(np.sum(impulse * answer.imag) / (pull.m * lam.imag))
-
-
-def half_a_blow(case: mdr.SlidingContact) -> float:
-    """pi mu_0 F_N(u_z0 + du_z)/(m omega) [m/s]: what (**) tends to for T to infinity under a light damper."""
-    F = float(case.indenter.force(case.u_z_max, case.material.E_star))
-    return np.pi * case.mu_0 * F / (_spring(case).m * case.oscillation.omega)
-
-
-def free_oscillation(case: mdr.SlidingContact) -> complex:
-    """lambda [rad/s] of the free body on its spring and damper."""
-    pull = _spring(case)
-    return complex(-pull.c_x / (2 * pull.m), pull.omega_0 * np.sqrt(1 - pull.damping_ratio**2))
-
-
-def _spring(case: mdr.SlidingContact) -> SpringPull:
-    assert isinstance(case.pull, SpringPull)
-    return case.pull
+def lost_punch(eps: float, T: float, ratio: float) -> mdr.SlidingContact:
+    """A flat punch of alpha sqrt(1 + T²) = 1 + eps under a body."""
+    return driven("flat punch", (1 + eps) / np.hypot(1, T), T, ratio)
 
 
 def reached(bound: float, T: float, ratio: float) -> float:
@@ -187,7 +67,7 @@ def reached(bound: float, T: float, ratio: float) -> float:
 
 
 def _punch(eps: float, T: float, ratio: float) -> float:
-    return deviation("flat punch", (1 + eps) / np.hypot(1, T), T, ratio)
+    return deviation(lost_punch(eps, T, ratio))
 
 
 # --- measured ---
@@ -212,7 +92,7 @@ class Point(Measured):
 @cache
 def measure(shape: str, alpha: float, T: float, ratio: float | None = None) -> Point:
     """Measure v_c of one contact, under a rigid pull or a body of omega_0 = ratio * omega."""
-    case = contact(shape, alpha, T) if ratio is None else system(shape, alpha, T, ratio)
+    case = contact(shape, alpha, T) if ratio is None else driven(shape, alpha, T, ratio)
     return Point(case, mdr.measure_critical_velocity(case), shape, alpha, T, ratio)
 
 
@@ -225,7 +105,7 @@ def claim(effort: str) -> Claim:
     knobs = [*((s, a, T, None) for a, T, s in RIGID[size]), *BODY[size]]
     points = [measure(*one) for one in progress(knobs, "lost_contact")]
     rigid, body = points[: len(RIGID[size])], points[len(RIGID[size]) :]
-    least, slow = min(body, key=lambda p: p.deviation), slow_limit()
+    least, slow = min(body, key=lambda p: p.deviation), laws.slow_limit()
     return Claim(
         name="lost_contact",
         title="Where contact is lost: how far the formulas reach, and what v_c is beyond",
@@ -237,9 +117,10 @@ def claim(effort: str) -> Claim:
         "ωτ = 100 000.",
         measured="Under a rigid pull the loss of contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a "
         "surface that comes back later than a quarter of a period before the deepest point: α above α_1 = min "
-        f"(e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {amplitude_limit(1.0):.0f} at ωτ = 1 (never, in practice), "
-        f"{amplitude_limit(10.0):.2f} at ωτ = 10 and {amplitude_limit(100.0):.3f} at ωτ = 100, tending to "
-        f"{slow:.1f}/ωτ. Beyond, v_c is Eq. (1) times sin|φ_c|, φ_c the phase at which the centre touches again. "
+        f"(e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in "
+        f"practice), {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(100.0):.3f} at ωτ = 100, "
+        f"tending to {slow:.1f}/ωτ. Beyond, v_c is Eq. (1) times sin|φ_c|, φ_c the phase at which the centre touches "
+        "again. "
         "With a mass and a spring a flat punch, for which Eq. (15) is exact until then, leaves it as ε^{3/2} if "
         "elastic and as ε^2 if viscoelastic, α √(1 + (ωτ)²) = 1 + ε, since what a Kelvin contact misses as a pull "
         "while it is off, it misses again as pressure before it returns. Far beyond, with a slow material, the "
@@ -248,12 +129,9 @@ def claim(effort: str) -> Claim:
         "π μ_0 F_N(u_z0 + Δu_z)/(mω), F_N the elastic force at the deepest point, plus a known term in (ωτ)^{−1/2}. "
         f"Eq. (15) grows with ωτ: measured are {100 * (1 + least.deviation):.1f} % of it ({least.where}). The "
         "full-slip condition with the true times of contact lies in the bracket of every measurement.",
-        verdict="holds if contact is kept (Eq. (15), flat punch) or back a quarter period before the deepest point "
-        "(Eq. (1))",
-        sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ (ωτ ≫ 1; elastic: "
-        "always), but ends Eq. (15) of a punch at once; for a slow rubber that taps under a body away from ω_0 = nω, "
-        "v_c is not Eq. (15), which grows with the viscosity, but half of what one blow gives the body, "
-        "π μ_0 F_N(u_z0 + Δu_z)/(mω), for any shape.",
+        verdict="holds if contact is kept; under a rigid pull also if it is back in time",
+        sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ, but ends Eq. (15) "
+        "of a punch at once; a slow rubber that taps gives the body blows, whose v_c does not grow with viscosity.",
         checks=(*_rigid_checks(rigid), *_limit_checks(), *_onset_checks(), *_slow_checks(), *_body_checks(body)),
         figures=(_rigid_figure(rigid), _onset_figure(effort), _slow_figure(body, effort)),
     )
@@ -264,9 +142,9 @@ def _rigid_checks(points: list[Point]) -> list[Check]:
     return [
         Check(
             f"measured v_c over Eq. (1), worst of {len(here)} shapes: ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}",
-            worst((p.over_rigid for p in here), late(1 / alpha, T)),
-            late(1 / alpha, T),
-            SHARP * late(1 / alpha, T),
+            worst((p.over_rigid for p in here), laws.late_return(1 / alpha, T)),
+            laws.late_return(1 / alpha, T),
+            SHARP * laws.late_return(1 / alpha, T),
             why,
         )
         for alpha, T in dict.fromkeys((p.alpha, p.T) for p in points)
@@ -280,11 +158,13 @@ def _limit_checks() -> list[Check]:
     for T in (1.0, 10.0, 30.0, 100.0):
         name = f"α_1, where Eq. (1) ends, times u_z0/Δu_z of a centre that touches at −π/2: ωτ = {T:g}"
         touched = -float(contact_edge(np.array(1.5 * np.pi), T))
-        checks.append(Check(name, amplitude_limit(T) * touched, 1.0, 1e-11, "a minimum against a root, both to 1e-12"))
-    T, limit = 1e4, slow_limit()
+        checks.append(
+            Check(name, laws.amplitude_limit(T) * touched, 1.0, 1e-11, "a minimum against a root, both to 1e-12")
+        )
+    T, limit = 1e4, laws.slow_limit()
     why = "the next term of the exponential is θ/(2ωτ) of it, at tan θ = θ < 4.5"
     checks.append(
-        Check(f"α_1 ωτ of a very slow material, ωτ = {T:g}", amplitude_limit(T) * T, limit, limit * 2.25 / T, why)
+        Check(f"α_1 ωτ of a very slow material, ωτ = {T:g}", laws.amplitude_limit(T) * T, limit, limit * 2.25 / T, why)
     )
     return checks
 
@@ -296,7 +176,7 @@ def _onset_checks() -> list[Check]:
         why = "the force has one harmonic while contact is kept; rounding of its panels"
         checks.append(Check.at_most(f"flat punch, {loss(T)}: |deviation| as α √(1 + T²) reaches 1", edge, 1e-9, why))
         for ratio in (0.6, 2.5):
-            law = (1e-9 / abs(onset(1.0, T, ratio))) ** (1 / (1.5 if T == 0 else 2))
+            law = (1e-9 / abs(laws.onset(lost_punch(1.0, T, ratio)))) ** (1 / (1.5 if T == 0 else 2))
             name = f"flat punch, {loss(T)}, ω_0 = {ratio:g} ω: α √(1 + T²) where |deviation| passes 1e-9"
             why = "1 + ε of the law (*); its next order is a few ε of it" if T == 0 else "its next order is a few √ε"
             next_order = 10 * law if T == 0 else 3 * np.sqrt(law)
@@ -312,8 +192,8 @@ def _slow_checks() -> list[Check]:
     checks = []
     for shape in SHAPES:
         for alpha in (0.2, 1.0):
-            cases = {T: [system(shape, alpha, T, ratio) for ratio in RATIOS] for T in (1e5, 1e6)}
-            off = {T: [mdr.full_slip_critical_velocity(case) / blow(case) - 1 for case in cases[T]] for T in cases}
+            cases = {T: [driven(shape, alpha, T, ratio) for ratio in RATIOS] for T in (1e5, 1e6)}
+            off = {T: [mdr.full_slip_critical_velocity(case) / laws.blow(case) - 1 for case in cases[T]] for T in cases}
             # a blow is known by its impulse and its mean time; its mean square time is delta²/2
             next_order = 0.5 * 0.5 * 4 * np.pi * (1 + 1 / alpha) / 1e5 * max(RATIOS) ** 2
             name = f"{shape}, α = {alpha:g}, ωτ = 100000: worst |full-slip value over (**) − 1| of {len(RATIOS)} ω_0/ω"
@@ -323,17 +203,17 @@ def _slow_checks() -> list[Check]:
             name = f"{shape}, α = {alpha:g}: power of 1/ωτ in that, worst of {len(RATIOS)} ω_0/ω"
             why = "(**) leaves out 1/ωτ; the next term, (ωτ)^{−1/2} of it, at ωτ = 100 000"
             checks.append(Check(name, max(powers, key=lambda p: abs(p - 1)), 1.0, 0.05, why))
-    light = [blow(one) / half_a_blow(one) for r in RATIOS for one in [_light("paraboloid", r)]]
+    light = [laws.blow(one) / laws.half_a_blow(one) for r in RATIOS for one in [_light("paraboloid", r)]]
     name = "(**) over π μ_0 F_N(u_z0 + Δu_z)/(mω) without damper, ωτ = 1e10, worst of three ω_0/ω"
     why = "what is left of the (ωτ)^{−1/2} term"
     checks.append(Check(name, max(light, key=lambda v: abs(v - 1)), 1.0, 5e-5, why))
     for n in (1, 2):
-        case = system("cone", 1.0, 1e8, n / np.sqrt(1 - DAMPING**2))
+        case = driven("cone", 1.0, 1e8, n / np.sqrt(1 - DAMPING**2))
         add_up = 2 / -np.expm1(-2 * np.pi * n * DAMPING / np.sqrt(1 - DAMPING**2))
         name = f"cone, ωτ = 1e8, free oscillation at {n}ω: full-slip value over π μ_0 F_N(u_z0 + Δu_z)/(mω)"
         why = "2/[1 − exp(−2πnζ)], blows that add up; (ωτ)^{−1/2} of it"
         checks.append(
-            Check(name, mdr.full_slip_critical_velocity(case) / half_a_blow(case), add_up, 1e-3 * add_up, why)
+            Check(name, mdr.full_slip_critical_velocity(case) / laws.half_a_blow(case), add_up, 1e-3 * add_up, why)
         )
     return checks
 
@@ -381,7 +261,12 @@ def _rigid_figure(points: list[Point]) -> Figure:
     with style():
         fig, (ax, where) = plt.subplots(1, 2, figsize=(9.6, 4.2))
         for T, colour in colours.items():
-            ax.plot(alphas, [late(1 / alpha, T) for alpha in alphas], color=colour, label=rf"$\omega\tau={T:g}$")
+            ax.plot(
+                alphas,
+                [laws.late_return(1 / alpha, T) for alpha in alphas],
+                color=colour,
+                label=rf"$\omega\tau={T:g}$",
+            )
         for p in points:
             size = 5 + 2 * list(SHAPES).index(p.shape)
             ax.plot(p.alpha, p.over_rigid, LOOKS[p.shape][1], mfc="none", mec=colours[p.T], ms=size)
@@ -390,7 +275,7 @@ def _rigid_figure(points: list[Point]) -> Figure:
         ax.set(xscale="log", xlabel=r"amplitude $\Delta u_z/u_{z0}$", ylabel="$v_c$ over Eq. (1)", ylim=(0.3, 1.05))
         ax.set_xticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
         ax.legend(loc="lower left", fontsize=8)
-        lost, end = 1 / np.hypot(1, times), np.array([amplitude_limit(T) for T in times])
+        lost, end = 1 / np.hypot(1, times), np.array([laws.amplitude_limit(T) for T in times])
         where.plot(times, lost, color="0.3", ls=":", label="contact is lost, Eq. (5)")
         where.plot(times, end, color=COLOURS[0], label=r"Eq. (1) ends, $\alpha_1$")
         where.fill_between(times, lost, np.minimum(end, 10), color=COLOURS[0], alpha=0.12, lw=0)
@@ -405,7 +290,8 @@ def _rigid_figure(points: list[Point]) -> Figure:
         "Rigid pull, any shape. Left: v_c over Eq. (1) against amplitude, measured (symbols) and sin|φ_c| of the phase "
         "at which the centre touches again (lines); an elastic contact stays at 1. Right: where contact is lost "
         "(dotted) nothing happens to v_c; Eq. (1) holds through the shaded region and ends at the full line, "
-        f"{slow_limit():.1f}/ωτ for slow materials, above which the surface is not back when the depth grows fastest.",
+        f"{laws.slow_limit():.1f}/ωτ for slow materials, above which the surface is not back when the depth grows "
+        "fastest.",
         fig,
         "Left: critical velocity over Eq. (1), flat at one and falling beyond an amplitude that is smaller for slower "
         "materials. Right: the two limits in the plane of amplitude and relaxation time.",
@@ -422,7 +308,7 @@ def _onset_figure(effort: str) -> Figure:
             for colour, mark, ratio in zip(COLOURS, "os^", RATIOS, strict=False):
                 values = np.array([abs(_punch(float(e), T, ratio)) for e in eps])
                 seen = values > 1e-11
-                ax.plot(law, [abs(onset(e, T, ratio)) for e in law], color=colour, lw=1.1)
+                ax.plot(law, [abs(laws.onset(lost_punch(e, T, ratio))) for e in law], color=colour, lw=1.1)
                 label = rf"$\omega_0$ = {ratio:g} $\omega$"
                 ax.plot(eps[seen], values[seen], mark, color=colour, mfc="white", label=label)
             ax.set(xscale="log", yscale="log", ylim=(1e-11, 5), xlabel=r"$\varepsilon$")
@@ -448,19 +334,19 @@ def _slow_figure(points: list[Point], effort: str) -> Figure:
     with style():
         fig, axes = plt.subplots(1, 3, sharey=True, figsize=(9.6, 4.4))
         for ax, ratio in zip(axes, RATIOS, strict=True):
-            cases = {shape: [system(shape, 1.0, float(T), ratio) for T in times] for shape in shapes}
-            unit = half_a_blow(cases["cone"][0])
+            cases = {shape: [driven(shape, 1.0, float(T), ratio) for T in times] for shape in shapes}
+            unit = laws.half_a_blow(cases["cone"][0])
             for shape in shapes:
                 colour = LOOKS[shape][0]
                 ax.plot(times, [mdr.full_slip_critical_velocity(c) / unit for c in cases[shape]], color=colour)
                 slow = [case for case in cases[shape] if case.T > 30]
-                ax.plot([c.T for c in slow], [blow(c) / unit for c in slow], color=colour, ls="-.", lw=1)
+                ax.plot([c.T for c in slow], [laws.blow(c) / unit for c in slow], color=colour, ls="-.", lw=1)
             ax.plot(times, [mdr.critical_velocity(c) / unit for c in cases["cone"]], color="0.2", ls="--", lw=1)
             ax.axhline(1.0, color="0.5", lw=0.9, ls=":")
             for p in points:
                 if (p.alpha, p.ratio) == (1.0, ratio):
                     colour, mark = LOOKS[p.shape]
-                    ax.plot(p.T, p.v_c / half_a_blow(p.case), mark, color=colour, ms=7, mec="white")
+                    ax.plot(p.T, p.v_c / laws.half_a_blow(p.case), mark, color=colour, ms=7, mec="white")
             ax.set(xscale="log", yscale="log", xlabel=r"$\omega\tau$", title=rf"$\omega_0$ = {ratio:g} $\omega$")
             ax.set_ylim(0.05, 30)
         axes[0].set_ylabel(r"$v_c$ over $\pi\mu_0 F_N(u_{z0}+\Delta u_z)/(m\omega)$")

@@ -1,4 +1,4 @@
-"""A critical velocity measured from runs alone, beside the two formulas that it is compared with."""
+"""A critical velocity measured from runs alone, the two formulas that it is compared with, and how far these differ."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,6 +8,8 @@ import numpy as np
 import mdr
 
 TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  #: bracket of a measurement, and second order in its step, over v_c
+
+SHARP = 3e-5  #: under a rigid pull: the bracket on either side, and h²/6 by which a mean over a step misses least slip
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,24 @@ class Measured:
     def in_bracket(self) -> bool:
         """Whether the full-slip value lies in the bracket of this very measurement."""
         return self.found.contains(mdr.full_slip_critical_velocity(self.case))
+
+
+@dataclass(frozen=True)
+class Point(Measured):
+    """One contact, said in words."""
+
+    where: str
+
+
+def deviation(case: mdr.SlidingContact) -> float:
+    """Full-slip value over Eq. (15), less 1."""
+    return mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1
+
+
+def slope_at_zero(one: mdr.SlidingContact, two: mdr.SlidingContact) -> float:
+    """`deviation` over alpha for alpha -> 0: from two cases, the second of twice the amplitude of the first."""
+    a, b = (deviation(case) / case.alpha for case in (one, two))
+    return 2 * a - b
 
 
 def worst(values: Iterable[float], expected: float) -> float:

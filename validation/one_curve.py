@@ -1,23 +1,11 @@
 """At small amplitude the elastic COF curves of all shapes are one; what is left of the shape is known to first order.
 
-Rigid pull, elastic contact that is kept. A spring of gap c, its foot du_z c below the mean surface, |c| < 1, touches at
-theta with cos(theta) = c. It sticks with the core from phi_1, sin(phi_1) = -v, if it touched before; at once if it
-touches later while -sin(theta) > v; and never after that. A stick from theta to theta_2 has
+Rigid pull, elastic contact that is kept. The springs of the core lose what one spring loses, psi(v), `deficit` of
+mdr/closed_forms/paper.py. Those at the edge touch later or not at all, and add C(v) alpha/n to it for f ~ r^n, with one
+C for all shapes (`mdr.laws.edge_band`). This first order is all there is for the flat punch (n = infinity) and for the
+cone (n = 1), whose stiffness is linear in the depth; the second has the factor (1/n) (1/n - 1)/2.
 
-    cos(theta_2) = cos(theta) + v (theta_2 - theta),
-    l(theta) = [sin(theta_2) - sin(theta) - (theta_2 - theta) cos(theta) - v (theta_2 - theta)²/2]/(2 pi)
-
-as its mean lag; that of the core, l(phi_1) = psi, is theory.deficit. For f ~ r^n the stiffness of the contact follows
-its edge like k_zc (1 + alpha c)^(1/n), k_zc at u_z0, and the lags of all springs are together
-
-    (1 - mu/mu_0) <F_N>/(k_zc du_z) = psi (1 - alpha)^(1/n) + integral of l d(1 + alpha c)^(1/n)
-                                    = psi(v) [1 + C(v) alpha/n + O(alpha²)],  C = integral of l dc/psi - 1,
-
-the integrals over c from -1 to 1. The first order is all there is for the flat punch (n = infinity) and for the cone
-(n = 1), whose stiffness is linear in the depth; the second has the factor (1/n) (1/n - 1)/2. C is -1/4 at v = 0, and 0
-at v = 1, where springs that touch before 3 pi/2, c < 0, have the lag of the core, and all others have none.
-
-Symbols: alpha = du_z/u_z0, v = v_0/v_c, phi, theta phases, <F_N> mean normal force, psi deficit of the punch.
+Symbols: alpha = du_z/u_z0, v = v_0/v_c, <F_N> mean normal force.
 """
 
 from dataclasses import dataclass
@@ -25,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import mdr
+from mdr import laws
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.rigid_pull import average_friction
@@ -94,23 +83,7 @@ def claim(effort: str) -> Claim:
 
 def one_curve(v: Array) -> OneCurve:
     """The two functions at 0 < v < 1, shape (n_v,)."""
-    return OneCurve(v, np.array([theory.deficit(x) for x in v]), np.array([edge_band(x) for x in v]))
-
-
-def edge_band(v: float) -> float:
-    """C(v): the lag of springs of gaps -1 to 1 over that of as many springs of the core, less 1; 0 < v < 1."""
-    from scipy.optimize import brentq
-
-    first, last = np.pi + np.arcsin(v), 2 * np.pi - np.arcsin(v)  # touches that are followed by a stick at once
-    node, weight = np.polynomial.legendre.leggauss(60)
-    total = 0.0
-    for theta, w in zip(first + (last - first) * (node + 1) / 2, (last - first) / 2 * weight, strict=True):
-        turn = 3 * np.pi - np.arcsin(v)  # where the depth falls as fast as the pull; the stick ends before
-        end = brentq(lambda t, at=theta: np.cos(t) - np.cos(at) - v * (t - at), last, turn, xtol=1e-14)
-        span = end - theta
-        lag = (np.sin(end) - np.sin(theta) - np.cos(theta) * span - v * span**2 / 2) / (2 * np.pi)
-        total += w * lag * -np.sin(theta)
-    return float(total / theory.deficit(v) - np.sqrt(1 - v**2))  # gaps from -1 to cos(first) have the lag psi
+    return OneCurve(v, np.array([theory.deficit(x) for x in v]), np.array([laws.edge_band(x) for x in v]))
 
 
 def lost(shape: str, alpha: float, v: Array) -> Array:
@@ -183,7 +156,7 @@ def _first_order_checks() -> list[Check]:
         why = "two amplitudes extrapolated leave their product, the next order, with a factor of order one"
         checks.append(Check(name, worst, law.C[i], near * far, why))
     why = "at rest the lag of a spring is its mean compression: 3/4 of that of the core; C rises from it like v_0/2"
-    checks.append(Check("C at v_0/v_c = 1e-9", edge_band(1e-9), -0.25, 1e-8, why))
+    checks.append(Check("C at v_0/v_c = 1e-9", laws.edge_band(1e-9), -0.25, 1e-8, why))
     return checks
 
 

@@ -10,7 +10,7 @@ import io
 import json
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -117,8 +117,25 @@ class Figure:
 
 
 @dataclass(frozen=True)
+class Part:
+    """One range over which the statement of a claim was tested, and what was found there."""
+
+    name: str  #: to link to
+    title: str
+    quote: str  #: what the paper says of it; "" where the claim has it
+    range: str
+    measured: str
+    sentence: str  #: the conclusion in one line
+    checks: tuple[Check, ...]
+    figures: tuple[Figure, ...] = ()
+
+
+@dataclass(frozen=True)
 class Claim:
-    """What the paper says, over which range it was tested, what was found, and the verdict."""
+    """What the paper says, over which range it was tested, what was found, and the verdict.
+
+    A claim whose statement was tested over several ranges has parts; its checks and figures are then theirs.
+    """
 
     name: str  #: the module's name
     title: str
@@ -127,12 +144,16 @@ class Claim:
     measured: str  #: what was found, in words
     verdict: str  #: "holds", "holds if …" or "fails when …"
     sentence: str  #: the conclusion in one line
-    checks: tuple[Check, ...]
+    checks: tuple[Check, ...] = ()
     figures: tuple[Figure, ...] = ()
+    parts: tuple[Part, ...] = ()
 
     def __post_init__(self) -> None:
-        """Ask for a name to link to, a verdict, and at least one check."""
+        """Ask for a name to link to, a verdict, and at least one check; no two with one name."""
         _require_slug("claim", self.name)
+        if self.parts:
+            for what in ("checks", "figures"):
+                object.__setattr__(self, what, [one for part in self.parts for one in getattr(part, what)])
         object.__setattr__(self, "checks", tuple(self.checks))
         object.__setattr__(self, "figures", tuple(self.figures))
         if not re.match(rf"holds$|holds if \S|fails when \S|{NOT_TESTED}", self.verdict):
@@ -141,6 +162,8 @@ class Claim:
             raise ValueError(f"claim {self.name}: a claim without checks proves nothing; add a Check")
         if len({figure.name for figure in self.figures}) < len(self.figures):
             raise ValueError(f"claim {self.name}: two figures have the same name; rename one")
+        if len({check.name for check in self.checks}) < len(self.checks):
+            raise ValueError(f"claim {self.name}: two checks have the same name; rename one")
 
     @classmethod
     def broken(cls, name: str, error: str) -> "Claim":
@@ -257,24 +280,52 @@ def _check_row(check: Check) -> tuple[str, ...]:
 
 
 def _section(claim: Claim, above: Sequence[Figure]) -> str:
-    """One claim: quote, range, what was measured, figures, checks."""
-    shown = [figure for figure in claim.figures if all(figure is not other for other in above)]
-    head = ("Check", "Got", "Expected", "Tolerance", "Held", "Why")
-    parts = [f'<section id="{claim.name}"><h2>{markup(claim.title)}</h2>']
-    if claim.quote:
-        parts.append(f"<blockquote>{markup(claim.quote)}</blockquote>")
-    for label, text in (("Tested over", claim.range), ("Measured", claim.measured)):
+    """One claim: quote, range, what was measured, verdict; then figures and checks, or its parts with theirs."""
+    link = (
+        ' <a href="#glance">Its main figure opens this page.</a>'
+        if len(_shown(claim, above)) < len(claim.figures)
+        else ""
+    )
+    return "\n".join(
+        (
+            f'<section id="{claim.name}"><h2>{markup(claim.title)}</h2>',
+            *_words(claim),
+            f"<p><b>Verdict:</b> {_verdict_row(claim)[1]}. {markup(claim.sentence)}{link}</p>",
+            *(_part(claim, part, above) for part in claim.parts),
+            *(() if claim.parts else _evidence(claim, claim, above)),
+            "</section>",
+        )
+    )
+
+
+def _part(claim: Claim, part: Part, above: Sequence[Figure]) -> str:
+    head = f'<h3 id="{claim.name}-{part.name}">{markup(part.title)}</h3>'
+    found = f"<p><b>Found:</b> {markup(part.sentence)}</p>"
+    return "\n".join((head, *_words(part), found, *_evidence(claim, part, above)))
+
+
+def _words(told: Claim | Part) -> Iterator[str]:
+    """Quote, range and what was measured."""
+    if told.quote:
+        yield f"<blockquote>{markup(told.quote)}</blockquote>"
+    for label, text in (("Tested over", told.range), ("Measured", told.measured)):
         if text:
-            parts.append(f"<p><b>{label}:</b> {markup(text)}</p>")
-    link = "" if len(shown) == len(claim.figures) else ' <a href="#glance">Its main figure opens this page.</a>'
-    parts += [
-        f"<p><b>Verdict:</b> {_verdict_row(claim)[1]}. {markup(claim.sentence)}{link}</p>",
-        *(_figure(claim, figure) for figure in shown),
-        f"<details{'' if claim.held else ' open'}><summary>{_count(claim.n_held, len(claim.checks))}</summary>",
-        _table("checks", head, claim.checks, _check_row),
-        "</details></section>",
-    ]
-    return "\n".join(parts)
+            yield f"<p><b>{label}:</b> {markup(text)}</p>"
+
+
+def _evidence(claim: Claim, told: Claim | Part, above: Sequence[Figure]) -> Iterator[str]:
+    """Figures that do not stand above, and the table of checks, open where one was missed."""
+    head = ("Check", "Got", "Expected", "Tolerance", "Held", "Why")
+    n_held = sum(check.held for check in told.checks)
+    yield from (_figure(claim, figure) for figure in _shown(told, above))
+    summary = f"<summary>{_count(n_held, len(told.checks))}</summary>"
+    yield f"<details{'' if n_held == len(told.checks) else ' open'}>{summary}"
+    yield _table("checks", head, told.checks, _check_row)
+    yield "</details>"
+
+
+def _shown(told: Claim | Part, above: Sequence[Figure]) -> tuple[Figure, ...]:
+    return tuple(figure for figure in told.figures if all(figure is not other for other in above))
 
 
 def _table(kind: str, head: Sequence[str], items: Iterable[Any], row: Callable[[Any], tuple[str, ...]]) -> str:
@@ -338,8 +389,9 @@ _EQ_15 = """
 _CSS = """
 body { margin: 0; font: 17px/1.5 Georgia, "Times New Roman", serif; color: #1a1a1a; background: #fff; }
 main { max-width: 62rem; margin: 0 auto; padding: 1.5rem; }
-h1, h2, th, .count, figcaption, footer, .tag { font-family: "Helvetica Neue", Arial, sans-serif; }
+h1, h2, h3, th, .count, figcaption, footer, .tag { font-family: "Helvetica Neue", Arial, sans-serif; }
 h1 { font-size: 1.8rem; line-height: 1.2; } h2 { font-size: 1.25rem; line-height: 1.25; }
+h3 { font-size: 1.05rem; margin-top: 2rem; }
 section { border-top: 1px solid #bbb; margin-top: 2.5rem; } a { color: #00518a; } 
 sub, sup { font-size: .75em; line-height: 0; }
 blockquote { margin: 1rem 0; padding: .1rem 0 .1rem 1rem; border-left: 4px solid #bbb; }

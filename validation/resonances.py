@@ -8,30 +8,13 @@ motion needs
 
     the n-th harmonic of mu_0 F_N - delta to vanish:  <delta> = mu_0 |F_n|,
 
-as short pulses, all at one phase of the own oscillation, have a mean as large as their n-th harmonic. So
+as short pulses, all at one phase of the own oscillation, have a mean as large as their n-th harmonic. So mu/mu_0 ->
+1 - |F_n|/F_0 at any velocity, however high (`mdr.laws.harmonic_share`). At finite velocity the pulses last for a time ~
+v_0^(-1/4) of the period and this is exceeded by a share ~ v_0^(-1/2), their square.
 
-    mu/mu_0 -> 1 - |F_n|/F_0                                                                                    (*)
-
-at any velocity, however high: there is no critical velocity. For the punch |F_1|/F_0 = ½ alpha sqrt(1 + T²), half of
-its static reduction; for a curved elastic shape |F_n|/F_0 ~ alpha^n, for a Kelvin one, whose edge leaves and
-returns on different ways, ~ alpha² for every n > 1. At finite velocity the pulses last for a time ~ v_0^(-1/4) of
-the period and (*) is exceeded by a share ~ v_0^(-1/2), their square.
-
-Close to a resonance, or damped, v_c is finite, and on its poles of first order: with the detuning |omega_0/omega - n|
-
-    v_c |omega_0/omega - n| -> mu_0 |F_n|/(m omega),                                                           (**)
-
-so that the window in which v_c exceeds Eq. (15) by its own amount is mu_0 |F_n|/(m omega v_c15) wide on either side.
-
-A force without an n-th harmonic, as a punch has it, does not drive the body at omega_0 = n omega. But there a free
-oscillation keeps its phase to the drive for ever, and what instants of stick leave of it is such that it never sticks,
-if there is such a one: with the slip velocity v_0 - V sin(phase) of Eq. (15), V = v_c, and a free oscillation of
-velocity b sin(n phase), the least maximum of V sin(phase) + b sin(n phase) over b is
-
-    V cos(pi/2n),                                                                                               (***)
-
-so friction is full from this share of Eq. (15) on: the body locks in. Off the multiple, or damped, a little stick is
-needed in every period to hold the oscillation, and a little friction is missing up to Eq. (15).
+Close to a resonance, or damped, v_c is finite, and has poles of first order (`mdr.laws.resonance_residue`). Where the
+force has no n-th harmonic the undamped body locks in (`mdr.laws.lock_in`); off the multiple, or damped, a little stick
+is needed in every period to hold the oscillation, and a little friction is missing up to Eq. (15).
 
 Symbols: F_n complex harmonics of the normal force in full slip, F_0 its mean; alpha = du_z/u_z0, T = omega tau.
 """
@@ -42,7 +25,7 @@ from typing import Any
 import numpy as np
 
 import mdr
-from mdr.closed_forms.full_slip import mean_normal_force, normal_force_harmonics
+from mdr import laws
 from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
 from validation.cases import contact, loss
@@ -64,8 +47,7 @@ def system(shape: str, T: float, ratio: float, damping_ratio: float = 0.0) -> md
 @cache
 def share(shape: str, T: float, n: int) -> float:
     """|F_n|/F_0 of the normal force in full slip."""
-    F_n = normal_force_harmonics(system(shape, T, n))
-    return float(abs(F_n[n]) / F_n[0].real)
+    return laws.harmonic_share(system(shape, T, n), n)
 
 
 def unit(case: mdr.SlidingContact, n: int) -> float:
@@ -132,7 +114,8 @@ def claim(effort: str) -> Claim:
             " n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
             " velocity, however high, the COF stays at 1 − |F_n|/F_0 of μ_0. "
             + "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: {_percent(share(s, T, n))}" for s, T, n in driven)
-            + " less than μ_0. With a damper of 1 % there is a critical velocity again, that of full slip with all"
+            + " less than μ_0. This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
+            " With a damper of 1 % there is a critical velocity again, that of full slip with all"
             f" harmonics; it is off Eq. (15) by up to {100 * ((worst[1][0] or np.nan) - 1):+.0f} % ({_name(worst[0])})."
             + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
             " drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on"
@@ -143,8 +126,7 @@ def claim(effort: str) -> Claim:
         verdict="fails when ω_0 is a whole multiple of ω",
         sentence=(
             "Eq. (15) knows one resonance, a curved contact has one at each ω_0 = nω of its force: without damping"
-            " friction stays reduced by |F_n|/F_0 at any velocity; this share and the window go like α^n for an"
-            " elastic contact, like α^2 for a viscoelastic one."
+            " friction stays reduced by |F_n|/F_0 at any velocity."
         ),
         checks=tuple(checks),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
@@ -176,12 +158,12 @@ def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> lis
     whole = sum(not np.isinf(mdr.full_slip_critical_velocity(system(*knobs))) for knobs in driven)
     checks.append(Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why))
     for knobs in idle:
-        why = "law of lock-in, (***); read off the COF, by a fit through three velocities"
-        law = float(np.cos(np.pi / (2 * knobs[2])))
+        why = "law of lock-in; read off the COF, by a fit through three velocities"
+        law = laws.lock_in(knobs[2])
         checks.append(Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why))
     locked = sum((ends[knobs][0] or 1.0) < 0.99 for knobs in idle)
     name = f"of {len(idle)} undriven resonances those with full friction below Eq. (15)"
-    checks.append(Check(name, locked, len(idle), 0, "(***)"))
+    checks.append(Check(name, locked, len(idle), 0, "law of lock-in"))
     return checks
 
 
@@ -229,8 +211,7 @@ def _pole_checks(driven: list[Any]) -> list[Check]:
     checks = []
     for shape, T, n in driven:
         case = system(shape, T, n)
-        residue = case.mu_0 * share(shape, T, n) * mean_normal_force(case)
-        residue /= case.pull.m * case.oscillation.omega  # type: ignore[attr-defined]
+        residue = laws.resonance_residue(case, n)
         shift = 1e-3 * residue / unit(case, n)  # v_c is then about a thousand times its usual value
         both = [mdr.full_slip_critical_velocity(system(shape, T, n * (1 + side * shift / n))) for side in (-1, 1)]
         name = f"v_c |ω_0/ω − n| m ω/(μ_0 |F_n|): {_name((shape, T, n))}"
@@ -243,8 +224,8 @@ def _order_checks() -> list[Check]:
     """The power of alpha in |F_3|/F_0 of the paraboloid."""
     alphas, checks = np.array([0.02, 0.03, 0.04]), []
     for T, power in ((0.0, 3), (1.0, 2)):
-        F_n = [normal_force_harmonics(contact("paraboloid", float(alpha), T)) for alpha in alphas]
-        got = float(np.polyfit(np.log(alphas), np.log([abs(F[3]) / F[0].real for F in F_n]), 1)[0])
+        shares = [laws.harmonic_share(contact("paraboloid", float(alpha), T), 3) for alpha in alphas]
+        got = float(np.polyfit(np.log(alphas), np.log(shares), 1)[0])
         name = f"power of α in |F_3|/F_0: paraboloid, ωτ = {T:g}"
         checks.append(Check(name, got, power, 0.1, "the next power of α is a few α of it"))
     return checks

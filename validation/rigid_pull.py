@@ -2,7 +2,7 @@
 
 In full slip every spring in contact slips at v_0 - v_1 (-sin phi), v_1 = mu_0 kappa omega du_z of Eq. (1), so v_c = v_1
 if any spring touches at phi = -pi/2, where the depth grows fastest. A slow surface that was left may come back later,
-at phi_c, and v_c is then v_1 sin|phi_c|: when, is derived and tested in validation/lost_contact.py.
+and v_c is then lower (`mdr.laws.late_return`).
 
 Below v_c the COF is known in closed form (mdr/closed_forms/rigid_pull.py), and so are both ends of its curve. It is set
 beside runs, which share no code with it. What the curves of different shapes have in common: validation/one_curve.py;
@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 
 import mdr
+from mdr import laws
 from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
 from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
-from validation.lost_contact import SHARP, amplitude_limit, late, slow_limit
-from validation.measured import worst
+from validation.measured import SHARP, worst
 from validation.report import Check, Claim, Figure
 
 Measured = dict[tuple[float, float], dict[str, tuple[float | None, float]]]  #: alpha, T: shape: runs, full slip
@@ -55,7 +55,7 @@ def claim(effort: str) -> Claim:
     tapped = {T: _measure(1 / TAPPING, T, shapes, u_z0=-1e-5) for T in (0.0, 1.0)}
     marched = _marched(effort)
     alphas, times = ([case[i] for case in cases] for i in (0, 1))
-    slow = slow_limit()
+    slow = laws.slow_limit()
     return Claim(
         name="rigid_pull",
         title="Under a rigid pull v_c depends neither on shape, depth nor rheology",
@@ -76,20 +76,20 @@ def claim(effort: str) -> Claim:
             " instant when the depth grows fastest, a quarter of a period before the deepest point. Loss of"
             " contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a surface that comes back late:"
             " a slow rubber does so for Δu_z/u_z0 above α_1 = min (e^{θ/ωτ} − 1)/|sin θ| over π < θ < 2π,"
-            f" that is {amplitude_limit(1.0):.0f} at ωτ = 1 (never, in practice), {amplitude_limit(10.0):.2f} at"
-            f" ωτ = 10 and {amplitude_limit(30.0):.3f} at ωτ = 30, tending to {slow:.1f}/ωτ. Beyond, and under tapping"
-            " (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with φ_c the phase at which the centre touches again:"
-            f" {late(1.0, 30.0):.2f} at ωτ = 30 and Δu_z = u_z0. It is still the same for all shapes, since the centre"
-            " decides. Below v_c runs follow the closed form of the COF within their own bounds. An elastic contact"
+            f" that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in practice),"
+            f" {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(30.0):.3f} at ωτ = 30, tending to"
+            f" {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with φ_c the"
+            f" phase at which the centre touches again: {laws.late_return(1.0, 30.0):.2f} at ωτ = 30 and Δu_z = u_z0."
+            " It is still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of"
+            " the COF within their own bounds. An elastic contact"
             " joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose lag outlives the stick, with"
             " (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to μ_0 is not v_c. The other"
             " end, at v_0 → 0, is shown with the static value."
         ),
         verdict="holds if the contact exists when the depth grows fastest",
         sentence=(
-            "One v_c for every shape and relaxation time, that of Eq. (1), unless a slow surface comes back"
-            f" later than a quarter period before the deepest point: Δu_z/u_z0 above about {slow:.1f}/ωτ for ωτ ≫ 1,"
-            " or tapping; then v_c is lower, and again the same for all shapes."
+            "One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
+            f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1)."
         ),
         checks=(*_velocity_checks(found, tapped), *_march_checks(marched), *_end_checks()),
         figures=(_curve_figure(), _end_figure()),
@@ -113,11 +113,13 @@ def _velocity_checks(found: Measured, tapped: dict[float, Any]) -> list[Check]:
     checks = []
     for (alpha, T), measured in found.items():
         name = f"ωτ = {T:g}, Δu_z/u_z0 = {alpha:g} ({_contact(alpha, T)})"
-        checks += _of_one(name, late(1 / alpha, T), measured)
+        checks += _of_one(name, laws.late_return(1 / alpha, T), measured)
     for T, measured in tapped.items():
-        checks += _of_one(f"ωτ = {T:g}, tapping with u_z0 = −Δu_z/3", late(TAPPING, T), measured)
+        checks += _of_one(f"ωτ = {T:g}, tapping with u_z0 = −Δu_z/3", laws.late_return(TAPPING, T), measured)
     why = "touches where cos φ = 1/3, with nothing left to relax"
-    checks.append(Check("that limit for an elastic tapping contact", late(TAPPING, 0.0), np.sqrt(8) / 3, 1e-12, why))
+    checks.append(
+        Check("that limit for an elastic tapping contact", laws.late_return(TAPPING, 0.0), np.sqrt(8) / 3, 1e-12, why)
+    )
     return checks
 
 
@@ -136,7 +138,7 @@ def _of_one(name: str, expected: float, measured: dict[str, tuple[float | None, 
 def _contact(alpha: float, T: float) -> str:
     if alpha * np.hypot(1, T) < 1:
         return "contact kept"
-    return "contact lost, back in time" if not T or alpha < amplitude_limit(T) else "back late"
+    return "contact lost, back in time" if not T or alpha < laws.amplitude_limit(T) else "back late"
 
 
 # --- checks of the closed form ---

@@ -1,18 +1,14 @@
 """At vanishing velocity friction is that of the least normal force, Eq. (7), and how fast a curve leaves this limit.
 
-What a slow pull adds to the static value, derived here from the motion of one spring (lengths in du_z, v = v_0/v_1,
-v_1 of Eq. (1)):
+What a slow pull adds to the static value follows from the motion of one spring (`small_velocity` of
+mdr/closed_forms/rigid_pull.py; `mdr.laws.rise_of_lost_punch`):
 
-* elastic: a foot is dragged by v theta since its contact began or since the depth was least, so (cof - static)/mu_0
-  -> v (4 E* du_z/(pi F_N)) int_0^pi phi a(u_z0 + du_z cos phi) d phi, which is pi v alpha for the flat punch;
-* Kelvin: while the force is least the foot slips for a time of order sqrt(q), q being what the extension exceeds its
-  own least value by, and creeps back by q/tau. So it loses (4/3) sqrt(2/A) q^(3/2)/T a period, A = sqrt(1 + T²), and
-  is dragged by 2 pi v: q = [3 pi T sqrt(A) v/(2 sqrt 2)]^(2/3), which counts with k du_z/F_N of the springs that
-  never leave. It needs sqrt(q) << T;
-* Kelvin, contact lost everywhere: the free spring relaxes and forgets; power 1 again. For the punch, in contact for D
-  of the period and free for 2 pi - D, the drag per v is [D²/2 + D (T + D/(exp((2 pi - D)/T) - 1))]/(2 pi).
+* elastic: a foot is dragged since its contact began or since the depth was least, in proportion to v_0;
+* Kelvin: while the force is least the foot slips for a time ~ v_0^(1/3) and creeps back, and the rise is ~ v_0^(2/3).
+  It needs that time to be short against tau;
+* Kelvin, contact lost everywhere: the free spring relaxes and forgets; in proportion to v_0 again.
 
-Symbols: alpha = du_z/u_z0, T = omega tau, F_N mean normal force, a contact radius, phi phase of the oscillation.
+Symbols: alpha = du_z/u_z0, T = omega tau.
 """
 
 from dataclasses import dataclass
@@ -21,8 +17,10 @@ from typing import Any
 import numpy as np
 
 import mdr
+from mdr import laws
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import full_slip
+from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
 from mdr.tools.arrays import Array
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
@@ -111,35 +109,16 @@ def approach(shape: str, alpha: float, T: float, v: Array) -> Approach:
     mean = float(np.mean(full_slip(case).F_N))
     miss = alpha * np.hypot(1, T) * SAMPLED * case.k_zc * case.oscillation.u_z0 / mean
     error = np.array([run.cof_error / case.mu_0 if run.settled else np.inf for run in runs]) + miss
-    power = 2 / 3 if T and alpha * np.hypot(1, T) < 1 else 1.0
-    return Approach(f"{shape}, ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}", v, rise, error, power, _factor(case, mean))
+    law = _law(case, mean)
+    return Approach(f"{shape}, ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}", v, rise, error, law.power, law.coefficient)
 
 
-def _factor(case: mdr.SlidingContact, mean: float) -> float:
-    """Leading coefficient of the rise, as derived in the docstring."""
-    oscillation, E_star, T = case.oscillation, case.material.E_star, case.T
-    u_z0, du_z, A = oscillation.u_z0, oscillation.du_z, float(np.hypot(1, case.T))
-    if T == 0:
-        node, weight = np.polynomial.legendre.leggauss(400)
-        phi = np.pi / 2 * (node + 1)
-        a = np.asarray(case.indenter.contact_radius(u_z0 + du_z * np.cos(phi)))
-        return float(4 * E_star * du_z / (np.pi * mean) * np.sum(weight * np.pi / 2 * phi * a))
-    if u_z0 > A * du_z:
-        core = float(case.indenter.stiffness(u_z0 - A * du_z, E_star)) * du_z / mean
-        return float(core * (3 * np.pi * T * np.sqrt(A) / (2 * np.sqrt(2))) ** (2 / 3))
-    D = _time_in_contact(u_z0 / du_z, T)
-    drag = D**2 / 2 + D * (T + D / np.expm1((2 * np.pi - D) / T))
-    return float(case.k_zc * du_z / mean * drag / (2 * np.pi))
-
-
-def _time_in_contact(depth: float, T: float) -> float:
-    """Phase from first touch to release of a spring of mean depth u_z0/du_z under harmonic motion."""
-    from scipy.optimize import brentq
-
-    release = np.arccos(-depth / np.hypot(1, T)) - np.arctan(T)  # L[s] = 0
-    left = depth + np.cos(release)
-    touch = brentq(lambda p: depth + np.cos(p) - left * np.exp(-(p - release) / T), release + 0.5, 2 * np.pi)
-    return float(release + 2 * np.pi - touch)
+def _law(case: mdr.SlidingContact, mean: float) -> Asymptote:
+    """Leading term of the rise; mean: of the normal force [N]."""
+    if case.T == 0 or case.keeps_contact:
+        return small_velocity(case)
+    drag = laws.rise_of_lost_punch(1 / case.alpha, case.T)
+    return Asymptote(1.0, case.k_zc * case.cycle.du_z / mean * drag)
 
 
 # --- checks ---

@@ -6,6 +6,7 @@ pull. To see what that does the judge is run once as it is, and once with tracti
 """
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
@@ -48,6 +49,7 @@ def rub(nu: float) -> float:
     return radial_rub(contact("paraboloid", ALPHA, mu_0=FRICTION, nu=nu))
 
 
+@cache
 def losses(nu: float, v: float, knobs: Knobs) -> Losses:
     """The four of one contact."""
     case = contact("paraboloid", ALPHA, mu_0=FRICTION, nu=nu)

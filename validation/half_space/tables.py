@@ -89,6 +89,12 @@ def column(points: Sequence[Point], knobs: Knobs) -> list[Row]:
     return rows
 
 
+def loss(point: Point, knobs: Knobs) -> float:
+    """The loss at a point alone, over mu_0, without its errors, which ask for two runs more. Raises NotConverged."""
+    cof, springs, *_ = _marched([point], knobs)[0]
+    return springs - cof
+
+
 def _marched(points: Sequence[Point], knobs: Knobs) -> list[tuple[float, float, float, int, float]]:
     """COF and that of springs, what is not settled, all over mu_0, periods, and the greatest share that sticks."""
     found, state = [], None

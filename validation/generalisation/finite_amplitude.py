@@ -4,7 +4,7 @@ Eq. (15) keeps one harmonic of the normal force. A curved contact has more at an
 contact; a body with omega_0 near n omega answers the n-th one most. So the error of Eq. (15) is a map over alpha
 and omega_0/omega, and the full-slip condition with all harmonics (full_slip_body.py) is the one that is measured.
 
-Curved shapes. For alpha -> 0 the deviation is C alpha/n (validation/generalisation.py), C = 0 where nothing dissipates;
+Curved shapes. For alpha -> 0 the deviation is C alpha/n (`mdr.laws.first_order`), C = 0 where nothing dissipates;
 alpha² follows. A light damper alone makes C proportional to itself: the error is of first order below, of second above
 an amplitude alpha_x = |C_1/C_2| of the series C_1 alpha + C_2 alpha² + ..., that grows with the damping. Not so at
 omega_0 = 2 omega, where the body resonates with the one harmonic that is of first order in alpha: there C ~ 1/damping,
@@ -26,11 +26,11 @@ import mdr
 from mdr.plots import style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
-from validation.cases import LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation import measured
+from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, shape_label
 from validation.measured import TOLERANCE, Measured
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Figure, Part
 
-STIFFNESS, DAMPING = 1.5, 0.02  # k_x/k_xc at u_z0, c_x/(2 sqrt(k_x m))
 RATIOS = (0.3, 0.6, 0.8, 1.2, 1.5, 2.5, 3.5)  # omega_0/omega of the table
 ALPHAS = (0.01, 0.03, 0.1, 0.3, 0.6, 1.3, 1.6)
 CURVED = ("cone", "paraboloid", "r^4")
@@ -59,15 +59,9 @@ FEW = (  # of the quick grid
 )
 
 
-def system(shape: str, alpha: float, T: float, ratio: float, damping_ratio: float = DAMPING) -> mdr.SlidingContact:
-    """A contact under a spring, a damper and a mass of omega_0 = ratio * omega."""
-    return contact(shape, alpha, T, k_ratio=STIFFNESS, omega_0_ratio=ratio, damping_ratio=damping_ratio)
-
-
 def deviation(shape: str, alpha: float, T: float, ratio: float, damping_ratio: float = DAMPING) -> float:
     """Full-slip value over Eq. (15), less 1."""
-    case = system(shape, alpha, T, ratio, damping_ratio)
-    return mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1
+    return measured.deviation(driven(shape, alpha, T, ratio, damping_ratio))
 
 
 @dataclass(frozen=True)
@@ -93,7 +87,7 @@ class Point(Measured):
 @cache
 def measure(shape: str, alpha: float, T: float, ratio: float) -> Point:
     """Measure v_c of one contact."""
-    case = system(shape, alpha, T, ratio)
+    case = driven(shape, alpha, T, ratio)
     return Point(case, mdr.measure_critical_velocity(case), shape, alpha, T, ratio)
 
 
@@ -177,8 +171,8 @@ def reach_on_resonance(bound: float, T: float) -> float:
     return bound / abs(deviation("cone", 1e-5, T, 2.0) / 1e-5)
 
 
-def claim(effort: str) -> Claim:
-    """Map the deviation, measure the table, fit the powers and find where the punch leaves Eq. (15)."""
+def part(effort: str) -> Part:
+    """Map the deviation, measure the table, fit the powers."""
     points = [measure(*knobs) for knobs in progress(grid(effort), "finite_amplitude, measured")]
     known = maps(effort)
     far = max(known, key=lambda m: abs(m.values).max())
@@ -187,12 +181,10 @@ def claim(effort: str) -> Claim:
     reach = {T: min(m.reach(0.01) for m in known if m.T == T) for T in (0.0, 1.0)}
     crossing = {r: alpha_x("cone", 0.0, r) for r in (1.5, 2.5)}
     resonant = {T: reach_on_resonance(0.01, T) for T in (0.0, 1.0)}
-    return Claim(
+    return Part(
         name="finite_amplitude",
-        title="Eq. (15) at finite amplitude, and where contact is lost",
-        quote="Only this “non-jumping” case is considered in the following. (Section 2.2, on Eq. (5)) […] the obtained "
-        "result in Eq. (15) is valid not only for the simple considered model with a single spring-damper combination, "
-        "but also for quite general contacts (so long as the amplitude of oscillation remains small). (Section 2)",
+        title="Amplitude: up to and beyond the loss of contact",
+        quote="Only this “non-jumping” case is considered in the following. — Section 2.2, on Eq. (5)",
         range=f"{', '.join(SHAPES)}; elastic and ωτ = 1; k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of "
         f"critical; maps over α = {RANGE[0][0]:g} … {RANGE[0][1]:g} and ω_0/ω = {RANGE[1][0]:g} … {RANGE[1][1]:g}; "
         f"{len(points)} measured velocities, {len(lost)} of them with the whole contact lost in every period (α > 1 "
@@ -210,14 +202,12 @@ def claim(effort: str) -> Claim:
         f"(elastic) and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. "
         f"The relative error is large too beside ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself "
         f"nearly vanishes: {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). "
-        "Where a flat punch is lost it leaves Eq. (15), by a law of its own (next claim).",
-        verdict="holds if the amplitude is small (near ω_0 = 2ω, very small); for a flat punch, while contact is kept",
-        sentence=f"With a body on a spring “small” depends on the body: Eq. (15) is good to 1 % for every curved "
-        f"shape up to α = {reach[0.0]:.2g} (elastic) and {reach[1.0]:.2g} (ωτ = 1), but only to "
-        f"{resonant[0.0]:.2g} and {resonant[1.0]:.2g} on the resonance ω_0 = 2ω (cone, damper {100 * DAMPING:g} %), "
-        f"and less too beside ω_0 = {ZERO:.2g} ω, where it nearly vanishes itself (elastic; the first two hold more "
-        f"than {ASIDE:g} ω aside of both); for a flat punch it is exact "
-        "until contact is lost, and the full-slip condition is exact throughout, lost contact included.",
+        f"More than {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α = {reach[0.0]:.2g} (elastic) "
+        f"and {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (next "
+        "claim).",
+        sentence=f"How small is small depends on the body: Eq. (15) is good to 1 % up to α = {reach[0.0]:.2g} "
+        f"(elastic) and {reach[1.0]:.2g} (ωτ = 1), but only to {resonant[0.0]:.2g} and {resonant[1.0]:.2g} at ω_0 = "
+        "2ω; the full-slip condition is exact throughout, lost contact included.",
         checks=(*_measured_checks(points), *_power_checks(effort)),
         figures=(_map_figure(known, points), _table_figure(points, effort)),
     )
@@ -327,7 +317,7 @@ def _map_figure(known: list[Map], points: list[Point]) -> Figure:
     row, column = np.unravel_index(np.argmax(abs(far.values)), far.values.shape)
     by_T = {T: np.mean([m.share_within(0.01) for m in known if m.T == T]) for T in (0.0, 1.0)}
     return Figure(
-        "map",
+        "errors",
         "How far the full-slip v_c with all harmonics is from Eq. (15), over amplitude and natural frequency of the "
         "body. Thin lines: ±1 %, thick lines: ±10 %; dots: measured, in the same colours. Right of the dotted line "
         "the whole contact is lost in every period. Within 1 % lie "
@@ -357,7 +347,7 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
         for k, T in enumerate((0.0, 1.0)):
             panels = axes[rows * k : rows * (k + 1)].flat
             for ax, ratio in zip(panels, ratios, strict=False):
-                case = system("cone", 0.1, T, ratio)
+                case = driven("cone", 0.1, T, ratio)
                 unit = mdr.critical_velocity(case) / case.unit_velocity
                 for shape, (colour, marker) in LOOKS.items():
                     ax.plot(alphas, [unit * (1 + deviation(shape, float(a), T, ratio)) for a in alphas], color=colour)

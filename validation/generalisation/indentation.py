@@ -1,22 +1,21 @@
 """Indentation: what of v_c depends on the mean depth, and what does not.
 
 Eq. (15) does not contain u_z0. But it contains the stiffness k = k_xc, and that of a curved contact grows with the
-depth, as u_z0^(1/n) for f ~ r^n. With v_1 of Eq. (1), q = m omega² - k_x - i c_x omega and z = 1 + i T, Eq. (15) is
+depth, as u_z0^(1/n) for f ~ r^n. At a given du_z
 
-    v_c = v_1 |q - z k|/|q|,      d ln v_c/d ln u_z0 = S/n,      S = Re[-z k/(q - z k)],
+    d ln v_c/d ln u_z0 = S/n,    S = Re[-z k/(q - z k)],    q = m omega² - k_x - i c_x omega,    z = 1 + i T
 
-at a given du_z. So v_c does not depend on the depth
+(`mdr.laws.depth_sensitivity`). So v_c does not depend on the depth
 
 * at any amplitude, under a rigid pull (|q| infinite), as long as Eq. (1) holds (a surface that comes back late ends it,
   at a depth of its own: validation/lost_contact.py), and for a flat punch (1/n = 0), as long as contact is kept;
 * nearly, under a heavy or stiff body, |q| >> k, whose S is -k Re(z/q);
-* to first order, where k = Re(q/z) (which takes a body above its resonance, q > 0 but for the damper): there v_c is
-  least, v_1 |Im(q/z)| |z|/|q|.
+* to first order, where v_c is least (`mdr.laws.least_over_depth`).
 
 Otherwise it does: like u_z0^(1/n) under a soft or light body and on the pole q = 0, S = 1, and by more, of either sign,
 next to the zero q = z k of an elastic contact. At finite amplitude a curved contact depends on the depth in a second
 way, through alpha = du_z/u_z0
-(validation/generalisation.py); what is measured here is at small alpha, but for the rigid pull and the punch.
+(shapes.py); what is measured here is at small alpha, but for the rigid pull and the punch.
 
 Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m.
 """
@@ -24,14 +23,14 @@ Symbols: alpha = du_z/u_z0, T = omega tau, omega_0² = k_x/m.
 import numpy as np
 
 import mdr
-from mdr.case.pull import SpringPull
+from mdr import laws
 from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
-from validation import generalisation
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
-from validation.generalisation import PULLS, Point, measure
+from validation.generalisation import shapes as powers
+from validation.generalisation.shapes import PULLS, Point, measure
 from validation.measured import TOLERANCE
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Figure, Part
 
 AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
 SHALLOW = 0.021 * DEPTH  # of the deepest amplitudes: alpha = 0.95
@@ -44,26 +43,7 @@ TINY = 1e-6  # alpha at which the full-slip value is Eq. (15) but for C alpha
 
 def system(shape: str, u_z0: float, T: float, pull: str, du_z: float = AMPLITUDE) -> mdr.SlidingContact:
     """A contact at any depth under the same spring, mass and damper, which belong to the depth of 20 µm."""
-    return generalisation.system(shape, du_z / u_z0, T, pull, u_z0)
-
-
-def groups(case: mdr.SlidingContact) -> tuple[complex, complex]:
-    """q [N/m] and z of the module."""
-    pull, omega = case.pull, case.oscillation.omega
-    assert isinstance(pull, SpringPull)
-    return complex(pull.m * omega**2 - pull.k_x, -pull.c_x * omega), complex(1, case.T)
-
-
-def sensitivity(case: mdr.SlidingContact) -> float:
-    """S of the module: d ln v_c/d ln k_xc of Eq. (15)."""
-    q, z = groups(case)
-    return float((-z * case.k_xc / (q - z * case.k_xc)).real)
-
-
-def flattest(case: mdr.SlidingContact) -> tuple[float, float]:
-    """k_xc [N/m] at which v_c does not change with depth, and v_c over Eq. (1) there."""
-    q, z = groups(case)
-    return (q / z).real, abs((q / z).imag) * abs(z) / abs(q)
+    return powers.system(shape, du_z / u_z0, T, pull, u_z0)
 
 
 def measured_sensitivity(shape: str, u_z0: float, T: float, pull: str) -> float:
@@ -80,7 +60,7 @@ def measured(shape: str, u_z0: float, T: float, pull: str) -> Point:
     return measure(shape, AMPLITUDE / u_z0, T, pull, u_z0)
 
 
-def claim(effort: str) -> Claim:
+def part(effort: str) -> Part:
     """Measure v_c over the depth, and set its slope beside the derivative of Eq. (15)."""
     size = "quick" if effort == "quick" else "full"
     shapes = ("flat punch", "cone") if effort == "quick" else tuple(SHAPES)
@@ -96,12 +76,11 @@ def claim(effort: str) -> Claim:
         for shape in shapes
         for ratios in [[p.over_rigid for p in points if (p.shape, p.pull, p.T) == (shape, "stiff spring", 0.0)]]
     }
-    return Claim(
+    return Part(
         name="indentation",
-        title="What of v_c depends on the mean indentation",
-        quote="Note that the critical velocity depends on the oscillation amplitude but not on the average "
-        "indentation. (Section 2, after Eq. (15)) […] it does not depend on absolute indentation, which permits easy "
-        "generalization to more realistic contact geometry. (Section 3)",
+        title="Depth: what of v_c depends on it",
+        quote="However, it does not depend on absolute indentation, which permits easy generalization to more "
+        "realistic contact geometry. — Section 3",
         range=f"{', '.join(shapes)}; an amplitude of {AMPLITUDE * 1e6:g} µm at depths from {SHALLOW * 1e6:.2g} to "
         f"{500 * SHALLOW * 1e6:.0f} µm under a rigid pull, and from {0.25 * DEPTH * 1e6:g} to {4 * DEPTH * 1e6:g} µm "
         f"under one and the same mass, spring and damper; {len(points)} measured velocities, and slopes of the "
@@ -111,15 +90,13 @@ def claim(effort: str) -> Claim:
         "factor of "
         + ", ".join(f"{span:.4g} ({shape})" for shape, span in spans.items())
         + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
-        f"z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {sensitivity(stiff):.2g} for that body and "
-        f"{sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: under a rigid "
-        "pull, for any shape, here over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface that comes "
-        "back late ends this); for a flat punch that keeps contact; and at the one depth "
+        f"z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {laws.depth_sensitivity(stiff):.2g} for that body and "
+        f"{laws.depth_sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: "
+        "under a rigid pull, for any shape, here over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface "
+        "that comes back late ends this); for a flat punch that keeps contact; and at the one depth "
         "at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in depth.",
-        verdict="holds if the pull is rigid or the contact stiffness does not depend on depth",
-        sentence="v_c does not depend on the indentation for a rigid pull, unless the surface comes back late, nor for "
-        "a flat punch that keeps contact; otherwise, at small amplitude, as much as the stiffness k_x,c(u_z0) in Eq. "
-        "(15) makes it, by S/n per cent for each per cent of depth, so to use Eq. (15) one has to know the depth.",
+        sentence="v_c does not depend on the depth for a rigid pull and for a flat punch that keeps contact; else as "
+        "much as the stiffness k_x,c(u_z0) in Eq. (15) does, so to use Eq. (15) one has to know the depth.",
         checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
         figures=(_depth_figure(points, effort), _slope_figure()),
     )
@@ -149,7 +126,7 @@ def _slope_checks(effort: str) -> list[Check]:
     depths = (DEPTH,) if effort == "quick" else (0.3 * DEPTH, DEPTH, 5 * DEPTH)
     for pull in ("stiff spring", "soft spring"):
         off = [
-            measured_sensitivity(s, d, T, pull) - sensitivity(system(s, d, T, pull))
+            measured_sensitivity(s, d, T, pull) - laws.depth_sensitivity(system(s, d, T, pull))
             for s in list(SHAPES)[1:]
             for T in (0.0, 1.0)
             for d in depths
@@ -166,7 +143,7 @@ def _minimum_checks() -> list[Check]:
     checks, T = [], 1.0
     for shape in list(SHAPES)[1:]:
         case = system(shape, DEPTH, T, "soft spring")
-        k, least = flattest(case)
+        k, least = laws.least_over_depth(case)
         depth = DEPTH * (k / case.k_xc) ** POWERS[shape]
         bracket = (np.log(0.7 * depth), np.log(depth), np.log(1.4 * depth))
         found = minimize_scalar(lambda x, shape=shape: _over_depth(shape, float(np.exp(x)), T), bracket=bracket)

@@ -1,0 +1,204 @@
+"""Laws that were derived here, each against its own definition; beside runs they are tested by the claims."""
+
+import doctest
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mdr
+from mdr import laws
+
+OMEGA, DEPTH = 314.0, 20e-6
+PUNCH, ELASTIC = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
+BODY = mdr.SpringPull(k_x=2e4, m=0.1, c_x=4.0)
+
+
+def case_of(indenter=PUNCH, T=0.0, alpha=0.3, pull=BODY):
+    material = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=T / OMEGA) if T else ELASTIC
+    return mdr.SlidingContact(indenter, material, 0.5, mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA), pull)
+
+
+def error_of(case):
+    return mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1
+
+
+def test_the_examples_run():
+    found = doctest.testmod(laws, extraglobs={"mdr": mdr, "np": np})
+    assert found.attempted > 20
+    assert found.failed == 0
+
+
+def test_every_law_says_its_range_units_and_where_it_is_tested():
+    public = [name for name, one in vars(laws).items() if callable(one) and one.__module__ == laws.__name__]
+    for name in public:
+        text = getattr(laws, name).__doc__ or ""
+        if name[0] != "_" and not isinstance(getattr(laws, name), type):
+            assert "Returns\n" in text, name
+            assert "Examples\n" in text, name
+            assert "[" in text.partition("Parameters")[0], name
+
+
+@pytest.mark.parametrize("T", [0.3, 1.0, 10.0, 100.0])
+def test_the_centre_touches_from_the_depth_of_which_its_whole_past_allows(T):
+    phase, ago = np.linspace(1.5, 1.95, 7) * np.pi, np.linspace(0, 6 * np.pi, 200_001)[1:]
+    past = np.cos(phase[:, None] - ago) * np.exp(-ago / T) - np.cos(phase)[:, None]
+    expected = np.max(past / -np.expm1(-ago / T), axis=1)
+    # a maximum between nodes of the grid: its square over 8, times a curvature of order T
+    np.testing.assert_allclose([laws.touch_depth(at, T) for at in phase], expected, rtol=0, atol=ago[0] ** 2 * (1 + T))
+
+
+def test_late_return_lowers_v_c_continuously_and_only_beyond_its_limit():
+    limit = laws.amplitude_limit(10.0)
+    assert laws.late_return(1 / (limit * (1 - 1e-9)), 10.0) == 1.0
+    assert laws.late_return(1 / (limit * 1.01), 10.0) == pytest.approx(1.0, abs=1e-3)  # 1 - cos of a small angle
+    ratios = [laws.late_return(1 / (limit * k), 10.0) for k in (1.01, 1.5, 2.0, 4.0)]
+    assert np.all(np.diff(ratios) < 0)
+
+
+def test_the_limit_of_a_slow_material_is_a_minimum():
+    theta = np.linspace(np.pi, 2 * np.pi, 100_001)[1:-1]
+    assert laws.slow_limit() == pytest.approx(np.min(theta / -np.sin(theta)), rel=1e-8)
+
+
+def test_the_edge_band_is_that_of_the_least_extension_of_the_past():
+    """The extension of a spring is the least of its compression then plus the pull since: two passes over a period."""
+    n, v = 8192, 0.3
+    phase = 2 * np.pi * np.arange(2 * n) / n
+    gap, weight = np.polynomial.legendre.leggauss(100)
+    pressed = np.maximum(np.cos(phase) - np.r_[gap, -1.0][:, None], 0)
+    e = np.minimum.accumulate(pressed - v * phase, axis=1) + v * phase
+    lag = np.mean((pressed - e)[:, n:], axis=1)
+    # a touch lies between instants, and e misses up to the pull in a step
+    assert laws.edge_band(v) == pytest.approx(weight @ lag[:-1] / lag[-1] - 1, abs=v * 2 * np.pi / n)
+
+
+def test_the_edge_band_tends_to_its_limits():
+    assert laws.edge_band(1e-9) == pytest.approx(-0.25, abs=1e-8)
+    short = np.array([1e-2, 1e-4])
+    ratio = np.array([laws.edge_band(1 - x) for x in short]) / np.sqrt(short)  # the gaps passed during a stick
+    assert ratio[1] == pytest.approx(ratio[0], rel=0.02)
+
+
+def test_an_elastic_surface_is_always_back_in_time():
+    assert laws.amplitude_limit(0.0) == np.inf
+    assert laws.late_return(1e-9, 0.0) == 1.0
+
+
+@pytest.mark.parametrize("T", [0.5, 3.0])
+def test_a_lost_punch_is_dragged_as_long_as_it_touches(T):
+    """Almost kept, free for an instant: the drag of a body that is pulled through a whole period, less what relaxes."""
+    case = case_of(T=T, alpha=1.3 / np.hypot(1, T), pull=mdr.RigidPull())
+    v_c, unit = mdr.critical_velocity(case), case.k_zc * case.cycle.du_z
+    runs = [mdr.slide(case, share * v_c) for share in (1e-3, 2e-3)]
+    low, high = (
+        run.cof / case.mu_0 * run.mean_F_z / unit / share for run, share in zip(runs, (1e-3, 2e-3), strict=True)
+    )
+    assert 2 * low - high == pytest.approx(laws.rise_of_lost_punch(1 / case.alpha, T), rel=1e-3)
+
+
+@pytest.mark.parametrize("shape", [mdr.Cone(theta=0.05), mdr.Paraboloid(R=5e-3), mdr.PowerLaw(n=4, c=1e8)])
+@pytest.mark.parametrize("T", [0.0, 1.0])
+def test_the_error_of_eq_15_at_small_amplitude_knows_one_number_of_the_shape(shape, T):
+    a, b = (error_of(case_of(shape, T, alpha)) / alpha for alpha in (1e-4, 2e-4))
+    expected = laws.first_order(case_of(shape, T)) * laws.stiffness_exponent(shape, DEPTH)
+    assert 2 * a - b == pytest.approx(expected, rel=1e-3)  # 1e-8 of v_c over alpha, and alpha²
+
+
+def test_without_loss_and_without_yielding_eq_15_has_no_error_of_first_order():
+    assert laws.first_order(case_of(T=1.0, pull=mdr.RigidPull())) == 0
+    assert abs(laws.first_order(case_of(pull=mdr.SpringPull(k_x=2e4, m=0.1)))) < 1e-12
+    with pytest.raises(ValueError, match="infinite"):
+        laws.first_order(case_of(pull=mdr.SpringPull(k_x=1e4, m=1e4 / (2 * OMEGA) ** 2)))
+
+
+@pytest.mark.parametrize("pull", [BODY, mdr.SpringPull(k_x=1e3, m=0.1, c_x=1.0), mdr.RigidPull()])
+@pytest.mark.parametrize("T", [0.0, 1.0])
+def test_what_depth_does_is_the_derivative_of_eq_15(pull, T):
+    case = case_of(mdr.Paraboloid(R=5e-3), T, 1e-3, pull)
+    step = 1e-4
+    low, high = (
+        mdr.critical_velocity(replace(case, oscillation=replace(case.oscillation, u_z0=DEPTH * np.exp(side * step))))
+        for side in (-1, 1)
+    )
+    assert np.log(high / low) / (2 * step) == pytest.approx(0.5 * laws.depth_sensitivity(case), abs=1e-6)
+
+
+def test_at_the_least_v_c_depth_does_nothing():
+    case = case_of(mdr.Paraboloid(R=5e-3), 1.0, 1e-3, mdr.SpringPull(k_x=1e3, m=0.1, c_x=1.0))
+    k_xc, over = laws.least_over_depth(case)
+    there = replace(case, oscillation=replace(case.oscillation, u_z0=DEPTH * (k_xc / case.k_xc) ** 2))
+    assert laws.depth_sensitivity(there) == pytest.approx(0, abs=1e-12)
+    assert mdr.critical_velocity(there) / there.unit_velocity == pytest.approx(over, rel=1e-12)
+    with pytest.raises(ValueError, match="no minimum"):
+        laws.least_over_depth(case_of(pull=mdr.SpringPull(k_x=1e5, m=0.1)))
+    with pytest.raises(TypeError, match="SpringPull"):
+        laws.least_over_depth(case_of(pull=mdr.RigidPull()))
+
+
+@pytest.mark.parametrize(("T", "eps", "within"), [(0.0, 1e-4, 2e-3), (1.0, 1e-4, 0.05)])
+def test_a_punch_that_has_just_been_lost_leaves_eq_15_by_its_law(T, eps, within):
+    case = case_of(T=T, alpha=(1 + eps) / np.hypot(1, T))
+    assert laws.onset(case) == pytest.approx(error_of(case), rel=within)
+    assert laws.onset(case_of(T=T, alpha=0.5)) == 0
+    with pytest.raises(ValueError, match="flat punch"):
+        laws.onset(case_of(mdr.Cone(theta=0.05), T, 1.5))
+
+
+@pytest.mark.parametrize("shape", [PUNCH, mdr.Cone(theta=0.05)])
+def test_a_slow_material_gives_blows_that_end_at_half_a_blow(shape):
+    slow = case_of(shape, 1e6, 1.0)
+    assert laws.blow(slow) == pytest.approx(mdr.full_slip_critical_velocity(slow), rel=1e-4)
+    light = case_of(shape, 1e10, 1.0, mdr.SpringPull(k_x=2e4, m=0.1))
+    assert laws.blow(light) == pytest.approx(laws.half_a_blow(light), rel=1e-4)
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_the_pole_of_v_c_has_the_residue_of_its_harmonic(n):
+    shape, detuning = mdr.Paraboloid(R=5e-3), 1e-5
+    pulls = [mdr.SpringPull(k_x=2e4, m=2e4 / ((n + side) * OMEGA) ** 2) for side in (-detuning, detuning)]
+    found = np.mean([mdr.full_slip_critical_velocity(case_of(shape, pull=pull)) for pull in pulls]) * detuning
+    on = case_of(shape, pull=mdr.SpringPull(k_x=2e4, m=2e4 / (n * OMEGA) ** 2))
+    assert found == pytest.approx(laws.resonance_residue(on, n), rel=5e-3)
+
+
+def test_a_punch_has_half_of_its_swing_in_one_harmonic():
+    case = case_of(T=1.0, alpha=0.3)
+    assert laws.harmonic_share(case, 1) == pytest.approx(0.5 * 0.3 * np.sqrt(2), rel=1e-12)
+    assert laws.harmonic_share(case, 2) < 1e-12
+
+
+@pytest.mark.parametrize("n", [2, 3, 5])
+def test_lock_in_is_the_least_maximum_that_a_free_oscillation_can_make(n):
+    from scipy.optimize import minimize_scalar
+
+    phi = np.linspace(0, 2 * np.pi, 200_001)
+    peak = lambda b: np.max(np.sin(phi) + b * np.cos(n * (phi - np.pi / 2)))  # noqa: E731
+    least = min(minimize_scalar(peak, bounds=ends, method="bounded").fun for ends in ((-0.7, 0), (0, 0.7)))
+    assert laws.lock_in(n) == pytest.approx(least, rel=1e-6)
+
+
+def test_the_error_under_load_is_a_maximum():
+    phi, n, eps = np.linspace(0, np.pi, 400_001), 2.0, 1e-2
+    most = np.max(np.sin(phi) * (1 + eps * np.cos(phi)) ** (-1 / (n + 1)))
+    assert laws.load_error(eps, n) == pytest.approx(most - 1, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("ask", "match"),
+    [
+        (lambda: laws.late_return(-1.0, 0.0), "never touches"),
+        (lambda: laws.touch_depth(1.0, 0.0), "phase"),
+        (lambda: laws.amplitude_limit(-1.0), "T must not be negative"),
+        (lambda: laws.edge_band(1.0), "v_hat"),
+        (lambda: laws.rise_of_lost_punch(2.0, 1.0), "depth"),
+        (lambda: laws.blow(case_of(alpha=1.5)), "T = 0"),
+        (lambda: laws.blow(case_of(T=9.0, alpha=1.5, pull=mdr.SpringPull(k_x=1e4, m=0.1, c_x=1e6))), "damping ratio"),
+        (lambda: laws.half_a_blow(case_of(pull=mdr.SpringPull(k_x=1e4))), "m = 0"),
+        (lambda: laws.lock_in(1), "at least 2"),
+        (lambda: laws.first_order(replace(case_of(), oscillation=mdr.LoadOscillation(1.0, 0.1, OMEGA))), "harmonic"),
+    ],
+)
+def test_what_a_law_does_not_know_is_refused(ask, match):
+    with pytest.raises(ValueError, match=match):
+        ask()
