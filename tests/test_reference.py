@@ -182,8 +182,8 @@ def test_spring_pull_slides_fully_above_v_c_and_not_below(n):
 @pytest.mark.parametrize(("n", "T"), [(1, 0.0), (4, 1.0)])
 def test_spring_pull_is_converged(n, T):
     v_hat = 0.4 * reference.full_slip_critical_velocity(n, 3.0, T, *BODY)
-    coarse, error = reference.spring_pull_cof(n, 3.0, v_hat, T, *BODY, n_nodes=40, steps=(128, 256, 512))
-    *_, fine = reference.spring_pull_run(n, 3.0, v_hat, T, *BODY, n_nodes=64, steps=(256, 1024))
+    coarse, error = reference.spring_pull_cof(n, 3.0, v_hat, T, *BODY, n_nodes=48, steps=(256, 512, 1024))
+    *_, fine = reference.spring_pull_run(n, 3.0, v_hat, T, *BODY, n_nodes=80, steps=(256, 1536))
     assert error < 5e-5
     assert abs(coarse - fine[0]) < error + 1e-6  # what is left in the finer run
 
