@@ -117,8 +117,7 @@ def move(contact, theta, s, q, v, body):
         share *= np.exp(rates[k] * theta)
         for i in range(rates.size):
             y[i] += modes[i, k] * share
-    for j in range(q.size):  # not q[:] = y[1:], which compiles for seconds, for a message that is never shown
-        q[j] = y[j + 1]
+    q[:] = y[1:]
     return y[0]
 
 
@@ -366,10 +365,7 @@ def solve_depth(u_0, guess, dt, aim, scale, stride, old, new, row, body):
     low, high, f_low, f_high = 0.0, 0.0, 1.0, -1.0  # no bracket yet
     kept = 0
     for turn in range(400):
-        for i in range(s.size):
-            s[i], c[i] = old[0][i], old[2][i]
-            for j in range(q.shape[1]):
-                q[i, j] = old[1][i, j]
+        s[:], q[:], c[:] = old[0], old[1], old[2]
         v = u - u_0
         if dt == 0.0:
             jump(s, q, c, u, v, row, body)
@@ -414,8 +410,7 @@ def pressed(loads, F, now, row, body):
         low = -high
     for _ in range(60 if eta > 0.0 else 1):
         push = 0.5 * (low + high)
-        for k in range(x.size):
-            loads[k] = max(b[k] + push, 0.0) if c[k] else 0.0
+        loads[:] = np.where(c > 0, np.maximum(b + push, 0.0), 0.0)
         B = 2.0 * loads[0] * x[0]
         for k in range(x.size - 1):
             B += (loads[k] + loads[k + 1]) * (x[k + 1] - x[k])
