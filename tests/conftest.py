@@ -1,6 +1,9 @@
 """What all tests share: the shapes, a contact by its dimensionless groups, and the profile of hypothesis."""
 
 import math
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: processes share the cores, and threads would wait
 
 import numpy as np
 from hypothesis import settings

@@ -246,12 +246,6 @@ def short_run(case, dice):
     return judged(case, run)
 
 
-def fine_run(case, dice):
-    """A run by default."""
-    run = mdr.slide(case, velocity(case, dice), record=int(dice.happens(0.2)))
-    return judged(case, run)
-
-
 def judged(case, run):
     """Within the bounds of physics, and frank where it did not settle."""
     mu_0, balance = case.mu_0, run.energy_balance
@@ -305,54 +299,5 @@ def other_units(case, dice):
     return "the same"
 
 
-# --- the dear ones ---
-
-
-def measured(case, dice):
-    """The critical velocity from runs: within its bracket, or none and why."""
-    found = mdr.measure_critical_velocity(case, start=dice.one_of(["full_slip", "rest"]))
-    assert found.why
-    if found.v_c is None:
-        assert found.kind == "none"
-        return "none"
-    finite(found.v_c, found.low, found.high)
-    assert 0 <= found.low <= found.high
-    return found.kind
-
-
-def judged_by_name(case, dice):
-    """The verdict speaks."""
-    found = mdr.verdict(case)
-    assert str(found)
-    assert found.why
-    return f"holds: {found.holds}"
-
-
-def swept(case, dice):
-    """A study of four points, and back from its file."""
-    import tempfile
-
-    axes = {"v_0/v_c": [0.3, 0.9], "mu_0": [case.mu_0, 2 * case.mu_0]}
-    study = mdr.sweep(case, axes, n_springs=32, steps_per_period=64)
-    assert np.all(np.isfinite(study["cof"]) | (study.status != 0))
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "study.nc"
-        study.to_netcdf(path)
-        again = mdr.read_study(path)
-        np.testing.assert_array_equal(again["cof"], study["cof"])
-    return "all points" if np.all(np.isfinite(study["cof"])) else "some points failed"
-
-
-def fitted(case, dice):
-    """Friction that a contact of the kind shows is fitted, if by many words."""
-    v = mdr.resolved(case).unit_velocity * np.array([0.1, 0.3, 0.6, 0.9, 1.3])
-    cof = case.mu_0 * np.array([dice.between(0.2, 1.0) for _ in v])
-    found = mdr.fit(case, mdr.FrictionData(v, np.sort(cof)), ["mu_0"])
-    finite(*found.values.values(), *found.low.values(), *found.high.values(), found.rms)
-    assert str(found)
-    return "fitted"
-
-
 QUICK = (identity, numbers, shape, velocities, static, curve, held)
 RUNS = (coarse_run, short_run, other_units)
-DEAR = (fine_run, measured, judged_by_name, swept, fitted)

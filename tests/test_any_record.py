@@ -1,6 +1,6 @@
 """Any record that constructs gives finite, bounded answers, or refuses in the library's own words.
 
-A small run of tests/table_of_records.py, by hypothesis, which shrinks what fails.
+Hypothesis draws the records, and shrinks what fails.
 """
 
 import contextlib

@@ -18,7 +18,9 @@ def test_there_is_an_example_of_every_record_that_a_file_can_name():
 
 
 def test_every_example_reads_back():
-    for names in itertools.product(SHAPES, MATERIALS, MOTIONS, PULLS):
+    others = zip(itertools.cycle(MOTIONS), itertools.cycle(PULLS), strict=False)  # tables are read one by one
+    for pair in itertools.product(SHAPES, MATERIALS):
+        names = (*pair, *next(others))
         case = example(*names)
         assert mdr.parse_case(example_file(case)) == case, names
 

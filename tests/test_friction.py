@@ -260,12 +260,13 @@ def test_a_free_oscillation_in_step_with_the_drive_ends_friction_reduction_early
     cos(pi/2n) of Eq. (15) on, the least maximum of sin(phase) + b sin(n phase)."""
     case = by_groups("flat", 0.5, T, 0.3, float(n), 1.0)
     eq_15 = mdr.critical_velocity(case)
-    found = mdr.measure_critical_velocity(case)
+    told = mdr.verdict(case)
+    found = told.measurement
     assert found.kind == "lock-in"
     assert found.contains(math.cos(math.pi / (2 * n)) * eq_15)
     assert_allclose(found.v_c / eq_15, math.cos(math.pi / (2 * n)), rtol=1e-3)  # read off the COF, by a fit
     assert f"would stick up to {eq_15:.3g}"[:-1] in found.why
-    assert "in step with the drive" in mdr.verdict(case).why
+    assert "in step with the drive" in told.why
 
 
 @pytest.mark.parametrize("pull", [mdr.RigidPull(), mdr.SpringPull(2e4, 0.02, 4.0)], ids=["rigid", "body"])
@@ -279,11 +280,12 @@ def test_an_oscillation_that_takes_next_to_nothing_away_has_a_critical_velocity(
 
 def test_where_little_friction_is_missing_below_the_end_of_stick_both_velocities_are_named():
     case = by_groups("flat", 0.5, 0.0, 0.3, 2.0, 1.0, 1e-5)
-    found = mdr.measure_critical_velocity(case)
+    told = mdr.verdict(case)
+    found = told.measurement
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
     assert 0.7 < found.nearly_full / found.v_c < 0.85
     assert "within 0.0001 of mu_0" in found.why
-    assert "within 0.0001 of mu_0" in mdr.verdict(case).why
+    assert "within 0.0001 of mu_0" in told.why
 
 
 # --- the verdict ------------------------------------------------------------------------------------------------

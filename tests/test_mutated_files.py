@@ -1,4 +1,4 @@
-"""A damaged file holds a sound record or is refused by name and fault: a small run of tests/table_of_mutations.py."""
+"""A damaged file holds a sound record or is refused by name and fault."""
 
 import warnings
 

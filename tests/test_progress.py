@@ -4,7 +4,7 @@ import pytest
 
 import mdr
 from mdr.tools import progress as module
-from mdr.tools.progress import Meter, Ticker, in_words, progress, silent
+from mdr.tools.progress import Meter, Ticker, progress, silent
 
 
 @pytest.fixture
@@ -66,13 +66,6 @@ def test_the_watch_may_end_the_work():
 
     with silent(end), pytest.raises(InterruptedError):
         list(progress([1, 2, 3], "work"))
-
-
-@pytest.mark.parametrize(
-    ("seconds", "words"), [(7, "7 s"), (99, "99 s"), (180, "3 min"), (7200, "2 h"), (1e6, "12 days")]
-)
-def test_times_in_words(seconds, words):
-    assert in_words(seconds) == words
 
 
 def test_a_long_march_says_how_many_periods_are_done(capsys, monkeypatch):

@@ -1,4 +1,4 @@
-"""Kill a study again and again, and watch what it computes: for the tests and for tests/table_of_kills.py."""
+"""Kill a study again and again, and watch what it computes."""
 
 import os
 import signal

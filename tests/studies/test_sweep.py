@@ -50,8 +50,8 @@ def test_shards_at_the_same_time(tmp_path):
     """All cut alike, whichever is first, and the last to end merges; or several do, to the same bytes."""
     command = "import sys, grids; grids.study(grids.RUNS, store=sys.argv[1], shard=sys.argv[2])"
     started = [
-        subprocess.Popen([sys.executable, "-c", command, str(tmp_path / "parts"), f"{k}/3"], stderr=-1, cwd=HERE)
-        for k in (1, 2, 3)
+        subprocess.Popen([sys.executable, "-c", command, str(tmp_path / "parts"), f"{k}/2"], stderr=-1, cwd=HERE)
+        for k in (1, 2)
     ]
     for process in started:
         said = process.communicate()[1].decode()
@@ -110,8 +110,8 @@ def whole(tmp_path_factory):
 def test_a_study_that_is_killed_goes_on_where_it_was(tmp_path, whole):
     rng = np.random.default_rng(7)
     store, log = tmp_path / "store", tmp_path / "log"
-    lives = [live(store, log, rng.uniform(0.02, 0.3)) for _ in range(5)]
-    assert sum(one.killed and one.computed > 0 for one in lives) >= 3
+    lives = [live(store, log, rng.uniform(0.02, 0.3)) for _ in range(3)]
+    assert sum(one.killed and one.computed > 0 for one in lives) >= 2
     while not (store / "study.nc").exists():
         lives.append(live(store, log, 60.0))
     assert sum(one.twice for one in lives) == 0  # nothing finished was computed again
