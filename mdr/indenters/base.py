@@ -25,8 +25,8 @@ from mdr.indenters.mapping import abel as transform
 from mdr.indenters.mapping import chebyshev_panels as panels
 from mdr.indenters.mapping import inversion as roots
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FloatArray, between, finite_array, plain, positive_array
+from mdr.tools.arrays import EPS, Array
+from mdr.tools.checks import between, finite_array, plain, positive_array
 from mdr.tools.fields import Record, facts
 
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
@@ -75,7 +75,7 @@ class Indenter(Record, ABC):
         """Depth [m] from which the contact is a full disc: 0 but for a hollow shape, which begins as a ring."""
         return 0.0
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """Height f(r) of the shape above its tip [m].
 
         Parameters
@@ -96,7 +96,7 @@ class Indenter(Record, ABC):
         r = self._within(finite_array("r", r, "m"))
         return in_chunks(lambda r: transform.profile_3d(self.profile_1d, self._edges, r), r)
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """Height g(x) of the one-dimensional image of the shape [m], even in x.
 
         Parameters
@@ -131,7 +131,7 @@ class Indenter(Record, ABC):
         self._check_map(np.ravel(x))
         return plain(g.reshape(x.shape))
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a of the contact [m]: g(a) = d, and 0 where d <= 0.
 
         Parameters
@@ -158,7 +158,7 @@ class Indenter(Record, ABC):
             self._refuse_annular(a.max())
         return plain(a)
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """Area between the one-dimensional image and its tangent at the tip, ∫₀^a g dx [m²].
 
         Parameters
@@ -176,7 +176,7 @@ class Indenter(Record, ABC):
             return in_chunks(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
         return in_chunks(lambda a: transform.area_from_f(self._f, self._edges, a), a)
 
-    def force(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+    def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] of an elastic contact, 0 where d <= 0.
 
         Parameters
@@ -209,7 +209,7 @@ class Indenter(Record, ABC):
             F_N = 2 * E_star * (np.maximum(d, 0) * a - self.profile_area(a))
         return plain(np.maximum(self._in_range("F_N", F_N, d), 0))
 
-    def stiffness(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+    def stiffness(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal stiffness k_zc = dF_N/dd = 2 E* a of the contact [N/m], 0 where d <= 0.
 
         Parameters
@@ -228,7 +228,7 @@ class Indenter(Record, ABC):
             k_zc = 2 * positive_array("E_star", E_star, "Pa") * self.contact_radius(d)
         return plain(self._in_range("k_zc", k_zc, d))
 
-    def pressure(self, r: ArrayLike, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+    def pressure(self, r: ArrayLike, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Pressure p [Pa] of an elastic contact, 0 for r >= a.
 
         Parameters
@@ -253,7 +253,7 @@ class Indenter(Record, ABC):
         p[inside] = E_star[inside] * self.pressure_inside(r[inside], a[inside], d[inside])
         return plain(p)
 
-    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+    def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """Pressure over E* [-] where the shape touches; a shape may override it by a closed form.
 
         Parameters
@@ -315,13 +315,13 @@ class Indenter(Record, ABC):
             r /= 2
         return V / r
 
-    def _pressure_of_slope(self, r: FloatArray, a: FloatArray) -> FloatArray:
+    def _pressure_of_slope(self, r: Array, a: Array) -> Array:
         """p/E* without that of a rim. Arrays (n,)."""
         if self._gives_g:
             return transform.pressure_from_slope(self._slope, self._edges, r, a)
         return transform.pressure_from_f(self._f, self._edges, r, a)
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         """dg/ds at x² = low² + s² between the kinks ``low`` and ``high``, for a closed form to override."""
         return transform.slope_behind(self.profile_1d, s, low, high)
 
@@ -329,17 +329,17 @@ class Indenter(Record, ABC):
     def _edges(self) -> tuple[float, ...]:
         return (0.0, *self.kinks, self.max_radius)
 
-    def _f(self, r: FloatArray) -> FloatArray:
+    def _f(self, r: Array) -> Array:
         """f(r) for r >= 0 as it comes out, unchecked."""
         return self.profile_3d(r)
 
-    def _g(self, x: FloatArray) -> FloatArray:
+    def _g(self, x: Array) -> Array:
         """g(x) for x >= 0 as it comes out, unchecked. Arrays (n,)."""
         if self._gives_g:
             return self.profile_1d(x)
         return transform.profile_1d(self._f, self._edges, x)
 
-    def _within(self, r: FloatArray) -> FloatArray:
+    def _within(self, r: Array) -> Array:
         """Distance from the axis, refused where the shape has ended."""
         r = np.abs(r)
         if np.any(r > self.max_radius):
@@ -349,7 +349,7 @@ class Indenter(Record, ABC):
             )
         return r
 
-    def _in_range(self, name: str, answer: FloatArray, d: ArrayLike) -> FloatArray:
+    def _in_range(self, name: str, answer: Array, d: ArrayLike) -> Array:
         """The answer; ValueError where it is not finite, as one of its terms is beyond the range of floats."""
         if not np.all(np.isfinite(answer)):
             raise ValueError(
@@ -358,7 +358,7 @@ class Indenter(Record, ABC):
             )
         return answer
 
-    def _search(self, d: FloatArray) -> FloatArray:
+    def _search(self, d: Array) -> Array:
         start = np.array(self.kinks[0] if self.kinks else min(self.max_radius / 2, 1e300))
         start = np.broadcast_to(start if self.kinks or self.max_radius < np.inf else d, d.shape)
         if self._gives_g:
@@ -401,7 +401,7 @@ class Indenter(Record, ABC):
             "press less or describe more of it"
         )
 
-    def _refuse_beyond(self, d: FloatArray) -> None:
+    def _refuse_beyond(self, d: Array) -> None:
         if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:
             return
         with np.errstate(all="ignore"):
@@ -416,7 +416,7 @@ class Indenter(Record, ABC):
         further = self._g(np.array([min(1.01 * a, self.max_radius)]))  # at a flat face g is rounding up to a
         refuse_falling(self, x, in_chunks(self._g, x), float(np.nan_to_num(further[0], posinf=0.0)))
 
-    def _check_map(self, x: FloatArray) -> None:
+    def _check_map(self, x: Array) -> None:
         """ValueError for a mapped profile that is not finite; a warning where a second quadrature rule disagrees."""
         if self._gives_g or x.size == 0:
             return
@@ -437,14 +437,14 @@ class Indenter(Record, ABC):
             )
 
 
-def rim_pressure(r: FloatArray, a: FloatArray, step: FloatArray) -> FloatArray:
+def rim_pressure(r: Array, a: Array, step: Array) -> Array:
     """p/E* of a rim that stands ``step`` = d − g(a) below the profile: step / (π √(a² − r²))."""
     share = r / a
-    answer: FloatArray = step / (np.pi * a * np.sqrt((1 - share) * (1 + share)))
+    answer: Array = step / (np.pi * a * np.sqrt((1 - share) * (1 + share)))
     return answer
 
 
-def refuse_falling(shape: Indenter, x: FloatArray, g: FloatArray, further: float = 0.0) -> None:
+def refuse_falling(shape: Indenter, x: Array, g: Array, further: float = 0.0) -> None:
     """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
     highest = np.maximum.accumulate(np.maximum(g, 0))
     fall = highest - g > 1e-9 * np.max(np.abs(g), initial=further)

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import FLANK, Indenter
 from mdr.indenters.mapping.stable_functions import angle, leg, leg_short
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -34,25 +35,25 @@ class CappedCone(Indenter):
         """Where cap and flank meet [m]."""
         return (self.b,)
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = r²/2R within the cap, (r − b/2) tan θ outside."""
         r = np.abs(finite_array("r", r, "m"))
         inside = np.minimum(r, self.b)
         return plain(np.tan(self.theta) * (inside / self.b * inside / 2 + (r - inside)))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = x²/R within the cap, (x/R) (x − √(x² − b²)) + x tan θ arccos(b/x) outside."""
         x = np.abs(finite_array("x", x, "m"))
         return plain(x * np.tan(self.theta) * (leg_short(x, self.b) / self.b + angle(x, self.b)))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = a³/3R within the cap, (a³/6R) [2 − 3 sin φ + sin³φ + 3φ cos φ] outside."""
         a = np.abs(finite_array("a", a, "m"))
         short = leg_short(a, self.b)
         inner = short / self.b * short * (2 * a + leg(a, self.b))  # a³ (2 − 3 sin φ + sin³φ)/b
         return plain(np.tan(self.theta) * (inner + 3 * a * a * angle(a, self.b)) / 6)
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         if low < self.b:
             return np.asarray(2 / self.b * s * np.tan(self.theta))
         x = np.hypot(s, self.b)

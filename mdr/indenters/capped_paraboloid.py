@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import leg, leg_short
-from mdr.tools.checks import FieldError, FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import FieldError, finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -39,24 +40,24 @@ class CappedParaboloid(Indenter):
         """The edge of the cap [m]."""
         return (self.b,)
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = r²/2R1 within the cap, b²/2R1 + (r² − b²)/2R2 outside."""
         r = np.abs(finite_array("r", r, "m"))
         inside = np.minimum(r, self.b)
         return plain(inside / self.R1 * inside / 2 + (r - inside) / self.R2 * ((r + self.b) / 2))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = x²/R1 within the cap, (x/R1) (x − √(x² − b²)) + (x/R2) √(x² − b²) outside."""
         x = np.abs(finite_array("x", x, "m"))
         return plain(x * (leg_short(x, self.b) / self.R1 + leg(x, self.b) / self.R2))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = ⅓ [(a³ − s³)/R1 + s³/R2] with s = √(a² − b²), 0 within the cap."""
         a = np.abs(finite_array("a", a, "m"))
         s = leg(a, self.b)
         return plain((leg_short(a, self.b) / self.R1 * (a * a + a * s + s * s) + s / self.R2 * s * s) / 3)
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         if low < self.b:
             return np.asarray(2 / self.R1 * s)
         x = np.hypot(s, self.b)

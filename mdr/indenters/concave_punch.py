@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import leg
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import EPS, Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -42,17 +42,17 @@ class ConcavePunch(Indenter):
         """a²/R [m], from which on the middle of the face is pressed too."""
         return self.a / self.R * self.a
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """Height f = −r²/2R, below the middle of the face."""
         r = self._within(finite_array("r", r, "m"))
         return plain(-r / self.R * r / 2)
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """Height g = −x²/R."""
         x = self._within(finite_array("x", x, "m"))
         return plain(-x / self.R * x)
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """The radius of the rim for d >= a²/R, 0 for d <= −a²/2R; a ValueError between."""
         d = finite_array("d", d, "m")
         ring = (d < self.least_depth * (1 - 4 * EPS)) & (d > -self.least_depth / 2)
@@ -63,12 +63,12 @@ class ConcavePunch(Indenter):
             )
         return plain(np.where(d > 0, self.a, 0.0))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = −a³/3R."""
         a = self._within(finite_array("a", a, "m"))
         return plain(-a / self.R * a * a / 3)
 
-    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+    def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = [(d − a²/R) + 2r²/R] / (π √(a² − r²))."""
         spare = np.maximum(d - self.least_depth, 0)
         return plain((spare + 2 * (r / self.R) * r) / (np.pi * leg(a, r)))

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import angle_less_sine, leg
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06**24 for r² < a_0²/2
@@ -29,7 +30,7 @@ class ConstantPressure(Indenter):
         """The radius of the face [m]."""
         return self.a_0
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = d_0 [1 − (2/π) E(r/a_0)]."""
         from scipy.special import ellipe
 
@@ -39,12 +40,12 @@ class ConstantPressure(Indenter):
         near_tip = u * u * np.mean(sine / (1 + np.sqrt(1 - m * sine)), axis=-1)
         return plain(self.d_0 * np.where(u < 0.7, near_tip, 1 - 2 / np.pi * ellipe(u * u)))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = d_0 [1 − √(1 − x²/a_0²)]."""
         u = self._within(finite_array("x", x, "m")) / self.a_0
         return plain(self.d_0 * u * (u / (1 + np.sqrt((1 - u) * (1 + u)))))
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = a_0 √(1 − (1 − d/d_0)²), for d <= d_0."""
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
@@ -54,12 +55,12 @@ class ConstantPressure(Indenter):
     def _why_too_deep(self, reach: float) -> str:
         return f"goes: at d_0 = {reach:.6g} m its whole face touches, and p is constant; press less"
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = a_0 d_0 [sin ψ − (sin ψ cos ψ + ψ)/2] with sin ψ = a/a_0."""
         a = self._within(finite_array("a", a, "m"))
         psi = np.arctan2(a, leg(self.a_0, a))
         return plain(self.d_0 * self.a_0 * (angle_less_sine(2 * psi) / 4 - angle_less_sine(psi)))
 
-    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+    def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (d_0/(π a_0)) arcsin √((a² − r²)/(a_0² − r²))."""
         return plain(self.d_0 / (np.pi * self.a_0) * np.arctan2(leg(a, r), leg(self.a_0, a)))

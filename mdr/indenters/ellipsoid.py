@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import artanh, conic_area
-from mdr.tools.checks import FieldError, FloatArray, finite_array, plain, positive
+from mdr.tools.arrays import Array
+from mdr.tools.checks import FieldError, finite_array, plain, positive
 from mdr.tools.fields import facts
 
 
@@ -38,26 +39,26 @@ class Ellipsoid(Indenter):
         """The last number below 1/k [m]."""
         return float(np.nextafter(1 / self.k, 0))
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = R (1 − √(1 − k²r²)), up to the equator."""
         return height(self, finite_array("r", r, "m"), self.R, 1 / self.k)
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """``g(x) = x k R artanh(kx), |x| < 1/k``."""
         return image(self, finite_array("x", x, "m"), self.R, 1 / self.k)
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = (R/2k) [ka − (1 − k²a²) artanh(ka)]."""
         return area(self, finite_array("a", a, "m"), self.R, 1 / self.k)
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         return slope(s, self.R, 1 / self.k)
 
     def _why_too_deep(self, reach: float) -> str:
         return past_equator(1 / self.k, reach)
 
 
-def height(shape: Indenter, r: FloatArray, R: float, c: float) -> FloatArray:
+def height(shape: Indenter, r: Array, R: float, c: float) -> Array:
     """f(r) for |r| <= c."""
     if np.any(np.abs(r) > c):
         raise ValueError(
@@ -67,20 +68,20 @@ def height(shape: Indenter, r: FloatArray, R: float, c: float) -> FloatArray:
     return plain(R * u / (1 + np.sqrt((1 - u) * (1 + u))) * u)
 
 
-def image(shape: Indenter, x: FloatArray, R: float, c: float) -> FloatArray:
+def image(shape: Indenter, x: Array, R: float, c: float) -> Array:
     """g(x) for |x| < c."""
     x = _inside(shape, x, c)
     return plain(R * (x / c) * artanh(x, c))
 
 
-def area(shape: Indenter, a: FloatArray, R: float, c: float) -> FloatArray:
+def area(shape: Indenter, a: Array, R: float, c: float) -> Array:
     """∫₀^a g dx."""
     a = _inside(shape, a, c)
     u = a / c
     return plain(R / 2 * c * conic_area(u, u * u, artanh(a, c)))
 
 
-def slope(x: FloatArray, R: float, c: float) -> FloatArray:
+def slope(x: Array, R: float, c: float) -> Array:
     """dg/dx."""
     return np.asarray(R / c * (artanh(x, c) + x / (c - x) * (c / (c + x))))
 
@@ -90,7 +91,7 @@ def past_equator(c: float, reach: float) -> str:
     return f"can be pressed: at {reach:.6g} m its contact is the equator, {c:.6g} m, but for a rounding; press less"
 
 
-def _inside(shape: Indenter, x: FloatArray, c: float) -> FloatArray:
+def _inside(shape: Indenter, x: Array, c: float) -> Array:
     """|x|, refused from the equator on."""
     x = np.abs(x)
     if np.any(x > shape.max_radius):

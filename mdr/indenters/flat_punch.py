@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter, rim_pressure
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -21,22 +22,22 @@ class FlatPunch(Indenter):
         """The radius of the punch [m]."""
         return self.a
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """Height f = 0 for r <= a."""
         return plain(0 * self._within(finite_array("r", r, "m")))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """Height g = 0 for ``|x| <= a``."""
         return plain(0 * self._within(finite_array("x", x, "m")))
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """The radius of the punch for d > 0, else 0."""
         return plain(np.where(finite_array("d", d, "m") > 0, self.a, 0.0))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = 0."""
         return plain(0 * self._within(finite_array("a", a, "m")))
 
-    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+    def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = d / (π √(a² − r²))."""
         return rim_pressure(r, a, d)

@@ -15,8 +15,8 @@ from mdr.indenters.mapping import inversion as roots
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import fit
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FieldError, FloatArray, finite_array, not_negative, plain, positive_array
+from mdr.tools.arrays import EPS, Array
+from mdr.tools.checks import FieldError, finite_array, not_negative, plain, positive_array
 from mdr.tools.fields import facts
 
 N_POINTS = 7  #: fewer make no spline
@@ -88,11 +88,11 @@ class FromForce(Indenter):
         """Contact radius at the last depth [m]."""
         return float(self._radius(np.array([self.d[-1]]))[0])
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x), the depth at which a = x."""
         return in_chunks(self._depth, self._within(finite_array("x", x, "m")))
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = F'(d)/(2E*), up to the last depth."""
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
@@ -100,23 +100,23 @@ class FromForce(Indenter):
         a[d > 0] = np.minimum(self._radius(d[d > 0]), self.max_radius)  # of a punch it is the same but for a rounding
         return plain(a)
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = a d − F/(2E*) at the depth d = g(a)."""
         a = self._within(finite_array("a", a, "m"))
         d = np.asarray(self.profile_1d(a))
         return plain(a * d - self._force(d) / (2 * self.E_star))
 
-    def force(self, d: ArrayLike, E_star: ArrayLike) -> FloatArray:
+    def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] at the depth d, 0 where d <= 0: the measured one in proportion to E_star."""
         d, E_star = finite_array("d", d, "m"), positive_array("E_star", E_star, "Pa")
         self._refuse_beyond(d)
         return plain(self._in_range("F_N", E_star / self.E_star * self._force(d), d))
 
-    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+    def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (1/π) ∫ dδ/√(a(δ)² − r²) over the depths δ from g(r) to d."""
         return in_chunks(self._pressure, r, d)
 
-    def _pressure(self, r: FloatArray, d: FloatArray) -> FloatArray:
+    def _pressure(self, r: Array, d: Array) -> Array:
         rule = double_exponential()
         low = self._depth(r)
         depth = low[:, None] + (d - low)[:, None] * rule.from_low
@@ -133,13 +133,13 @@ class FromForce(Indenter):
         return {name: value for name, value in self.__dict__.items() if name not in ("_spline", "_least_radius")}
 
     @cached_property
-    def _spline(self) -> tuple[FloatArray, FloatArray]:
+    def _spline(self) -> tuple[Array, Array]:
         """Ends and polynomials of ln(F/F_1) less its power over `_place`, from the first depth d_1 > 0 to the last."""
         d, F = np.array(self.d[1:]), np.array(self.F[1:])
         y = np.log(F / F[0]) - TIPS[self.tip] * np.log(d / d[0])
         return fit(self._place(d), y, self.smoothing / F, even=False)
 
-    def _place(self, d: FloatArray) -> FloatArray:
+    def _place(self, d: Array) -> Array:
         return np.asarray(np.log(d / self.d[1]) if self.tip == "any" else d / self.d[1] - 1)
 
     @property
@@ -153,7 +153,7 @@ class FromForce(Indenter):
         """a at d → 0 [m]: of a flat tip that of its face, else 0."""
         return float(self._radius(np.zeros(1))[0]) if self._power - 1 < SLACK else 0.0
 
-    def _log_force(self, d: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _log_force(self, d: Array) -> tuple[Array, Array]:
         """ln(F/F_1) and its slope over ln d, at depths d > 0."""
         ends, pieces = self._spline
         z, known = self._place(d), TIPS[self.tip]
@@ -170,12 +170,12 @@ class FromForce(Indenter):
         below = z < 0
         return np.where(below, y + self._power * z, y), np.where(below, self._power, slope)
 
-    def _force(self, d: FloatArray) -> FloatArray:
+    def _force(self, d: Array) -> Array:
         F = np.zeros(np.shape(d))
         F[d > 0] = self.F[1] * np.exp(self._log_force(d[d > 0])[0])
         return F
 
-    def _radius(self, d: FloatArray) -> FloatArray:
+    def _radius(self, d: Array) -> Array:
         """a at depths d > 0, and its limit at d = 0."""
         d = np.maximum(d, np.finfo(float).tiny)
         y, slope = self._log_force(d)
@@ -183,7 +183,7 @@ class FromForce(Indenter):
             F_over_d = self.F[1] / self.d[1] * np.exp(y - np.log(d / self.d[1]))
         return np.asarray(F_over_d * slope / (2 * self.E_star))
 
-    def _depth(self, x: FloatArray) -> FloatArray:
+    def _depth(self, x: Array) -> Array:
         """d with a(d) = x; 0 up to the least radius."""
         d = np.zeros_like(x)
         todo = x > self._least_radius * (1 + SLACK)
@@ -198,7 +198,7 @@ class FromForce(Indenter):
             d[todo] = roots.invert(self._radius, x[todo], start, self.d[-1])[0]
         return d
 
-    def _refuse_beyond(self, d: FloatArray) -> None:
+    def _refuse_beyond(self, d: Array) -> None:
         if d.size and d.max() > self.d[-1] * (1 + 64 * EPS):
             raise ValueError(
                 f"d = {d.max():.6g} m is deeper than the force is known, d = {self.d[-1]:.6g} m: "

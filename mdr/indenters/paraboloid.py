@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -16,26 +17,26 @@ class Paraboloid(Indenter):
 
     R: float = field(metadata=facts("m", "radius of curvature"))
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = r²/(2R)."""
         r = finite_array("r", r, "m")
         return plain(r / self.R * r / 2)
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = x²/R."""
         x = finite_array("x", x, "m")
         return plain(x / self.R * x)
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = √(Rd)."""
         return plain(np.sqrt(self.R) * np.sqrt(np.maximum(finite_array("d", d, "m"), 0)))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = a³/(3R)."""
         a = finite_array("a", a, "m")
         return plain(a / self.R * a * a / 3)
 
-    def pressure_inside(self, r: FloatArray, a: FloatArray, d: FloatArray) -> FloatArray:
+    def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (2/(πR)) √(a² − r²)."""
         share = r / a
         return plain(2 / np.pi * (a / self.R) * np.sqrt((1 - share) * (1 + share)))

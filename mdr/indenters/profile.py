@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.sampled_profile import radii
-from mdr.tools.checks import FieldError, FieldTypeError, FloatArray, finite_array, plain, positive
+from mdr.tools.arrays import Array
+from mdr.tools.checks import FieldError, FieldTypeError, finite_array, plain, positive
 from mdr.tools.fields import facts
 
 
@@ -64,7 +65,7 @@ class Profile(Indenter):
         """r_max [m], or inf."""
         return np.inf if self.r_max is None else self.r_max
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r), even in r."""
         r = self._within(finite_array("r", r, "m"))
         heights = self._f(r)
@@ -82,7 +83,7 @@ class Profile(Indenter):
     def _identity(self) -> tuple[object, ...]:
         return (id(self.f), self.kinks, self.r_max, self.name)
 
-    def _f(self, r: FloatArray) -> FloatArray:
+    def _f(self, r: Array) -> Array:
         with np.errstate(all="ignore"):
             try:
                 heights = self.f(r)

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import angle, sine_less_arc, sine_less_arc_and_cube
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -29,22 +30,22 @@ class RoundedPunch(Indenter):
         """Where the rounding begins [m]."""
         return (self.b,)
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = (r − b)²/2R outside the face."""
         way = np.maximum(np.abs(finite_array("r", r, "m")) - self.b, 0)
         return plain(way / self.R * way / 2)
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = (x²/R) (sin φ − φ cos φ) outside the face, cos φ = b/x."""
         x = np.abs(finite_array("x", x, "m"))
         return plain(x / self.R * x * sine_less_arc(angle(x, self.b)))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = (a³/2R) [sin φ − φ cos φ − (1/3) sin³φ]."""
         a = np.abs(finite_array("a", a, "m"))
         return plain(a / self.R * a * a / 6 * sine_less_arc_and_cube(angle(a, self.b)))
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         if low < self.b:
             return np.zeros_like(s)
         x = np.hypot(s, self.b)

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import SplineImage, fit
-from mdr.tools.checks import FieldError, FieldTypeError, FloatArray, finite_array, not_negative, positive
+from mdr.tools.arrays import Array
+from mdr.tools.checks import FieldError, FieldTypeError, finite_array, not_negative, positive
 from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
@@ -96,19 +97,19 @@ class SampledProfile(Indenter):
         """r[-1] [m]."""
         return self.r[-1]
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) − f(0) of the spline."""
         return in_chunks(self._image.height, self._within(finite_array("r", r, "m")))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) of the spline."""
         return in_chunks(self._image.image, self._within(finite_array("x", x, "m")))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx of the spline."""
         return in_chunks(self._image.area, self._within(finite_array("a", a, "m")))
 
-    def _pressure_of_slope(self, r: FloatArray, a: FloatArray) -> FloatArray:
+    def _pressure_of_slope(self, r: Array, a: Array) -> Array:
         return self._image.pressure(r, a)
 
     def __repr__(self) -> str:

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters import ellipsoid
 from mdr.indenters.base import Indenter
-from mdr.tools.checks import FloatArray, finite_array
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array
 from mdr.tools.fields import facts
 
 
@@ -28,19 +29,19 @@ class Sphere(Indenter):
         """The last number below R [m]."""
         return float(np.nextafter(self.R, 0))
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = R − √(R² − r²), up to the equator."""
         return ellipsoid.height(self, finite_array("r", r, "m"), self.R, self.R)
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """``g(x) = x artanh(x/R), |x| < R``."""
         return ellipsoid.image(self, finite_array("x", x, "m"), self.R, self.R)
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = ½ [aR − (R² − a²) artanh(a/R)]."""
         return ellipsoid.area(self, finite_array("a", a, "m"), self.R, self.R)
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         return ellipsoid.slope(s, self.R, self.R)
 
     def _why_too_deep(self, reach: float) -> str:

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import FLANK, Indenter
 from mdr.indenters.mapping.stable_functions import angle, angle_less_sine
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -30,21 +31,21 @@ class TruncatedCone(Indenter):
         """The edge of the face [m]."""
         return (self.b,)
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = (r − b) tan θ outside the face."""
         return plain(np.maximum(np.abs(finite_array("r", r, "m")) - self.b, 0) * np.tan(self.theta))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = x tan θ arccos(b/x) outside the face."""
         x = np.abs(finite_array("x", x, "m"))
         return plain(x * np.tan(self.theta) * angle(x, self.b))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = (a²/2) tan θ (φ − cos φ sin φ)."""
         a = np.abs(finite_array("a", a, "m"))
         return plain(a * a / 4 * np.tan(self.theta) * angle_less_sine(2 * angle(a, self.b)))
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         if low < self.b:
             return np.zeros_like(s)
         x = np.hypot(s, self.b)

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import leg
-from mdr.tools.checks import FloatArray, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -30,17 +31,17 @@ class TruncatedParaboloid(Indenter):
         """The edge of the face [m]."""
         return (self.b,)
 
-    def profile_3d(self, r: ArrayLike) -> FloatArray:
+    def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = (r² − b²)/2R outside the face."""
         r = np.abs(finite_array("r", r, "m"))
         return plain(np.maximum(r - self.b, 0) / self.R * ((r + self.b) / 2))
 
-    def profile_1d(self, x: ArrayLike) -> FloatArray:
+    def profile_1d(self, x: ArrayLike) -> Array:
         """g(x) = (x/R) √(x² − b²) outside the face."""
         x = np.abs(finite_array("x", x, "m"))
         return plain(x / self.R * leg(x, self.b))
 
-    def contact_radius(self, d: ArrayLike) -> FloatArray:
+    def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a² = b²/2 + √(b⁴/4 + R²d²) for d > 0."""
         d = finite_array("d", d, "m")
         sphere = np.sqrt(self.R) * np.sqrt(np.maximum(d, 0))
@@ -49,12 +50,12 @@ class TruncatedParaboloid(Indenter):
         a = np.maximum(unit * np.sqrt(face + np.hypot(face, (sphere / unit) ** 2)), self.b)
         return plain(np.where(d > 0, a, 0.0))
 
-    def profile_area(self, a: ArrayLike) -> FloatArray:
+    def profile_area(self, a: ArrayLike) -> Array:
         """∫₀^a g dx = (a² − b²)^{3/2} / 3R."""
         s = leg(np.abs(finite_array("a", a, "m")), self.b)
         return plain(s / self.R * s * s / 3)
 
-    def _slope(self, s: FloatArray, low: float, high: float) -> FloatArray:
+    def _slope(self, s: Array, low: float, high: float) -> Array:
         if low < self.b:
             return np.zeros_like(s)
         x = np.hypot(s, self.b)

@@ -25,7 +25,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import FieldError, FloatArray, finite, finite_array, plain
+from mdr.tools.arrays import Array
+from mdr.tools.checks import FieldError, finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 
 
@@ -49,7 +50,7 @@ def complex_modulus(
     return np.asarray(answer)
 
 
-def arm(phase: FloatArray) -> NDArray[np.complex128]:
+def arm(phase: Array) -> NDArray[np.complex128]:
     """Modulus of a Maxwell arm at phase = omega tau_j, over E_j."""
     return np.asarray(1j * phase / (1 + 1j * phase))
 
@@ -126,7 +127,7 @@ class Material(Record, ABC):
         modulus = complex_modulus(omega, self.E_star, self.tau, self.contact_arms)
         return complex(modulus) if modulus.ndim == 0 else modulus
 
-    def relaxation_modulus(self, t: ArrayLike) -> FloatArray:
+    def relaxation_modulus(self, t: ArrayLike) -> Array:
         """Contact modulus E*(t) [Pa] after a sudden step of depth.
 
         Parameters
@@ -147,7 +148,7 @@ class Material(Record, ABC):
         t = _elapsed(t)
         return plain(self.E_star + sum((E_j * np.exp(-t / tau_j) for E_j, tau_j in self.contact_arms), 0 * t))
 
-    def creep_compliance(self, t: ArrayLike) -> FloatArray:
+    def creep_compliance(self, t: ArrayLike) -> Array:
         """Creep compliance [1/Pa]: depth over load of a spring of unit width after a sudden unit load.
 
         Parameters
@@ -174,7 +175,7 @@ class Material(Record, ABC):
             ]
         return plain(start + sum(shares, 0 * t))
 
-    def _retardation(self) -> tuple[float, FloatArray, FloatArray]:
+    def _retardation(self) -> tuple[float, Array, Array]:
         """Creep as J(t) = start + sum of rate ∫ exp(-t/theta): start, rates and retardation times theta.
 
         -1/theta are the zeros of E*(p), with p in the place of i omega. One lies between any two poles -1/tau_j, one
@@ -242,7 +243,7 @@ class OneBody(Material):
         return (1 - 2 * self.nu) / (2 * (1 - self.nu))
 
 
-def _elapsed(t: ArrayLike) -> FloatArray:
+def _elapsed(t: ArrayLike) -> Array:
     t = finite_array("t", t, "s")
     if np.any(t < 0):
         raise ValueError(f"t must not be negative, got {float(t.min())!r} s: before the step there is no answer to it")

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.materials.base import Material, complex_modulus
-from mdr.tools.checks import FloatArray
+from mdr.tools.arrays import Array
 
 Table = NDArray[np.float64]
 
@@ -116,7 +116,7 @@ def _table(T: float, rho: tuple[float, ...], theta: tuple[float, ...], h: float)
     return _read_only(table)
 
 
-def _free_motion(T: float, ratios: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _free_motion(T: float, ratios: Array, times: Array) -> tuple[Array, Array]:
     """Free motion of a spring: the jump at its start, x -> shed x, then x' = rates x; both (1 + J, 1 + J)."""
     n = ratios.size
     if T > 0:

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.materials.base import OneBody, arm
-from mdr.tools.checks import FloatArray, between, count, finite_array, positive, positive_array
+from mdr.tools.arrays import Array
+from mdr.tools.checks import between, count, finite_array, positive, positive_array
 
 Pairs = tuple[tuple[float, float], ...]
 
@@ -68,7 +69,7 @@ def misfit(material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayL
     return float(np.max(np.abs(own - modulus) / np.abs(modulus)))
 
 
-def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, FloatArray]:
+def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:
     """E_inf and arm moduli, non-negative, of least relative deviation."""
     from scipy.optimize import nnls
 
@@ -84,7 +85,7 @@ def _moduli(omega: FloatArray, modulus: Any, times: FloatArray) -> tuple[float, 
     return float(found[0]), found[1:]
 
 
-def _data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[FloatArray, Any]:
+def _data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[Array, Any]:
     omega = positive_array("omega", omega, "rad/s")
     storage, loss = positive_array("storage", storage, "Pa"), finite_array("loss", loss, "Pa")
     if np.any(loss < 0):

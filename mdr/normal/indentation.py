@@ -35,7 +35,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Material
 from mdr.normal import indentation_kernels as kernels
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FloatArray, count, finite_array, instance
+from mdr.tools.checks import count, finite_array, instance
 from mdr.tools.records import ArrayRecord
 
 N_SPRINGS = 512
@@ -348,7 +348,7 @@ def _shares(t: Array, n: int) -> list[Array]:
 # --- what comes in --------------------------------------------------------------------------------
 
 
-def _instants(t: ArrayLike) -> FloatArray:
+def _instants(t: ArrayLike) -> Array:
     t = finite_array("t", t, "s")
     if t.ndim != 1 or t.size == 0:
         raise ValueError(f"t must be a list of instants, shape (n_t,), got shape {t.shape}")
@@ -358,7 +358,7 @@ def _instants(t: ArrayLike) -> FloatArray:
     return t
 
 
-def _history(name: str, values: ArrayLike | None, t: Array, unit: str) -> FloatArray:
+def _history(name: str, values: ArrayLike | None, t: Array, unit: str) -> Array:
     history = finite_array(name, values, unit)  # type: ignore[arg-type]
     if history.shape != t.shape:
         raise ValueError(f"{name} must have one value for each of the {t.size} instants t, got shape {history.shape}")

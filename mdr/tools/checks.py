@@ -15,8 +15,6 @@ from numpy.typing import ArrayLike
 
 from mdr.tools.arrays import Array
 
-FloatArray = Array
-
 
 class _Blames(Exception):
     """An error with the `field` that is to blame: the name of a field of a record, or of an argument."""
@@ -94,7 +92,7 @@ def instance(name: str, value: object, *kinds: type[Any]) -> None:
         raise FieldTypeError(f"{name} must be of kind {names}, got {value!r}{hint}", name)
 
 
-def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
+def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     """Real numbers of any shape as float64 (a number becomes shape ()), refused if one is NaN or infinite."""
     try:
         array = np.asarray(values)
@@ -108,7 +106,7 @@ def finite_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
     return array.astype(np.float64, copy=False)
 
 
-def positive_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
+def positive_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     """As `finite_array`, every number above zero."""
     array = finite_array(name, values, unit)
     if not np.all(array > 0):
@@ -116,9 +114,9 @@ def positive_array(name: str, values: ArrayLike, unit: str = "") -> FloatArray:
     return array
 
 
-def plain(values: Any) -> FloatArray:
+def plain(values: Any) -> Array:
     """The answer in the form of the question: a float for a plain number, else a float64 array."""
-    answer: FloatArray = np.asarray(values, dtype=np.float64)[()]
+    answer: Array = np.asarray(values, dtype=np.float64)[()]
     return answer
 
 

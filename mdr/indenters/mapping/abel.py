@@ -19,16 +19,15 @@ import numpy as np
 
 from mdr.indenters.mapping.quadrature import WINDOW, Function, Rule, derivatives, double_exponential
 from mdr.indenters.mapping.stable_functions import arcosh, leg
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FloatArray
+from mdr.tools.arrays import EPS, Array
 
-Slope = Callable[[FloatArray, float, float], FloatArray]  #: dg/ds from s and the kinks before and after
+Slope = Callable[[Array, float, float], Array]  #: dg/ds from s and the kinks before and after
 
 
-def profile_1d(f: Function, edges: tuple[float, ...], x: FloatArray, rule: Rule | None = None) -> FloatArray:
+def profile_1d(f: Function, edges: tuple[float, ...], x: Array, rule: Rule | None = None) -> Array:
     """g(x) from f."""
 
-    def slope(r: FloatArray, low: float, high: float) -> FloatArray:
+    def slope(r: Array, low: float, high: float) -> Array:
         return derivatives(f, r, WINDOW * r, low, high)[0]
 
     total = np.zeros_like(x)
@@ -39,7 +38,7 @@ def profile_1d(f: Function, edges: tuple[float, ...], x: FloatArray, rule: Rule 
     return x * total
 
 
-def profile_3d(g: Function, edges: tuple[float, ...], r: FloatArray) -> FloatArray:
+def profile_3d(g: Function, edges: tuple[float, ...], r: Array) -> Array:
     """f(r) from g."""
     total = np.zeros_like(r)
     for low, high in pairwise(edges):
@@ -49,7 +48,7 @@ def profile_3d(g: Function, edges: tuple[float, ...], r: FloatArray) -> FloatArr
     return 2 / np.pi * total
 
 
-def area_from_f(f: Function, edges: tuple[float, ...], a: FloatArray) -> FloatArray:
+def area_from_f(f: Function, edges: tuple[float, ...], a: Array) -> Array:
     """∫₀^a g dx from f, without any derivative."""
     total = np.zeros_like(a)
     for low, high in pairwise(edges):
@@ -59,7 +58,7 @@ def area_from_f(f: Function, edges: tuple[float, ...], a: FloatArray) -> FloatAr
     return a * total
 
 
-def area_from_g(g: Function, edges: tuple[float, ...], a: FloatArray) -> FloatArray:
+def area_from_g(g: Function, edges: tuple[float, ...], a: Array) -> Array:
     """∫₀^a g dx."""
     rule = double_exponential()
     total = np.zeros_like(a)
@@ -69,7 +68,7 @@ def area_from_g(g: Function, edges: tuple[float, ...], a: FloatArray) -> FloatAr
     return total
 
 
-def pressure_from_f(f: Function, edges: tuple[float, ...], r: FloatArray, a: FloatArray) -> FloatArray:
+def pressure_from_f(f: Function, edges: tuple[float, ...], r: Array, a: Array) -> Array:
     """p(r)/E* for 0 <= r < a, without the edge term."""
     r = np.maximum(r, EPS * a)
     total = np.zeros_like(r)
@@ -87,16 +86,16 @@ def pressure_from_f(f: Function, edges: tuple[float, ...], r: FloatArray, a: Flo
     return total / np.pi
 
 
-def _smooth_pressure(f: Function, low: float, high: float, r: FloatArray, a: FloatArray) -> FloatArray:
+def _smooth_pressure(f: Function, low: float, high: float, r: Array, a: Array) -> Array:
     """∫ K(r, s) (s f')' ds over one smooth piece, cut at s = r where K is logarithmic."""
     rule = double_exponential()
     stop = np.minimum(high, a)
     cut = np.clip(r, low, stop)
 
-    def integral(s: FloatArray, ds: FloatArray) -> FloatArray:
+    def integral(s: Array, ds: Array) -> Array:
         s = np.clip(s, low, stop[:, None])
         first, second = derivatives(f, s, WINDOW * s, low, high)
-        answer: FloatArray = np.sum(ds * (first + s * second) * _kernel(r[:, None], s, a[:, None]), axis=1)
+        answer: Array = np.sum(ds * (first + s * second) * _kernel(r[:, None], s, a[:, None]), axis=1)
         return answer
 
     width = (cut - low)[:, None]
@@ -106,7 +105,7 @@ def _smooth_pressure(f: Function, low: float, high: float, r: FloatArray, a: Flo
     return inner + integral(cut[:, None] * np.cosh(u), cut[:, None] * np.sinh(u) * far * rule.weight)
 
 
-def _kernel(r: FloatArray, s: FloatArray, a: FloatArray) -> FloatArray:
+def _kernel(r: Array, s: Array, a: Array) -> Array:
     """K(r, s) = F(ψ, k) / M with k = min(r, s) / M, M = max(r, s), tan²ψ = (a² − M²) / (M² − min²).
 
     Infinite only at r = s; there it answers as if they differed by one rounding.
@@ -117,11 +116,11 @@ def _kernel(r: FloatArray, s: FloatArray, a: FloatArray) -> FloatArray:
     small = np.minimum(np.minimum(r, s), large * (1 - EPS))
     k = small / large
     rise = np.sqrt(np.maximum(a / large - 1, 0) * (a / large + 1))
-    answer: FloatArray = ellipkinc(np.arctan2(rise, np.sqrt((1 - k) * (1 + k))), k * k) / large
+    answer: Array = ellipkinc(np.arctan2(rise, np.sqrt((1 - k) * (1 + k))), k * k) / large
     return answer
 
 
-def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: FloatArray, a: FloatArray) -> FloatArray:
+def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: Array, a: Array) -> Array:
     """p(r)/E* for 0 <= r < a, without the edge term, from dg/ds = slope(s, low, high) behind each kink ``low``.
 
     Behind a kink b g begins like √(x² − b²); in s = √(x² − b²) it is smooth. What is left of the root,
@@ -147,16 +146,16 @@ def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: FloatArray, a
     return total / np.pi
 
 
-def slope_behind(g: Function, s: FloatArray, low: float, high: float) -> FloatArray:
+def slope_behind(g: Function, s: Array, low: float, high: float) -> Array:
     """dg/ds behind the kink ``low``, at x² = low² + s², from values of g."""
 
-    def image(s: FloatArray) -> FloatArray:
+    def image(s: Array) -> Array:
         return g(np.hypot(s, low))
 
     return derivatives(image, s, WINDOW * np.hypot(s, low), 0.0, float(leg(high, low)))[0]
 
 
-def _arc(x: FloatArray, low: float, high: float, rule: Rule) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _arc(x: Array, low: float, high: float, rule: Rule) -> tuple[Array, Array, Array]:
     """Nodes r = x sin t over the part of [0, x] within [low, high]: r, sin t, dt, each (n_x, n_nodes)."""
     start = np.arctan2(low, leg(x, np.minimum(low, x)))
     stop = np.arctan2(np.minimum(high, x), leg(x, np.minimum(high, x)))

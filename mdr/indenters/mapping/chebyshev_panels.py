@@ -20,7 +20,7 @@ from numpy.polynomial import chebyshev
 from mdr.indenters.mapping import abel as transform
 from mdr.indenters.mapping import inversion as roots
 from mdr.indenters.mapping.quadrature import Function, chebyshev_fit, double_exponential, in_chunks
-from mdr.tools.checks import FloatArray
+from mdr.tools.arrays import Array
 
 N_NODES = 24  #: the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
 TAIL = 1e-12  #: last coefficients of G, relative to G, that count as vanished
@@ -38,7 +38,7 @@ class Panel(NamedTuple):
     at_kink: bool
     base: float  #: g(b) behind a kink, else 0
     power: float  #: p, 0 behind a kink
-    coefficients: FloatArray = np.empty(0)
+    coefficients: Array = np.empty(0)
     fits: bool = False
 
     @property
@@ -46,22 +46,22 @@ class Panel(NamedTuple):
         """Where t = 1/2."""
         return self.low + (self.high - self.low) * (0.25 if self.at_kink else 0.5)
 
-    def place(self, x: FloatArray) -> FloatArray:
+    def place(self, x: Array) -> Array:
         """The t of x, from 0 to 1."""
-        share: FloatArray = np.clip((x - self.low) / (self.high - self.low), 0, 1)
+        share: Array = np.clip((x - self.low) / (self.high - self.low), 0, 1)
         return np.sqrt(share) if self.at_kink else share
 
-    def factor(self, x: FloatArray) -> FloatArray:
+    def factor(self, x: Array) -> Array:
         """What stands before G: t or (x/x_hi)^p."""
         return self.place(x) if self.at_kink else (x / self.high) ** self.power
 
-    def heights(self, x: FloatArray) -> FloatArray:
+    def heights(self, x: Array) -> Array:
         """g(x) from the polynomial."""
         G = chebyshev.chebval(2 * self.place(x) - 1, self.coefficients)
         return np.asarray(self.base + self.factor(x) * G)
 
 
-def image(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
+def image(f: Function, edges: Edges, x: Array) -> Array:
     """The one-dimensional image g(x) [m] for x >= 0 [m], from its panels."""
     ends, g = cuts(edges), np.zeros_like(x)
     panel = np.minimum(np.searchsorted(ends, x, side="right") - 1, ends.size - 2)
@@ -72,7 +72,7 @@ def image(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
     return g
 
 
-def invert(f: Function, edges: Edges, d: FloatArray, start: FloatArray) -> tuple[FloatArray, roots.BoolArray]:
+def invert(f: Function, edges: Edges, d: Array, start: Array) -> tuple[Array, roots.BoolArray]:
     """Radius a with g(a) = d for depths d > 0, as `roots.invert` answers."""
     ends = [np.argmin(d), np.argmax(d)]
     with np.errstate(all="ignore"):
@@ -88,13 +88,13 @@ def invert(f: Function, edges: Edges, d: FloatArray, start: FloatArray) -> tuple
     return a, ended
 
 
-def direct(f: Function, edges: Edges, x: FloatArray) -> FloatArray:
+def direct(f: Function, edges: Edges, x: Array) -> Array:
     """g(x) [m] by quadrature at every x, without panels."""
     return in_chunks(lambda x: transform.profile_1d(f, edges, x), x)
 
 
 @lru_cache
-def cuts(edges: Edges) -> FloatArray:
+def cuts(edges: Edges) -> Array:
     """Ends of all panels from the smallest number to the profile's end or to the largest number."""
     powers = np.ldexp(1.0, np.arange(-1074, 1024))
     rows = [powers[powers < edges[1]]]
@@ -105,25 +105,21 @@ def cuts(edges: Edges) -> FloatArray:
     return np.unique(np.concatenate([*rows, [min(edges[-1], np.finfo(float).max)]]))
 
 
-def _cuts_between(edges: Edges, low: float, high: float) -> FloatArray:
+def _cuts_between(edges: Edges, low: float, high: float) -> Array:
     """The panel ends from the one at or below ``low`` to the one at or above ``high``."""
     ends = cuts(edges)
     first = np.clip(np.searchsorted(ends, low, side="right") - 1, 0, ends.size - 2)
     return ends[first : max(np.searchsorted(ends, high), first + 1) + 1]
 
 
-def _invert_between(
-    f: Function, edges: Edges, ends: FloatArray, heights: FloatArray, d: FloatArray
-) -> tuple[FloatArray, roots.BoolArray]:
+def _invert_between(f: Function, edges: Edges, ends: Array, heights: Array, d: Array) -> tuple[Array, roots.BoolArray]:
     """Radii in one panel whose ends have these heights."""
     (low, high), (y_low, y_high) = np.broadcast_to(ends[:, None], (2, d.size)), heights[:, None] - d
     y_low, y_high = np.minimum(y_low, 0), np.maximum(y_high, 0)
     return roots.refine(lambda x: _heights(f, edges, ends[0], ends[1], x), d, low, high, y_low, y_high)
 
 
-def _heights(
-    f: Function, edges: Edges, low: float, high: float, x: FloatArray, n_halvings: int = N_HALVINGS
-) -> FloatArray:
+def _heights(f: Function, edges: Edges, low: float, high: float, x: Array, n_halvings: int = N_HALVINGS) -> Array:
     """g at x in [low, high], from its panel or the halves of it."""
     panel = _panel(f, edges, float(low), float(high))
     if panel.fits:
@@ -157,7 +153,7 @@ def _panel(f: Function, edges: Edges, low: float, high: float) -> Panel:
     return panel._replace(coefficients=coefficients, fits=bool(fits))
 
 
-def _quadrature_error(f: Function, edges: Edges, x: FloatArray, g: FloatArray, factor: FloatArray) -> float:
+def _quadrature_error(f: Function, edges: Edges, x: Array, g: Array, factor: Array) -> float:
     """Difference of a second quadrature rule from g, over ``factor``: a polynomial need not be closer."""
     some = slice(2, None, 5)
     other = transform.profile_1d(f, edges, x[some], double_exponential(0.077))

@@ -4,13 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.indenters.mapping.quadrature import Function
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FloatArray
+from mdr.tools.arrays import EPS, Array
 
 BoolArray = NDArray[np.bool_]
 
 
-def invert(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, BoolArray]:
+def invert(g: Function, d: Array, start: Array, end: float) -> tuple[Array, BoolArray]:
     """Radius a in (0, end] with g(a) = d for depths d > 0 (n,), from ``start`` on; and where g ends early.
 
     Where g is not finite it counts as higher than d; an ``a`` found at such a place is no contact radius.
@@ -19,12 +18,12 @@ def invert(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[F
         return refine(g, d, *bracket(g, d, start, end))
 
 
-def _above(g: Function, a: FloatArray, d: FloatArray) -> FloatArray:
+def _above(g: Function, a: Array, d: Array) -> Array:
     y = g(a) - d
     return np.where(np.isnan(y), np.inf, y)
 
 
-def bracket(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[FloatArray, ...]:
+def bracket(g: Function, d: Array, start: Array, end: float) -> tuple[Array, ...]:
     """Bracket of at most a factor of two and g - d at its ends.
 
     Strides of 1, 2, 4 … octaves lead across the root; a power law through the two ends, followed to half an
@@ -49,9 +48,9 @@ def bracket(g: Function, d: FloatArray, start: FloatArray, end: float) -> tuple[
 
 
 def _next(
-    low: FloatArray, high: FloatArray, y_low: FloatArray, y_high: FloatArray, d: FloatArray, a: FloatArray,
-    stride: FloatArray, end: float,
-) -> FloatArray:  # fmt: skip
+    low: Array, high: Array, y_low: Array, y_high: Array, d: Array, a: Array,
+    stride: Array, end: float,
+) -> Array:  # fmt: skip
     """Next radius on the way to a bracket."""
     closed = (low > 0) & np.isfinite(high)
     out = np.clip(np.where(low > 0, a * 2**stride, a * 2**-stride), 5e-324, min(end, 1e308))
@@ -64,9 +63,7 @@ def _next(
     return np.where(closed, np.where(good, power, halfway), out)
 
 
-def refine(
-    g: Function, d: FloatArray, low: FloatArray, high: FloatArray, y_low: FloatArray, y_high: FloatArray
-) -> tuple[FloatArray, BoolArray]:
+def refine(g: Function, d: Array, low: Array, high: Array, y_low: Array, y_high: Array) -> tuple[Array, BoolArray]:
     """Root between brackets by Chandrupatla's method (1997), and whether g is infinite there."""
     a, b, fa, fb = high, low, y_high, y_low
     c, fc, t = a, fa, np.full_like(a, 0.5)
@@ -89,7 +86,7 @@ def refine(
     return best, np.isinf(np.maximum(fa, fb)) & (np.minimum(np.abs(fa), np.abs(fb)) > EPS * d)
 
 
-def _step(a: FloatArray, b: FloatArray, c: FloatArray, fa: FloatArray, fb: FloatArray, fc: FloatArray) -> FloatArray:
+def _step(a: Array, b: Array, c: Array, fa: Array, fb: Array, fc: Array) -> Array:
     """Share of the bracket to go in one step: inverse quadratic interpolation where it is safe, else bisection."""
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     safe = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)

@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FloatArray, plain
+from mdr.tools.arrays import EPS, Array
+from mdr.tools.checks import plain
 
-Function = Callable[[FloatArray], FloatArray]
+Function = Callable[[Array], Array]
 
 N_FIT = 16  #: Chebyshev points of a window: a singularity four half-widths away leaves 7.9**-16 = 4e-15
 WINDOW = 0.25  #: half-width of a window over the radius; the apex, where f ~ r**n, is then four away
@@ -27,11 +27,11 @@ CHUNK = 256  #: points mapped at once: keeps the work in cache
 class Rule(NamedTuple):
     """Nodes and weights on (0, 1); ``to_high`` is 1 - ``from_low`` without its rounding."""
 
-    from_low: FloatArray
-    to_high: FloatArray
-    weight: FloatArray
+    from_low: Array
+    to_high: Array
+    weight: Array
 
-    def between(self, low: FloatArray, high: FloatArray) -> FloatArray:
+    def between(self, low: Array, high: Array) -> Array:
         """Nodes between ends (...), shape (..., n), each measured from the end that it is nearer to."""
         low, high = np.asarray(low)[..., None], np.asarray(high)[..., None]
         near_low = low + (high - low) * self.from_low
@@ -47,7 +47,7 @@ def double_exponential(step: float = 0.11) -> Rule:
     return Rule(from_low, to_high, step * np.pi * np.cosh(t) * from_low * to_high)
 
 
-def in_chunks(function: Callable[..., FloatArray], *arrays: FloatArray) -> FloatArray:
+def in_chunks(function: Callable[..., Array], *arrays: Array) -> Array:
     """``function`` of arrays (n,), applied to arrays of any shape in chunks."""
     flat = [np.ravel(array) for array in arrays]
     answer = np.empty(flat[0].size)
@@ -57,7 +57,7 @@ def in_chunks(function: Callable[..., FloatArray], *arrays: FloatArray) -> Float
 
 
 @lru_cache
-def chebyshev_fit(n: int) -> tuple[FloatArray, FloatArray]:
+def chebyshev_fit(n: int) -> tuple[Array, Array]:
     """The n Chebyshev points of [-1, 1] and the matrix from values there to coefficients."""
     k = np.arange(n)
     angle = np.pi * (k + 0.5) / n
@@ -67,7 +67,7 @@ def chebyshev_fit(n: int) -> tuple[FloatArray, FloatArray]:
 
 
 @lru_cache
-def _fit_matrices() -> tuple[FloatArray, ...]:
+def _fit_matrices() -> tuple[Array, ...]:
     """Chebyshev points; matrices from values there to coefficients of the function and of two derivatives."""
     nodes, to_coefficients = chebyshev_fit(N_FIT)
     first = np.zeros((N_FIT, N_FIT))
@@ -77,9 +77,7 @@ def _fit_matrices() -> tuple[FloatArray, ...]:
     return nodes, to_coefficients, first, second
 
 
-def derivatives(
-    function: Function, s: FloatArray, reach: FloatArray, low: float, high: float
-) -> tuple[FloatArray, FloatArray]:
+def derivatives(function: Function, s: Array, reach: Array, low: float, high: float) -> tuple[Array, Array]:
     """First and second derivative at ``s`` from values in [low, high] no further than ``reach`` from ``s``.
 
     NaN where the function is not finite around ``s``.
@@ -99,9 +97,7 @@ def derivatives(
     return best[0].reshape(shape), best[1].reshape(shape)
 
 
-def _fit(
-    function: Function, s: FloatArray, reach: FloatArray, low: float, high: float
-) -> tuple[FloatArray, FloatArray]:
+def _fit(function: Function, s: Array, reach: Array, low: float, high: float) -> tuple[Array, Array]:
     """Both derivatives from one window, the error its last coefficients leave, whether that is rounding."""
     nodes, to_coefficients, to_first, to_second = _fit_matrices()
     left, right = np.maximum(s - reach, low), np.minimum(s + reach, high)

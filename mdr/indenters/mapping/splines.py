@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 from mdr.indenters.mapping.abel import _kernel
 from mdr.indenters.mapping.quadrature import chebyshev_fit, double_exponential
 from mdr.indenters.mapping.stable_functions import arcosh, leg
-from mdr.tools.arrays import EPS
-from mdr.tools.checks import FloatArray
+from mdr.tools.arrays import EPS, Array
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
@@ -33,7 +32,7 @@ RULES = tuple(  #: for arcs between these widths [rad]
 )
 
 
-def fit(x: FloatArray, y: FloatArray, noise: FloatArray | float, even: bool) -> tuple[FloatArray, FloatArray]:
+def fit(x: Array, y: Array, noise: Array | float, even: bool) -> tuple[Array, Array]:
     """Ends (n + 1,) of the pieces of a spline through the points, ascending x, and their polynomials (n, degree + 1).
 
     Piece i is Σ_j c_ij u^j with u = (x − x_i)/(x_i+1 − x_i). ``noise`` is the standard deviation of y, by which the
@@ -66,7 +65,7 @@ def fit(x: FloatArray, y: FloatArray, noise: FloatArray | float, even: bool) -> 
     return unit * both, half / 2
 
 
-def _moved(c: FloatArray, start: FloatArray, width: FloatArray) -> FloatArray:
+def _moved(c: Array, start: Array, width: Array) -> Array:
     """Coefficients in u of Σ_j c_j (start + width u)^j, row by row."""
     moved = np.zeros_like(c)
     for j in range(c.shape[1]):
@@ -78,7 +77,7 @@ def _moved(c: FloatArray, start: FloatArray, width: FloatArray) -> FloatArray:
 class SplineImage:
     """The shape of these pieces from r = 0 on, f(0) = 0, and its image; arrays (n,) of radii >= 0."""
 
-    def __init__(self, ends: FloatArray, pieces: FloatArray, kinks: tuple[float, ...]) -> None:
+    def __init__(self, ends: Array, pieces: Array, kinks: tuple[float, ...]) -> None:
         self.ends, self.pieces = ends, pieces
         self.width = np.diff(ends)
         powers = np.arange(pieces.shape[1])
@@ -94,23 +93,23 @@ class SplineImage:
         self.kinks = ends[at]
         self.jumps = self.slopes[at, 0] - self.slopes[at - 1].sum(axis=1)
 
-    def height(self, r: FloatArray) -> FloatArray:
+    def height(self, r: Array) -> Array:
         """f(r)."""
         piece = self._piece(r)
         return _horner(self.pieces, piece, (r - self.ends[piece]) / self.width[piece])
 
-    def image(self, x: FloatArray) -> FloatArray:
+    def image(self, x: Array) -> Array:
         """g(x)."""
         piece = self._piece(x)
         first = piece == 0
         tip = _horner(self.tip[None], np.zeros_like(piece), np.where(first, x / self.width[0], 0))
         return np.asarray(np.where(first, tip, x * self._outer(0, x, piece)))
 
-    def image_at_ends(self) -> FloatArray:
+    def image_at_ends(self) -> Array:
         """g at all ends of pieces."""
         return np.asarray(self.ends * np.concatenate([[0.0], self._arcs(self.ends[1:])[0]]))
 
-    def area(self, a: FloatArray) -> FloatArray:
+    def area(self, a: Array) -> Array:
         """∫₀^a g dx."""
         piece = self._piece(a)
         low = self.ends[piece]
@@ -123,7 +122,7 @@ class SplineImage:
         rest = np.sqrt(a - low) * ((g * t) @ weights)
         return np.asarray(np.where(piece == 0, first, self._areas[piece] + rest))
 
-    def pressure(self, r: FloatArray, a: FloatArray) -> FloatArray:
+    def pressure(self, r: Array, a: Array) -> Array:
         """p(r)/E* for 0 <= r < a."""
         r = np.maximum(r, EPS * a)
         p = self._first_pressure(r, np.minimum(a, self.ends[1]))
@@ -143,7 +142,7 @@ class SplineImage:
                 p[on] += way * (rise @ rule.weight)
         return np.asarray(p / np.pi)
 
-    def _first_pressure(self, r: FloatArray, stop: FloatArray) -> FloatArray:
+    def _first_pressure(self, r: Array, stop: Array) -> Array:
         """∫_r^stop g'(x)/√(x² − r²) dx in the first piece: I_k = (x^(k−1) s + (k − 1) r² I_(k−2))/k for x^k."""
         p, h, s = np.zeros_like(r), self.width[0], leg(stop, r)
         integrals = [arcosh(stop, r), s / h]
@@ -154,14 +153,14 @@ class SplineImage:
         return np.where(r < stop, p, 0.0)
 
     @cached_property
-    def _areas(self) -> FloatArray:
+    def _areas(self) -> Array:
         """∫₀^x g dx at all ends of pieces."""
         return np.concatenate([[0.0], self.ends[1:] * self._arcs(self.ends[1:])[2]])
 
-    def _piece(self, x: FloatArray) -> Pieces:
+    def _piece(self, x: Array) -> Pieces:
         return np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.width.size - 1)
 
-    def _outer(self, which: int, x: FloatArray, piece: Pieces) -> FloatArray:
+    def _outer(self, which: int, x: Array, piece: Pieces) -> Array:
         """g/x (0) or the smooth part of dg/dx (1) in pieces that are not the first."""
         for i in np.unique(piece[piece > 0]):
             if not self.made[i]:
@@ -179,14 +178,14 @@ class SplineImage:
         self.chebyshev[:, i] = values[:2] @ to_coefficients.T
         self.made[i] = True
 
-    def _arcs(self, x: FloatArray) -> FloatArray:
+    def _arcs(self, x: Array) -> Array:
         """∫₀^{π/2} of f', of (r f')' and of f sin t along r = x sin t, (3, n_x)."""
         total = np.zeros((3, x.size))
         for i in range(0, x.size, 64):
             total[:, i : i + 64] = self._some_arcs(x[i : i + 64])
         return total
 
-    def _some_arcs(self, x: FloatArray) -> FloatArray:
+    def _some_arcs(self, x: Array) -> Array:
         total = np.zeros((3, x.size))
         unit = np.ones(1)
         ends = np.minimum(self.ends[: np.searchsorted(self.ends, x.max()) + 1], x[:, None])
@@ -203,7 +202,7 @@ class SplineImage:
         return total
 
 
-def _horner(c: FloatArray, piece: Pieces, u: FloatArray) -> FloatArray:
+def _horner(c: Array, piece: Pieces, u: Array) -> Array:
     """Σ_j c_j u^j with the coefficients of the pieces."""
     answer = np.zeros_like(u)
     for j in range(c.shape[1] - 1, -1, -1):

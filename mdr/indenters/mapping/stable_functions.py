@@ -8,41 +8,41 @@ x ≪ R. The arguments are lengths (or an angle), never their squares: no magnit
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.tools.checks import FloatArray
+from mdr.tools.arrays import Array
 
 N_GAUSS = 14  #: nodes over at most a quarter turn of waves no shorter than a third of a turn
 N_TERMS = 30  #: of a power series in w, |w| <= 1/4: 0.25**30 = 9e-19
 
 
-def leg(x: ArrayLike, b: ArrayLike) -> FloatArray:
+def leg(x: ArrayLike, b: ArrayLike) -> Array:
     """√(x² − b²), the length s from a kink at b; 0 for x <= b."""
     return np.asarray(np.sqrt(np.maximum(np.subtract(x, b), 0)) * np.sqrt(np.add(x, b)), dtype=np.float64)
 
 
-def leg_short(x: ArrayLike, b: float) -> FloatArray:
+def leg_short(x: ArrayLike, b: float) -> Array:
     """x − √(x² − b²), by which the leg is shorter than x; x itself for x <= b."""
     outside = np.maximum(x, b)
     return np.where(np.less(x, b), x, b * (b / (outside + leg(outside, b))))
 
 
-def angle(x: ArrayLike, b: float) -> FloatArray:
+def angle(x: ArrayLike, b: float) -> Array:
     """φ = arccos(b/x) for x > b, else 0."""
     return np.asarray(np.arctan2(leg(x, b), b), dtype=np.float64)
 
 
-def arcosh(x: FloatArray, y: FloatArray) -> FloatArray:
+def arcosh(x: Array, y: Array) -> Array:
     """Arcosh(x/y), exact also for x close to y; 0 for x < y."""
     over = np.maximum(x - y, 0) / y
     return np.asarray(np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)))
 
 
-def artanh(x: ArrayLike, c: float) -> FloatArray:
+def artanh(x: ArrayLike, c: float) -> Array:
     """Artanh(x/c) for 0 <= x < c."""
     x = np.asarray(x)
     return np.asarray(np.log1p(2 * (x / (c - x))) / 2)
 
 
-def angle_less_sine(y: ArrayLike) -> FloatArray:
+def angle_less_sine(y: ArrayLike) -> Array:
     """y − sin y for 0 <= y <= π."""
     y = np.asarray(y, dtype=np.float64)
     w, series = y * y, np.ones_like(y)
@@ -51,13 +51,13 @@ def angle_less_sine(y: ArrayLike) -> FloatArray:
     return np.asarray(np.where(y < 1, y * (w / 6) * series, y - np.sin(y)))
 
 
-def sine_less_arc(y: ArrayLike) -> FloatArray:
+def sine_less_arc(y: ArrayLike) -> Array:
     """Sin y − y cos y for 0 <= y <= π/2."""
     y = np.asarray(y, dtype=np.float64)
     return np.asarray(2 * y * np.sin(y / 2) ** 2 - angle_less_sine(y))
 
 
-def sine_less_arc_and_cube(y: ArrayLike) -> FloatArray:
+def sine_less_arc_and_cube(y: ArrayLike) -> Array:
     """3 (sin y − y cos y) − sin³y = 3 ∫₀^y (cos t − cos y)² cos t dt for 0 <= y <= π/2.
 
     The integrand is positive and Gauss's rule exact to rounding; for small y it is (2/5) y⁵.
@@ -69,7 +69,7 @@ def sine_less_arc_and_cube(y: ArrayLike) -> FloatArray:
     return np.asarray(3 / 2 * y[..., 0] * (rise * rise * np.cos(t) @ weights))
 
 
-def conic_area(u: ArrayLike, w: ArrayLike, angle: ArrayLike) -> FloatArray:
+def conic_area(u: ArrayLike, w: ArrayLike, angle: ArrayLike) -> Array:
     """u − (1 − w) A, w = u² and A = artanh u for an ellipse, w = −u² and A = arctan u for a hyperbola (times −1).
 
     For small u it is ±u³ Σ 2 w^j / ((2j + 1)(2j + 3)).
