@@ -37,7 +37,7 @@ WITH_EXAMPLES = [name for name in mdr.__all__ if inspect.isfunction(getattr(mdr,
 
 
 def test_there_is_something_to_ask():
-    assert {"slide", "sweep", "Indenter.force", "Material.creep_compliance", "DepthMotion.u_z", "Prony.fit"} <= set(
+    assert {"slide", "sweep", "Indenter.force", "Material.creep_compliance", "Motion.u_z", "Prony.fit"} <= set(
         FUNCTIONS
     )
 

@@ -337,8 +337,8 @@ def test_help_on_the_critical_velocity_prints_what_it_computes():
         line = re.sub(r"(?<=[\w)]) (?=[\w(])", " * ", line)
         return eval(line, {**names, **changes})
 
-    general, D = re.search(r"v_c = (.*\|D\|), +D = (.*),", words).groups()
+    general, D = re.search(r"v_c = (.*\|D\|)$", words, re.M)[1], re.search(r"D = (.*) ::", words)[1]
     assert_allclose(value(general, D=value(D)), mdr.critical_velocity(case), rtol=1e-12)
     undamped = dataclasses.replace(case, pull=dataclasses.replace(case.pull, c_x=0.0))
-    printed = re.search(r"v_c = (.*sqrt.*);", words)[1]
+    printed = re.search(r"v_c = (.*sqrt.*)$", words, re.M)[1]
     assert_allclose(value(printed), mdr.critical_velocity(undamped), rtol=1e-12)

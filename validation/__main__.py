@@ -78,6 +78,7 @@ class _Running(NamedTuple):
 
 def _start(name: str, effort: str, package: str) -> tuple[Any, _Running]:
     """The end of a pipe at which a claim's outcome will arrive, and the fresh process that tests it."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # of the fresh process: claims share the cores
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=send_claim, args=(there, name, effort, package), name=name)

@@ -67,7 +67,20 @@ class Motion(Record, ABC):
         return 2 * np.pi / self.omega
 
     def on(self, indenter: Indenter, material: Material) -> Motion:
-        """The motion of a contact of these two: itself, unless it was solved for another contact."""
+        """The motion of a contact of these two: itself, unless it was solved for another contact.
+
+        Parameters
+        ----------
+        indenter : Indenter
+            Shape of the contact.
+        material : Material
+            Its half-space.
+
+        Returns
+        -------
+        Motion
+            The motion.
+        """
         return self
 
     def u_z(self, t: ArrayLike) -> NDArray[np.float64]:

@@ -21,11 +21,36 @@ _OWN: dict[str, type[Any]] = {}
 def register(record: Record) -> Record:
     """Let case files, study files and `write_case` name a shape, a material or a motion of your own.
 
-    record: a dataclass, a subclass of `Indenter`, `Material` or `Motion` whose fields are numbers, words or lists of
-    them. Its name in a file is that of the class. Returns the class, so that it can stand as a decorator above
-    ``@dataclass(frozen=True)``. It holds for this process: a script that reads such a file registers the class first.
+    Parameters
+    ----------
+    record : type
+        A dataclass, a subclass of `Indenter`, `Material` or `Motion` whose fields are numbers, words or lists of them.
+        Its name in a file is that of the class.
 
-    Raises TypeError for what is no such class, ValueError for a name that the library or another class has.
+    Returns
+    -------
+    type
+        The class, so that `register` can stand as a decorator above ``@dataclass(frozen=True)``.
+
+    Raises
+    ------
+    TypeError
+        For what is no such class.
+    ValueError
+        For a name that the library or another class has.
+
+    Notes
+    -----
+    It holds for this process: a script that reads such a file registers the class first.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> import mdr
+    >>> @mdr.register
+    ... @dataclass(frozen=True)
+    ... class OneArm(mdr.StandardLinearSolid):
+    ...     pass
     """
     if not (isinstance(record, type) and is_dataclass(record) and issubclass(record, _KINDS)) or isabstract(record):
         kinds = ", ".join(kind.__name__ for kind in _KINDS)

@@ -870,6 +870,7 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
     T, n_x, n, h = table[L_TIME, 0], table.shape[1], gap.size, 2.0 * np.pi / motion.dx.size
     dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
     slips, first_slips = np.empty(n), np.empty(n)
+    f_z, f_x, mode = np.empty(n), np.empty(n), np.empty(n, dtype=np.uint8)  # of one step, kept or not: the same sums
     arms = np.zeros((8, n))
     free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
     keep = seen.mode.shape[0] > 0
@@ -919,8 +920,10 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
             presses = follows and s_1 > 0.0
             slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
             first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
-            if keep:
-                seen.f_z[j, i], seen.f_x[j, i], seen.mode[j, i] = normal, tangential, now
+            f_z[i], f_x[i], mode[i] = normal, tangential, now
+        if keep:
+            for i in range(n):
+                seen.f_z[j, i], seen.f_x[j, i], seen.mode[j, i] = f_z[i], f_x[i], mode[i]
         least = least_of(slips, n)
         if least == np.inf:  # all that press slip alike, so only the first touch of all adds
             least = least_of(first_slips, n)

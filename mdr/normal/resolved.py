@@ -54,14 +54,34 @@ class DepthUnderLoad(Motion):
 
 
 def resolved(case: SlidingContact) -> SlidingContact:
-    """The case whose depth is known, so that all its properties answer.
+    """The contact with its depth [m] known, so that all its properties answer.
 
-    A case of prescribed depth, or one that is resolved already, is returned as it is. Under a LoadOscillation the
-    oscillation of the answer is the depth [m] that the load brings about; `dataclasses.replace` with another shape or
-    material puts the load back in its place.
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
 
-    Raises TypeError for what is no case. Raises ValueError where the shape does not carry the load, and where no
-    periodic depth is found: beside a resonance of the mass m_z, or where it bounces in another rhythm.
+    Returns
+    -------
+    SlidingContact
+        The contact itself if its depth is prescribed, or resolved already. Under a LoadOscillation its oscillation is
+        the depth that the load brings about. `dataclasses.replace` with another shape or material puts the load back.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+    ValueError
+        If the shape does not carry the load, or if no periodic depth is found: beside a resonance of the mass m_z, or
+        where the mass bounces in another rhythm.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> load = mdr.LoadOscillation(F_z0=0.05, dF_z=0.01, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, oscillation=load)
+    >>> print(f"{mdr.resolved(case).working_depth:.3g} m")
+    2.6e-05 m
     """
     load = _load_of(case)
     if load is None:
