@@ -43,7 +43,7 @@ class Row:
 
 
 def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float]]:
-    """Random contacts and velocities: every other one under a body."""
+    """Random contacts and velocities, every other one under a body; none for a contact that is refused."""
     rng, out = np.random.default_rng(1000), []
     for i in range(n):
         shape = tuple(SHAPES)[int(rng.integers(4))]
@@ -59,8 +59,9 @@ def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float]]:
             case = replace(case, oscillation=load_of(case, rng))
         name = f"{shape}, alpha = {alpha:.3g}, T = {T:.3g}, v = {v_hat:.3g} v_c"
         name += f", k = {k_ratio:.2g}, omega_0 = {ratio:.2g}, zeta = {damping:.2g}" if body else ""
-        v_c = mdr.full_slip_critical_velocity(case)
-        out.append((name, case, v_hat * (v_c if math.isfinite(v_c) else mdr.critical_velocity(case))))
+        with contextlib.suppress(ValueError):  # a load that bounces in another rhythm
+            v_c = mdr.full_slip_critical_velocity(case)
+            out.append((name, case, v_hat * (v_c if math.isfinite(v_c) else mdr.critical_velocity(case))))
     return out
 
 
@@ -89,6 +90,7 @@ def coarse(name: str, case: mdr.SlidingContact, v_0: float, knobs: tuple[int, in
 
 def row(name: str, case: mdr.SlidingContact, v_0: float) -> Row:
     """Run with default knobs, and once much finer."""
+    case = mdr.resolved(case)
     run = mdr.slide(case, v_0)
     times, springs = FINER[0], FINER[1] * run.n_springs
     while times > 4 and times * run.steps_per_period * springs > MOST:
