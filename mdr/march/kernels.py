@@ -790,11 +790,11 @@ def mode_of(normal, excess, limit):
 
 
 @_inline
-def contact_share(s_0, s_free, s_rate, s_end, s_1, gap, z_0, z_1, zd_0, zd_1):
+def contact_share(s_0, s_free, s_rate, s_end, s_1, gap, step):
     """Share of a step that a spring spends in contact, as the march has it: 1 in contact throughout, 0 in flight."""
     rise = max(s_1 - s_free, 0.0)
-    way = rise / (rise + max(s_0 - (z_0 - gap), 0.0) + 1e-300)
-    return way * (1.0 - bend_of(zd_0 + s_rate, zd_1 + s_end) * (1.0 - way))
+    way = rise / (rise + max(s_0 - (step.z_0 - gap), 0.0) + 1e-300)
+    return way * (1.0 - bend_of(step.zd_0 + s_rate, step.zd_1 + s_end) * (1.0 - way))
 
 
 @_jit
@@ -820,29 +820,6 @@ def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
             shear += w[i] * ratio / theta * 0.5 * h * (p_0 * p_0 + p_1 * p_1)
             press += w[i] * ratio / theta * 0.5 * h * (q_0 * q_0 + q_1 * q_1)
     return shear, press
-
-
-@_inline
-def close_look(e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms_s, move, h, T, dashpot):
-    """One spring in one step, of which it spends the share `touched` in contact; per_time is 1/(touched h).
-
-    force, trial: what would press it and what it would take to stick, over its long-time stiffness. Returns its
-    normal and tangential force at the end and mode; its slip velocity, stretch and squeeze while in contact; and the
-    impulse of its normal force. The step falls into a free part and a part in contact, as in the march.
-    """
-    normal = max(force, 0.0)
-    stretched = e_1 - e_0 - (1.0 - touched) * (e_free - e_0)
-    squeezed = s_1 - s_0 - (1.0 - touched) * (s_free - s_0)
-    travel = touched * (move.du + (1.0 - touched) * move.surge) + (1.0 - touched) * move.jump
-    slip_rate = (travel - stretched) * per_time
-    # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
-    # extension, else its trial force
-    pace = (1e-9 * abs(move.du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
-    now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
-    tangential = min(max(trial, -normal), normal)
-    tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else tangential)
-    impulse = max(0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s, 0.0)
-    return normal, tangential, now, slip_rate, stretched, squeezed, impulse
 
 
 @_inline
@@ -883,12 +860,13 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
     sums = seen.sums
     for j in range(e.shape[0] - 1):
         k = (k_0 + j) % n_z
-        z_0, z_1, zd_0, zd_1 = motion.z[k], motion.z[k + 1], motion.z_dot[k], motion.z_dot[k + 1]
+        step = Step(0, n, motion.z[k], motion.z[k + 1], motion.z_dot[k], motion.z_dot[k + 1], h)
+        z_1, zd_1 = step.z_1, step.zd_1
         ux_dot_0 = motion.x_dot[k] + (3.0 * y[j + 2] - 4.0 * y[j + 1] + y[j]) / (2.0 * h)
         ux_dot = motion.x_dot[k + 1] + (3.0 * y[j + 3] - 4.0 * y[j + 2] + y[j + 1]) / (2.0 * h)
         jumps = light and not presses_0 and touches_flat(gap, w, z_1)
         move = moved(motion.dx[k] + (y[j + 3] - y[j + 2]), ux_dot_0, ux_dot, h, jumps)
-        growth = max(((ux_dot - zd_1) - (ux_dot_0 - zd_0)) / h, 0.0)  # of the common slip velocity
+        growth = max(((ux_dot - zd_1) - (ux_dot_0 - step.zd_0)) / h, 0.0)  # of the common slip velocity
         S_1 = P_1 = sum_x = sum_z = stick = friction = shear_viscous = normal_viscous = shear_arms = press_arms = 0.0
         if n_x > 1:
             shear_viscous, normal_viscous = add_arms(e[j], e[j + 1], s[j], s[j + 1], w, table, h, arms)
@@ -900,15 +878,25 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
             rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
-            touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], z_0, z_1, zd_0, zd_1)
+            # the step falls into a free part and a part in contact, as in the march
+            touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], step)
+            flown = 1.0 - touched
             per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
+            stretched = e_1 - e_0 - flown * (e_free - e_0)
+            squeezed = s_1 - s_0 - flown * (s_free - s_0)
+            slip_rate = (touched * (move.du + flown * move.surge) + flown * move.jump - stretched) * per_time
+            # what presses it, and what it would take to stick, over its long-time stiffness
             follows = s_1 <= z_1 - gap[i]
-            force = s_1 + T * zd_1 + arms[4, i] if follows else 0.0
+            normal = max(s_1 + T * zd_1 + arms[4, i], 0.0) if follows else 0.0
             trial = e_1 + T * ux_dot + arms[5, i]
-            normal, tangential, now, slip_rate, stretched, squeezed, impulse = close_look(
-                e_0, e_1, s_0, s_1, e_free, s_free, touched, per_time, force, trial, arms[7, i], move, h, T, dashpot
-            )
-            flight = (1.0 - touched) / h
+            # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
+            # extension, else its trial force
+            pace = (1e-9 * abs(move.du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
+            now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
+            sticks_at = min(max(trial, -normal), normal)
+            tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else sticks_at)
+            impulse = max(0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms[7, i], 0.0)
+            flight = flown / h
             sum_x += w[i] * tangential
             sum_z += w[i] * normal
             stick += w[i] * normal if now == STICK else 0.0
@@ -935,7 +923,7 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
         sums[STICK_TIME] += stick * h
         sums[CONTACT_TIME] += sum_z * h
         sums[SHEAR_WORK] += shear * move.du / h
-        sums[NORMAL_WORK] += press * (z_1 - z_0) / h
+        sums[NORMAL_WORK] += press * (z_1 - step.z_0) / h
         sums[FRICTION_LOSS] += friction
         sums[SHEAR_VISCOUS] += shear_viscous
         sums[NORMAL_VISCOUS] += normal_viscous
