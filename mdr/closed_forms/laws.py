@@ -42,7 +42,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.pull import RigidPull, SpringPull
+from mdr.case.pull import SpringPull
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import mean_normal_force, normal_force_harmonics
 from mdr.closed_forms.paper import deficit
@@ -437,7 +437,7 @@ def depth_sensitivity(case: SlidingContact) -> float:
     0.119
     """
     case = _of_the_paper(case)
-    if isinstance(case.pull, RigidPull):
+    if case.pull.is_rigid:
         return 0.0
     q, z = _groups(case)
     return float((-z * case.k_xc / (q - z * case.k_xc)).real)
