@@ -151,6 +151,12 @@ class Rope(mdr.Pull):
         return mdr.SpringPull(k_x=2e4, c_x=3.0).receptance(omega)
 
 
+class Worn(Rope):
+    """A damper that drives."""
+
+    coefficients = 0.0, -3.0, 2e4
+
+
 class Jelly(mdr.Material):
     """A material whose dynamic modulus is not that of E_star, tau and contact_arms."""
 
@@ -173,6 +179,7 @@ class Still(mdr.Motion):
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [
+        ({"pull": Worn()}, ValueError, r"damping must be finite and not negative"),
         ({"material": Jelly()}, ValueError, r"springs know a material by these three; .* Prony.fit"),
         ({"material": Timeless()}, TypeError, r"Timeless must answer tau, the relaxation time \[s\]"),
         ({"oscillation": Still()}, TypeError, r"Still must answer omega, its angular frequency"),

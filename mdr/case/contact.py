@@ -70,6 +70,12 @@ class SlidingContact:
         for part, name, what in must:
             if not hasattr(part, name):
                 raise TypeError(f"{type(part).__name__} must answer {name}, {what}: a field or a property")
+        m, c_x, k_x = self.pull.coefficients
+        if not (0 <= m < np.inf and 0 <= c_x < np.inf and k_x > 0):
+            raise ValueError(
+                f"pull = {self.pull!r} answers coefficients m = {m!r} kg, c_x = {c_x!r} N s/m, k_x = {k_x!r} N/m: mass "
+                "and damping must be finite and not negative, stiffness above 0 (infinite for a rigid pull)"
+            )
         if type(self.material).dynamic_modulus is Material.dynamic_modulus:
             return
         omega = self.oscillation.omega
