@@ -147,14 +147,17 @@ class Rope(mdr.Pull):
 
     coefficients = 0.0, 3.0, 2e4
 
-    def receptance(self, omega):
-        return mdr.SpringPull(k_x=2e4, c_x=3.0).receptance(omega)
-
 
 class Worn(Rope):
     """A damper that drives."""
 
     coefficients = 0.0, -3.0, 2e4
+
+
+class Stiff(Rope):
+    """A mass on a spring that does not yield."""
+
+    coefficients = 1.0, 0.0, math.inf
 
 
 class Jelly(mdr.Material):
@@ -179,6 +182,7 @@ class Still(mdr.Motion):
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [
+        ({"pull": Stiff()}, ValueError, r"rigid pull, whose mass and damping are 0"),
         ({"pull": Worn()}, ValueError, r"damping must be finite and not negative"),
         ({"material": Jelly()}, ValueError, r"springs know a material by these three; .* Prony.fit"),
         ({"material": Timeless()}, TypeError, r"Timeless must answer tau, the relaxation time \[s\]"),

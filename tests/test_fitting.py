@@ -107,6 +107,8 @@ def test_ratios_of_the_body_are_fitted_as_its_fields_are():
 def test_a_parameter_that_is_zero_to_begin_with_is_refused():
     with pytest.raises(ValueError, match="c_x must be positive in the case"):
         mdr.fit(replace(BODY, pull=mdr.SpringPull(k_x=8e3)), measured(0.01), ["c_x"])
+    with pytest.raises(ValueError, match="omega_0/omega must be positive in the case"):
+        mdr.fit(replace(BODY, pull=mdr.RigidPull()), measured(0.01), ["omega_0/omega"])
 
 
 def test_a_fit_prints_and_draws():

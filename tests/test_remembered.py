@@ -72,3 +72,24 @@ def test_a_shape_that_can_be_written_to_is_not_remembered():
     function(shape, 1)
     function(shape, 1)
     assert len(calls) == 2
+
+
+class Dial(mdr.Motion):
+    """A motion that can be turned."""
+
+    omega, depth = 300.0, 20e-6
+
+    @property
+    def cycle(self):
+        return mdr.NormalOscillation(u_z0=self.depth, du_z=8e-6, omega=self.omega).cycle
+
+
+def test_a_motion_that_can_be_changed_is_asked_anew():
+    dial = Dial()
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, oscillation=dial)
+    knobs = {"n_springs": 32, "steps_per_period": 64, "n_periods": 2}
+    before = mdr.slide(case, 1e-4, **knobs).cof
+    dial.depth = 10e-6
+    fixed = mdr.NormalOscillation(u_z0=10e-6, du_z=8e-6, omega=300.0)
+    expected = mdr.slide(mdr.SlidingContact(case.indenter, case.material, 0.5, oscillation=fixed), 1e-4, **knobs).cof
+    assert mdr.slide(case, 1e-4, **knobs).cof == expected != before

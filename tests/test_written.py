@@ -72,6 +72,12 @@ def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(written, "ROOT", tmp_path)
     monkeypatch.setattr(written, "RECORD", record)
     monkeypatch.setattr(written, "CONSTRAINTS", tmp_path / "constraints.txt")
+    monkeypatch.setattr(written, "CLAIMS", ("one", "of another run"))
+    with pytest.raises(SystemExit):
+        main([str(given)])
+    assert "the record lacks of another run" in capsys.readouterr().err
+    assert not record.exists()
+    monkeypatch.setattr(written, "CLAIMS", ("one",))
     assert main([str(given), "--check"]) == 1
     assert "is not as the record says" in capsys.readouterr().out
     assert not record.exists()

@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
+from validation import CLAIMS
 
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"
@@ -51,6 +52,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         "--check", action="store_true", help="change nothing; fail where a place is not as it should be"
     )
     args = parser.parse_args(argv)
+    claims = json.loads((args.record or RECORD).read_text(encoding="utf-8"))["claims"]
+    if missing := [name for name in CLAIMS if name not in {claim["name"] for claim in claims}]:
+        parser.error(f"the record lacks {', '.join(missing)}: give checks.json of a full report, python -m validation")
     if args.record is not None and not args.check:
         shutil.copyfile(args.record, RECORD)
         pins = "".join(f"{name}=={version_of(name)}\n" for name in sorted(PARTS))

@@ -27,7 +27,7 @@ from mdr.tools.checks import instance
 from mdr.tools.fields import check_fields, facts
 
 SAME = 1e-9  #: of a dynamic modulus: rounding of a sum over arms
-#: what the parts must be; each says what one of its kind must answer
+#: abstract base class of each part
 KINDS: dict[str, type[Any]] = {"indenter": Indenter, "material": Material, "oscillation": Motion, "pull": Pull}
 
 
@@ -71,10 +71,11 @@ class SlidingContact:
             if not hasattr(part, name):
                 raise TypeError(f"{type(part).__name__} must answer {name}, {what}: a field or a property")
         m, c_x, k_x = self.pull.coefficients
-        if not (0 <= m < np.inf and 0 <= c_x < np.inf and k_x > 0):
+        if not (0 <= m < np.inf and 0 <= c_x < np.inf and k_x > 0) or (np.isinf(k_x) and (m > 0 or c_x > 0)):
             raise ValueError(
                 f"pull = {self.pull!r} answers coefficients m = {m!r} kg, c_x = {c_x!r} N s/m, k_x = {k_x!r} N/m: mass "
-                "and damping must be finite and not negative, stiffness above 0 (infinite for a rigid pull)"
+                "and damping must be finite and not negative, stiffness above 0; infinite for a rigid pull, whose mass "
+                "and damping are 0"
             )
         if type(self.material).dynamic_modulus is Material.dynamic_modulus:
             return

@@ -268,5 +268,6 @@ def _series(motion: PeriodicMotion) -> Cycle:
     return Cycle.series(motion.u_z0, motion.omega, np.array(motion.cos), np.array(motion.sin))
 
 
-#: what a table [oscillation] without a name may be: the first with a key that the last has not
+#: A table [oscillation] that does not name its motion is the first of these that has one of its keys while the last,
+#: the usual one, has not.
 UNNAMED: tuple[type[Motion], ...] = (LoadOscillation, PeriodicMotion, NormalOscillation)

@@ -52,7 +52,6 @@ class Pull(Record, ABC):
             return 0.0
         return float(c_x / (2 * np.sqrt(k_x * m))) if m > 0 else np.inf
 
-    @abstractmethod
     def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
         """Receptance H(omega) [m/N]: displacement over an oscillating force.
 
@@ -66,6 +65,14 @@ class Pull(Record, ABC):
         complex or ndarray
             H [m/N] in the shape of omega; infinite on an undamped resonance.
         """
+        omega = finite_array("omega", omega, "rad/s")
+        if self.is_rigid:
+            return 0j if omega.ndim == 0 else np.zeros(omega.shape, dtype=complex)
+        m, c_x, k_x = self.coefficients
+        dynamic_stiffness = k_x - m * omega**2 + 1j * omega * c_x
+        with np.errstate(divide="ignore", invalid="ignore"):
+            H = np.where(dynamic_stiffness == 0, complex(np.inf), 1 / dynamic_stiffness)
+        return complex(H) if H.ndim == 0 else H
 
 
 @dataclass(frozen=True)
@@ -76,11 +83,6 @@ class RigidPull(Pull):
     def coefficients(self) -> tuple[float, float, float]:
         """No mass, no damper, a spring that does not yield."""
         return 0.0, 0.0, np.inf
-
-    def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
-        """Zero: nothing yields."""
-        omega = finite_array("omega", omega, "rad/s")
-        return 0j if omega.ndim == 0 else np.zeros(omega.shape, dtype=complex)
 
 
 @dataclass(frozen=True)
@@ -101,11 +103,3 @@ class SpringPull(Pull):
     def coefficients(self) -> tuple[float, float, float]:
         """m [kg], c_x [N s/m], k_x [N/m]."""
         return self.m, self.c_x, self.k_x
-
-    def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
-        """1/(k_x - m omega² + i omega c_x) [m/N]."""
-        omega = finite_array("omega", omega, "rad/s")
-        dynamic_stiffness = self.k_x - self.m * omega**2 + 1j * omega * self.c_x
-        with np.errstate(divide="ignore", invalid="ignore"):
-            H = np.where(dynamic_stiffness == 0, complex(np.inf), 1 / dynamic_stiffness)
-        return complex(H) if H.ndim == 0 else H

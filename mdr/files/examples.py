@@ -12,7 +12,7 @@ import numpy as np
 
 from mdr import indenters, materials
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.motion import LoadOscillation, Motion, NormalOscillation, PeriodicMotion
+from mdr.case.motion import UNNAMED, LoadOscillation, Motion, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.case_files import toml_value
 from mdr.tools.fields import facts_of
@@ -92,7 +92,7 @@ def example_file(case: SlidingContact) -> str:
     tables: list[tuple[str, str, str, Any]] = [
         ("indenter", "shape", "the shape that is pressed in; its fields follow", case.indenter),
         ("material", "model", "the half-space", case.material),
-        ("oscillation", "", _of_motion(case.oscillation), case.oscillation),
+        ("oscillation", _choice(case.oscillation), _of_motion(case.oscillation), case.oscillation),
         ("pull", "", "what drags it; a rigid pull without this table", case.pull),
     ]
     lines = [_line(one, case) for one in fields(case) if one.name == "mu_0"]
@@ -116,12 +116,20 @@ def _motion(name: str, indenter: indenters.Indenter, material: materials.Materia
     return LoadOscillation(F_z0=load, dF_z=float(f"{load / 10:.2g}"), omega=OMEGA)
 
 
+def _choice(motion: Motion) -> str:
+    """The key that names a motion, which those that a file need not name do without."""
+    return "" if type(motion) in UNNAMED else "motion"
+
+
 def _of_motion(motion: Motion) -> str:
+    """What the motion is, in a line."""
     if isinstance(motion, LoadOscillation):
         return "load F_z0 + dF_z cos(omega t); the depth follows"
     if isinstance(motion, PeriodicMotion):
         return "depth u_z0 + sum over n of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t)"
-    return "depth u_z0 + du_z cos(omega t)"
+    if isinstance(motion, NormalOscillation):
+        return "depth u_z0 + du_z cos(omega t)"
+    return (type(motion).__doc__ or "a motion").splitlines()[0]
 
 
 def _line(field: Field[Any], record: Any) -> str:

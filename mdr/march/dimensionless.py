@@ -177,7 +177,7 @@ class ScaledContact:
         """State of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
 
         Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
-        free oscillation. On an undamped resonance that harmonic is left out: no periodic motion contains it. Beside a
+        free oscillation. On an undamped resonance the resonant harmonic is left out: no periodic motion has it. Near a
         resonance a harmonic that would carry the body back faster than FASTEST_START v is cut to that velocity.
         """
         if self.rigid:

@@ -154,11 +154,11 @@ class Law(NamedTuple):
 class Free(NamedTuple):
     """What the compression s and the lag s - e of a spring do if left alone over a step."""
 
-    s: float  #: their ends
-    s_rate: float  #: rates at the start
-    s_end: float  #: rates at the end
-    s_shed: float  #: what is shed
-    lag: float
+    s: float  #: compression at the end of the step
+    s_rate: float  #: rate at which it falls at the start
+    s_end: float  #: and at the end
+    s_shed: float  #: part of it that the static force has shed by then
+    lag: float  #: the same of the lag
     lag_rate: float
     lag_end: float
     lag_shed: float
@@ -767,9 +767,8 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
 FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3
 
 # what `observe` adds up, in the order of its `sums`
-N_SUMS = 10
+N_SUMS = 9
 (
-    SUM_E,
     SUM_S,
     STICK_TIME,
     CONTACT_TIME,
@@ -918,7 +917,6 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
         shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
         press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
         seen.F_x[j], seen.F_z[j], seen.slip[j] = sum_x, sum_z, least
-        sums[SUM_E] += 0.5 * (S_0 + S_1)
         sums[SUM_S] += 0.5 * (P_0 + P_1)
         sums[STICK_TIME] += stick * h
         sums[CONTACT_TIME] += sum_z * h

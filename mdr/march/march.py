@@ -115,8 +115,8 @@ def march(
     else:
         waiting.advance(n_periods - n_seen)
         orbit = None
-    state, as_one, records = waiting.state if orbit is None else orbit.state, True, []
-    start = state
+    start = state = waiting.state if orbit is None else orbit.state
+    records = []
     for _ in range(n_seen):
         state, record = stepper.observe(state, keep=knobs.record > 0)
         records.append(record)

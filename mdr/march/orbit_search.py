@@ -15,7 +15,7 @@ from mdr.march import kernels
 from mdr.march import periodic_orbit as periodic
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
-from mdr.march.stepper import MarchState, Periods, Stepper
+from mdr.march.stepper import MarchState, Periods, Stepper, joined
 from mdr.materials.operator import L_RATIO
 from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
@@ -105,7 +105,7 @@ def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, n
     state, period = stepper.advance(stepper.within_friction(state), 1)
     if spread > TOLERANCE and abs(1 - period.cof[-1]) <= FULL:
         state, looked_at, stays = _slips_for_good(stepper, state, found.change * size)
-        period = Periods(np.append(period.cof, looked_at.cof), np.append(period.swing, looked_at.swing), period.as_one)
+        period = joined([period, looked_at])
         spread = 0.0 if stays else spread
     cof = float(period.cof[-1])
     if spread <= SOLVED_TOLERANCE:

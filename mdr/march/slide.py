@@ -21,6 +21,7 @@ from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, positive
 from mdr.tools.progress import time_is_over, time_limit
 
+ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
 BUDGET = 1e-5  #: of cof/mu_0, what the default knobs are to meet
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
@@ -252,7 +253,7 @@ def _difference(main: March, companion: March) -> float:
     A kink of size [e'] at the end of stick costs a mean up to [e'] h²/8 of one step. Near v_c, with psi ~ (1 - v)² the
     deficit of one spring, [e'] falls only like psi^(1/4); so the allowance follows this, not the deficit.
     """
-    if main.cof == companion.cof:
+    if abs(main.cof - companion.cof) <= ROUNDING:
         return 0.0
     missing = companion.settling.spread if main.settling.solved else 0.0
     if main.settling.solved and not companion.settling.settled:

@@ -57,7 +57,7 @@ class PeriodRecord:
     """A period with a close look, in scaled form; F_x, F_z, slip per step, y from two steps before the first."""
 
     seen: kernels.Seen
-    y: Array  #: (n_steps + 3,) motion of the body
+    y: Array  #: (n_steps + 3,) the body two nodes and one before the period, at its start, at the end of every step
     e: Array  #: (n_steps, n) extensions, or (0, n)
     s: Array  #: (n_steps, n) compressions, or (0, n)
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs

@@ -1,18 +1,21 @@
-"""Memoisation: the result of a function is kept for the next call with an equal record.
+"""Memoisation: the result of a function is kept for the next call with equal records.
 
 A record that holds a function, such as a Profile, equals another one with the same function, although the function may
 since return something else. Results are kept for that very object alone. Nothing is kept for a record that can be
-changed.
+changed: a shape, a material, a motion or a pull that is no frozen dataclass.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
 from typing import Any, TypeVar
 
 T = TypeVar("T")
+
+PARTS = "indenter", "material", "oscillation", "pull"
+PLAIN = int, float, str, tuple, type(None)
 
 
 class _Itself:
@@ -29,24 +32,34 @@ class _Itself:
 
 
 def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
-    """Decorator: lru_cache for a function whose first argument is a case or a shape."""
+    """Decorator: lru_cache for a function of records, the parts of a case among them, and plain values."""
 
     def wrap(function: Callable[..., T]) -> Callable[..., T]:
         @lru_cache(maxsize=maxsize)
-        def known(shape: _Itself | None, *args: Any) -> T:
+        def known(holding: tuple[_Itself, ...], *args: Any) -> T:
             return function(*args)
 
         @wraps(function)
         def call(*args: Any) -> T:
-            shape = getattr(args[0], "indenter", args[0])
-            if not _is_frozen(shape):
+            records = list(_records(args))
+            if not all(_is_frozen(one) for one in records):
                 return function(*args)
-            holds_function = any(callable(getattr(shape, one.name)) for one in fields(shape))
-            return known(_Itself(shape) if holds_function else None, *args)
+            return known(tuple(_Itself(one) for one in records if _holds_function(one)), *args)
 
         return call
 
     return wrap
+
+
+def _records(args: tuple[Any, ...]) -> Iterator[Any]:
+    """The records among the arguments; of a case its parts."""
+    for one in args:
+        parts = [getattr(one, name) for name in PARTS] if all(hasattr(one, name) for name in PARTS) else [one]
+        yield from (part for part in parts if not isinstance(part, PLAIN))
+
+
+def _holds_function(record: Any) -> bool:
+    return any(callable(getattr(record, one.name)) for one in fields(record))
 
 
 def _is_frozen(record: Any) -> bool:
