@@ -164,6 +164,15 @@ class Free(NamedTuple):
     lag_shed: float
 
 
+class Flight(NamedTuple):
+    """How a spring spends a step: a part in flight, to where it moves if left alone, and a part in contact."""
+
+    e: float  #: extension at the end of a step in flight
+    s: float  #: compression likewise
+    touched: float  #: share of the step in contact
+    per_time: float  #: 1/(touched h), 0 for none
+
+
 class Seen(NamedTuple):
     """What `observe` fills, of m steps and n springs."""
 
@@ -822,6 +831,28 @@ def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
 
 
 @_inline
+def close_look(e_0, e_1, s_0, s_1, flight, normal, trial, arms_s, move, h, T, dashpot):
+    """One spring in one step, of normal force `normal` at its end; trial: the force that it would take to stick.
+
+    Returns its tangential force at the end; what tells its mode and the limit of that (`mode_of`); its slip velocity,
+    stretch and squeeze while in contact; and the impulse of its normal force.
+    """
+    flown = 1.0 - flight.touched
+    stretched = e_1 - e_0 - flown * (flight.e - e_0)
+    squeezed = s_1 - s_0 - flown * (flight.s - s_0)
+    travel = flight.touched * (move.du + flown * move.surge) + flown * move.jump
+    slip_rate = (travel - stretched) * flight.per_time
+    # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
+    # extension, else its trial force
+    pace = (1e-9 * abs(move.du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
+    excess, limit = (trial, normal * (1.0 - 1e-12)) if dashpot else (slip_rate, pace)
+    sticks_at = min(max(trial, -normal), normal)
+    tangential = normal if excess >= limit else (-normal if excess <= -limit else sticks_at)
+    impulse = max(0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms_s, 0.0)
+    return tangential, excess, limit, slip_rate, stretched, squeezed, impulse
+
+
+@_inline
 def least_of(values, n):
     """Least of the first n values, infinite for none; by halves, which vectorises. Changes values."""
     while n > 1:
@@ -844,9 +875,10 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
     """
     gap, w, n_z = springs.gap, springs.w, motion.dx.size
     T, n_x, n, h = table[L_TIME, 0], table.shape[1], gap.size, 2.0 * np.pi / motion.dx.size
+    remembers = n_x > 1 or T > 0.0
     dashpot = n_x == 1 or table[L_STIFFNESS, 0] > 0.0
     slips, first_slips = np.empty(n), np.empty(n)
-    f_z, f_x, mode = np.empty(n), np.empty(n), np.empty(n, dtype=np.uint8)  # of one step, kept or not: the same sums
+    f_z, f_x, excesses, limits = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)  # kept or not: the same sums
     arms = np.zeros((8, n))
     free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
     keep = seen.mode.shape[0] > 0
@@ -859,7 +891,8 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
     sums = seen.sums
     for j in range(e.shape[0] - 1):
         k = (k_0 + j) % n_z
-        step = Step(0, n, motion.z[k], motion.z[k + 1], motion.z_dot[k], motion.z_dot[k + 1], h)
+        n_in, n_out = span_of(motion.spans, k, n)
+        step = Step(n_in, n_out, motion.z[k], motion.z[k + 1], motion.z_dot[k], motion.z_dot[k + 1], h)
         z_1, zd_1 = step.z_1, step.zd_1
         ux_dot_0 = motion.x_dot[k] + (3.0 * y[j + 2] - 4.0 * y[j + 1] + y[j]) / (2.0 * h)
         ux_dot = motion.x_dot[k + 1] + (3.0 * y[j + 3] - 4.0 * y[j + 2] + y[j + 1]) / (2.0 * h)
@@ -873,47 +906,62 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
                 shear_arms += w[i] * arms[6, i]
                 press_arms += w[i] * arms[7, i]
         e_here, e_next, s_here, s_next = e[j, 0], e[j + 1, 0], s[j, 0], s[j + 1, 0]
-        for i in indices(0, n):
+        for i in indices(0, n_in):
+            e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
+            normal, trial = max(s_1 + T * zd_1 + arms[4, i], 0.0), e_1 + T * ux_dot + arms[5, i]
+            flight = Flight(e_0, s_0, 1.0, 1.0 / h)
+            tangential, excess, limit, slip_rate, stretched, squeezed, impulse = close_look(
+                e_0, e_1, s_0, s_1, flight, normal, trial, arms[7, i], move, h, T, dashpot
+            )
+            sum_x += w[i] * tangential
+            sum_z += w[i] * normal
+            stick += w[i] * normal if abs(excess) < limit else 0.0
+            friction += w[i] * impulse * abs(slip_rate)
+            shear_viscous += w[i] * T * (stretched * stretched / h)
+            normal_viscous += w[i] * T * (squeezed * squeezed / h)
+            S_1 += w[i] * e_1
+            P_1 += w[i] * s_1
+            slips[i] = slip_rate
+            f_z[i], f_x[i], excesses[i], limits[i] = normal, tangential, excess, limit
+        for i in indices(n_in, n_out):
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             s_free, e_free = free_0 * s_0 + arms[0, i], free_0 * e_0 + arms[1, i]
             rate, end = rate_0 * s_0 + arms[2, i], end_0 * s_0 + arms[3, i]
-            # the step falls into a free part and a part in contact, as in the march
             touched = contact_share(s_0, s_free, rate, end, s_1, gap[i], step)
-            flown = 1.0 - touched
             per_time = 1.0 / (max(touched, 1e-9) * h) if touched > 1e-9 else 0.0
-            stretched = e_1 - e_0 - flown * (e_free - e_0)
-            squeezed = s_1 - s_0 - flown * (s_free - s_0)
-            slip_rate = (touched * (move.du + flown * move.surge) + flown * move.jump - stretched) * per_time
-            # what presses it, and what it would take to stick, over its long-time stiffness
             follows = s_1 <= z_1 - gap[i]
             normal = max(s_1 + T * zd_1 + arms[4, i], 0.0) if follows else 0.0
-            trial = e_1 + T * ux_dot + arms[5, i]
-            # where arms make the static force, what a spring did in the step tells its mode, beyond the rounding of its
-            # extension, else its trial force
-            pace = (1e-9 * abs(move.du) + 4e-15 * (abs(e_0) + abs(e_1))) / h
-            now = mode_of(normal, trial if dashpot else slip_rate, normal * (1.0 - 1e-12) if dashpot else pace)
-            sticks_at = min(max(trial, -normal), normal)
-            tangential = normal if now == SLIP else (-normal if now == SLIP_BACK else sticks_at)
-            impulse = max(0.5 * h * (s_0 + s_1) + T * (s_1 - s_0) + arms[7, i], 0.0)
-            flight = flown / h
+            trial, flight = e_1 + T * ux_dot + arms[5, i], Flight(e_free, s_free, touched, per_time)
+            tangential, excess, limit, slip_rate, stretched, squeezed, impulse = close_look(
+                e_0, e_1, s_0, s_1, flight, normal, trial, arms[7, i], move, h, T, dashpot
+            )
+            flown = (1.0 - touched) / h
             sum_x += w[i] * tangential
             sum_z += w[i] * normal
-            stick += w[i] * normal if now == STICK else 0.0
+            stick += w[i] * normal if abs(excess) < limit else 0.0
             friction += w[i] * impulse * abs(slip_rate)
-            shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flight)
-            normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (s_free - s_0) ** 2 * flight)
+            shear_viscous += w[i] * T * (stretched * stretched * per_time + (e_free - e_0) ** 2 * flown)
+            normal_viscous += w[i] * T * (squeezed * squeezed * per_time + (s_free - s_0) ** 2 * flown)
             S_1 += w[i] * e_1
             P_1 += w[i] * s_1
             presses = follows and s_1 > 0.0
             slips[i] = slip_rate if presses and touched > 0.999999 else np.inf
             first_slips[i] = slip_rate - 0.5 * touched * h * growth if presses and touched > 1e-6 else np.inf
-            f_z[i], f_x[i], mode[i] = normal, tangential, now
+            f_z[i], f_x[i], excesses[i], limits[i] = normal, tangential, excess, limit
+        if remembers:
+            for i in indices(n_out, n):
+                shear_viscous += w[i] * T * ((e_next[i] - e_here[i]) ** 2 / h)
+                normal_viscous += w[i] * T * ((s_next[i] - s_here[i]) ** 2 / h)
+                S_1 += w[i] * e_next[i]
+                P_1 += w[i] * s_next[i]
         if keep:
+            f_z[n_out:], f_x[n_out:] = 0.0, 0.0
             for i in range(n):
-                seen.f_z[j, i], seen.f_x[j, i], seen.mode[j, i] = f_z[i], f_x[i], mode[i]
-        least = least_of(slips, n)
+                seen.f_z[j, i], seen.f_x[j, i] = f_z[i], f_x[i]
+                seen.mode[j, i] = mode_of(f_z[i], excesses[i], limits[i])
+        least = least_of(slips, n_out)
         if least == np.inf:  # all that press slip alike, so only the first touch of all adds
-            least = least_of(first_slips, n)
+            least = least_of(first_slips[n_in:], n_out - n_in)
         shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
         press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
         seen.F_x[j], seen.F_z[j], seen.slip[j] = sum_x, sum_z, least

@@ -107,15 +107,15 @@ class Stepper:
     def _marched(self, state: MarchState, n_steps: int) -> tuple[MarchState, kernels.Trace, bool]:
         """A whole number of periods, counted."""
         state = state.copy()
-        trace, as_one = self._march(state, n_steps, 0, keep=False)
+        nothing = np.empty((0, *state.e.shape))
+        trace, as_one = self._march(state, n_steps, 0, nothing, nothing)
         self.n_periods += n_steps // self.scaled.steps
         self.ticker.tick(n_steps // self.scaled.steps)
         return state, trace, as_one
 
-    def _march(self, state: MarchState, n_steps: int, k_0: int, keep: bool) -> tuple[kernels.Trace, bool]:
-        """March a state in place from step k_0 of the period."""
-        shape = (n_steps if keep else 0, *state.e.shape)
-        trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), np.empty(shape), np.empty(shape))
+    def _march(self, state: MarchState, n_steps: int, k_0: int, e: Array, s: Array) -> tuple[kernels.Trace, bool]:
+        """March a state in place from step k_0 of the period; e, s: see Trace."""
+        trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), e, s)
         scaled = self.scaled
         as_one = kernels.march(
             state.e, state.s, state.body, scaled.body, self.springs, self.motion, scaled.table, k_0, trace
@@ -140,11 +140,13 @@ class Stepper:
         seen = kernels.Seen(np.zeros(kernels.N_SUMS), F_x, F_z, slip, np.zeros(kept, dtype=np.uint8), f_x, f_z)
         seen.sums[kernels.LEAST_SLIP] = np.inf
         y_all, S_all, as_one, done = [state.body.y[::-1].copy()], [], True, 0
-        for part in _parts(n_steps, min(n_steps, max(8, IN_CACHE // state.e.size))):  # in cache, in not too many calls
-            e_0, s_0, y_0 = state.e.copy(), state.s.copy(), state.body.y[::-1].copy()
-            s_0[0] = self._compression(state, done)
-            trace, one = self._march(state, part, done, keep=True)
-            e, s = np.concatenate([e_0[None], trace.e]), np.concatenate([s_0[None], trace.s])
+        at_once = min(n_steps, max(8, IN_CACHE // state.e.size))  # in cache, in not too many calls
+        e_all, s_all = np.empty((2, at_once + 1, n_x, n))
+        for part in _parts(n_steps, at_once):
+            e, s, y_0 = e_all[: part + 1], s_all[: part + 1], state.body.y[::-1].copy()
+            e[0], s[0] = state.e, state.s
+            s[0, 0] = self._compression(state, done)
+            trace, one = self._march(state, part, done, e[1:], s[1:])
             now = slice(done, done + part)
             part_seen = kernels.Seen(seen.sums, F_x[now], F_z[now], slip[now], seen.mode[now], f_x[now], f_z[now])
             y = np.concatenate([y_0, trace.y])
