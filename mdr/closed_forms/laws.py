@@ -42,7 +42,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.pull import SpringPull
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import mean_normal_force, normal_force_harmonics
 from mdr.closed_forms.paper import deficit
@@ -491,8 +490,8 @@ def least_over_depth(case: SlidingContact) -> LeastOverDepth:
 
 def _groups(case: SlidingContact) -> tuple[complex, complex]:
     """Dynamic stiffness q [N/m] of the body and z = 1 + i T."""
-    pull, omega = _spring(case), case.oscillation.omega
-    return complex(pull.m * omega**2 - pull.k_x, -pull.c_x * omega), complex(1, case.T)
+    (m, c_x, k_x), omega = _oscillator(case), case.oscillation.omega
+    return complex(m * omega**2 - k_x, -c_x * omega), complex(1, case.T)
 
 
 # --- a body: contact lost ---
@@ -539,18 +538,18 @@ def onset(case: SlidingContact) -> float:
     True
     """
     case = _of_the_paper(case)
-    lam, pull, T = _free_oscillation(case), _spring(case), case.T
+    lam, m, T = _free_oscillation(case), _mass(case), case.T
     if abs(stiffness_exponent(case.indenter, case.working_depth)) > 1e-9:
         raise ValueError(f"{case.indenter!r}: the onset is that of a flat punch, whose stiffness is constant")
     eps = case.alpha * float(np.hypot(1, T)) - 1
     if eps <= 0:
         return 0.0
     omega, k_zc = case.oscillation.omega, case.k_zc
-    single = case.material.mindlin_ratio + k_zc * (1 + 1j * T) * complex(pull.receptance(omega))
+    single = case.material.mindlin_ratio + k_zc * (1 + 1j * T) * complex(case.pull.receptance(omega))
     later = (-np.angle(1j * single) - turning_phase(T)) % (2 * np.pi) / omega  # t*
     A, B = (4 * np.sqrt(2) / 3 * eps**1.5, 0.0) if T == 0 else (4.5 * eps**2 / T, 4.5 * eps**2)
     passed_on = (A * lam + B * lam**2 / omega) * np.exp(lam * later) / (1 - np.exp(2 * np.pi * lam / omega))
-    faster = case.mu_0 * k_zc * case.working_depth / (pull.m * lam.imag * omega) * passed_on.imag
+    faster = case.mu_0 * k_zc * case.working_depth / (m * lam.imag * omega) * passed_on.imag
     return float(faster / (critical_velocity(case) / (1 + eps)))
 
 
@@ -596,13 +595,13 @@ def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     case = _of_the_paper(case)
     if case.T == 0:
         raise ValueError("T = 0: an elastic surface is back at once; the law is that of a slow material, T >> 1")
-    lam, pull, omega, du_z = _free_oscillation(case), _spring(case), case.oscillation.omega, case.cycle.du_z
+    lam, m, omega, du_z = _free_oscillation(case), _mass(case), case.oscillation.omega, case.cycle.du_z
     springs = SpringArray.of(case, n_springs)
     depth = np.maximum(du_z - springs.gap, 0)
     early = 2 / 3 * np.sqrt(4 * np.pi * depth / (case.T * du_z)) / omega
     impulse = 2 * np.pi / omega * case.mu_0 * springs.dk_z * depth
     answer = lam * np.exp(lam * early) / (1 - np.exp(2 * np.pi * lam / omega))
-    return float(np.sum(impulse * answer.imag) / (pull.m * lam.imag))
+    return float(np.sum(impulse * answer.imag) / (m * lam.imag))
 
 
 def half_a_blow(case: SlidingContact) -> float:
@@ -640,7 +639,7 @@ def half_a_blow(case: SlidingContact) -> float:
     """
     case = _of_the_paper(case)
     F = float(case.indenter.force(case.u_z_max, case.material.E_star))
-    return float(np.pi * case.mu_0 * F / (_with_mass(case).m * case.oscillation.omega))
+    return float(np.pi * case.mu_0 * F / (_mass(case) * case.oscillation.omega))
 
 
 # --- an undamped body on a multiple of the frequency ---
@@ -716,7 +715,7 @@ def resonance_residue(case: SlidingContact, n: int) -> float:
     """
     share = harmonic_share(case, n)
     residue = case.mu_0 * share * mean_normal_force(case)
-    return float(residue / (_with_mass(case).m * case.oscillation.omega))
+    return float(residue / (_mass(case) * case.oscillation.omega))
 
 
 def lock_in(n: int) -> float:
@@ -754,22 +753,24 @@ def _of_the_paper(case: SlidingContact) -> SlidingContact:
     return case
 
 
-def _spring(case: SlidingContact) -> SpringPull:
-    if not isinstance(case.pull, SpringPull):
+def _oscillator(case: SlidingContact) -> tuple[float, float, float]:
+    """m [kg], c_x [N s/m] and k_x [N/m] of the body on its spring."""
+    if case.pull.is_rigid:
         raise TypeError(f"this law is that of a body on a spring; pull must be a SpringPull, got {case.pull!r}")
-    return case.pull
+    return case.pull.coefficients
 
 
-def _with_mass(case: SlidingContact) -> SpringPull:
-    pull = _spring(case)
-    if pull.m == 0:
+def _mass(case: SlidingContact) -> float:
+    """m [kg] of the body, above 0."""
+    m, _, _ = _oscillator(case)
+    if m == 0:
         raise ValueError("m = 0: this law is that of a body with a mass")
-    return pull
+    return m
 
 
 def _free_oscillation(case: SlidingContact) -> complex:
     """lambda [rad/s] of the free body on its spring and damper."""
-    pull = _with_mass(case)
+    m, pull = _mass(case), case.pull
     if pull.damping_ratio >= 1:
         raise ValueError(f"damping ratio {pull.damping_ratio:.3g}: it must be below 1 for a free oscillation")
-    return complex(-pull.c_x / (2 * pull.m), pull.omega_0 * np.sqrt(1 - pull.damping_ratio**2))
+    return complex(-pull.coefficients[1] / (2 * m), pull.omega_0 * np.sqrt(1 - pull.damping_ratio**2))

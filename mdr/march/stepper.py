@@ -45,7 +45,7 @@ class MarchState(NamedTuple):
 
 
 class Periods(NamedTuple):
-    """What is said of each of some marched periods."""
+    """COF and swing of each of some periods."""
 
     cof: Array  #: (n_periods,) mean of L[e] over that of F_z, which is the COF over mu_0
     swing: Array  #: (n_periods,) of the body, greatest less least y
@@ -54,14 +54,14 @@ class Periods(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PeriodRecord:
-    """A period with a close look, in scaled form; F_x, F_z, slip per step, y from two steps before the first."""
+    """A period that was looked at closely, in scaled form."""
 
-    seen: kernels.Seen
+    seen: kernels.Seen  #: forces, modes and energies
     y: Array  #: (n_steps + 3,) the body two nodes and one before the period, at its start, at the end of every step
     e: Array  #: (n_steps, n) extensions, or (0, n)
     s: Array  #: (n_steps, n) compressions, or (0, n)
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
-    period: Periods  #: the same of this one period as of any other
+    period: Periods  #: its COF and swing
 
 
 class Stepper:
@@ -94,12 +94,12 @@ class Stepper:
         return self._marched(state, self.scaled.steps)[0]
 
     def advance(self, state: MarchState, n_periods: int) -> tuple[MarchState, Periods]:
-        """The state some periods later, and what is said of each; fewer where the time limit of the caller is over."""
+        """The state some periods later, with their COFs; fewer periods where the time limit of the caller is over."""
         parts = [Periods(np.empty(0), np.empty(0), True)]
         for part in _parts(n_periods, max(1, AT_ONCE // self.scaled.steps)):
             before = state.body
             state, trace, as_one = self._marched(state, part * self.scaled.steps)
-            parts.append(self._said_of(before, trace, as_one))
+            parts.append(self._periods_of(before, trace, as_one))
             if time_is_over():
                 break
         return state, joined(parts)
@@ -122,7 +122,7 @@ class Stepper:
         )
         return trace, bool(as_one)
 
-    def _said_of(self, before: kernels.BodyState, trace: kernels.Trace, as_one: bool) -> Periods:
+    def _periods_of(self, before: kernels.BodyState, trace: kernels.Trace, as_one: bool) -> Periods:
         """COF of each whole period: the mean of L[e] is that of e but for the ends; before: the state at its start."""
         scaled, S = self.scaled, trace.S
         ends = np.concatenate([before.S[:1], S[scaled.steps - 1 :: scaled.steps]])
@@ -159,9 +159,9 @@ class Stepper:
         self.n_periods += 1
         y = np.concatenate(y_all)
         nothing = np.empty((0, n_x, n))
-        said = self._said_of(before.body, kernels.Trace(y[3:], np.concatenate(S_all), nothing, nothing), as_one)
+        period = self._periods_of(before.body, kernels.Trace(y[3:], np.concatenate(S_all), nothing, nothing), as_one)
         stored = self.stored_energy(before), self.stored_energy(state)
-        return state, PeriodRecord(seen, y, e_kept, s_kept, stored, said)
+        return state, PeriodRecord(seen, y, e_kept, s_kept, stored, period)
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction, and the sums that belong to it.

@@ -44,7 +44,7 @@ class Waiting:
         self.append(periods)
 
     def append(self, periods: Periods) -> None:
-        """Take down what is said of further periods."""
+        """Add further periods to those that the judgement rests on."""
         self.periods = joined([self.periods, periods])
 
     def wait(self, most: int) -> Orbit:
