@@ -1,6 +1,7 @@
 """Numbers in prose are those of the record, the record is that of the claims, and a stale number is seen."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,6 +26,16 @@ def test_the_record_is_of_all_claims_and_all_checks_held():
     record = json.loads(RECORD.read_text(encoding="utf-8"))
     assert tuple(claim["name"] for claim in record["claims"]) == CLAIMS
     assert all(check["held"] for check in record["checks"])
+    for claim in record["claims"]:
+        assert len(claim["verdict"]) <= 100
+        assert len(claim["sentence"]) <= 200, "a row of README's table is read at a glance"
+
+
+def test_a_verdict_that_is_not_quoted_is_named():
+    quoted = [SimpleNamespace(**claim) for claim in json.loads(RECORD.read_text(encoding="utf-8"))["claims"]]
+    assert written.other_verdicts(quoted) == []
+    quoted[3].verdict = "fails when it rains"
+    assert written.other_verdicts(quoted) == [quoted[3].name]
 
 
 @pytest.mark.parametrize(

@@ -106,6 +106,8 @@ class Figure:
         import matplotlib.pyplot as plt
 
         _require_slug("figure", self.name)
+        if not (self.caption and self.alt):
+            raise ValueError(f"figure {self.name}: say in caption and alt what to see")
         nothing = {"svg": ("Date", "Creator", "Format", "Type"), "png": ("Software",)}
         with mpl.rc_context({"svg.hashsalt": "mdr", "svg.fonttype": "path"}):
             for kind, keys in nothing.items():

@@ -24,6 +24,7 @@ from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
 from validation import CLAIMS
+from validation.report import Claim, plain
 
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"
@@ -70,6 +71,13 @@ def main(argv: Sequence[str] | None = None) -> int:
             if not args.check:
                 page.write_text(new, encoding="utf-8")
     return 1 if args.check and stale else 0
+
+
+def other_verdicts(claims: Iterable[Claim]) -> list[str]:
+    """Names of the claims whose verdict is not the one that README and docs quote."""
+    recorded = json.loads(RECORD.read_text(encoding="utf-8"))["claims"]
+    quoted = {claim["name"]: claim["verdict"] for claim in recorded}
+    return [claim.name for claim in claims if plain(claim.verdict) != quoted.get(claim.name)]
 
 
 def pages() -> list[Path]:
