@@ -349,14 +349,21 @@ def test_two_processes_write_the_same_bytes(claims):
 def test_the_command_itself_runs_claims_in_processes_of_their_own(tmp_path):
     package = tmp_path / "validation"
     package.mkdir()
-    for name in ("__init__.py", "__main__.py", "report.py"):
+    for name in ("__init__.py", "__main__.py", "report.py", "written.py"):
         shutil.copy(ROOT / "validation" / name, package)
+    (tmp_path / "docs").mkdir()
+    quoted = tmp_path / "docs" / "checks.json"
+    quoted.write_text('{"claims": [{"name": "mapping", "verdict": "holds"}]}', encoding="utf-8")
     (package / "mapping.py").write_text(CLAIM.format(body="pass", got=1.0, name="mapping"), encoding="utf-8")
     command_line = [sys.executable, "-m", "validation", "--quick", "--jobs", "2", "--only", "mapping"]
     done = subprocess.run(command_line, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert "Done with quick" in done.stdout
     assert re.fullmatch(r"mapping: 1/1 checks held, \d+\.\d s\n", done.stderr)
+    quoted.write_text('{"claims": [{"name": "mapping", "verdict": "holds if T = 0"}]}', encoding="utf-8")
+    done = subprocess.run(command_line, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.endswith("verdicts other than README and docs quote (validation.written): mapping\n")
 
 
 ASLEEP = "open(f'{__name__}.pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(600)"

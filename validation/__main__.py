@@ -48,7 +48,7 @@ def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
     other = other_verdicts(claims) if package == "validation" else []
     if other:
         print(
-            f"not the verdicts that README and docs quote (validation/written.py): {', '.join(other)}", file=sys.stderr
+            f"verdicts other than README and docs quote (validation.written): {', '.join(other)}", file=sys.stderr
         )
     return 0 if all(claim.held for claim in claims) and not other else 1
 
