@@ -15,12 +15,10 @@ BUDGET = 1e-5  # the accuracy budget of cof/mu_0 of a march with default knobs
 
 
 def check(rows):
-    worst, share, median = summary(rows)
+    worst, share, _ = summary(rows)
     assert worst <= BUDGET, max(rows, key=lambda row: row.error)
     assert share <= 1, max(rows, key=lambda row: row.error / row.bound)
-    assert all(row.bound <= 2 * BUDGET for row in rows), max(rows, key=lambda row: row.bound)
-    # a bound that is always met because it is huge says nothing
-    assert median <= 100
+    assert all(row.bound <= 1.0001 * BUDGET for row in rows), max(rows, key=lambda row: row.bound)
 
 
 def test_rigid_pull_elastic():

@@ -186,7 +186,7 @@ def test_pressed_and_free_springs_obey_all_the_rules(T, arms, depth_ratio):
     contact = case(T, *arms, depth_ratio=depth_ratio, pull=mdr.SpringPull(2e3, 0.02, 1.0))
     scaled = ScaledContact.of(contact, mdr.SpringArray.of(contact, 77), 128, lump=False)
     (state, cofs, seen), plain = marched(scaled, 0.4), marched(scaled, 0.4, by_all_rules=True)
-    for two, one in ((state.vector(), plain[0].vector()), (state.s, plain[0].s), (cofs, plain[1])):
+    for two, one in ((state.x, plain[0].x), (state.s, plain[0].s), (cofs, plain[1])):
         assert_allclose(two, one, rtol=0, atol=1e-12 * (1 + np.abs(one).max()))
     for name in ("sums", "F_x", "F_z", "f_x", "f_z"):
         one, two = getattr(plain[2], name), getattr(seen, name)

@@ -45,6 +45,7 @@ CLOSER = 0.004  #: the same where its error allows
 BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
 GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
 SAME_MULTIPLE = 1e-6  #: off a whole multiple by less, of it, a free oscillation stays in step as long as runs last
+IN_STEP = 1024  #: steps of a period, at least, that tell a free oscillation in step with the drive from one that is not
 MOST_UNSETTLED = 12  #: runs that do not settle, after which a search for reduced friction ends
 NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
@@ -198,7 +199,7 @@ class _Search:
         if v_c <= LEAST * self.scale:
             why = f"stick ends below {LEAST:g} of Eq. (1), which is not told from zero"
             return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
-        return self._look_below(v_c, low, high)
+        return self._look_below(v_c, low, high, free.v_0 - free.least_slip)
 
     def _none(self, why: str) -> MeasuredVelocity:
         return MeasuredVelocity(None, None, None, "none", why, n_runs=self.n_runs)
@@ -319,13 +320,20 @@ class _Search:
         v_c = float(np.polyfit(deficits, velocities, 2)[-1])
         return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
 
-    def _look_below(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
-        """One run of a body below the end of stick: is friction lower there, and by how much?"""
+    def _look_below(self, v_c: float, low: float, high: float, without: float) -> MeasuredVelocity:
+        """One run of a body below the end of stick: is friction lower there, and by how much?
+
+        without: the end of stick of the motion without a free oscillation.
+        """
         if self.case.pull.is_rigid:  # without a free oscillation stick takes friction away
             return self._look_above(v_c, low, high)
         multiple = self._multiple()
         share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
-        near = self.look(share * v_c, self.start)
+        if multiple:
+            self.steps = max(self.steps, IN_STEP)
+            if high < (1 - CLOSER) * without:  # runs have found the free oscillation that keeps springs from sticking
+                return self._lock_in(high, without)
+        near = self.run(share * v_c) if multiple else self.look(share * v_c, self.start)
         if multiple and _only_grazes(near) and _only_grazes(self.run(near.v_0)):
             return self._lock_in(near.v_0, high)
         found = self._look_above(v_c, low, high)

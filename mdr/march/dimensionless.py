@@ -181,10 +181,11 @@ class ScaledContact:
         resonance a harmonic that would carry the body back faster than FASTEST_START v is cut to that velocity.
         """
         if self.rigid:
-            return self._state(S, np.zeros(self.steps // 2 + 1, dtype=complex))
+            return self._state(S, np.zeros(3))
         y_n = self._full_slip_motion(S)
         most = FASTEST_START * v
-        return self._state(S, y_n * (most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1))
+        cut = most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1.0
+        return self._state(S, self._positions(y_n * cut))
 
     def resonant_state(self, S: Array, v: float) -> kernels.BodyState | None:
         """State of the body at phase 0 on an undamped resonance or beside one. The resonant harmonic, the n-th, swings
@@ -201,7 +202,7 @@ class ScaledContact:
         if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not (resonant[n] or swings[n] > FASTEST_START * v):
             return None
         y_n[n] = 0
-        state = self._state(S, y_n)
+        state = self._state(S, self._positions(y_n))
         phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
         state.y[:] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
         return state
@@ -228,11 +229,15 @@ class ScaledContact:
         touching = (spans[1] > 0) & (np.roll(spans[1], 1) > 0)  # contact at the node between two steps
         return float((self.z_dot[:-1] - y_dot)[touching].max(initial=0.0))
 
-    def _state(self, S: Array, y_n: NDArray[np.complex128]) -> kernels.BodyState:
-        """State at phase 0 of a body with the harmonics y_n under the full-slip force S (n_steps,)."""
-        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in self._arms_n(np.fft.rfft(S), self._turn())]
-        y = np.fft.irfft(y_n, self.steps)[[0, -1, -2]]
+    def _state(self, S: Array, y: Array) -> kernels.BodyState:
+        """State at phase 0 of a body that was at y (3,), now and before, under the full-slip force S (n_steps,)."""
+        arms_n = self._arms_n(np.fft.rfft(S), self._turn()) if self.n_arms else []
+        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in arms_n]
         return kernels.BodyState(y, S[[0, -1]], np.array(arms).reshape(-1, 2).T.copy())
+
+    def _positions(self, y_n: NDArray[np.complex128]) -> Array:
+        """Where a body with these harmonics is at phase 0, one step before and two."""
+        return np.asarray(np.fft.irfft(y_n, self.steps)[[0, -1, -2]])
 
     def _full_slip_motion(self, S: Array) -> NDArray[np.complex128]:
         """Harmonics of the periodic motion under the full-slip force S (n_steps,), as of rfft; none on a resonance."""

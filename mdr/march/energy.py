@@ -39,8 +39,8 @@ class EnergyBalance:
 
 def energy_balance(march: March) -> EnergyBalance:
     """The account of the period that a march was looked at."""
-    scaled, account = march.scaled, march.account
-    sums, v, h = account.seen.sums, march.v_0 / scaled.speed, scaled.h
+    scaled, account = march.end.scaled, march.account
+    sums, v, h = account.seen.sums, march.end.v_0 / scaled.speed, scaled.h
     unit_x = scaled.stiffness_x * scaled.length_x**2
     unit_z = scaled.stiffness_z * scaled.length_z**2
     pull, damper = float(sums[kernels.SHEAR_WORK]), 0.0

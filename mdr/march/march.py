@@ -1,9 +1,9 @@
-"""One march of a contact: prepared, brought to its steady state, looked at closely.
+"""One march of a contact: prepared, brought to its steady state (`steady`), looked at closely (`looked_at`).
 
 From full slip the periodic state of a body is searched for (orbit_search.py). Where none is found, and from rest, the
-march goes on until it settles (waiting.py). Under a rigid pull it needs a period or two. Then its last periods are
-looked at closely: modes, forces and energies. If its core was lumped and turns out not to move as one, the march is
-done again with every spring for itself. A COF that contradicts a theorem (theorems.py) is not called settled.
+march goes on until it settles (waiting.py). Under a rigid pull it needs a period or two. This gives the COF. A close
+look at the last periods tells modes, forces and energies. If the core was lumped and turns out not to move as one, the
+march is done again with every spring for itself. A COF that contradicts a theorem (theorems.py) is not called settled.
 """
 
 from __future__ import annotations
@@ -15,8 +15,15 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.march import kernels
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.orbit_search import Orbit, at_other_resolution, gain_at_other_resolution, search, search_from_full_slip
-from mdr.march.steady_state import TOLERANCE, Settling
+from mdr.march.orbit_search import (
+    FULL,
+    Orbit,
+    at_other_resolution,
+    gain_at_other_resolution,
+    search,
+    search_from_full_slip,
+)
+from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
 from mdr.march.stepper import MarchState, PeriodRecord, Stepper
 from mdr.march.theorems import outside
 from mdr.march.waiting import Waiting, way_from_rest
@@ -25,6 +32,7 @@ from mdr.tools.memoise import remembered
 
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
+BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
 MOST_SHARED = 8192  #: springs of arrays that are kept for further runs
 MOST_BESIDE = 512  #: periods that a run beside another waits whose periodic state is not found from that one
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
@@ -39,6 +47,7 @@ class Knobs:
     start: str
     lump: bool
     record: int = 0
+    accuracy: float = BUDGET  #: of cof/mu_0
 
     def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Knobs:
         """The knobs of a companion with other steps or springs, that keeps nothing."""
@@ -48,21 +57,65 @@ class Knobs:
 
 
 @dataclass(frozen=True, eq=False)
-class March:
-    """A finished march: what it said of itself, still in scaled form."""
+class Steady:
+    """A march that has come to its end, not yet looked at closely; in scaled form."""
 
     case: SlidingContact
     v_0: float
     knobs: Knobs
-    scaled: ScaledContact
     springs: SpringArray
+    stepper: Stepper
     settling: Settling
-    n_periods: int
+    state: MarchState  # at the end
+    n_periods: int  # marched so far
     on_the_way: float  # periods that a run from rest takes to stretch springs and system
-    mean_F_z: float
+    waited: Waiting | None  # of a march of so many periods
+
+    @property
+    def scaled(self) -> ScaledContact:
+        """The contact in scaled form."""
+        return self.stepper.scaled
+
+    @property
+    def cof(self) -> float:
+        """COF over mu_0."""
+        return self.settling.mean
+
+    @property
+    def mean_F_z(self) -> float:
+        """Mean of F_z in scaled form."""
+        return self.stepper.mean_F_z
+
+    @property
+    def off_load(self) -> float:
+        """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
+        load, scaled = self.case.oscillation.load, self.scaled
+        return 0.0 if load is None else abs(self.mean_F_z * scaled.stiffness_z * scaled.length_z / load.F_z0 - 1)
+
+    @property
+    def missing_load(self) -> float:
+        """The same with what the depth under the load was solved to."""
+        return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.off_load)
+
+    @property
+    def slips_fully(self) -> bool:
+        """Whether nothing is missing in the COF but rounding."""
+        return abs(1 - self.cof) < FULL
+
+
+@dataclass(frozen=True, eq=False)
+class March:
+    """A finished march: its end, and what a close look at its last periods saw; in scaled form."""
+
+    end: Steady
+    settling: Settling
     account: PeriodRecord  # the period that modes and energies are taken from
     record: tuple[PeriodRecord, ...]  # all observed periods
-    state: MarchState  # before the observed periods
+
+    @property
+    def n_periods(self) -> int:
+        """Periods marched."""
+        return self.end.n_periods + len(self.record)
 
     @property
     def cof(self) -> float:
@@ -79,17 +132,90 @@ class March:
     def least_slip(self) -> float:
         """Least slip velocity in contact over v_0 of a run in full slip; zero of any other."""
         sums = self.account.seen.sums
-        full = float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < 1e-12
-        return float(sums[kernels.LEAST_SLIP]) * self.scaled.speed / self.v_0 if full else 0.0
+        full = float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < FULL
+        return float(sums[kernels.LEAST_SLIP]) / self.end.stepper.v if full else 0.0
 
 
-def march(
-    case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None, near: March | None = None
-) -> March:
-    """March until settled, or exactly n_periods; the last ones observed.
+def steady(
+    case: SlidingContact,
+    v_0: float,
+    knobs: Knobs,
+    n_periods: int | None = None,
+    near: Steady | None = None,
+    most: int | None = None,
+) -> Steady | None:
+    """March until settled, or exactly n_periods.
 
-    near: a march of the case at other resolution, whose periodic state is a good one to search from.
+    near: a march of the case at other resolution or velocity, whose periodic state is a good one to search from. most:
+    periods after which a march that does not settle ends; None is the most of any; with 0 it only searches for its
+    periodic state, and there is no answer where it finds none.
     """
+    springs, scaled = at_hand(case, knobs)
+    if not scaled.normal.mean > 0:
+        raise too_coarse(knobs.steps)
+    stepper = Stepper(scaled, v_0 / scaled.speed, min(TOLERANCE, knobs.accuracy / 10))
+    from_full_slip = knobs.start == "full_slip"
+    orbit = waiting = None
+    if n_periods is None:
+        orbit = _searched(stepper, from_full_slip, near)
+    if orbit is None and most != 0:
+        start = stepper.full_slip() if from_full_slip else stepper.rest()
+        waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
+        if n_periods is None:
+            orbit = waiting.wait(most or MAX_PERIODS["rigid" if scaled.rigid else "spring"])
+        else:
+            waiting.advance(n_periods)
+    if orbit is not None:
+        state, settling, periods = orbit.state, orbit.settling, orbit.period
+    elif waiting is not None:
+        settling = waiting.assess() if waiting.n else Settling(0.0, UNKNOWN, False, "unsettled")
+        state, periods = waiting.state, waiting.periods
+    else:
+        return None
+    if not np.isfinite(periods.cof).all():
+        raise out_of_range(v_0)
+    if not periods.as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
+        return steady(case, v_0, replace(knobs, lump=False), n_periods, near, most)
+    on_the_way = 0.0 if waiting is None else waiting.on_the_way
+    waited = waiting if orbit is None else None
+    return Steady(case, v_0, knobs, springs, stepper, settling, state, stepper.n_periods, on_the_way, waited)
+
+
+def looked_at(end: Steady) -> March:
+    """A close look at further periods of a march, one or as many as are to be kept."""
+    stepper, knobs, settling, state = end.stepper, end.knobs, end.settling, end.state
+    records = []
+    for _ in range(max(1, knobs.record)):
+        state, record = stepper.observe(state, keep=knobs.record > 0)
+        records.append(record)
+    if not all(np.isfinite(record.period.cof).all() for record in records):
+        raise out_of_range(end.v_0)
+    if knobs.lump and not all(record.period.as_one for record in records):
+        alone = replace(knobs, lump=False)
+        again = steady(end.case, end.v_0, alone, None if end.waited is None else end.waited.n)
+        assert again is not None
+        return looked_at(again)
+    if end.waited is not None:
+        for record in records:
+            end.waited.append(record.period)
+        settling = end.waited.assess()
+    account = records[0] if end.waited is None else records[-1]  # the same period however many are kept
+    if settling.settled and (why := _contradiction(stepper, account, settling)):
+        settling = replace(settling, settled=False, kind="unsettled", why=why, contradicts=True)
+    return March(end, settling, account, tuple(records))
+
+
+def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
+    """March until settled, or exactly n_periods, the last ones of which are looked at closely."""
+    check(case, v_0)
+    before = None if n_periods is None else n_periods - max(1, knobs.record)
+    end = steady(case, v_0, knobs, before)
+    assert end is not None
+    return looked_at(end)
+
+
+def check(case: SlidingContact, v_0: float) -> None:
+    """Refuse a velocity or an amplitude that is lost in the digits of a march."""
     cycle = case.cycle
     if cycle.u_z0 > DEEPEST * cycle.du_z:
         raise ValueError(
@@ -100,67 +226,18 @@ def march(
         raise ValueError(
             f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
         )
-    springs, scaled = at_hand(case, knobs)
-    if not scaled.normal.mean > 0:
-        raise too_coarse(knobs.steps)
-    stepper, n_seen = Stepper(scaled, v_0 / scaled.speed), max(1, knobs.record)
-    from_full_slip = knobs.start == "full_slip"
-    waiting = Waiting(
-        stepper,
-        stepper.full_slip() if from_full_slip else stepper.rest(),
-        0.0 if from_full_slip else way_from_rest(scaled, stepper.v),
-    )
-    if n_periods is None:
-        orbit = _steady(stepper, waiting, from_full_slip, near)
-    else:
-        waiting.advance(n_periods - n_seen)
-        orbit = None
-    start = state = waiting.state if orbit is None else orbit.state
-    records = []
-    for _ in range(n_seen):
-        state, record = stepper.observe(state, keep=knobs.record > 0)
-        records.append(record)
-    periods = [waiting.periods if orbit is None else orbit.period, *(record.period for record in records)]
-    if not all(np.isfinite(one.cof).all() for one in periods):
-        raise ValueError(f"the run left the range of floats at v_0 = {v_0:g} m/s: use units nearer to one")
-    as_one = all(one.as_one for one in periods)
-    if not as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
-        return march(case, v_0, replace(knobs, lump=False), n_periods, near)
-    if orbit is None:
-        for record in records:
-            waiting.append(record.period)
-        settling = waiting.assess()
-    else:
-        settling = orbit.settling
-    account = records[0] if n_periods is None else records[-1]  # the same period however many are kept
-    if settling.settled and (why := _contradiction(stepper, account, settling)):
-        settling = replace(settling, settled=False, kind="unsettled", why=why, contradicts=True)
-    return March(
-        case,
-        v_0,
-        knobs,
-        scaled,
-        springs,
-        settling,
-        stepper.n_periods,
-        waiting.on_the_way,
-        stepper.mean_F_z,
-        account,
-        tuple(records),
-        start,
-    )
 
 
-def _steady(stepper: Stepper, waiting: Waiting, from_full_slip: bool, near: March | None) -> Orbit:
-    """The steady state, solved for if it can be, awaited else."""
+def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Orbit | None:
+    """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
-    if near is not None and near.settling.solved:
-        start = at_other_resolution(near.state, near.scaled, waiting.state, scaled)
-        orbit = search(stepper, (start,), gain_at_other_resolution(near.settling.gain, near.scaled, scaled))
+    if near is not None and near.settling.solved and not (from_full_slip and near.slips_fully):
+        start = at_other_resolution(near.state, near.scaled, scaled)
+        gain = near.settling.gain if near.stepper.v == stepper.v else None
+        orbit = search(stepper, (start,), gain_at_other_resolution(gain, near.scaled, scaled), near=True)
     if orbit is None and from_full_slip and (scaled.n_arms or not scaled.rigid):
         orbit = search_from_full_slip(stepper)
-    most = MAX_PERIODS["rigid" if scaled.rigid else "spring"] if near is None else MOST_BESIDE
-    return orbit or waiting.wait(most)
+    return orbit
 
 
 def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
@@ -168,6 +245,11 @@ def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) 
     least = float(account.seen.F_z.min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
     return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.h**2)
+
+
+def out_of_range(v_0: float) -> ValueError:
+    """The error of a run whose numbers are too large or too small."""
+    return ValueError(f"the run left the range of floats at v_0 = {v_0:g} m/s: use units nearer to one")
 
 
 def touches(case: SlidingContact, knobs: Knobs) -> bool:

@@ -21,6 +21,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
+NEARLY = 1e-5  #: what is missing in the COF where it may be that of full slip, to what a loose search leaves
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
@@ -39,10 +40,13 @@ class _OutOfTime(Exception):
     """The time limit of the caller is over in the middle of a search."""
 
 
-def search(stepper: Stepper, starts: tuple[MarchState, ...], gain: float | None = None) -> Orbit | None:
+def search(
+    stepper: Stepper, starts: tuple[MarchState, ...], gain: float | None = None, near: bool = False
+) -> Orbit | None:
     """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
 
-    gain: how far a state may be from the periodic one, over its change over a period, where that is known.
+    gain: how far a state may be from the periodic one, over its change over a period, where that is known. near:
+    whether the starts are periodic states themselves, at other steps, springs or velocity.
     """
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
@@ -50,27 +54,36 @@ def search(stepper: Stepper, starts: tuple[MarchState, ...], gain: float | None 
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
     guaranteed_stable = bool(slow) and (scaled.rigid or scaled.C > 0)
     for start in starts:
-        x = start.vector()
+        x = start.x
 
         def period(x: Array, like: MarchState = start) -> Array:
             if time_is_over():
                 raise _OutOfTime
-            return stepper.period(stepper.within_friction(like.with_vector(x))).vector()
+            return stepper.period(stepper.within_friction(like.with_vector(x))).x
 
-        for close in (periodic.CLOSE, periodic.CLOSEST):
+        loose = near and not slow
+        for close in ((periodic.LOOSE,) if loose else ()) + (periodic.CLOSE, periodic.CLOSEST):
+            plain = 1 if near else periodic.PLAIN
             try:
-                found = periodic.find(period, x, norm.of, norm.pushes, slow, guaranteed_stable, close, gain)
+                found = periodic.find(period, x, norm.of, norm.pushes, slow, guaranteed_stable, close, gain, plain)
             except _OutOfTime:
                 found = None
             if found is None:
                 break
             orbit = _repeated(stepper, start.with_vector(found.x), found, norm)
-            spread = orbit.settling.spread
-            if spread <= TOLERANCE or slow or (orbit.settling.settled and close == periodic.CLOSEST):
+            told = close < periodic.LOOSE or not _nearly_full(orbit.settling.mean)
+            if orbit.settling.spread <= stepper.tolerance and told:
+                return orbit
+            if slow or (orbit.settling.settled and close == periodic.CLOSEST):
                 return orbit
             x = found.x
     stepper.n_periods = n_before
     return None
+
+
+def _nearly_full(cof: float) -> bool:
+    """Whether so little is missing in the COF that a search may have to tell it from nothing."""
+    return FULL < 1 - cof < NEARLY
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:
@@ -79,7 +92,7 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
     return search(stepper, (*(() if driven is None else (driven,)), stepper.full_slip()))
 
 
-def at_other_resolution(state: MarchState, of: ScaledContact, like: MarchState, on: ScaledContact) -> MarchState:
+def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
     """A state of a march with other springs or steps, on the springs and steps of this one."""
     step, order = on.h / of.h, np.argsort(of.gap, kind="stable")
     e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
@@ -89,7 +102,7 @@ def at_other_resolution(state: MarchState, of: ScaledContact, like: MarchState, 
     body = kernels.BodyState(
         y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms.copy()
     )
-    return MarchState(e, like.s.copy(), body)
+    return MarchState.of(e, on.normal.s, body)
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
@@ -135,21 +148,15 @@ class EnergyNorm:
         self.scaled = scaled
         self.n_e = (1 + scaled.n_arms) * scaled.gap.size
         self.n_x = self.n_e + 5 + 2 * scaled.n_arms
-
-    @cached_property
-    def _roots(self) -> Array:
-        """Square roots of the stiffness of every spring, and of every arm of it, (n_e,)."""
-        return np.sqrt(np.outer(self.scaled.table[L_RATIO], self.scaled.w)).ravel()
+        self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
+        self.roots[: self.n_e] = np.sqrt(np.outer(scaled.table[L_RATIO], scaled.w)).ravel()
+        self.roots[self.n_e] = 0.0 if scaled.rigid else np.sqrt(scaled.K)
+        self.of_rate = 0.0 if scaled.rigid else np.sqrt(scaled.M or scaled.K) / scaled.h
 
     def of(self, x: Array) -> Array:
-        """State vectors (..., n_x) as vectors (..., m) whose squares are energies."""
-        scaled, n = self.scaled, self.n_e
-        out = np.empty((*x.shape[:-1], n + (0 if scaled.rigid else 2)))
-        out[..., :n] = self._roots * x[..., :n]
-        if not scaled.rigid:
-            y, y_old = x[..., n], x[..., n + 1]
-            out[..., n] = np.sqrt(scaled.K) * y
-            out[..., n + 1] = np.sqrt(scaled.M or scaled.K) * (y - y_old) / scaled.h
+        """State vectors (..., n_x) as vectors (..., n_x) whose squares are energies."""
+        out = x * self.roots
+        out[..., self.n_e + 1] = self.of_rate * (x[..., self.n_e] - x[..., self.n_e + 1])
         return out
 
     @cached_property

@@ -36,6 +36,7 @@ MOST = 80  #: periods after which Anderson's method gives up
 PATIENCE = 30  #: periods without a smaller change, after which it gives up as well
 A_TIME = (3, 20)  #: how much more memory, and how many more periods, each slow time of a material gets
 CLOSE = 1e-10  #: change over a period, over the size of the state, at which a search has mostly arrived
+LOOSE = 1e-8  #: the same that is enough near a state that was found, where no material remembers long
 CLOSEST = 1e-13  #: the same where a change adds up over many periods: some roundings
 AWAY = 1e-6  #: distance, over the size of the state, to which a slow time lets a change over a period add up
 GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
@@ -74,17 +75,18 @@ def find(
     guaranteed_stable: bool = False,
     close: float = CLOSE,
     gain: float | None = None,
+    plain: int = PLAIN,
 ) -> FixedPoint | None:
     """The fixed point of `step` near `start`, shape (n,), or None.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
     length along the slow motions. slow: times of the material, in periods, that the springs remember.
     guaranteed_stable: that with them no multiplier reaches 1. close: change over a period, over the size of the state,
-    at which the search ends; CLOSE is enough for an answer. gain: that of the same motion at another resolution, where
-    it is known.
+    at which the search ends; CLOSE is enough for an answer at least. gain: that of the same motion at another
+    resolution, where it is known. plain: periods that are marched before the first combination.
     """
-    close, enough = (min(one, AWAY / max(slow)) if slow else one for one in (close, CLOSE))
-    found = _anderson(step, start, measure, slow, close)
+    close, enough = (min(one, AWAY / max(slow)) if slow else one for one in (close, max(close, CLOSE)))
+    found = _anderson(step, start, measure, slow, close, plain)
     if found is None:
         return None
     if found.change > close:
@@ -102,35 +104,39 @@ class _Iterate:
     change: float
 
 
-def _anderson(step: Step, x: Array, measure: Measure, slow: tuple[float, ...], close: float) -> _Iterate | None:
+def _anderson(
+    step: Step, x: Array, measure: Measure, slow: tuple[float, ...], close: float, plain: int
+) -> _Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     memory, most = (n + more * len(slow) for n, more in zip((MEMORY, MOST), A_TIME, strict=True))
-    images: list[Array] = []
-    changes: list[Array] = []
+    ways: list[Array] = []  # from image to image
+    turns: list[Array] = []  # from change to change, measured
+    image = before = x
     best, since = _Iterate(x, np.inf), 0
-    least = np.inf
+    least, measured = np.inf, measure(x)
     for turn in range(most):
-        image = step(x)
-        size = float(np.linalg.norm(measure(image))) + 1e-300
+        last, image = image, step(x)
+        reached = measure(image)
+        size = float(np.linalg.norm(reached)) + 1e-300
         if not np.isfinite(size):
             return None
-        change = float(np.linalg.norm(measure(image - x))) / size
+        moved = reached - measured
+        change = float(np.linalg.norm(moved)) / size
         if change < best.change:
             best, since = _Iterate(image, change), turn
         if change <= close or turn - since > PATIENCE:
             break
-        if change > GROWTH * least:
-            images, changes, least = [], [], np.inf
-        least = min(least, change)
-        images, changes = [*images, image][-memory:], [*changes, image - x][-memory:]
-        x = image if turn < PLAIN or len(images) < 2 else _combined(images, changes, measure)
+        if change > GROWTH * least or turn == 0:
+            ways, turns, least = [], [], np.inf
+        else:
+            ways, turns = [*ways, image - last][1 - memory :], [*turns, moved - before][1 - memory :]
+        least, before = min(least, change), moved
+        if turn < plain or not turns:
+            x, measured = image, reached
+        else:
+            x = image - shares(turns, moved, rcond=1e-10) @ np.array(ways)
+            measured = measure(x)
     return best
-
-
-def _combined(images: list[Array], changes: list[Array], measure: Measure) -> Array:
-    """The combination of images, of weights that sum to one, whose change is least."""
-    share = shares(changes, measure, rcond=1e-10)
-    return np.asarray(images[-1] - share @ np.diff(np.array(images), axis=0))
 
 
 def _newton_picard(step: Step, start: _Iterate, measure: Measure, pushes: tuple[Array, ...], close: float) -> _Iterate:

@@ -81,43 +81,38 @@ class SlidingRun(ArrayRecord):
         return plots.plot_run(self)
 
 
-def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
-    """From scaled form to SI."""
-    case, scaled, seen, settling = march.case, march.scaled, march.account.seen, march.settling
+def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = "") -> SlidingRun:
+    """From scaled form to SI. error: bound on that of the COF, over mu_0; missing: what the steps are known to miss."""
+    case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
     mu_0, sums = case.mu_0, seen.sums
     n_steps = seen.F_x.size
     force_z = scaled.stiffness_z * scaled.length_z
     if not march.sees_contact:
         raise too_coarse(scaled.steps)
     mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
-    error += _missing_load(march, mean_F_z)
+    error += march.end.missing_load
+    cof = min(settling.mean + missing, 1.0) if missing else settling.mean
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     return SlidingRun(
-        cof=mu_0 * settling.mean,
+        cof=mu_0 * cof,
         cof_error=mu_0 * (error + settling.spread + 1e-12),
         settled=settling.settled,
         kind=kind,
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
         least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
-        mean_F_x=mu_0 * settling.mean * mean_F_z,
+        mean_F_x=mu_0 * cof * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=energy_balance(march),
-        v_0=march.v_0,
+        v_0=march.end.v_0,
         mu_0=mu_0,
         omega=scaled.omega,
-        n_springs=march.knobs.n_springs,
+        n_springs=march.end.knobs.n_springs,
         steps_per_period=scaled.steps,
         n_periods=march.n_periods,
-        **(_recorded(march) if march.knobs.record else {}),
+        **(_recorded(march) if march.end.knobs.record else {}),
     )
-
-
-def _missing_load(march: March, mean_F_z: float) -> float:
-    """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
-    load = march.case.oscillation.load
-    return 0.0 if load is None else max(march.case.cycle.missing, abs(mean_F_z / load.F_z0 - 1))
 
 
 def _why_not(march: March) -> str:
@@ -128,22 +123,24 @@ def _why_not(march: March) -> str:
         return f"{settling.why}: raise {'limit_s' if 'time limit' in settling.why else 'n_periods or c_x'}"
     if n < MIN_PERIODS:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
-    if march.knobs.start == "rest" and n < march.on_the_way:
-        return f"a start from rest takes {march.on_the_way:.3g} periods to stretch the springs: start from full slip"
+    if march.end.knobs.start == "rest" and n < march.end.on_the_way:
+        return (
+            f"a start from rest takes {march.end.on_the_way:.3g} periods to stretch the springs: start from full slip"
+        )
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
-    if march.scaled.M and march.scaled.C == 0:
+    if march.end.scaled.M and march.end.scaled.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
-    return f"{change}: raise n_periods" + ("" if march.knobs.start == "full_slip" else " or start from full slip")
+    return f"{change}: raise n_periods" + ("" if march.end.knobs.start == "full_slip" else " or start from full slip")
 
 
 def _recorded(march: March) -> dict[str, Any]:
     """The last periods in SI, the lumped core spread over the springs it stands for."""
-    scaled, springs = march.scaled, march.springs
+    scaled, springs = march.end.scaled, march.end.springs
     F_x, F_z, y, e, s, f_x, f_z, mode = (
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
     )
     n_steps = F_x.size
-    t = (march.n_periods - march.knobs.record) * march.case.oscillation.period + np.arange(
+    t = (march.n_periods - march.end.knobs.record) * march.end.case.oscillation.period + np.arange(
         1, n_steps + 1
     ) * scaled.h / scaled.omega
     n = scaled.n_lumped
@@ -155,8 +152,8 @@ def _recorded(march: March) -> dict[str, Any]:
     share = springs.width / springs.width.sum()
     return {
         "t": t,
-        "u_x": march.v_0 * t + y * scaled.length_x,
-        "u_z": march.case.cycle.u_z0 + scaled.length_z * scaled.z[phase],
+        "u_x": march.end.v_0 * t + y * scaled.length_x,
+        "u_z": march.end.case.cycle.u_z0 + scaled.length_z * scaled.z[phase],
         "F_x": F_x * scaled.stiffness_x * scaled.length_x,
         "F_z": F_z * scaled.stiffness_z * scaled.length_z,
         "x": springs.x,

@@ -9,24 +9,38 @@ of the two, springs and spread of the windows bound the error of the COF.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dimensionless import RESOLVED, fast_ratio
-from mdr.march.march import Knobs, March, march, too_coarse, touches
+from mdr.march.march import (
+    BUDGET,
+    MOST_BESIDE,
+    Knobs,
+    March,
+    Steady,
+    check,
+    looked_at,
+    march,
+    steady,
+    too_coarse,
+    touches,
+)
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, positive
 from mdr.tools.progress import time_is_over, time_limit
 
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
-BUDGET = 1e-5  #: of cof/mu_0, what the default knobs are to meet
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
-N_SPRINGS, _STEPS = 384, 1024  # first choice; doubled while cof_error exceeds the budget
+N_SPRINGS, _STEPS = 96, 256  # first choice; doubled while cof_error exceeds the accuracy asked for
+_STEPS_OF_JOLTS = 1024
+MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
+CONFIRMED = 0.2  #: share by which two estimates of what the steps miss, of second order, may differ
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
 UNEVEN = (0.53, 0.61, 0.69, 0.83, 0.91)  #: of the steps, of companions of motions that jump as dashpots touch
@@ -131,62 +145,155 @@ def slide(
     with time_limit(limit_s):
         if n_periods is not None:
             return finish(march(case, v_0, knobs, n_periods), why="no companion run: cof_error holds settling only")
-        return _within_budget(case, v_0, knobs, free=(n_springs is None, steps_per_period is None))
+        return within(case, v_0, knobs, free=(n_springs is None, steps_per_period is None))[0]
 
 
 def default_steps(case: SlidingContact) -> int:
-    """Steps per period that resolve the oscillation of the body on the contact, if that can be afforded."""
+    """Steps per period with which a search for the accuracy begins: they resolve the oscillation of the body on the
+    contact, if that can be afforded, and more where a body without mass jolts as dashpots touch.
+    """
     fast = fast_ratio(case)
-    return (
-        _STEPS
-        if fast * 2 * RESOLVED < _STEPS or not np.isfinite(fast)
-        else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
-    )
+    if np.isinf(fast):
+        return _STEPS if case.keeps_contact or not case.rheology.remembers else _STEPS_OF_JOLTS
+    return _STEPS if fast * 2 * RESOLVED < _STEPS else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
 
 
-def _within_budget(case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[bool, bool]) -> SlidingRun:
-    """Run with its companions; refine what was left free while the error exceeds the budget."""
-    main: March | None = None
-    run: SlidingRun | None = None
+class _Runs:
+    """Runs of one case at one velocity with several knobs, each kept, and begun in a state that was found before."""
+
+    def __init__(self, case: SlidingContact, v_0: float, near: Steady | None) -> None:
+        self.case, self.v_0, self.near = case, v_0, near
+        self.ends: dict[Knobs, Steady] = {}
+
+    def first(self, knobs: Knobs) -> Steady | None:
+        """The end of a run that may go before the main one; None where its periodic state would have to be awaited."""
+        if knobs.start != "full_slip":
+            return None
+        return self._at(knobs, None, None if self.case.pull.is_rigid else 0)
+
+    def main(self, knobs: Knobs) -> Steady:
+        """The end of a run that goes on until it settles."""
+        return self._there(knobs, None, None)
+
+    def beside(self, main: Steady, knobs: Knobs) -> Steady:
+        """The end of a companion: solved for by itself if the main run was, else of as many periods."""
+        return self._there(knobs, None if main.settling.solved else main.n_periods, MOST_BESIDE)
+
+    def _there(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
+        end = self._at(knobs, n_periods, most)
+        assert end is not None
+        return end
+
+    def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady | None:
+        knobs = replace(knobs, record=0)
+        if knobs not in self.ends:
+            end = steady(self.case, self.v_0, knobs, n_periods, self.near, most)
+            if end is None:
+                return None
+            self.ends[knobs] = end
+            self.near = end if end.settling.solved else self.near
+        return self.ends[knobs]
+
+
+@dataclass(frozen=True)
+class _Bounded:
+    """A main run, the bound on the numerical error of its COF, over mu_0, and what the steps miss of it."""
+
+    main: Steady
+    error: float
+    missing: float = 0.0
+
+    def looked_at(self, record: int) -> March:
+        """The run after a close look, with so many periods kept."""
+        return looked_at(replace(self.main, knobs=replace(self.main.knobs, record=record)))
+
+    def finished(self, record: int) -> SlidingRun:
+        """The run in SI, with so many periods kept."""
+        return finish(self.looked_at(record), self.error, self.missing)
+
+
+def within(
+    case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[bool, bool], near: Steady | None = None
+) -> tuple[SlidingRun, Steady]:
+    """A run with its companions, and its end; what was left free, springs and steps, is refined until the error is
+    within knobs.accuracy. near: the end of a run at a velocity close by.
+
+    How many springs it takes hardly depends on the steps, and is found with half of the first ones.
+    """
+    check(case, v_0)
+    runs, few, coarser = _Runs(case, v_0, near), 0, None
     while True:
         knobs = _that_touch(case, knobs, free[1])
-        main = march(case, v_0, knobs, None, main)
-        if not main.sees_contact and free[1] and knobs.steps < MOST_STEPS:
-            knobs = replace(knobs, steps=min(2 * knobs.steps, MOST_STEPS))
-            continue
+        few = few or knobs.steps // 2
+        first = runs.first(knobs.coarser(knobs.steps // 2))
+        if first is not None and first.settling.settled and not first.slips_fully and free[0]:
+            knobs = _enough_springs(runs, first, knobs, few)
+        main = runs.main(knobs)
         if not main.settling.settled:
-            # finer steps make a state that hardly repeats harder to find, but a contradiction is one
-            return finish(main) if run is None or main.settling.contradicts else run
-        # a companion of an awaited motion waits as long, whatever is kept; of a solved one, it is solved for itself
-        as_long = None if main.settling.solved else main.n_periods - len(main.record) + 1
-        half = march(case, v_0, knobs.coarser(knobs.steps // 2), as_long, main)
-        ringing = _of_ringing(case, main)
-        if ringing == 0 and _clear_of_stick(main, half):
-            return finish(main)
-        most = march(case, v_0, knobs.coarser(3 * knobs.steps // 4), as_long, main)
-        fewer = march(case, v_0, knobs.coarser(n_springs=knobs.n_springs // 2), as_long, main)
-        error_springs = _difference(main, fewer)
-        error_steps = max(_difference(main, half), 2 * _difference(main, most)) * _erratic(case)
+            # finer steps make a state that hardly repeats harder to find
+            best = coarser or _Bounded(main, 0.0)
+            return best.finished(knobs.record), best.main
+        half = runs.beside(main, knobs.coarser(knobs.steps // 2))
+        ringing = _of_ringing(runs, main)
+        if main.slips_fully and ringing == 0 and _clear_of_stick(looked_at(main), looked_at(half)):
+            return _Bounded(main, 0.0).finished(knobs.record), main
+        error_springs = _of_springs(runs, main, knobs, few)
+        missing, error_steps = _of_steps(runs, main, half, knobs, free[1])
+        error_steps += ringing
         if main.scaled.light and main.scaled.remembers and not case.keeps_contact:
-            others = (march(case, v_0, knobs.coarser(int(share * knobs.steps)), as_long, main) for share in UNEVEN)
-            error_steps = max(error_steps, *(2 * _difference(main, other) for other in others))
             free = (free[0], free[1] and knobs.steps < MOST_UNEVEN)
-        error_steps += _of_fast_relaxation(main) + ringing
         if time_is_over():
-            if run is not None:
-                return run
-            why = "the time limit is over before the runs beside it, which bound cof_error, were done"
-            return finish(replace(main, settling=replace(main.settling, settled=False, kind="unsettled", why=why)))
-        run = finish(main, error_springs + error_steps)
-        finer = replace(
-            knobs,
-            n_springs=knobs.n_springs * (2 if free[0] and error_springs > BUDGET / 2 and knobs.n_springs < 4096 else 1),
-            steps=knobs.steps * (2 if free[1] and error_steps > BUDGET / 2 and knobs.steps < MOST_STEPS else 1),
-        )
+            if coarser is None:
+                why = "the time limit is over before the runs beside it, which bound cof_error, were done"
+                unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
+                coarser = _Bounded(replace(main, settling=unknown), 0.0)
+            return coarser.finished(knobs.record), coarser.main
+        bounded, share = _Bounded(main, error_springs + error_steps, missing), knobs.accuracy / 2
+        off_load = main.off_load > share
+        more_springs = free[0] and (error_springs > share or off_load) and knobs.n_springs < MOST_SPRINGS
+        more_steps = free[1] and (error_steps > share or off_load) and knobs.steps < MOST_STEPS
+        met = bounded.error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
-        if run.cof_error <= BUDGET * case.mu_0 or finer == knobs or awaited or main.settling.spread > BUDGET / 4:
-            return run
-        knobs = finer
+        if met or awaited or not (more_springs or more_steps) or main.settling.spread > knobs.accuracy / 4:
+            march = bounded.looked_at(knobs.record)
+            if march.sees_contact or not free[1] or knobs.steps >= MOST_STEPS:
+                return finish(march, bounded.error, missing), main
+            more_springs, more_steps = False, True
+        coarser = bounded
+        knobs = replace(knobs, n_springs=knobs.n_springs * (1 + more_springs), steps=knobs.steps * (1 + more_steps))
+
+
+def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few: int) -> Knobs:
+    """The knobs with so many springs that their error is within the accuracy."""
+    while knobs.n_springs < MOST_SPRINGS and _of_springs(runs, first, knobs, few) > knobs.accuracy / 2:
+        knobs = replace(knobs, n_springs=2 * knobs.n_springs)
+    return knobs
+
+
+def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few: int) -> float:
+    """Bound on the error of the springs, over mu_0, from runs of few steps with all springs and with half of them."""
+    every = runs.beside(main, knobs.coarser(few))
+    second = runs.beside(main, knobs.coarser(few, knobs.n_springs // 2))
+    return _missed(every, second) + _kink(every, second)
+
+
+def _of_steps(runs: _Runs, main: Steady, half: Steady, knobs: Knobs, extrapolate: bool) -> tuple[float, float]:
+    """What the steps miss of the COF, over mu_0, and the bound on the error of that; zero and the bound on the whole
+    where the order of the scheme is not confirmed.
+    """
+    most = runs.beside(main, knobs.coarser(3 * knobs.steps // 4))
+    hidden = _kink(main, half)
+    plain = (max(_missed(main, half), 2 * _missed(main, most)) + hidden) * _erratic(runs.case)
+    if main.scaled.light and main.scaled.remembers and not runs.case.keeps_contact:
+        others = (runs.beside(main, knobs.coarser(int(share * knobs.steps))) for share in UNEVEN)
+        plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others))
+    if extrapolate and not main.scaled.light and half.settling.settled and most.settling.settled:
+        two = (main.cof - half.cof) / 3, (main.cof - most.cof) * 9 / 7  # of second order, what is missing
+        apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
+        bound = 3 * apart + CONFIRMED * size + hidden + main.settling.spread + most.settling.spread
+        if apart < CONFIRMED * size and bound < plain:
+            return 0.5 * (two[0] + two[1]), bound + _of_fast_relaxation(main)
+    return 0.0, plain + _of_fast_relaxation(main)
 
 
 def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
@@ -207,20 +314,20 @@ def _clear_of_stick(main: March, half: March) -> bool:
     change must be small beside v_0 less the slip velocity, which is v_c, so that it converges: the velocity of a light
     body may jump by more with every finer step. That of one without mass and damper, on dashpots, has no bound at all.
     """
-    if main.scaled.T and not main.scaled.rigid and not main.scaled.M and not main.scaled.C:
+    if main.end.scaled.T and not main.end.scaled.rigid and not main.end.scaled.M and not main.end.scaled.C:
         return False
     least, moved = min(main.least_slip, half.least_slip), abs(main.least_slip - half.least_slip)
     return least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12
 
 
-def _of_ringing(case: SlidingContact, main: March) -> float:
+def _of_ringing(runs: _Runs, main: Steady) -> float:
     """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
     companions do: found beside steps that resolve it. Those that are chosen do, as far as that can be afforded.
     """
-    steps = int(np.ceil(1.1 * RESOLVED * fast_ratio(case))) if main.scaled.light and main.scaled.M else 0
+    steps = int(np.ceil(1.1 * RESOLVED * fast_ratio(runs.case))) if main.scaled.light and main.scaled.M else 0
     if not main.knobs.steps < steps <= MOST_STEPS:
         return 0.0
-    resolved = march(case, main.v_0, main.knobs.coarser(steps), None, main)
+    resolved = runs.beside(main, main.knobs.coarser(steps))
     missed = resolved.settling.spread if resolved.settling.settled else 1.0
     return missed + RINGING * abs(main.cof - resolved.cof)
 
@@ -233,7 +340,7 @@ def _erratic(case: SlidingContact) -> float:
     return 1.5 if LIGHT < fast_ratio(case) < np.inf else 1.0
 
 
-def _of_fast_relaxation(main: March) -> float:
+def _of_fast_relaxation(main: Steady) -> float:
     """What a change of mode in the core misses where the lag relaxes within a step, over mu_0.
 
     It is of second order but irregular, so that companions may agree by chance. Measured against the closed form of a
@@ -247,18 +354,25 @@ def _of_fast_relaxation(main: March) -> float:
     return max(core, 0.25) * h**2 / 3 * h / (2 * T + h) / main.mean_F_z
 
 
-def _difference(main: March, companion: March) -> float:
-    """Difference of the COFs, over mu_0, with what a kink between two nodes can hide.
+def _missed(main: Steady, companion: Steady) -> float:
+    """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
+    if abs(main.cof - companion.cof) <= ROUNDING:
+        return 0.0
+    missing = companion.settling.spread if main.settling.solved else 0.0
+    if main.settling.solved and not companion.settling.settled:
+        missing = max(missing, BUDGET)
+    return missing + abs(main.cof - companion.cof)
+
+
+def _kink(main: Steady, companion: Steady) -> float:
+    """What a kink between two nodes can hide of the COF, over mu_0.
 
     A kink of size [e'] at the end of stick costs a mean up to [e'] h²/8 of one step. Near v_c, with psi ~ (1 - v)² the
     deficit of one spring, [e'] falls only like psi^(1/4); so the allowance follows this, not the deficit.
     """
     if abs(main.cof - companion.cof) <= ROUNDING:
         return 0.0
-    missing = companion.settling.spread if main.settling.solved else 0.0
-    if main.settling.solved and not companion.settling.settled:
-        missing = max(missing, BUDGET)
     finer_steps = main.knobs.steps > companion.knobs.steps
     coarseness = (2 * np.pi / main.knobs.steps) ** 2 if finer_steps else 4.0 / main.knobs.n_springs**2
     psi = min(max(1 - main.cof, 0.0) * main.mean_F_z, 1.0)
-    return missing + abs(main.cof - companion.cof) + 0.015 * coarseness / main.mean_F_z * float(psi**0.25)
+    return 0.015 * coarseness / main.mean_F_z * float(psi**0.25)

@@ -7,12 +7,14 @@ form and the velocity of the pull, and counts the periods that it marched.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from mdr.march import kernels
 from mdr.march.dimensionless import ScaledContact
+from mdr.march.steady_state import TOLERANCE
 from mdr.materials.operator import L_DECAY, L_RATIO
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
@@ -21,27 +23,33 @@ AT_ONCE = 2**17  #: steps of a march whose forces are kept until their periods a
 IN_CACHE = 50_000  #: extensions that a close look keeps at once
 
 
-class MarchState(NamedTuple):
-    """Springs and body between two periods. The springs of an elastic march keep no compression: it follows z."""
+class MarchState:
+    """Springs and body between two periods. The springs of an elastic march keep no compression: it follows z.
 
-    e: Array  #: (1 + J, n) extensions, and their arms
-    s: Array  #: (1 + J, n) compressions, and their arms
-    body: kernels.BodyState
+    All that a period can change stands in one vector, of which the named parts are views.
+    """
+
+    __slots__ = ("body", "e", "s", "x")
+
+    def __init__(self, x: Array, s: Array) -> None:
+        n = s.size
+        self.x = x  #: (n_x,) extensions, y, S and the sums over arms
+        self.s = s  #: (1 + J, n) compressions, and their arms
+        self.e = x[:n].reshape(s.shape)  #: (1 + J, n) extensions, and their arms
+        self.body = kernels.BodyState(x[n : n + 3], x[n + 3 : n + 5], x[n + 5 :].reshape(2, -1))
+
+    @classmethod
+    def of(cls, e: Array, s: Array, body: kernels.BodyState) -> MarchState:
+        """The state of these parts, copied."""
+        return cls(np.concatenate([e.ravel(), *(part.ravel() for part in body)]), s.copy())
 
     def copy(self) -> MarchState:
         """A state that can be marched on without a change of this one."""
-        return MarchState(self.e.copy(), self.s.copy(), kernels.BodyState(*(part.copy() for part in self.body)))
-
-    def vector(self) -> Array:
-        """All that a period can change: extensions, y, S and the sums over arms, as one array."""
-        return np.concatenate([self.e.ravel(), *(part.ravel() for part in self.body)])
+        return MarchState(self.x.copy(), self.s.copy())
 
     def with_vector(self, x: Array) -> MarchState:
-        """The state that a vector stands for."""
-        cuts = np.cumsum([self.e.size, *(part.size for part in self.body)])
-        e, y, S, arms = np.split(x, cuts[:-1])
-        held = kernels.BodyState(y.copy(), S.copy(), arms.reshape(self.body.arms.shape).copy())
-        return MarchState(e.reshape(self.e.shape).copy(), self.s.copy(), held)
+        """The state that a vector stands for; a copy."""
+        return MarchState(x.copy(), self.s.copy())
 
 
 class Periods(NamedTuple):
@@ -65,11 +73,12 @@ class PeriodRecord:
 
 
 class Stepper:
-    """Marches a contact at one velocity."""
+    """Marches a contact at one velocity; tolerance: of cof/mu_0, to which its periodic state is to be found."""
 
-    def __init__(self, scaled: ScaledContact, v: float) -> None:
-        self.scaled, self.v = scaled, v
+    def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE) -> None:
+        self.scaled, self.v, self.tolerance = scaled, v, tolerance
         self.springs, self.motion = scaled.springs, scaled.motion(v)
+        self._remembers = bool(scaled.n_arms or scaled.table[L_DECAY, 0] > 0)
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
         self.ticker = Ticker("slide, waiting for a steady state, periods")
@@ -77,41 +86,41 @@ class Stepper:
     def full_slip(self) -> MarchState:
         """The state of full slip at phase 0; of a body without its free oscillation."""
         s = self.scaled.normal.s
-        return MarchState(s.copy(), s.copy(), self.scaled.full_slip_state(self.scaled.normal.S, self.v))
+        return MarchState.of(s, s, self.scaled.full_slip_state(self.scaled.normal.S, self.v))
 
     def resonant(self) -> MarchState | None:
         """The state of a body that a resonance drives as far as stick lets it; None where none does."""
         s, body = self.scaled.normal.s, self.scaled.resonant_state(self.scaled.normal.S, self.v)
-        return None if body is None else MarchState(s.copy(), s.copy(), body)
+        return None if body is None else MarchState.of(s, s, body)
 
     def rest(self) -> MarchState:
         """The state in which nothing is stretched and the body at rest."""
         s = self.scaled.normal.s
-        return MarchState(np.zeros_like(s), s.copy(), self.scaled.rest_state(self.v))
+        return MarchState.of(np.zeros_like(s), s, self.scaled.rest_state(self.v))
 
     def period(self, state: MarchState) -> MarchState:
-        """The state a period later."""
-        return self._marched(state, self.scaled.steps)[0]
+        """The state a period later; the one given is marched on in place."""
+        self._marched(state, self.scaled.steps)
+        return state
 
     def advance(self, state: MarchState, n_periods: int) -> tuple[MarchState, Periods]:
         """The state some periods later, with their COFs; fewer periods where the time limit of the caller is over."""
         parts = [Periods(np.empty(0), np.empty(0), True)]
         for part in _parts(n_periods, max(1, AT_ONCE // self.scaled.steps)):
-            before = state.body
-            state, trace, as_one = self._marched(state, part * self.scaled.steps)
+            before, state = state.body, state.copy()
+            trace, as_one = self._marched(state, part * self.scaled.steps)
             parts.append(self._periods_of(before, trace, as_one))
             if time_is_over():
                 break
         return state, joined(parts)
 
-    def _marched(self, state: MarchState, n_steps: int) -> tuple[MarchState, kernels.Trace, bool]:
-        """A whole number of periods, counted."""
-        state = state.copy()
+    def _marched(self, state: MarchState, n_steps: int) -> tuple[kernels.Trace, bool]:
+        """A whole number of periods in place, counted."""
         nothing = np.empty((0, *state.e.shape))
         trace, as_one = self._march(state, n_steps, 0, nothing, nothing)
         self.n_periods += n_steps // self.scaled.steps
         self.ticker.tick(n_steps // self.scaled.steps)
-        return state, trace, as_one
+        return trace, as_one
 
     def _march(self, state: MarchState, n_steps: int, k_0: int, e: Array, s: Array) -> tuple[kernels.Trace, bool]:
         """March a state in place from step k_0 of the period; e, s: see Trace."""
@@ -133,7 +142,7 @@ class Stepper:
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
-        scaled, (n_x, n), n_steps = self.scaled, state.e.shape, self.scaled.steps
+        scaled, (n_x, n), n_steps = self.scaled, self.scaled.normal.s.shape, self.scaled.steps
         before, state = state, state.copy()
         kept = (n_steps if keep else 0, n)
         (F_x, F_z, slip), (e_kept, s_kept, f_x, f_z) = np.empty((3, n_steps)), np.empty((4, *kept))
@@ -164,23 +173,31 @@ class Stepper:
         return state, PeriodRecord(seen, y, e_kept, s_kept, stored, period)
 
     def within_friction(self, state: MarchState) -> MarchState:
-        """The state with every extension within the cone of friction, and the sums that belong to it.
+        """The state with every extension within the cone of friction, and the sums that belong to it; in place.
 
         A combination of states may leave that cone.
         """
-        state = state.copy()
         s = self._compression(state, 0)
-        state.e[0] = np.clip(state.e[0], -s, s)
-        state.body.S[0] = float(self.scaled.w @ state.e[0])
-        state.body.arms[0] = state.e[1:] @ self.scaled.w
+        e = state.e[0]
+        np.clip(e, -s, s, out=e)
+        state.body.S[0] = self.scaled.w @ e
+        if self.scaled.n_arms:
+            state.body.arms[0] = state.e[1:] @ self.scaled.w
         return state
 
     def _compression(self, state: MarchState, step: int) -> Array:
         """Compressions at a step of the period; the elastic march does not keep them."""
-        scaled = self.scaled
-        if scaled.n_arms or scaled.table[L_DECAY, 0] > 0:
+        if self._remembers:
             return np.asarray(state.s[0])
-        return np.asarray(np.maximum(scaled.z[step % scaled.steps] - scaled.gap, 0))
+        return self._pressed if step == 0 else self._elastic(step)
+
+    def _elastic(self, step: int) -> Array:
+        return np.asarray(np.maximum(self.scaled.z[step % self.scaled.steps] - self.scaled.gap, 0))
+
+    @cached_property
+    def _pressed(self) -> Array:
+        """Compressions of elastic springs at phase 0; not to be written to."""
+        return self._elastic(0)
 
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""

@@ -185,8 +185,9 @@ def _anderson(
         if len(moves) == 1:
             u = u + 0.5 * moves[-1]
             continue
-        share = shares(moves, _real, rcond=1e-8)
-        u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + np.diff(np.array(moves), axis=0))
+        steps = np.diff(np.array(moves), axis=0)
+        share = shares(list(_real(steps)), _real(moves[-1]), rcond=1e-8)
+        u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + steps)
     return best, least
 
 

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.tools.arrays import Array
 
 
-def shares(changes: Sequence[NDArray[Any]], measure: Callable[[NDArray[Any]], Array], rcond: float) -> Array:
-    """Shares (n - 1,) of the differences between n changes, to be taken off the last one so that least is left of it.
+def shares(steps: Sequence[Array], last: Array, rcond: float) -> Array:
+    """Shares (n,) of the steps from change to change, to be taken off the last change so that least is left of it.
 
-    measure: makes changes (..., m) real vectors (..., k) whose length measures them, linearly. rcond: singular values
-    below it, over the greatest, count as none. Taken off the iterates alike, the shares make the next one.
+    steps: n real vectors (k,), whose length measures a change; last: (k,). rcond: singular values below it, over the
+    greatest, count as none. Taken off the last iterate alike, the shares make the next one.
     """
-    steps = np.diff(np.array(changes), axis=0)
-    return np.asarray(np.linalg.lstsq(measure(steps).T, measure(changes[-1]), rcond=rcond)[0])
+    return np.asarray(np.linalg.lstsq(np.array(steps).T, last, rcond=rcond)[0])
