@@ -82,6 +82,8 @@ def parser() -> argparse.ArgumentParser:
             curve.add_options(command)
         elif name == "verdict":
             judge.add_options(command)
+        elif name == "measure":
+            judge.add_accuracy_of_bracket(command)
     study = "a grid of cases, from a study file; the same call goes on after any end"
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)

@@ -13,6 +13,7 @@ from mdr.commands.output import (
     DONE,
     FAILED,
     WrongInput,
+    add_accuracy,
     complain,
     made_by,
     print_json,
@@ -36,6 +37,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     folder = "write curve.csv, curve.png and curve.svg here"
     command.add_argument("-o", "--output", metavar="folder", type=Path, help=folder)
     command.add_argument("--points", type=_points, default=24, help="how many velocities, from 0 on (default: 24)")
+    add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
     command.add_argument("--up-to", type=_multiple, default=1.3, help="highest velocity over v_c (default: 1.3)")
 
 
@@ -48,7 +50,7 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
         require_free([args.output / name for name in ("curve.csv", "curve.png", "curve.svg")])
     from mdr.friction.cof_curve import cof_curve
 
-    found = cof_curve(case, velocity_scale(case) * np.linspace(0, args.up_to, args.points))
+    found = cof_curve(case, velocity_scale(case) * np.linspace(0, args.up_to, args.points), accuracy=args.accuracy)
     if args.output is not None:
         _write_csv(args, case, found)
         _write_figures(args, found)

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.commands.output import DONE, FAILED, print_json, print_rows, velocity_text
+from mdr.commands.output import DONE, FAILED, add_accuracy, print_json, print_rows, velocity_text
 from mdr.commands.velocity import equation_of
 from mdr.friction.verdict import WITHIN
 
@@ -16,7 +16,7 @@ def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print v_c, its bracket and what showed it; status 1 where there is none."""
     from mdr.friction.measured_velocity import measure_critical_velocity
 
-    found = measure_critical_velocity(case)
+    found = measure_critical_velocity(case, accuracy=args.accuracy)
     if args.json:
         print_json(args, {name: getattr(found, name) for name in ("v_c", "low", "high", "kind", "why")}, case)
     else:
@@ -24,17 +24,23 @@ def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE if found.v_c is not None else FAILED
 
 
+def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
+    """How narrow the bracket of the measurement is to be."""
+    add_accuracy(command, "a quarter of the width of the bracket of v_c, over v_c")
+
+
 def add_options(command: argparse.ArgumentParser) -> None:
     """How far off a good formula may be."""
     meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {100 * WITHIN:g}%%)"
     command.add_argument("--within", metavar="share", type=_share, default=WITHIN, help=meaning)
+    add_accuracy_of_bracket(command)
 
 
 def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print the sentence and the numbers behind it."""
     from mdr.friction import verdict as judgement
 
-    found, (equation, how) = judgement.verdict(case, within=args.within), equation_of(case)
+    found, (equation, how) = judgement.verdict(case, within=args.within, accuracy=args.accuracy), equation_of(case)
     if args.json:
         names = ("eq_15", "full_slip", "measured", "deviation", "within", "good", "holds", "why")
         print_json(args, {name: getattr(found, name) for name in names} | {"sentence": str(found)}, case)

@@ -15,6 +15,7 @@ from typing import Any
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.files.case_files import write_case
+from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import figure_metadata, versions
 
@@ -23,6 +24,19 @@ DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130  #: exit statuses
 
 class WrongInput(Exception):
     """What the user gave cannot be used."""
+
+
+def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
+    """How accurate an answer is to be."""
+    meaning = f"{of_what}, 1e-8 to 1e-3 (default: {BUDGET:g})"
+    command.add_argument("--accuracy", metavar="share", type=_accuracy, default=BUDGET, help=meaning)
+
+
+def _accuracy(text: str) -> float:
+    try:
+        return accuracy_of(float(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number from 1e-8 to 1e-3, got {text!r}") from None
 
 
 def print_rows(rows: Sequence[tuple[str, str, str]]) -> None:

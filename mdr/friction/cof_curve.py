@@ -16,7 +16,8 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.march.slide import slide
+from mdr.march.march import BUDGET, accuracy_of
+from mdr.march.slide import cofs_alone, slides
 from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
@@ -93,6 +94,7 @@ def cof_curve(
     method: str | None = None,
     n_springs: int | None = None,
     steps_per_period: int | None = None,
+    accuracy: float = BUDGET,
 ) -> CofCurve:
     """Coefficient of friction [-] of a contact over the pulling velocity.
 
@@ -107,6 +109,8 @@ def cof_curve(
         and one run for each velocity elsewhere. "march" takes runs for every case.
     n_springs, steps_per_period : int, optional
         Springs and time steps of every run, as in `slide`. None chooses them. The closed form has neither.
+    accuracy : float
+        Bound on the error of every `cof` over mu_0 [-] that is asked for, from 1e-8 to 1e-3, as in `slide`.
 
     Returns
     -------
@@ -133,7 +137,7 @@ def cof_curve(
     >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
     array([0.319, 0.364, 0.398, 0.4  ])
     """
-    case = resolved(case)
+    case, accuracy = resolved(case), accuracy_of(accuracy)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)
@@ -145,11 +149,10 @@ def cof_curve(
     if np.any(velocities < 0):
         raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
     static, moving = static_cof(case), velocities > 0
-    closed = method is None and case.pull.is_rigid and case.is_of_the_paper
-    if closed:
+    if method is None and has_closed_form(case):
         columns = _closed_form(case, velocities[moving])
     else:
-        columns = _runs(case, velocities[moving], n_springs, steps_per_period)
+        columns = _runs(case, velocities[moving], n_springs, steps_per_period, accuracy)
     cof, error, settled, sticks, why = columns
 
     def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:
@@ -173,17 +176,36 @@ def cof_curve(
 Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
 
 
+def has_closed_form(case: SlidingContact) -> bool:
+    """Whether the curve of a case is known in closed form."""
+    return case.pull.is_rigid and case.is_of_the_paper
+
+
+def friction_alone(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
+    """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
+    case = resolved(case)
+    out = np.full(v_0.shape, static_cof(case))
+    order = np.argsort(v_0, kind="stable")[int(np.sum(v_0 == 0)) :]
+    if has_closed_form(case):
+        out[order] = average_friction(case, v_0[order]).cof
+    else:
+        out[order] = list(cofs_alone(case, v_0[order].tolist(), n_springs, steps_per_period))
+    return out
+
+
 def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     known = average_friction(case, v_0)
     nothing = np.full(v_0.shape, "", dtype=object)
     return known.cof, known.cof_error, np.ones(v_0.shape, dtype=bool), known.stick_share, nothing
 
 
-def _runs(case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None) -> Columns:
-    runs = [
-        slide(case, v, n_springs=n_springs, steps_per_period=steps_per_period)
-        for v in progress(v_0.tolist(), "cof_curve")
-    ]
+def _runs(
+    case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None, accuracy: float
+) -> Columns:
+    order = np.argsort(v_0, kind="stable")
+    rising = slides(case, progress(v_0[order].tolist(), "cof_curve"), n_springs, steps_per_period, accuracy)
+    ended = dict(zip(order.tolist(), rising, strict=True))
+    runs = [ended[i] for i in range(v_0.size)]
     cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
     settled = np.array([run.settled for run in runs], dtype=bool)
     why = np.array([run.why for run in runs], dtype=object)

@@ -15,7 +15,7 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.units import facts_at
-from mdr.friction.cof_curve import CofCurve, cof_curve
+from mdr.friction.cof_curve import CofCurve, cof_curve, friction_alone
 from mdr.friction.friction_data import FrictionData
 from mdr.normal.resolved import at_rest, resolved
 from mdr.normal.vary import GROUPS, case_at, fields_of
@@ -176,8 +176,8 @@ class _Model:
         return case_at(self.case, settings)
 
     def residuals(self, x: Array) -> Array:
-        curve = cof_curve(self.case_of(x), self.data.v_0, n_springs=N_SPRINGS, steps_per_period=STEPS)
-        return (curve.cof - self.data.cof) / (1.0 if self.data.error is None else self.data.error)
+        cof = friction_alone(self.case_of(x), self.data.v_0, N_SPRINGS, STEPS)
+        return (cof - self.data.cof) / (1.0 if self.data.error is None else self.data.error)
 
 
 def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:

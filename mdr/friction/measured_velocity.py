@@ -32,14 +32,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.run import SlidingRun
 from mdr.march.slide import N_SPRINGS, default_steps, slide
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 
-MARGIN = 2e-5  #: half width of the bracket, of v_c
-GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; at MARGIN below v_c it is above 1e-3
+MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
+NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
+GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
 APART = 0.01  #: step between velocities at which the deficit of the COF is read
 CLOSER = 0.004  #: the same where its error allows
 BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
@@ -95,7 +97,7 @@ class MeasuredVelocity:
 
 
 def measure_critical_velocity(
-    case: SlidingContact, *, start: str = "full_slip", limit_s: float | None = None
+    case: SlidingContact, *, start: str = "full_slip", limit_s: float | None = None, accuracy: float = BUDGET
 ) -> MeasuredVelocity:
     """Critical velocity [m/s] from simulated runs alone, with its bracket.
 
@@ -109,6 +111,8 @@ def measure_critical_velocity(
         First state of the runs that locate v_c, as in `slide`.
     limit_s : float, optional
         Seconds of computing after which the search ends unsettled. None sets no limit.
+    accuracy : float
+        A quarter of the relative width [-] of the bracket that is asked for, from 1e-8 to 1e-3; below 1e-6 it is that.
 
     Returns
     -------
@@ -124,8 +128,8 @@ def measure_critical_velocity(
 
     Notes
     -----
-    The bracket is some 4e-5 of v_c wide, and wider where the number of steps or springs still moves it. The search
-    takes 10 to 40 runs, a second to a minute.
+    The bracket is some 4e-5 of v_c wide, four times the accuracy, and wider where the number of steps or springs still
+    moves it. The search takes 10 to 40 runs, a tenth of a second to some seconds.
 
     Examples
     --------
@@ -139,7 +143,7 @@ def measure_critical_velocity(
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    search = _Search(resolved(case), start)
+    search = _Search(resolved(case), start, max(MARGIN * accuracy_of(accuracy), NARROWEST))
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:
             return search.measure()
@@ -154,8 +158,8 @@ class _Undecided(Exception):
 class _Search:
     """The runs of one measurement."""
 
-    def __init__(self, case: SlidingContact, start: str) -> None:
-        self.case, self.start, self.n_runs = case, start, 0
+    def __init__(self, case: SlidingContact, start: str, margin: float) -> None:
+        self.case, self.start, self.margin, self.n_runs = case, start, margin, 0
         self.ticker = Ticker("measure_critical_velocity, runs")
         self.steps, self.n_springs = default_steps(case), N_SPRINGS
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
@@ -211,8 +215,9 @@ class _Search:
             why = f"the time limit is over after {self.n_runs} runs, before one at {v_0:.6g} m/s: raise limit_s"
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
-    def _decided(self, v_0: float, apart: float = MARGIN / 4) -> SlidingRun:
+    def _decided(self, v_0: float, apart: float | None = None) -> SlidingRun:
         """A run at this velocity that has settled, or one close by; apart: how close, over v_0."""
+        apart = self.margin / 4 if apart is None else apart
         for off in (0.0, apart, -apart):
             if (run := self.run(v_0 * (1 + off))).settled:
                 return run
@@ -259,7 +264,7 @@ class _Search:
                         return None if further is None else self._resolve(further)
                     slips.append(run.least_slip)
                 free, moved = run, max(slips) - min(slips)
-                if moved <= MARGIN * max(free.v_0 - free.least_slip, LEAST * self.scale) or 2 * known >= most:
+                if moved <= self.margin * max(free.v_0 - free.least_slip, LEAST * self.scale) or 2 * known >= most:
                     self.doubt += moved
                     break
         return free
@@ -271,14 +276,14 @@ class _Search:
         if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         guess = max(guess, LEAST * self.scale)
-        for width in (MARGIN, 4 * MARGIN, 16 * MARGIN, 64 * MARGIN):
+        for width in (self.margin, 4 * self.margin, 16 * self.margin, 64 * self.margin):
             above, below = self._decided(guess * (1 + width)), self._decided(guess * (1 - width))
             if _is_free(above) and not _is_free(below):
                 return guess, below.v_0, above.v_0
             low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
             high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
             guess = high * (1 - 1e-12) if not low < guess < high else guess
-        while high - low > 2 * MARGIN * high:
+        while high - low > 2 * self.margin * high:
             run = self._decided(0.5 * (low + high))
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
         return 0.5 * (low + high), low, high

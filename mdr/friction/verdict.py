@@ -12,6 +12,7 @@ from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlik
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
+from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between
 
@@ -86,7 +87,9 @@ class Verdict:
         return f"{WORDS[self.holds]}: {none}, against {self.eq_15:.6g} m/s"
 
 
-def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | None = None) -> Verdict:
+def verdict(
+    case: SlidingContact, *, within: float = WITHIN, limit_s: float | None = None, accuracy: float = BUDGET
+) -> Verdict:
     """How good Eq. (15) is for this contact: its v_c [m/s] beside the full-slip value and the one measured from runs.
 
     Parameters
@@ -98,6 +101,8 @@ def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | No
         and 1. It changes no run.
     limit_s : float, optional
         Seconds of computing after which the measurement ends unsettled. None sets no limit.
+    accuracy : float
+        Of the measurement, as in `measure_critical_velocity`.
 
     Returns
     -------
@@ -125,7 +130,7 @@ def verdict(case: SlidingContact, *, within: float = WITHIN, limit_s: float | No
     case = resolved(case)
     eq_15, full = critical_velocity(case), full_slip_critical_velocity(case)
     within = _tolerance(within)  # before the runs, not after them
-    found, least = measure_critical_velocity(case, limit_s=limit_s), LEAST * case.unit_velocity
+    found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.unit_velocity
     deviation: float | None = None
     holds: bool | None
     if found.v_c is None:

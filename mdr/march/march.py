@@ -9,6 +9,7 @@ march is done again with every spring for itself. A COF that contradicts a theor
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -28,14 +29,25 @@ from mdr.march.stepper import MarchState, PeriodRecord, Stepper
 from mdr.march.theorems import outside
 from mdr.march.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
+from mdr.tools.checks import FieldError, finite
 from mdr.tools.memoise import remembered
 
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
 BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
+MOST_ACCURATE, LEAST_ACCURATE = 1e-8, 1e-3  #: that can be asked for
 MOST_SHARED = 8192  #: springs of arrays that are kept for further runs
 MOST_BESIDE = 512  #: periods that a run beside another waits whose periodic state is not found from that one
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
+
+
+def accuracy_of(value: Any) -> float:
+    """An accuracy that can be asked for; FieldError or FieldTypeError of any other."""
+    number = finite("accuracy", value)
+    if not MOST_ACCURATE <= number <= LEAST_ACCURATE:
+        rule = f"accuracy must lie between {MOST_ACCURATE:g} and {LEAST_ACCURATE:g}"
+        raise FieldError(f"{rule}, a bound on the error of cof over mu_0, got {number!r}", "accuracy")
+    return number
 
 
 @dataclass(frozen=True)
@@ -47,7 +59,7 @@ class Knobs:
     start: str
     lump: bool
     record: int = 0
-    accuracy: float = BUDGET  #: of cof/mu_0
+    accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
 
     def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Knobs:
         """The knobs of a companion with other steps or springs, that keeps nothing."""

@@ -9,6 +9,7 @@ of the two, springs and spread of the windows bound the error of the COF.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +22,7 @@ from mdr.march.march import (
     Knobs,
     March,
     Steady,
+    accuracy_of,
     check,
     looked_at,
     march,
@@ -57,6 +59,7 @@ def slide(
     record: int = 0,
     lump: bool = True,
     limit_s: float | None = None,
+    accuracy: float = BUDGET,
 ) -> SlidingRun:
     """Friction [-] of a contact that slides at v_0 under its normal oscillation, by a run in time.
 
@@ -69,10 +72,11 @@ def slide(
     v_0 : float
         Pulling velocity [m/s], above zero. The limit of zero velocity is `static_cof`.
     n_springs : int, optional
-        Springs at x > 0, each for the pair at +x and -x. None chooses them, and the steps, so that `cof_error` is at
-        most 1e-5 mu_0 where that is possible.
+        Springs at x > 0, each for the pair at +x and -x. None chooses them, and the steps, so that `cof_error` is
+        within the accuracy where that is possible.
     steps_per_period : int, optional
-        Time steps of one period of the oscillation. None chooses them.
+        Time steps of one period of the oscillation. None chooses them as friction needs them: to draw the motion of
+        the body, ask for more, such as 1024.
     n_periods : int, optional
         None goes on until the motion has settled. A number runs exactly so many periods, without the companion runs
         that bound the error: `cof_error` then holds settling only.
@@ -85,6 +89,9 @@ def slide(
         Compute springs that provably move as one only once.
     limit_s : float, optional
         Seconds of computing after which a run that has not settled ends. None sets no limit.
+    accuracy : float
+        Bound on the error of `cof` over mu_0 [-] that is asked for, from 1e-8 to 1e-3. Springs and steps that are not
+        given are refined until `cof_error` is within it.
 
     Returns
     -------
@@ -104,8 +111,10 @@ def slide(
 
     Notes
     -----
-    The scheme is of second order in time. Two companion runs with coarser steps and one with half the springs bound the
-    error of the friction.
+    The scheme is of second order in time. Two companion runs with coarser steps, and two with coarse steps and all or
+    half of the springs, bound the error of the friction. Where the three numbers of steps confirm the order, `cof` is
+    extrapolated to steps of no length, and the bound is that of the extrapolation. Steps that are given are not
+    extrapolated.
 
     Examples
     --------
@@ -134,7 +143,8 @@ def slide(
     count("record", record, 0)
     if n_periods is not None and record > n_periods:
         raise ValueError(f"record = {record} periods cannot be kept of n_periods = {n_periods}")
-    knobs = Knobs(n_springs or N_SPRINGS, steps_per_period or default_steps(case), start, lump, record)
+    resolution = n_springs or N_SPRINGS, steps_per_period or default_steps(case)
+    knobs = Knobs(*resolution, start, lump, record, accuracy_of(accuracy))
     if max(knobs.n_springs, knobs.steps) > MOST or knobs.n_springs * knobs.steps * record > MOST_KEPT:
         raise ValueError(
             f"n_springs = {knobs.n_springs}, steps_per_period = {knobs.steps}, record = {record} is more than memory "
@@ -148,13 +158,40 @@ def slide(
         return within(case, v_0, knobs, free=(n_springs is None, steps_per_period is None))[0]
 
 
+def slides(
+    case: SlidingContact,
+    velocities: Iterable[float],
+    n_springs: int | None,
+    steps_per_period: int | None,
+    accuracy: float = BUDGET,
+) -> Iterator[SlidingRun]:
+    """Runs at rising velocities, each begun in the state of the one before: what `slide` answers, sooner."""
+    resolution = n_springs or N_SPRINGS, steps_per_period or default_steps(case)
+    knobs, near = Knobs(*resolution, "full_slip", lump=True, accuracy=accuracy_of(accuracy)), None
+    for v_0 in velocities:
+        run, end = within(case, v_0, knobs, (n_springs is None, steps_per_period is None), near)
+        near = end if end.settling.solved and not end.slips_fully else None
+        yield run
+
+
+def cofs_alone(case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int) -> Iterator[float]:
+    """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
+    knobs, near = Knobs(n_springs, steps, "full_slip", lump=True), None
+    for v_0 in velocities:
+        check(case, v_0)
+        end = steady(case, v_0, knobs, near=near)
+        assert end is not None
+        near = end if end.settling.solved else None
+        yield case.mu_0 * end.cof
+
+
 def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: they resolve the oscillation of the body on the
     contact, if that can be afforded, and more where a body without mass jolts as dashpots touch.
     """
     fast = fast_ratio(case)
     if np.isinf(fast):
-        return _STEPS if case.keeps_contact or not case.rheology.remembers else _STEPS_OF_JOLTS
+        return _STEPS_OF_JOLTS if _jolts(case) and not case.keeps_contact else _STEPS
     return _STEPS if fast * 2 * RESOLVED < _STEPS else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
 
 
@@ -218,15 +255,16 @@ def within(
     """A run with its companions, and its end; what was left free, springs and steps, is refined until the error is
     within knobs.accuracy. near: the end of a run at a velocity close by.
 
-    How many springs it takes hardly depends on the steps, and is found with half of the first ones.
+    How many springs it takes hardly depends on the steps, and is found with half of the first ones; but where single
+    springs throw the body as they touch.
     """
     check(case, v_0)
     runs, few, coarser = _Runs(case, v_0, near), 0, None
     while True:
         knobs = _that_touch(case, knobs, free[1])
-        few = few or knobs.steps // 2
+        few = knobs.steps if _jolts(case) else few or knobs.steps // 2
         first = runs.first(knobs.coarser(knobs.steps // 2))
-        if first is not None and first.settling.settled and not first.slips_fully and free[0]:
+        if first is not None and first.settling.settled and not first.slips_fully and free[0] and few < knobs.steps:
             knobs = _enough_springs(runs, first, knobs, few)
         main = runs.main(knobs)
         if not main.settling.settled:
@@ -263,6 +301,11 @@ def within(
         knobs = replace(knobs, n_springs=knobs.n_springs * (1 + more_springs), steps=knobs.steps * (1 + more_steps))
 
 
+def _jolts(case: SlidingContact) -> bool:
+    """Whether the velocity of the body jumps as dashpots touch, for want of a mass."""
+    return bool(np.isinf(fast_ratio(case)) and case.rheology.remembers)
+
+
 def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few: int) -> Knobs:
     """The knobs with so many springs that their error is within the accuracy."""
     while knobs.n_springs < MOST_SPRINGS and _of_springs(runs, first, knobs, few) > knobs.accuracy / 2:
@@ -290,7 +333,7 @@ def _of_steps(runs: _Runs, main: Steady, half: Steady, knobs: Knobs, extrapolate
     if extrapolate and not main.scaled.light and half.settling.settled and most.settling.settled:
         two = (main.cof - half.cof) / 3, (main.cof - most.cof) * 9 / 7  # of second order, what is missing
         apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
-        bound = 3 * apart + CONFIRMED * size + hidden + main.settling.spread + most.settling.spread
+        bound = 3 * apart + CONFIRMED * size + 2 * hidden + main.settling.spread + most.settling.spread
         if apart < CONFIRMED * size and bound < plain:
             return 0.5 * (two[0] + two[1]), bound + _of_fast_relaxation(main)
     return 0.0, plain + _of_fast_relaxation(main)

@@ -146,7 +146,13 @@ class _Case:
         assert case is not None
 
         def curve_at(part: slice) -> None:
-            curve = cof_curve(case, v_0[part], n_springs=work.n_springs, steps_per_period=work.steps_per_period)
+            curve = cof_curve(
+                case,
+                v_0[part],
+                n_springs=work.n_springs,
+                steps_per_period=work.steps_per_period,
+                accuracy=work.accuracy,
+            )
             for one in wanted:
                 points.rows[one.name][part] = one.of(case, curve)
             for j in np.flatnonzero(~curve.settled):

@@ -18,7 +18,7 @@ from mdr.tools.messages import short
 
 #: of the numbers that the compiled kernels give: raise it with every change of a kernel, a closed form or a default
 #: that moves a digit without a new version, so that no store mixes two of them
-FORMAT = 3
+FORMAT = 4
 MOST_TOLD = 4  #: differences
 
 
@@ -31,6 +31,7 @@ def specification(work: Work) -> dict[str, Any]:
         "quantities": [_quantity(one) for one in work.quantities],
         "n_springs": work.n_springs,
         "steps_per_period": work.steps_per_period,
+        "accuracy": work.accuracy,
         "version of mdr": version.__version__,
         "format": FORMAT,
     }

@@ -28,13 +28,14 @@ from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.files.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of, stand_in
 from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.vary import GROUPS
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.tools.checks import count, finite
 from mdr.tools.messages import offer, short
 
-KEYS = ("axes", "quantities", "n_springs", "steps_per_period")
+KEYS = ("axes", "quantities", "n_springs", "steps_per_period", "accuracy")
 MOST_VALUES = 10**7  #: of an axis
 _RANGE = ("from", "to", "n", "spacing")
 
@@ -48,6 +49,7 @@ class StudyFile:
     quantities: tuple[str, ...]
     n_springs: int | None
     steps_per_period: int | None
+    accuracy: float
 
 
 def read_study_file(path: str | PathLike[str]) -> StudyFile:
@@ -70,6 +72,8 @@ def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
     knobs = {name: content.get(name) for name in ("n_springs", "steps_per_period")}
     for name, knob in knobs.items():
         faults += _tried(count, name, knob, LEAST_KNOB) if knob is not None else []
+    accuracy = content.get("accuracy", BUDGET)
+    faults += _tried(accuracy_of, accuracy)
     try:
         case = case_of(content, source, beside=KEYS)
     except CaseFileError as of_case:
@@ -79,7 +83,7 @@ def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
     faults = faults or _tried(read_quantities, quantities, axes)
     if faults:
         raise fault_error(source, faults)
-    return StudyFile(case, axes, tuple(quantities), **knobs)
+    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy)
 
 
 # --- axes ---

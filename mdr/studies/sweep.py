@@ -10,6 +10,7 @@ from typing import Any
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.march.march import BUDGET, accuracy_of
 from mdr.studies.axes import read_axes
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
@@ -40,6 +41,7 @@ def sweep(
     shard: str | tuple[int, int] | None = None,
     n_springs: int | None = None,
     steps_per_period: int | None = None,
+    accuracy: float = BUDGET,
 ) -> Study:
     """Quantities, each in its unit, over a grid of cases: a parameter study.
 
@@ -67,6 +69,8 @@ def sweep(
         missing until all are in the store.
     n_springs, steps_per_period : int, optional
         Springs and time steps of every run, as in `slide`.
+    accuracy : float
+        Bound on the error of every friction over mu_0 [-] that is asked for, as in `slide`.
 
     Returns
     -------
@@ -96,7 +100,7 @@ def sweep(
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)
-    work = Work(case, axes_read, read_quantities(quantities, axes), n_springs, steps_per_period)
+    work = Work(case, axes_read, read_quantities(quantities, axes), n_springs, steps_per_period, accuracy_of(accuracy))
     _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
     _require_executor(executor)

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from mdr.case.contact import SlidingContact
+from mdr.march.march import BUDGET
 from mdr.normal.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.layout import Layout
@@ -24,6 +25,7 @@ class Work:
     quantities: tuple[Quantity | CurveQuantity, ...]
     n_springs: int | None = None  #: knobs of runs, None: chosen to meet the accuracy budget
     steps_per_period: int | None = None
+    accuracy: float = BUDGET
 
     @cached_property
     def velocity_axis(self) -> Axis | None:
