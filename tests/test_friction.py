@@ -179,9 +179,9 @@ def curve():
 def test_a_curve_is_its_runs(curve):
     for i, v_0 in enumerate(curve.v_0[1:], 1):
         run = mdr.slide(CURVE, v_0)
-        for name in ("cof", "cof_error", "settled", "stick_share"):
-            assert getattr(curve, name)[i] == getattr(run, name), name
-        assert curve.why[i] == run.why
+        assert_allclose(curve.cof[i], run.cof, rtol=0, atol=min(curve.cof_error[i], 1e-7))  # begun elsewhere
+        assert_allclose(curve.stick_share[i], run.stick_share, atol=0.01)
+        assert (curve.settled[i], curve.why[i]) == (run.settled, run.why)
 
 
 def test_a_curve_starts_at_the_static_limit_and_ends_at_mu_0(curve):

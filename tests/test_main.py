@@ -41,7 +41,7 @@ def resonant(tmp_path):
     return str(path)
 
 
-def made_up_curve(case, v_0, settled=True):
+def made_up_curve(case, v_0, accuracy=1e-5, settled=True):
     n = np.asarray(v_0).size
     states = np.ones(n, dtype=bool)
     states[-1] = settled
@@ -124,7 +124,7 @@ def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypa
 
 
 def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", lambda case, v_0: made_up_curve(case, v_0, settled=False))
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", lambda case, v_0, accuracy: made_up_curve(case, v_0, accuracy, settled=False))
     assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
@@ -167,7 +167,7 @@ def test_the_names_of_the_records():
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
-    monkeypatch.setattr("mdr.friction.measured_velocity.measure_critical_velocity", lambda case: found)
+    monkeypatch.setattr("mdr.friction.measured_velocity.measure_critical_velocity", lambda case, accuracy: found)
     assert main(["measure", EXAMPLE]) == status
     assert found.why in capsys.readouterr().out
     assert main(["measure", EXAMPLE, "--json"]) == status
@@ -175,7 +175,7 @@ def test_measure(capsys, monkeypatch, found, status):
 
 
 def test_verdict(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: MadeUpVerdict())
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: MadeUpVerdict())
     assert main(["verdict", EXAMPLE]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Eq. (15) is good: one element",
@@ -195,7 +195,7 @@ def test_verdict(capsys, monkeypatch):
 def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(capsys, monkeypatch):
     found = MadeUpVerdict()
     found.eq_15, found.deviation = 1e-9, 3e3
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: found)
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: found)
     assert main(["verdict", EXAMPLE]) == 0
     assert "deviation  +3.000e+03  measured less Eq. (15), over 1e-4 of Eq. (1)" in capsys.readouterr().out
 
@@ -207,7 +207,7 @@ def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(cap
 )  # fmt: skip
 def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, within):
     asked = []
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: asked.append(within) or MadeUpVerdict())
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: asked.append(within) or MadeUpVerdict())
     assert main(["verdict", EXAMPLE, *options]) == 0
     assert asked == [pytest.approx(within, rel=1e-15)]
 
@@ -236,7 +236,7 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
     found = MadeUpVerdict()
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
     found.good = None
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within: found)
+    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: found)
     assert main(["verdict", EXAMPLE]) == status
     assert "good       undefined" in capsys.readouterr().out
     assert main(["verdict", EXAMPLE, "--json"]) == status
@@ -295,7 +295,7 @@ def test_a_command_in_no_encoding_is_kept_all_the_same(punch, tmp_path):
     ids=["refused", "memory", "interrupt"],
 )  # fmt: skip
 def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status, message):
-    def fail(case, within):
+    def fail(case, within, accuracy):
         raise failure
 
     monkeypatch.setattr("mdr.friction.verdict.verdict", fail)

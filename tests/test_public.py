@@ -46,14 +46,14 @@ SIGNATURES = {
     "critical_velocity": "case",
     "static_cof": "case",
     "slide": "case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, "
-    'start="full_slip", record=0, lump=True, limit_s=None',
-    "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None",
+    'start="full_slip", record=0, lump=True, limit_s=None, accuracy=1e-05',
+    "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None, accuracy=1e-05",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
-    "n_springs=None, steps_per_period=None",
+    "n_springs=None, steps_per_period=None, accuracy=1e-05",
     "read_study": "path",
     "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
-    "measure_critical_velocity": 'case, *, start="full_slip", limit_s=None',
-    "verdict": "case, *, within=0.01, limit_s=None",
+    "measure_critical_velocity": 'case, *, start="full_slip", limit_s=None, accuracy=1e-05',
+    "verdict": "case, *, within=0.01, limit_s=None, accuracy=1e-05",
 }
 RECORDS = {
     "SlidingRun": "cof cof_error settled kind why stick_share mean_F_x mean_F_z energy_balance t u_x F_x F_z x state",
