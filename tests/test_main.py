@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -124,7 +125,7 @@ def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypa
 
 
 def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", lambda case, v_0, accuracy: made_up_curve(case, v_0, accuracy, settled=False))
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", partial(made_up_curve, settled=False))
     assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
@@ -207,7 +208,12 @@ def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(cap
 )  # fmt: skip
 def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, within):
     asked = []
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: asked.append(within) or MadeUpVerdict())
+
+    def judged(case, within, accuracy):
+        asked.append(within)
+        return MadeUpVerdict()
+
+    monkeypatch.setattr("mdr.friction.verdict.verdict", judged)
     assert main(["verdict", EXAMPLE, *options]) == 0
     assert asked == [pytest.approx(within, rel=1e-15)]
 

@@ -47,9 +47,7 @@ def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
     print(f"report: {page}")
     other = other_verdicts(claims) if package == "validation" else []
     if other:
-        print(
-            f"verdicts other than README and docs quote (validation.written): {', '.join(other)}", file=sys.stderr
-        )
+        print(f"verdicts other than README and docs quote (validation.written): {', '.join(other)}", file=sys.stderr)
     return 0 if all(claim.held for claim in claims) and not other else 1
 
 

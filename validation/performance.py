@@ -1,6 +1,9 @@
 """How fast the march is: against other ways to write it, against what the machine could do, and how it scales.
 
     python -m validation.performance [-o folder]
+    python -m validation.performance --against PATH [--random 60] [--study 1000]
+
+The second form asks how much faster this checkout is than another one, in what users wait for (validation/waits.py).
 
 Quoted are ratios of times taken in turn in one run, medians with the least and the greatest; absolute times are the
 machine's. Before any time is taken, the marches that are compared must end in the same state.
@@ -48,6 +51,7 @@ from mdr.closed_forms.rigid_pull import average_friction
 from mdr.studies.run import cores
 from validation.cases import contact
 from validation.loops import March, Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
+from validation.waits import STANDING, alternately
 
 N_SPRINGS, STEPS, N_PERIODS = 1000, 1024, 100
 V = 0.4  #: pulling velocity over Eq. (1)
@@ -317,13 +321,42 @@ def tables() -> dict[str, list[Row]]:
     }  # fmt: skip
 
 
+def against(there: Path, n_random: int, n_study: int) -> dict[str, list[Row]]:
+    """How many times faster this checkout answers than another, in processor time, both asked in turn."""
+    here = Path(__file__).parents[1]
+
+    def say(what: str) -> None:
+        print(what, file=sys.stderr)
+
+    tasks = ("default run", "curve of 20", "measurement", "verdict", "fit")
+    slow = (f"study of {n_study}",) if n_study else ()
+    numbers = [str(i) for i in range(n_random)]
+    found: dict[str, list[Row]] = {"medians": []}
+    for asked, names, repeats in ((tasks, list(STANDING), 3), (slow, list(STANDING), 1), (tasks[:4], numbers, 1)):
+        for task, name, ours, theirs in alternately(here, there, asked, names, repeats, say):
+            kind = f"{task}, random cases" if name.isdigit() else task
+            row = ratio(f"{name}: {1e3 * float(np.median(ours)):.3g} ms", theirs, ours)
+            found.setdefault(kind, []).append(row)
+    for kind, rows in found.items():
+        if kind != "medians":
+            ratios = np.array([row["ratio"] for row in rows])
+            spread = {"least": float(ratios.min()), "most": float(ratios.max())}
+            found["medians"].append(
+                {"what": f"{kind}, {ratios.size} cases", "ratio": float(np.median(ratios)), **spread}
+            )
+    return found
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; with -o write performance.json too."""
     parser = argparse.ArgumentParser(prog="python -m validation.performance", description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, help="folder for performance.json")
+    parser.add_argument("--against", type=Path, metavar="PATH", help="another checkout, to be timed beside this one")
+    parser.add_argument("--random", type=int, default=0, metavar="N", help="random cases too, with --against")
+    parser.add_argument("--study", type=int, default=0, metavar="N", help="a study of N points too, with --against")
     options = parser.parse_args(arguments)
     print(f"{cores()} cores, load before: {', '.join(f'{load:.2f}' for load in os.getloadavg())}")
-    all_rows = tables()
+    all_rows = against(options.against, options.random, options.study) if options.against else tables()
     for title, rows in all_rows.items():
         print(f"\n{title}")
         for row in rows:

@@ -681,6 +681,16 @@ def glide(e, held, springs, motion, k_0, out):
 
 
 @_jit
+def within_cone(e, s, w):
+    """Extensions e (n,) brought within those of slip, -s and s, in place; returns the sum of w e."""
+    S = 0.0
+    for i in range(e.size):
+        e[i] = max(min(e[i], s[i]), -s[i])
+        S += w[i] * e[i]
+    return S
+
+
+@_jit
 def march(e, s, held, body, springs, motion, table, k_0, out):
     """March out.y.size steps from step k_0 of the period; e, s and held are updated in place.
 

@@ -280,15 +280,18 @@ def too_coarse(steps: int) -> ValueError:
 
 def at_hand(case: SlidingContact, knobs: Knobs) -> tuple[SpringArray, ScaledContact]:
     """Springs and their scaled form; runs of one case at other velocities share them."""
-    prepared = _shared if knobs.n_springs <= MOST_SHARED else _prepared
-    return prepared(case, knobs.n_springs, knobs.steps, knobs.lump and knobs.start == "full_slip")
+    lump = knobs.lump and knobs.start == "full_slip"
+    if knobs.n_springs > MOST_SHARED:
+        springs = SpringArray.of(case, knobs.n_springs)
+        return springs, ScaledContact.of(case, springs, knobs.steps, lump)
+    return _springs(case, knobs.n_springs), _scaled(case, knobs.n_springs, knobs.steps, lump)
 
 
-@remembered(maxsize=16)
-def _shared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
-    return _prepared(case, n_springs, steps, lump)
+@remembered(maxsize=8)
+def _springs(case: SlidingContact, n_springs: int) -> SpringArray:
+    return SpringArray.of(case, n_springs)
 
 
-def _prepared(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
-    springs = SpringArray.of(case, n_springs)
-    return springs, ScaledContact.of(case, springs, steps, lump)
+@remembered(maxsize=24)
+def _scaled(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> ScaledContact:
+    return ScaledContact.of(case, _springs(case, n_springs), steps, lump)

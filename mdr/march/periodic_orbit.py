@@ -134,7 +134,7 @@ def _anderson(
         if turn < plain or not turns:
             x, measured = image, reached
         else:
-            x = image - shares(turns, moved, rcond=1e-10) @ np.array(ways)
+            x = image - shares(np.array(turns), moved, 1e-10) @ np.array(ways)
             measured = measure(x)
     return best
 

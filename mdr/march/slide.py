@@ -42,6 +42,7 @@ N_SPRINGS, _STEPS = 96, 256  # first choice; doubled while cof_error exceeds the
 _STEPS_OF_JOLTS = 1024
 MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
+LEFT = 0.1  #: share of what is extrapolated that counts as error
 CONFIRMED = 0.2  #: share by which two estimates of what the steps miss, of second order, may differ
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
@@ -191,7 +192,7 @@ def default_steps(case: SlidingContact) -> int:
     """
     fast = fast_ratio(case)
     if np.isinf(fast):
-        return _STEPS_OF_JOLTS if _jolts(case) and not case.keeps_contact else _STEPS
+        return _STEPS_OF_JOLTS if case.rheology.remembers and not case.keeps_contact else _STEPS
     return _STEPS if fast * 2 * RESOLVED < _STEPS else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
 
 
@@ -200,6 +201,8 @@ class _Runs:
 
     def __init__(self, case: SlidingContact, v_0: float, near: Steady | None) -> None:
         self.case, self.v_0, self.near = case, v_0, near
+        self.fast = fast_ratio(case)
+        self.jolts = bool(np.isinf(self.fast) and case.rheology.remembers)  # dashpots throw a body without mass
         self.ends: dict[Knobs, Steady] = {}
 
     def first(self, knobs: Knobs) -> Steady | None:
@@ -262,7 +265,7 @@ def within(
     runs, few, coarser = _Runs(case, v_0, near), 0, None
     while True:
         knobs = _that_touch(case, knobs, free[1])
-        few = knobs.steps if _jolts(case) else few or knobs.steps // 2
+        few = knobs.steps if runs.jolts else few or knobs.steps // 2
         first = runs.first(knobs.coarser(knobs.steps // 2))
         if first is not None and first.settling.settled and not first.slips_fully and free[0] and few < knobs.steps:
             knobs = _enough_springs(runs, first, knobs, few)
@@ -301,11 +304,6 @@ def within(
         knobs = replace(knobs, n_springs=knobs.n_springs * (1 + more_springs), steps=knobs.steps * (1 + more_steps))
 
 
-def _jolts(case: SlidingContact) -> bool:
-    """Whether the velocity of the body jumps as dashpots touch, for want of a mass."""
-    return bool(np.isinf(fast_ratio(case)) and case.rheology.remembers)
-
-
 def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few: int) -> Knobs:
     """The knobs with so many springs that their error is within the accuracy."""
     while knobs.n_springs < MOST_SPRINGS and _of_springs(runs, first, knobs, few) > knobs.accuracy / 2:
@@ -326,14 +324,14 @@ def _of_steps(runs: _Runs, main: Steady, half: Steady, knobs: Knobs, extrapolate
     """
     most = runs.beside(main, knobs.coarser(3 * knobs.steps // 4))
     hidden = _kink(main, half)
-    plain = (max(_missed(main, half), 2 * _missed(main, most)) + hidden) * _erratic(runs.case)
+    plain = (max(_missed(main, half), 2 * _missed(main, most)) + hidden) * _erratic(runs.fast)
     if main.scaled.light and main.scaled.remembers and not runs.case.keeps_contact:
         others = (runs.beside(main, knobs.coarser(int(share * knobs.steps))) for share in UNEVEN)
         plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others))
     if extrapolate and not main.scaled.light and half.settling.settled and most.settling.settled:
         two = (main.cof - half.cof) / 3, (main.cof - most.cof) * 9 / 7  # of second order, what is missing
         apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
-        bound = 3 * apart + CONFIRMED * size + 2 * hidden + main.settling.spread + most.settling.spread
+        bound = 3 * apart + LEFT * size + 2 * hidden + main.settling.spread + most.settling.spread
         if apart < CONFIRMED * size and bound < plain:
             return 0.5 * (two[0] + two[1]), bound + _of_fast_relaxation(main)
     return 0.0, plain + _of_fast_relaxation(main)
@@ -367,7 +365,7 @@ def _of_ringing(runs: _Runs, main: Steady) -> float:
     """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
     companions do: found beside steps that resolve it. Those that are chosen do, as far as that can be afforded.
     """
-    steps = int(np.ceil(1.1 * RESOLVED * fast_ratio(runs.case))) if main.scaled.light and main.scaled.M else 0
+    steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.light and main.scaled.M else 0
     if not main.knobs.steps < steps <= MOST_STEPS:
         return 0.0
     resolved = runs.beside(main, main.knobs.coarser(steps))
@@ -375,12 +373,12 @@ def _of_ringing(runs: _Runs, main: Steady) -> float:
     return missed + RINGING * abs(main.cof - resolved.cof)
 
 
-def _erratic(case: SlidingContact) -> float:
+def _erratic(fast: float) -> float:
     """Margin on the differences of companions: a light body rings on the contact through stick and slip, and where the
     nodes meet its oscillation makes the error of a step erratic; of ten random bodies with omega_1 from 4 to 40 omega,
     two exceeded the plain differences, by 2 and 3 % (tests/table_of_errors.py).
     """
-    return 1.5 if LIGHT < fast_ratio(case) < np.inf else 1.0
+    return 1.5 if LIGHT < fast < np.inf else 1.0
 
 
 def _of_fast_relaxation(main: Steady) -> float:

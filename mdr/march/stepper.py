@@ -177,10 +177,7 @@ class Stepper:
 
         A combination of states may leave that cone.
         """
-        s = self._compression(state, 0)
-        e = state.e[0]
-        np.clip(e, -s, s, out=e)
-        state.body.S[0] = self.scaled.w @ e
+        state.body.S[0] = kernels.within_cone(state.e[0], self._compression(state, 0), self.scaled.w)
         if self.scaled.n_arms:
             state.body.arms[0] = state.e[1:] @ self.scaled.w
         return state

@@ -186,7 +186,7 @@ def _anderson(
             u = u + 0.5 * moves[-1]
             continue
         steps = np.diff(np.array(moves), axis=0)
-        share = shares(list(_real(steps)), _real(moves[-1]), rcond=1e-8)
+        share = shares(_real(steps), _real(moves[-1]), 1e-8)
         u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + steps)
     return best, least
 

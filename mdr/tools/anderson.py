@@ -2,17 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
 
 
-def shares(steps: Sequence[Array], last: Array, rcond: float) -> Array:
+@compiled(nogil=True, error_model="numpy")
+def shares(steps: Array, last: Array, rcond: float) -> Array:
     """Shares (n,) of the steps from change to change, to be taken off the last change so that least is left of it.
 
-    steps: n real vectors (k,), whose length measures a change; last: (k,). rcond: singular values below it, over the
-    greatest, count as none. Taken off the last iterate alike, the shares make the next one.
+    steps: (n, k), oldest first, real vectors whose length measures a change; last: (k,). Taken off the last iterate
+    alike, the shares make the next one. They are found by orthogonal directions, the newest step first; an older step
+    of which the newer ones leave less than rcond is left out.
     """
-    return np.asarray(np.linalg.lstsq(np.array(steps).T, last, rcond=rcond)[0])
+    n, k = steps.shape
+    ways, weights = np.zeros((n, k)), np.zeros((n, n))  # direction i is the sum of weights[i] times the steps
+    shared, rest = np.zeros(n), last.copy()
+    for j in range(n):
+        i = n - 1 - j
+        way, weight = steps[i].copy(), np.zeros(n)
+        weight[i] = 1.0
+        size = 0.0
+        for m in range(k):
+            size += way[m] * way[m]
+        for _ in range(2):  # once more for what rounding leaves
+            for other in range(i + 1, n):
+                along = 0.0
+                for m in range(k):
+                    along += ways[other, m] * way[m]
+                for m in range(k):
+                    way[m] -= along * ways[other, m]
+                for m in range(n):
+                    weight[m] -= along * weights[other, m]
+        left = 0.0
+        for m in range(k):
+            left += way[m] * way[m]
+        if left <= rcond * rcond * size or left == 0.0:
+            continue
+        left = np.sqrt(left)
+        along = 0.0
+        for m in range(k):
+            ways[i, m] = way[m] / left
+            along += ways[i, m] * rest[m]
+        for m in range(n):
+            weights[i, m] = weight[m] / left
+            shared[m] += along * weights[i, m]
+        for m in range(k):
+            rest[m] -= along * ways[i, m]
+    return shared
