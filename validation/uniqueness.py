@@ -108,7 +108,7 @@ class System:
 
 def scatter(march: Waiting, rng: np.random.Generator) -> None:
     """Stretch every spring at random within its cone of friction, and push the body by some units both ways."""
-    (e, s, body), scaled = march.state, march.scaled
+    e, s, body, scaled = march.state.e, march.state.s, march.state.body, march.scaled
     e[0] = rng.uniform(-1, 1, e.size) * s[0]
     y, y_dot = body.y[0] + rng.normal(), march.stepper.v * rng.normal()
     body.y[:] = y - np.arange(3) * scaled.h * y_dot
