@@ -9,7 +9,7 @@ from conftest import contact
 
 import mdr
 from mdr.friction import measured_velocity as measurement
-from mdr.march.slide import default_steps
+from mdr.march.refinement import default_steps
 
 CASE = contact("paraboloid", 3.0, 0.0, 0.7, 1.6, 0.1)
 UNIT = CASE.unit_velocity
@@ -30,7 +30,8 @@ def world(monkeypatch):
                 n_periods=n_periods,
             )  # fmt: skip
 
-        monkeypatch.setattr(measurement, "slide", slide)
+        for name in ("slide", "alone"):
+            monkeypatch.setattr(measurement, name, slide)
 
     return make
 

@@ -27,14 +27,16 @@ either, the answer is "unsettled".
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, accuracy_of
+from mdr.march.refinement import N_SPRINGS, default_steps
 from mdr.march.run import SlidingRun
-from mdr.march.slide import N_SPRINGS, default_steps, slide
+from mdr.march.slide import alone, slide
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
@@ -170,6 +172,13 @@ class _Search:
         start = start or self.start
         return slide(self.case, v_0, start=start, n_springs=self.n_springs, steps_per_period=self.steps)
 
+    def sight(self, v_0: float, start: str | None = None) -> SlidingRun:
+        """A run that tells whether springs stick; the bound on its error is worked out only where that decides."""
+        self._begin(v_0)
+        knobs = {"n_springs": self.n_springs, "steps_per_period": self.steps}
+        run = alone(self.case, v_0, **knobs, start=start or self.start)
+        return self.run(v_0, start) if run.settled and _slips(run) and _is_reduced(run) else run
+
     def _begin(self, v_0: float) -> None:
         """One more run, if there is time."""
         self.n_runs += 1
@@ -215,11 +224,13 @@ class _Search:
             why = f"the time limit is over after {self.n_runs} runs, before one at {v_0:.6g} m/s: raise limit_s"
         return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
 
-    def _decided(self, v_0: float, apart: float | None = None) -> SlidingRun:
-        """A run at this velocity that has settled, or one close by; apart: how close, over v_0."""
-        apart = self.margin / 4 if apart is None else apart
+    def _decided(
+        self, v_0: float, look: Callable[[float], SlidingRun] | None = None, apart: float | None = None
+    ) -> SlidingRun:
+        """A settled run at this velocity, or close by; look: `sight` or `run`; apart: how close, over v_0."""
+        look, apart = look or self.run, self.margin / 4 if apart is None else apart
         for off in (0.0, apart, -apart):
-            if (run := self.run(v_0 * (1 + off))).settled:
+            if (run := look(v_0 * (1 + off))).settled:
                 return run
         raise _Undecided(v_0)
 
@@ -231,7 +242,7 @@ class _Search:
         """
         guess, unsettled = self.scale, None
         for times in FAR:
-            far = self.run(times * self.scale, "full_slip")  # from rest it would swing as fast
+            far = self.sight(times * self.scale, "full_slip")  # from rest it would swing as fast
             if _is_free(far):
                 guess = far.v_0 - far.least_slip
                 break
@@ -239,7 +250,7 @@ class _Search:
                 break
         v_0 = 1.37 * max(guess, LEAST * self.scale)
         while v_0 < HIGHEST * max(guess, self.scale):
-            run = self.run(v_0)
+            run = self.sight(v_0)
             if _is_free(run):
                 return run
             unsettled = unsettled if run.settled else v_0
@@ -258,7 +269,7 @@ class _Search:
                 slips = [free.least_slip]
                 for finer in (3 * known // 2, 2 * known):
                     setattr(self, knob, finer)
-                    run = self._decided(free.v_0)
+                    run = self._decided(free.v_0, self.sight)
                     if not _is_free(run):  # free in coarse steps only: begin anew, further up
                         further = self._first_free_run()
                         return None if further is None else self._resolve(further)
@@ -273,18 +284,18 @@ class _Search:
         """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
         low, high = 0.0, free.v_0
         guess = free.v_0 - free.least_slip
-        if guess <= LEAST * self.scale and _is_free(slow := self.run(LEAST * self.scale)):
+        if guess <= LEAST * self.scale and _is_free(slow := self.sight(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         guess = max(guess, LEAST * self.scale)
         for width in (self.margin, 4 * self.margin, 16 * self.margin, 64 * self.margin):
-            above, below = self._decided(guess * (1 + width)), self._decided(guess * (1 - width))
+            above, below = (self._decided(guess * (1 + way * width), self.sight) for way in (1, -1))
             if _is_free(above) and not _is_free(below):
                 return guess, below.v_0, above.v_0
             low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
             high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
             guess = high * (1 - 1e-12) if not low < guess < high else guess
         while high - low > 2 * self.margin * high:
-            run = self._decided(0.5 * (low + high))
+            run = self._decided(0.5 * (low + high), self.sight)
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
         return 0.5 * (low + high), low, high
 
@@ -367,12 +378,12 @@ class _Search:
         """The end of friction reduction below the end of stick of the motion without free oscillation."""
         reduced = 0.0
         for _ in range(12):
-            if _is_reduced(run := self._decided(0.9 * full, CLOSER)):
+            if _is_reduced(run := self._decided(0.9 * full, apart=CLOSER)):
                 reduced = run.v_0
                 break
             full = run.v_0
         while full > LEAST * self.scale and full - reduced > CLOSER * full:
-            run = self._decided(0.5 * (full + reduced), CLOSER / 4)
+            run = self._decided(0.5 * (full + reduced), apart=CLOSER / 4)
             full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
         why = (
             "a free oscillation in step with the drive keeps every spring from sticking down to this velocity, and the "
@@ -426,9 +437,14 @@ class _Search:
         )
 
 
+def _slips(run: SlidingRun) -> bool:
+    """True if no spring sticks for longer than it hesitates at its touch."""
+    return run.stick_share < GRAZE and run.least_slip > 0
+
+
 def _is_free(run: SlidingRun) -> bool:
     """True if no spring sticks: positive slip velocity throughout, in a settled run of full COF."""
-    return run.settled and run.stick_share < GRAZE and run.least_slip > 0 and not _is_reduced(run)
+    return run.settled and _slips(run) and not _is_reduced(run)
 
 
 def _only_grazes(run: SlidingRun) -> bool:
