@@ -162,7 +162,7 @@ def _motion_checks(chosen: dict[str, mdr.Material]) -> list[Check]:
     checks = []
     for name, material in chosen.items():
         case = contact("flat punch", material, 0.05, BODY)
-        run = mdr.slide(case, 3 * mdr.critical_velocity(case), record=1)
+        run = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
         assert run.t is not None
         assert run.u_x is not None
         assert run.F_z is not None
