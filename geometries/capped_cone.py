@@ -40,10 +40,18 @@ def small(R, u_z0):
 
 v_c = mdr.critical_velocity(scratch(0, 1e-6))
 caps = (0.0, 50e-9, 200e-9, 1000e-9)
-depths = np.geomspace(1.2 * du_z, 1e-6, 11)
+depths = np.geomspace(1.2 * du_z, 1e-6, 8)
 lost = {R: np.array([missing(R, d) for d in depths]) for R in caps}
 approximate = {R: np.array([small(R, d) for d in depths]) for R in caps}
-one_per_cent = {R: brentq(lambda d, R=R: missing(R, d) - 0.01, 20e-9, 1e-6, rtol=1e-4) for R in caps}
+
+
+def depth_of(share, R):
+    """Depth at which that share is missing: near that of a small amplitude, on nearly a power law."""
+    guess = np.log(brentq(lambda d: small(R, d) - share, 20e-9, 1e-6))
+    return np.exp(brentq(lambda log_d: np.log(missing(R, np.exp(log_d)) / share), guess - 0.2, guess + 0.2, xtol=1e-4))
+
+
+one_per_cent = {R: depth_of(0.01, R) for R in caps}
 
 
 def figure():

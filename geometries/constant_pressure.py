@@ -17,7 +17,7 @@ rubber = mdr.KelvinVoigt(E=6e6, nu=0.5, tau=2e-4)
 seal = mdr.ConstantPressure(a, d_0)
 shaft = mdr.SpringPull(k_x=4e4, m=0.8, c_x=40.0)
 series = np.array([1.0, 0.0, -0.25, 0.0, 0.1])  # cosines of the vibration, in its first
-amplitudes = d_0 * np.array([0.02, 0.05, 0.1, 0.2, 0.3])
+amplitudes = d_0 * np.array([0.02, 0.1, 0.2, 0.3])
 
 
 def contacts(du_z, pull=shaft):
@@ -37,8 +37,11 @@ def contacts(du_z, pull=shaft):
 
 names = tuple(contacts(amplitudes[0]))
 eq_15 = np.array([[mdr.critical_velocity(contacts(du_z)[name]) for name in names] for du_z in amplitudes])
-full = np.array([[mdr.full_slip_critical_velocity(contacts(du_z)[name]) for name in names] for du_z in amplitudes])
-at_rest = np.array([[mdr.static_cof(contacts(du_z)[name]) for name in names] for du_z in amplitudes])
+of_period = [
+    [(mdr.full_slip_critical_velocity(case), mdr.static_cof(case)) for case in contacts(du_z).values()]
+    for du_z in amplitudes
+]
+full, at_rest = np.moveaxis(of_period, -1, 0)  # (n_amplitudes, 3) each
 eq_1 = mdr.critical_velocity(contacts(amplitudes[-1], mdr.RigidPull())["seal"])
 
 
@@ -51,7 +54,7 @@ def figure():
     r = np.linspace(0, 0.999 * a, 300)
     with style():
         fig, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 4))
-        cases = contacts(amplitudes[2])
+        cases = contacts(amplitudes[1])
         for i, (name, colour) in enumerate(zip(names, COLOURS, strict=False)):
             p = cases[name].indenter.pressure(r, cases[name].oscillation.u_z0, rubber.E_star)
             left.plot(1e3 * r, 1e-6 * p, color=colour, label=name)
@@ -59,7 +62,7 @@ def figure():
             right.plot(1e6 * amplitudes, at_rest[:, i], "o-", color=colour, label=name)
         fully = seal.pressure(r, d_0, rubber.E_star)
         left.plot(1e3 * r, 1e-6 * fully, ":", color=COLOURS[0], label="seal, fully pressed")
-        left.set(title=f"mean pressures at {1e6 * amplitudes[2]:g} µm", xlabel="$r$ [mm]", ylabel="$p$ [MPa]")
+        left.set(title=f"mean pressures at {1e6 * amplitudes[1]:g} µm", xlabel="$r$ [mm]", ylabel="$p$ [MPa]")
         left.set(ylim=(0, 0.25))
         middle.axhline(0, color="0.4", lw=0.8)
         middle.set(title="how far $v_c$ is off Eq. (15)", ylabel="off Eq. (15) [%]")

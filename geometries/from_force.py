@@ -46,7 +46,7 @@ noise = 1e-3
 curve = indented(noise)
 shapes = {"the tip": stylus, "from the curve": from_curve(curve, noise), "fitted ball": fitted_ball(curve)}
 predicted = {name: np.array(predictions(shape)) for name, shape in shapes.items()}
-repeated = np.array([predictions(from_curve(indented(noise), noise)) for _ in range(6)])
+repeated = np.array([predictions(from_curve(indented(noise), noise)) for _ in range(4)])
 scatter = np.sqrt(np.mean((repeated / predicted["the tip"] - 1) ** 2, axis=0))
 
 
@@ -79,7 +79,7 @@ if __name__ == "__main__":
     for name, (force, v_c, rest) in predicted.items():
         print(f"{name:15s} {force:10.5f} {1e3 * v_c:12.4f} {rest:13.4f}")
     off = ", ".join(f"{100 * value:.2f} %" for value in scatter)
-    print(f"r.m.s. error of six other measurements in force, v_c, COF: {off}")
+    print(f"r.m.s. error of four other measurements in force, v_c, COF: {off}")
     from mdr.plots import save
 
     print("figure:", save(figure(), __file__))

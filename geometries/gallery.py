@@ -29,13 +29,13 @@ def own(h):
     return mdr.Profile(lambda r: h * ((r / a) ** 2 + (r / a) ** 6))
 
 
-def sampled(h, n=60):
+def sampled(h, n=20):
     """A dome known at points."""
     r = np.linspace(0, 1.4 * a, n)
     return mdr.SampledProfile(r, h * (r / a) ** 2 / (1 + 0.3 * (r / a) ** 2))
 
 
-def from_force(n=60):
+def from_force(n=17):
     """The shape behind F ~ d^1.7, between paraboloid and cone."""
     depth = np.linspace(0, 1.6 * d, n)
     return mdr.FromForce(depth, 2 * rubber.E_star * a * d / 1.7 * (depth / d) ** 1.7, rubber.E_star)

@@ -63,7 +63,7 @@ def least_amplitude(table):
     return np.array([np.interp(0.5, row[::-1], amplitude[::-1]) for row in at_rest])
 
 
-coarse = study(5, 5, 9)
+coarse = study(3, 5, 9)
 fastest = fastest_half(coarse)
 needed = least_amplitude(coarse)
 share_of_v_c = fastest / coarse["v_c"][:, :, 0]

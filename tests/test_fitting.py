@@ -37,12 +37,15 @@ def test_without_noise_the_truth_comes_back():
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():
-    """24 sets of 1 % noise and three parameters: 72 intervals of 95 %; less than 62 has a chance of 1e-4."""
-    held = 0
-    for seed in range(24):
-        found = mdr.fit(START, measured(0.01, seed), list(TRUTH))
+    """16 sets of 1 % noise and three parameters: 48 intervals of 95 %; less than 39 has a chance of 1e-4.
+
+    The fit begins at the truth: that it finds its way from afar is asked above. A cone is the quickest shape.
+    """
+    cone, held = replace(CASE, indenter=mdr.Cone(theta=0.02)), 0
+    for seed in range(16):
+        found = mdr.fit(cone, measured(0.01, seed, cone), list(TRUTH))
         held += sum(found.low[name] <= true <= found.high[name] for name, true in TRUTH.items())
-    assert 62 <= held < 72
+    assert 39 <= held < 48
 
 
 def test_without_errors_the_deviations_tell_them():

@@ -51,6 +51,7 @@ def test_figure_is_a_figure_and_leaves_no_style_behind(name):
 
     size = mpl.rcParams["font.size"]
     fig = script(name).figure()
+    fig.set_layout_engine("none")  # which measures all texts once more
     fig.canvas.draw()
     assert all(ax.get_title() and ax.has_data() for ax in fig.axes if not ax.get_ylabel().startswith("off"))
     assert mpl.rcParams["font.size"] == size
@@ -520,8 +521,9 @@ def test_rubber_slider_needs_the_amplitude_that_halves_its_static_friction():
         def excess(du_z, omega=omega):
             return mdr.static_cof(replace(s.foot, oscillation=mdr.NormalOscillation(s.depth, du_z, omega))) - 0.4
 
-        exact = brentq(excess, amplitudes[0], amplitudes[-1], xtol=1e-9)
-        assert needed == pytest.approx(exact, rel=0.06)  # linear between 27 and 50 % of the depth
+        # the exact one is where it vanishes: no further from it than 6 %, linear between 27 and 50 % of the depth
+        assert amplitudes[0] < needed < amplitudes[-1]
+        assert excess(needed / 1.06) >= 0 >= excess(needed / 0.94)
 
 
 def test_rubber_slider_has_half_its_friction_where_the_table_says():
@@ -530,7 +532,7 @@ def test_rubber_slider_has_half_its_friction_where_the_table_says():
     assert np.nanmax(s.coarse["cof_error"]) < 3e-4
     assert np.all(s.fastest[:, 0] == 0)
     assert np.all(np.diff(s.coarse["cof"], axis=2) > -1e-4)
-    for i, j in ((1, 4), (2, 2), (4, 3)):
+    for i, j in ((0, 4), (1, 2), (2, 3)):
         motion = mdr.NormalOscillation(
             s.depth, s.coarse.axes["oscillation.du_z"][j], s.coarse.axes["oscillation.omega"][i]
         )

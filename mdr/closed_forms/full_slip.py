@@ -28,7 +28,6 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,9 +116,8 @@ def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
     """
     shape, cycle = case.indenter, case.cycle
     radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
-    depths = {0.0, *(float(shape.profile_1d(r)) for r in radii)}
-    gaps = {(depth - cycle.u_z0) / cycle.du_z for depth in depths}
-    return tuple(sorted(gap for gap in gaps if kept_gap(case.T) < gap < 1))
+    gaps = (np.unique([0.0, *shape.profile_1d(np.array(radii))]) - cycle.u_z0) / cycle.du_z
+    return tuple(gaps[(kept_gap(case.T) < gaps) & (gaps < 1)].tolist())
 
 
 def mean_normal_force(case: SlidingContact) -> float:
@@ -133,11 +131,10 @@ def mean_normal_force(case: SlidingContact) -> float:
     T, rule = case.T, double_exponential()
     turn, marks = turning_phase(T), edge_marks(case, joints=True)
     ends = [0.0, *(float(leaving_phase(gap, T)) for gap in marks), turn, *(touching_phase(gap, T) for gap in marks)]
-    total = 0.0
-    for low, high in pairwise(sorted([*ends, 2 * np.pi])):
-        phase = rule.between(np.array(low), np.array(high))
-        total += (high - low) * float(np.sum(rule.weight * normal_force(case, phase)))
-    return total / (2 * np.pi)
+    instants = np.sort([*ends, 2 * np.pi])
+    phase = rule.between(instants[:-1], instants[1:])
+    force = normal_force(case, phase.ravel()).reshape(phase.shape)
+    return float(np.diff(instants) @ (force @ rule.weight)) / (2 * np.pi)
 
 
 def static_cof(case: SlidingContact) -> float:
