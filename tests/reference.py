@@ -285,19 +285,20 @@ def kelvin_lag(h, v_hat, T):
     return area / TWO_PI, np.where(always, 100, kind)
 
 
+@lru_cache
 def kelvin_breaks(depth_ratio, v_hat, T, n_scan=600):
-    """Values of h at which the kind of motion of a Kelvin spring changes: a scan, then bisection."""
+    """Values of h at which the kind of motion of a Kelvin spring changes: a scan, then finer ones."""
     top = min(depth_ratio, math.hypot(1, T))
     u = (1 - np.cos(np.pi * np.arange(1, n_scan) / n_scan)) / 2
     h = -1 + (top + 1) * u
     kind = kelvin_lag(h, v_hat, T)[1]
     at = np.flatnonzero(kind[1:] != kind[:-1])
     low, high, kind_low = h[at], h[at + 1], kind[at]
-    for _ in range(16 if at.size else 0):  # to 1e-7: a misplaced break costs its square
-        middle = (low + high) / 2
-        same = kelvin_lag(middle, v_hat, T)[1] == kind_low
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return [*low, math.hypot(1, T)]
+    for _ in range(3 if at.size else 0):  # to 1e-8: a misplaced break costs its square
+        inner = low + (high - low) * np.arange(1, 64)[:, None] / 64
+        same = (kelvin_lag(inner.ravel(), v_hat, T)[1].reshape(inner.shape) == kind_low).cumprod(axis=0).sum(axis=0)
+        low, high = low + (high - low) * same / 64, low + (high - low) * (same + 1) / 64
+    return (*low, math.hypot(1, T))
 
 
 def rigid_kelvin_cof(n, depth_ratio, v_hat, T, n_nodes=20, levels=5):
@@ -388,7 +389,7 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
     """Periodic motion of the body in full slip: list of (t_low, t_high, z), z = (y, y'), u_x = v_hat t + y.
 
     The oscillator is linear: one run from rest over the period, split where F_N is not smooth, gives the
-    periodic start (1 - exp(2 pi A))**-1 z(2 pi), and a second run from there the motion.
+    periodic start (1 - exp(2 pi A))**-1 z(2 pi), and the free motion from there is added to it.
     """
     mass, matrix = body_matrix(k_ratio, omega_0_ratio, c_ratio)
     on, off = tip_times(depth_ratio, T)
@@ -399,8 +400,8 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
 
     mean = mean_force(n, depth_ratio, T, reference_depth)
 
-    def pieces(z):
-        out = []
+    def pieces():
+        out, z = [], np.zeros(2)
         for low, high in pairwise(cuts):
             inner = 1e-13 * (high - low)  # keep one-sided values of a force that jumps
 
@@ -414,10 +415,14 @@ def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, referen
             z = run.y[:, -1]
         return out, z
 
-    _, driven = pieces(np.zeros(2))
-    z = np.linalg.solve(np.eye(2) - expm(TWO_PI * matrix), driven)
-    motion, _ = pieces(z)
-    return motion
+    driven, end = pieces()
+    start = np.linalg.solve(np.eye(2) - expm(TWO_PI * matrix), end)
+    rates, modes = np.linalg.eig(matrix)  # apart: no body is damped critically
+    shares = np.linalg.solve(modes, start)
+    return [
+        (low, high, lambda t, z=z: z(t) + (modes @ (shares * np.exp(rates * (t - cuts[0])))).real)
+        for low, high, z in driven
+    ]
 
 
 def full_slip_critical_velocity(
@@ -516,6 +521,37 @@ def _kelvin_period(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
     return e, y, v, force_sum
 
 
+def _kelvin_period_of_one_spring(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
+    """_kelvin_period of a flat punch, case by case in plain floats, which a single spring is fastest in."""
+    mass, k, c = body
+    weight = float(w[0])
+    left, middle, right = (load[:, 0].tolist() for load in loads)
+
+    def one(e, y, v, total, v_hat):
+        def rate(e, y, v, load):
+            f = min(max(e + T * (v_hat + v), -load), load)
+            force = weight * f
+            return (f - e) / T, -(k * y + c * v + force) / mass, force
+
+        for j, h in enumerate(dt.tolist()):
+            e1, a1, f1 = rate(e, y, v, left[j])
+            v2 = v + h / 2 * a1
+            e2, a2, f2 = rate(e + h / 2 * e1, y + h / 2 * v, v2, middle[j])
+            v3 = v + h / 2 * a2
+            e3, a3, f3 = rate(e + h / 2 * e2, y + h / 2 * v2, v3, middle[j])
+            v4 = v + h * a3
+            e4, a4, f4 = rate(e + h * e3, y + h * v3, v4, right[j])
+            e += h / 6 * (e1 + 2 * (e2 + e3) + e4)
+            y += h / 6 * (v + 2 * (v2 + v3) + v4)
+            v += h / 6 * (a1 + 2 * (a2 + a3) + a4)
+            total += h / 6 * (f1 + 2 * (f2 + f3) + f4)
+        return e, y, v, total
+
+    cases = zip(*(x.tolist() for x in (e[:, 0], y, v, force_sum, v_hat)), strict=True)
+    e, y, v, force_sum = np.array([one(*case) for case in cases]).T
+    return e[:, None], y, v, force_sum
+
+
 def _elastic_period(e, y, v, force_sum, v_hat, _, w, body, dt, surface):
     """One period of velocity Verlet for T = 0, with the return mapping e -> clip(e + du_x, -s, s)."""
     mass, k, c = body
@@ -579,6 +615,8 @@ def spring_pull_run(
         y = np.full(cases, -(spectrum[0].real + 2 * spectrum[1:].real.sum()))
         v = np.full(cases, -2 * (1j * i * spectrum)[1:].real.sum())
     _one_period = _kelvin_period if T > 0 else _elastic_period
+    if T > 0 and period.h.size == 1:
+        _one_period = _kelvin_period_of_one_spring
     results = []
     for level in steps:
         t, touching = period.grid(level)

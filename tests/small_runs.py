@@ -40,7 +40,7 @@ def slides():
                 case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull)
                 for start, n_periods in (("full_slip", 2), ("rest", 3)):
                     v_0 = 0.4 * case.unit_velocity
-                    knobs = {"n_springs": 20, "steps_per_period": 33, "n_periods": n_periods, "start": start}
+                    knobs = {"n_springs": 16, "steps_per_period": 25, "n_periods": n_periods, "start": start}
                     run = mdr.slide(case, v_0, record=n_periods - 2, **knobs)
                     energy = run.energy_balance
                     numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss]

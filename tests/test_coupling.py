@@ -44,7 +44,7 @@ def test_stick_ends_later_with_coupling():
 
 
 def test_the_loss_is_that_of_three_dimensions():
-    knobs = Knobs(cells=17, steps=24, cycles=3)
+    knobs = Knobs(cells=9, steps=12, cycles=2)
     for nu in (0.3, 0.0):
         case = replace(BALL, material=mdr.Elastic(E=3e6, nu=nu))
         v_0 = 0.7 * mdr.critical_velocity(case)

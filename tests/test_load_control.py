@@ -95,9 +95,11 @@ def test_a_load_beyond_the_shape_is_refused_at_the_door(door):
         door(heavy)
 
 
-@pytest.mark.parametrize("material", [KELVIN, SOLID, PRONY], ids=["Kelvin", "solid", "Prony"])
 @pytest.mark.parametrize("m_z", [0.0, 0.03])
-@pytest.mark.parametrize("shape", ["paraboloid", "cone", "flat"])
+@pytest.mark.parametrize(
+    ("shape", "material"),
+    [(shape, body) for shape in ("paraboloid", "flat") for body in (KELVIN, SOLID, PRONY)] + [("cone", KELVIN)],
+)
 def test_forces_balance(shape, material, m_z):
     case = under_load(shape, material, 0.4, m_z)
     known = followed(case, 4096)
@@ -126,10 +128,11 @@ def test_a_mass_that_lets_go_is_the_oscillator_marched():
     n, n_periods = 4000, 40  # of damping: the contact's own
     dt = 2 * np.pi / OMEGA / n
     u, w, s, out = case.cycle.u_z0, 0.0, case.cycle.u_z0, np.empty(n)
+    F_z, kept = [float(motion.F_z(i * dt)) for i in range(n)], float(np.exp(-dt / tau))
     for i in range(n * n_periods):
-        relaxed = s * np.exp(-dt / tau)
+        relaxed = s * kept
         F_N = k * max(u + tau * w, 0.0) if u >= relaxed else 0.0
-        w += dt * (motion.F_z(i * dt) - F_N) / motion.m_z
+        w += dt * (F_z[i % n] - F_N) / motion.m_z
         u += dt * w
         s = max(u, relaxed)
         out[i % n] = u

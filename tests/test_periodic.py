@@ -128,7 +128,7 @@ def body(shape, depth_ratio, T, k, omega_0, zeta, share):
 @pytest.mark.parametrize("name", BODIES)
 def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
     case, v_0 = body(*BODIES[name])
-    knobs = Knobs(n_springs=48, steps=256, start="full_slip", lump=True)
+    knobs = Knobs(n_springs=24, steps=128, start="full_slip", lump=True)
     solved = march(case, v_0, knobs)
     without_search(monkeypatch)
     awaited = march(case, v_0, knobs)

@@ -26,6 +26,50 @@ _EPS = 2.220446049250313e-16
 _EVENTS = 12  # releases and touches of a spring in one step, more than there ever are
 
 
+# --- rows of numbers: plain loops, as slices and array expressions take seconds to compile ---------
+
+
+@_jit
+def total_of(x):
+    """Sum of x, (n,)."""
+    found = 0.0
+    for i in range(x.size):
+        found += x[i]
+    return found
+
+
+@_jit
+def copy(x, to):
+    """Put x into `to`, both (n,)."""
+    for i in range(x.size):
+        to[i] = x[i]
+
+
+@_jit
+def add(x, factor, to):
+    """Add x times a factor to `to`, both (n,)."""
+    for i in range(x.size):
+        to[i] += x[i] * factor
+
+
+@_jit
+def lowest(s, g):
+    """The least of s + g, both (n,)."""
+    found = s[0] + g[0]
+    for i in range(1, s.size):
+        found = min(found, s[i] + g[i])
+    return found
+
+
+@_jit
+def any_of(x):
+    """Whether a number of x, (n,), is not zero."""
+    found = False
+    for i in range(x.size):
+        found = found or x[i] != 0.0
+    return found
+
+
 # --- one spring -----------------------------------------------------------------------------------
 
 
@@ -71,7 +115,9 @@ def next_event(contact, left, s, q, g, u, v, material):
     """Time to the release or touch within the time left, or -1 if there is none."""
     scale = abs(s) + abs(u) + abs(v * left) + g  # of what rounding there is in a depth
     if contact:
-        scale = (material[0] + np.sum(material[2])) * scale + material[1] * abs(v) + np.sum(np.abs(q))
+        scale = (material[0] + total_of(material[2])) * scale + material[1] * abs(v)
+        for j in range(q.size):
+            scale += abs(q[j])
     least = -16 * _EPS * scale
     at_start, rate = margin(contact, 0.0, s, q, g, u, v, material)
     if at_start < least:
@@ -117,7 +163,8 @@ def move(contact, theta, s, q, v, material):
         share *= np.exp(rates[k] * theta)
         for i in range(rates.size):
             y[i] += modes[i, k] * share
-    q[:] = y[1:]
+    for j in range(q.size):
+        q[j] = y[j + 1]
     return y[0]
 
 
@@ -136,7 +183,7 @@ def spring_step(contact, dt, s, q, g, u, v, material):
         if contact:
             s = u - g
             if material[1] == 0.0 and q.size:  # no load yet: roundings of a long flight would pass for tension
-                q -= (material[0] * s + np.sum(q)) * material[2] / np.sum(material[2])
+                add(material[2], -(material[0] * s + total_of(q)) / total_of(material[2]), q)
     return contact, move(contact, left, s, q, v, material)
 
 
@@ -150,14 +197,14 @@ def spring_jump(contact, s, q, g, u, du, material):
     if contact and du < 0.0:
         if eta > 0.0:  # the dashpot does not follow
             return False, s
-        b = E * s + np.sum(q)
-        glassy = E + np.sum(E_j)
+        b = E * s + total_of(q)
+        glassy = E + total_of(E_j)
         if b + glassy * du < 0.0:
             contact, ds = False, -b / glassy
         s_new = s + ds
-        q += E_j * ds
+        add(E_j, ds, q)
         return contact, s_new
-    q += E_j * ds
+    add(E_j, ds, q)
     return True, s + ds
 
 
@@ -173,11 +220,13 @@ def step(s, q, c, dt, u, v, row, material):
     E, eta, E_j, tau_j, rates, modes, inverse = material
     g = row[0]
     m = E_j.size
-    kept = np.exp(-dt / tau_j)
-    gain = -E_j * v * tau_j * np.expm1(-dt / tau_j)
-    faded = np.exp(rates * dt)
+    kept, gain, faded, shares = np.empty(m), np.empty(m), np.empty(m + 1), np.zeros(m + 1)
+    for j in range(m):
+        kept[j] = np.exp(-dt / tau_j[j])
+        gain[j] = -E_j[j] * v * tau_j[j] * np.expm1(-dt / tau_j[j])
+    for k in range(m + 1):
+        faded[k] = np.exp(rates[k] * dt)
     u_1 = u + v * dt
-    shares = np.zeros(m + 1)
     for i in range(g.size):
         if c[i]:
             least = E * (min(u, u_1) - g[i]) + eta * v
@@ -189,7 +238,7 @@ def step(s, q, c, dt, u, v, row, material):
                 s[i] = u_1 - g[i]
                 continue
         else:
-            if max(u, u_1) <= g[i] and s[i] == 0.0 and not np.any(q[i]):
+            if max(u, u_1) <= g[i] and s[i] == 0.0 and not any_of(q[i]):
                 continue  # never touched, nor now
             least = g[i] - max(u, u_1)
             for k in range(m + 1):
@@ -199,9 +248,13 @@ def step(s, q, c, dt, u, v, row, material):
                 least += min(modes[0, k] * share, modes[0, k] * share * faded[k])
                 shares[k] = share * faded[k]
             if least > 0.0:
-                s[i] = np.sum(modes[0] * shares)
+                s[i] = 0.0
                 for j in range(m):
-                    q[i, j] = np.sum(modes[j + 1] * shares)
+                    q[i, j] = 0.0
+                for k in range(m + 1):
+                    s[i] += modes[0, k] * shares[k]
+                    for j in range(m):
+                        q[i, j] += modes[j + 1, k] * shares[k]
                 continue
         contact, s[i] = spring_step(c[i] > 0, dt, s[i], q[i], g[i], u, v, material)
         c[i] = contact
@@ -232,23 +285,23 @@ def edge(s, q, c, u, v, row, material):
         i -= 1
     if i < 0:
         return -1, 0.0, 0.0
-    b = E * s[i] + np.sum(q[i])
+    b = E * s[i] + total_of(q[i])
     if i == n - 1:
         return i, g[i], b
     o = i + 1
-    b_out = E * s[o] + np.sum(q[o]) if eta > 0.0 else 0.0
+    b_out = E * s[o] + total_of(q[o]) if eta > 0.0 else 0.0
     if v > height(0.0, s[o], q[o], material)[1]:  # advancing
         gap = s[o] - (u - g[o])
         slope, b_slope = 1.0, 0.0
         if o + 1 < n:
             step_out = g[o + 1] - g[o]
             slope = (s[o + 1] - s[o]) / step_out + 1.0
-            b_slope = (E * s[o + 1] + np.sum(q[o + 1]) - b_out) / step_out if eta > 0.0 else 0.0
+            b_slope = (E * s[o + 1] + total_of(q[o + 1]) - b_out) / step_out if eta > 0.0 else 0.0
         g_e = g[o] - gap / slope if slope > 0.0 else g[i]
         g_e = min(max(g_e, g[i]), g[o])
         return i, g_e, b_out + b_slope * (g_e - g[o])
     rest = b + eta * v
-    fall = (E + np.sum(material[2])) if i == 0 else (E * s[i - 1] + np.sum(q[i - 1]) - b) / (g[i] - g[i - 1])
+    fall = (E + total_of(material[2])) if i == 0 else (E * s[i - 1] + total_of(q[i - 1]) - b) / (g[i] - g[i - 1])
     g_e = g[i] + rest / fall if fall > 0.0 else g[o]
     return i, min(max(g_e, g[i]), g[o]), -eta * v
 
@@ -287,7 +340,7 @@ def total(s, q, c, u, v, row, material):
     n_free = 0
     for k in range(i + 1):
         n_free += not c[k]
-        b[k] = E * s[k] + np.sum(q[k]) if c[k] else 0.0
+        b[k] = E * s[k] + total_of(q[k]) if c[k] else 0.0
     fine = b[0] * x[0]
     for k in range(i):
         fine += cell(b[k], b[k + 1], g[k], g[k + 1], x[k], x[k + 1], area[k], area[k + 1])
@@ -295,17 +348,17 @@ def total(s, q, c, u, v, row, material):
     bent = 0.0
     if not n_free:  # a ring is no smooth row
         for k in range(0, i - 1, 2):
-            bent += bend(b[k], b[k + 1], b[k + 2], g[k : k + 3], x[k : k + 3], area[k : k + 3])
+            bent += bend(k, b, g, x, area)
     return 2.0 * (fine + bent / 3.0), a, area_e
 
 
 @_jit
-def bend(b_0, b_1, b_2, g, x, area):
-    """What two cells add to one that spans both: a third of it is what two equal cells still miss."""
-    two = cell(b_0, b_1, g[0], g[1], x[0], x[1], area[0], area[1]) + cell(
-        b_1, b_2, g[1], g[2], x[1], x[2], area[1], area[2]
-    )
-    return two - cell(b_0, b_2, g[0], g[2], x[0], x[2], area[0], area[2])
+def bend(k, b, g, x, area):
+    """What two cells from node k on add to one that spans both: a third of it is what two equal cells still miss."""
+    i, j = k + 1, k + 2
+    one = cell(b[k], b[j], g[k], g[j], x[k], x[j], area[k], area[j])
+    inner = cell(b[k], b[i], g[k], g[i], x[k], x[i], area[k], area[i])
+    return inner + cell(b[i], b[j], g[i], g[j], x[i], x[j], area[i], area[j]) - one
 
 
 # --- one history ----------------------------------------------------------------------------------
@@ -347,9 +400,9 @@ def follow_depth(t, u, row, material, record):
             radius[k] = 0.5 * (radius[k] + a)
             v = 0.5 * (v + v_next)
         if record:
-            compressions[k] = s
+            copy(s, compressions[k])
             for i in range(n):
-                loads[k, i] = max(E * s[i] + np.sum(q[i]) + eta * v, 0.0) if c[i] else 0.0
+                loads[k, i] = max(E * s[i] + total_of(q[i]) + eta * v, 0.0) if c[i] else 0.0
     return F, radius, compressions, loads
 
 
@@ -365,7 +418,9 @@ def solve_depth(u_0, guess, dt, aim, scale, stride, old, new, row, material):
     low, high, f_low, f_high = 0.0, 0.0, 1.0, -1.0  # no bracket yet
     kept = 0
     for turn in range(400):
-        s[:], q[:], c[:] = old[0], old[1], old[2]
+        for i in range(s.size):
+            s[i], c[i] = old[0][i], old[2][i]
+            copy(old[1][i], q[i])
         v = u - u_0
         if dt == 0.0:
             jump(s, q, c, u, v, row, material)
@@ -403,14 +458,20 @@ def pressed(loads, F, now, row, material):
     s, q, c = now
     E, eta = material[0], material[1]
     x = row[1]
-    b = E * s + q.sum(axis=1)
-    low = high = 0.0
+    b = np.empty(s.size)
+    low, high = 0.0, 0.0
+    for i in range(s.size):
+        b[i] = E * s[i] + total_of(q[i])
+        high = max(high, abs(b[i]))
     if eta > 0.0:
-        high = np.max(np.abs(b)) + F / x[-1]
+        high += F / x[-1]
         low = -high
+    else:
+        high = 0.0
     for _ in range(60 if eta > 0.0 else 1):
         push = 0.5 * (low + high)
-        loads[:] = np.where(c > 0, np.maximum(b + push, 0.0), 0.0)
+        for i in range(s.size):
+            loads[i] = max(b[i] + push, 0.0) if c[i] else 0.0
         B = 2.0 * loads[0] * x[0]
         for k in range(x.size - 1):
             B += (loads[k] + loads[k + 1]) * (x[k + 1] - x[k])
@@ -433,7 +494,9 @@ def follow_force(t, F, known, row, material, record):
     depth, radius = np.zeros(n_t), np.zeros(n_t)
     compressions, loads = np.zeros((record.size, n)), np.zeros((record.size, n))
     at = 0  # next on record
-    most = max(F.max(), 1e-300)
+    most = 1e-300
+    for k in range(n_t):
+        most = max(most, F[k])
     u, a, v = 0.0, 0.0, 0.0
     for k in range(n_t):
         dt = t[k] - t[k - 1] if k else 0.0
@@ -448,11 +511,11 @@ def follow_force(t, F, known, row, material, record):
         elif before == 0.0 and F[k] == 0.0:  # loose: every spring relaxes for itself
             for i in range(n):
                 old[2][i] = 0
-                if old[0][i] != 0.0 or np.any(old[1][i]):
+                if old[0][i] != 0.0 or any_of(old[1][i]):
                     old[0][i] = move(False, dt, old[0][i], old[1][i], 0.0, material)
-            u = np.min(old[0] + g)
+            u = lowest(old[0], g)
         elif dt > 0.0 or (F[k] != before and eta == 0.0):
-            stiffness = (E + np.sum(E_j) + (eta / dt if dt > 0.0 else 0.0)) * 2.0 * max(a, 1e-6 * row[1][-1])
+            stiffness = (E + total_of(E_j) + (eta / dt if dt > 0.0 else 0.0)) * 2.0 * max(a, 1e-6 * row[1][-1])
             stride = max(
                 1e-9 * g[-1], 1e-3 * abs(v * dt), 1e-3 * abs(F[k] - before) / stiffness, 1e-12 * most / stiffness
             )
@@ -460,21 +523,21 @@ def follow_force(t, F, known, row, material, record):
             u = solve_depth(was, was + v * dt, dt, aim, most, stride, old, new, row, material)
             for i in range(n):
                 old[0][i], old[2][i] = new[0][i], new[2][i]
-                old[1][i] = new[1][i]
+                copy(new[1][i], old[1][i])
             if F[k] == 0.0:
                 for i in range(n):
                     if old[2][i] and eta == 0.0:  # what little was left of the load
-                        rise = -(E * old[0][i] + np.sum(old[1][i])) / (E + np.sum(E_j))
+                        rise = -(E * old[0][i] + total_of(old[1][i])) / (E + total_of(E_j))
                         old[0][i] += rise
-                        old[1][i] += E_j * rise
+                        add(E_j, rise, old[1][i])
                     old[2][i] = 0
-                u = np.min(old[0] + g)
+                u = lowest(old[0], g)
         if dt > 0.0:
             v = (u - was) / dt
         a = total(old[0], old[1], old[2], u, v if dt > 0.0 else u - was, row, material)[1] if F[k] > 0.0 else 0.0
         depth[k], radius[k] = u, a
         if at < record.size and record[at] == k:
-            compressions[at] = old[0]
+            copy(old[0], compressions[at])
             if F[k] > 0.0:
                 pressed(loads[at], F[k], old, row, material)
             at += 1

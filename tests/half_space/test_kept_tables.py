@@ -11,7 +11,7 @@ from validation.half_space.friction import Knobs, in_three_dimensions, of_spring
 from validation.half_space.tables import Point
 
 POINTS = [Point("paraboloid", 0.3, 0.3, 0.3, 0.0, v) for v in (0.5, 1.5)]
-KNOBS = Knobs(cells=13, steps=16, cycles=20, settled=1e-3)
+KNOBS = Knobs(cells=11, steps=12, cycles=20, settled=1e-3)
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def test_a_row_is_what_a_run_by_itself_gives(rows):
     for row in rows:
         case = row.point.case
         v_0 = row.point.v * mdr.critical_velocity(case)
-        alone = in_three_dimensions(case, v_0, replace(KNOBS, cycles=10, settled=0)).cof
+        alone = in_three_dimensions(case, v_0, replace(KNOBS, cycles=5, settled=0)).cof
         assert_allclose(row.cof, alone / 0.3, atol=1e-3)  # to which the column is settled
         assert_allclose(row.springs, of_springs(case, v_0, replace(KNOBS, cycles=20)).cof / 0.3, rtol=1e-12)
         assert row.loss > 3 * row.error > 0
@@ -42,7 +42,7 @@ def test_a_table_is_read_as_it_was_written(rows, tmp_path, monkeypatch):
     assert [row.cycles for row in again] == [row.cycles for row in (*rows, pair)]
     assert_allclose([row.loss for row in again], [row.loss for row in (*rows, pair)], atol=1e-6)  # seven digits
     head = path.read_text().splitlines()[:2]
-    assert "for a test; 13 x 13 cells, 16 steps a period" in head[0]
+    assert "for a test; 11 x 11 cells, 12 steps a period" in head[0]
     assert "numpy" in head[1]
 
 

@@ -1,14 +1,18 @@
 """Stick and slip under a rising force: the solution by rings against closed forms and a second solution."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.special import ellipe, ellipk
 
-from validation.half_space.rings import bonded_force, goodman, stick_radius
+from validation.half_space import rings
+from validation.half_space.rings import bonded_force, goodman
 
 BETAS = {nu: (1 - 2 * nu) / (2 * (1 - nu)) for nu in (0.0, 0.15, 0.3, 0.45)}
 FRICTION = (0.1, 0.3, 0.6)
+stick_radius = cache(rings.stick_radius)  # many tests ask for the same
 EVERY = [(beta, mu_0) for beta in BETAS.values() for mu_0 in FRICTION]
 
 
