@@ -18,7 +18,7 @@ from mdr.commands.curve import velocity_scale
 from mdr.files.case_files import parse_case, read_case, write_case
 from mdr.tools.provenance import versions
 
-EXAMPLE = str(Path(__file__).parents[1] / "docs" / "example.toml")
+EXAMPLE = str(Path(__file__).parents[2] / "docs" / "example.toml")
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ from mdr import materials
 from mdr.files import case_files, own_records
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
 
-EXAMPLE = Path(__file__).parents[1] / "docs" / "example.toml"
+EXAMPLE = Path(__file__).parents[2] / "docs" / "example.toml"
 GOOD = write_case(read_case(EXAMPLE))
 SHAPES = ", ".join(case_files._TABLES["indenter"].writable())
 

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 import mdr
 
-FOLDER = Path(__file__).parents[1] / "geometries"
+FOLDER = Path(__file__).parents[2] / "geometries"
 KAPPA = 1.5  # incompressible, (2 - nu)/(2 (1 - nu))
 loaded = {}
 

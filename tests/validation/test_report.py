@@ -23,7 +23,7 @@ from validation.report import Check, Claim, Figure, Part, html_page, markup, num
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 def made_up_figure(name="curve"):

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
-NOTEBOOK = json.loads((Path(__file__).parents[1] / "docs/springs.ipynb").read_text(encoding="utf-8"))
+NOTEBOOK = json.loads((Path(__file__).parents[2] / "docs/springs.ipynb").read_text(encoding="utf-8"))
 CODE = {cell["id"]: "".join(cell["source"]) for cell in NOTEBOOK["cells"] if cell["cell_type"] == "code"}
 
 
