@@ -30,6 +30,7 @@ _STEPS_OF_JOLTS = 1024
 MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
 LEFT = 0.1  #: share of what is extrapolated that counts as error
+FIRST = (0.5, 0.75, 0.25)  #: of the steps, of runs whose periodic state the main one may begin in
 CONFIRMED = 0.2  #: share by which two estimates of what the steps miss, of second order, may differ
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
@@ -116,7 +117,7 @@ def within(
     while True:
         knobs = that_touch(case, knobs, free[1])
         few = knobs.steps if runs.jolts else few or knobs.steps // 2
-        first = runs.first(knobs.coarser(knobs.steps // 2))
+        first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps))) for share in FIRST)), None)
         if first is not None and first.settling.settled and not first.slips_fully and free[0] and few < knobs.steps:
             knobs = _enough_springs(runs, first, knobs, few)
         main = runs.main(knobs)

@@ -13,19 +13,22 @@ def shares(steps: Array, last: Array, rcond: float) -> Array:
     """Shares (n,) of the steps from change to change, to be taken off the last change so that least is left of it.
 
     steps: (n, k), oldest first, real vectors whose length measures a change; last: (k,). Taken off the last iterate
-    alike, the shares make the next one. They are found by orthogonal directions, the newest step first; an older step
-    of which the newer ones leave less than rcond is left out.
+    alike, the shares make the next one. They are found by orthogonal directions, the newest step first; a step of
+    which the newer ones leave less than rcond of the greatest is left out.
     """
     n, k = steps.shape
+    greatest = 0.0
+    for j in range(n):
+        size = 0.0
+        for m in range(k):
+            size += steps[j, m] * steps[j, m]
+        greatest = max(greatest, size)
     ways, weights = np.zeros((n, k)), np.zeros((n, n))  # direction i is the sum of weights[i] times the steps
     shared, rest = np.zeros(n), last.copy()
     for j in range(n):
         i = n - 1 - j
         way, weight = steps[i].copy(), np.zeros(n)
         weight[i] = 1.0
-        size = 0.0
-        for m in range(k):
-            size += way[m] * way[m]
         for _ in range(2):  # once more for what rounding leaves
             for other in range(i + 1, n):
                 along = 0.0
@@ -38,7 +41,7 @@ def shares(steps: Array, last: Array, rcond: float) -> Array:
         left = 0.0
         for m in range(k):
             left += way[m] * way[m]
-        if left <= rcond * rcond * size or left == 0.0:
+        if left <= rcond * rcond * greatest or left == 0.0:
             continue
         left = np.sqrt(left)
         along = 0.0
