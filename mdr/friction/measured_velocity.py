@@ -44,6 +44,8 @@ from mdr.tools.progress import Ticker, time_is_over, time_limit
 MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
 NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
+LOOK = 96, 256  #: springs, and steps at least, of a run that tells reduced friction from full
+FINE = 384, 1024  #: the same where the COF is read off closely, without doubling them
 APART = 0.01  #: step between velocities at which the deficit of the COF is read
 CLOSER = 0.004  #: the same where its error allows
 BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
@@ -114,7 +116,8 @@ def measure_critical_velocity(
     limit_s : float, optional
         Seconds of computing after which the search ends unsettled. None sets no limit.
     accuracy : float
-        A quarter of the relative width [-] of the bracket that is asked for, from 1e-8 to 1e-3; below 1e-6 it is that.
+        A quarter of the relative width [-] of the bracket that is asked for, from 1e-8 to 1e-3; values below 1e-6 count
+        as 1e-6.
 
     Returns
     -------
@@ -187,15 +190,16 @@ class _Search:
             raise _Undecided(v_0)
 
     def look(self, v_0: float, start: str) -> SlidingRun:
-        """A run of half the usual resolution, enough to tell reduced friction from full."""
+        """A run of few springs and steps, enough to tell reduced friction from full."""
         self._begin(v_0)
-        return slide(
-            self.case, v_0, start=start, n_springs=N_SPRINGS // 2, steps_per_period=default_steps(self.case) // 2
-        )
+        steps = max(LOOK[1], default_steps(self.case) // 2)
+        return slide(self.case, v_0, start=start, n_springs=LOOK[0], steps_per_period=steps)
 
     def measure(self) -> MeasuredVelocity:
         free = self._first_free_run()
         jumps = self._jumps()
+        if jumps:
+            self.n_springs, self.steps = FINE[0], max(FINE[1], self.steps)
         if free is not None and not jumps:
             free = self._resolve(free)
         if free is None:
@@ -347,7 +351,9 @@ class _Search:
         share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
         if multiple:
             self.steps = max(self.steps, IN_STEP)
-            if high < (1 - CLOSER) * without:  # runs have found the free oscillation that keeps springs from sticking
+            if (
+                self.start == "full_slip" and high < (1 - CLOSER) * without
+            ):  # runs have found the free oscillation that keeps springs from sticking
                 return self._lock_in(high, without)
         near = self.run(share * v_c) if multiple else self.look(share * v_c, self.start)
         if multiple and _only_grazes(near) and _only_grazes(self.run(near.v_0)):
@@ -395,7 +401,7 @@ class _Search:
         """Runs above v_c from both starts: is friction full there?"""
         swinging, full, unsettled = False, False, []
         undamped = not self.case.pull.is_rigid and self.case.pull.damping_ratio == 0  # else a swing is a transient
-        of_step = (2 * np.pi / (default_steps(self.case) // 2)) ** 2 * self.scale
+        of_step = (2 * np.pi / max(LOOK[1], default_steps(self.case) // 2)) ** 2 * self.scale
         for factor in ABOVE:
             for start in ("full_slip", "rest"):
                 run = self.look(factor * v_c, start)
@@ -453,7 +459,7 @@ def _only_grazes(run: SlidingRun) -> bool:
 
 
 def _is_nearly_full(run: SlidingRun) -> bool:
-    return run.settled and run.mu_0 - run.cof < NEARLY_FULL * run.mu_0
+    return run.settled and run.mu_0 - run.cof + run.cof_error < NEARLY_FULL * run.mu_0
 
 
 def _is_reduced(run: SlidingRun) -> bool:

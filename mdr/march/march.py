@@ -8,6 +8,7 @@ march is done again with every spring for itself. A COF that contradicts a theor
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -208,9 +209,10 @@ def looked_at(end: Steady) -> March:
         assert again is not None
         return looked_at(again)
     if end.waited is not None:
+        waited = copy(end.waited)
         for record in records:
-            end.waited.append(record.period)
-        settling = end.waited.assess()
+            waited.append(record.period)
+        settling = waited.assess()
     account = records[0] if end.waited is None else records[-1]  # the same period however many are kept
     if settling.settled and (why := _contradiction(stepper, account, settling)):
         settling = replace(settling, settled=False, kind="unsettled", why=why, contradicts=True)

@@ -21,7 +21,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
-NEARLY = 1e-5  #: what is missing in the COF where it may be that of full slip, to what a loose search leaves
+NEARLY = 1e-5  #: what is missing in the COF where, within the error of a loose search, it may be that of full slip
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²

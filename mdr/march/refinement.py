@@ -24,6 +24,7 @@ from mdr.march.run import SlidingRun, finish
 from mdr.tools.progress import time_is_over
 
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
+MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
 N_SPRINGS, _STEPS = 96, 256  # first choice; doubled while cof_error exceeds the accuracy asked for
 _STEPS_OF_JOLTS = 1024
@@ -58,13 +59,13 @@ class _Runs:
 
     def first(self, knobs: Knobs) -> Steady | None:
         """The end of a run that may go before the main one; None where its periodic state would have to be awaited."""
-        if knobs.start != "full_slip":
+        if knobs.start != "full_slip" or not (self.case.keeps_contact or touches(self.case, knobs)):
             return None
         return self._at(knobs, None, None if self.case.pull.is_rigid else 0)
 
-    def main(self, knobs: Knobs) -> Steady:
-        """The end of a run that goes on until it settles."""
-        return self._there(knobs, None, None)
+    def main(self, knobs: Knobs, most: int | None) -> Steady:
+        """The end of a run that goes on until it settles, or for at most so many periods."""
+        return self._there(knobs, None, most)
 
     def beside(self, main: Steady, knobs: Knobs) -> Steady:
         """The end of a companion: solved for by itself if the main run was, else of as many periods."""
@@ -86,6 +87,15 @@ class _Runs:
         return self.ends[knobs]
 
 
+def check_size(n_springs: int, steps: int, record: int) -> None:
+    """Refuse more springs, steps or periods of a record than memory holds."""
+    if max(n_springs, steps) > MOST or n_springs * steps * record > MOST_KEPT:
+        raise ValueError(
+            f"n_springs = {n_springs}, steps_per_period = {steps}, record = {record} is more than memory "
+            f"holds: at most {MOST} springs or steps, and {MOST_KEPT:g} values of a record"
+        )
+
+
 @dataclass(frozen=True)
 class _Bounded:
     """A main run, the bound on the numerical error of its COF, over mu_0, and what the steps miss of it."""
@@ -96,6 +106,7 @@ class _Bounded:
 
     def looked_at(self, record: int) -> March:
         """The run after a close look, with so many periods kept."""
+        check_size(self.main.knobs.n_springs, self.main.knobs.steps, record)
         return looked_at(replace(self.main, knobs=replace(self.main.knobs, record=record)))
 
     def finished(self, record: int) -> SlidingRun:
@@ -113,23 +124,30 @@ def within(
     springs throw the body as they touch.
     """
     check(case, v_0)
-    runs, few, coarser = _Runs(case, v_0, near), 0, None
+    runs, few_steps, coarser = _Runs(case, v_0, near), 0, None
     while True:
         knobs = that_touch(case, knobs, free[1])
-        few = knobs.steps if runs.jolts else few or knobs.steps // 2
+        few_steps = knobs.steps if runs.jolts else few_steps or knobs.steps // 2
         first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps))) for share in FIRST)), None)
-        if first is not None and first.settling.settled and not first.slips_fully and free[0] and few < knobs.steps:
-            knobs = _enough_springs(runs, first, knobs, few)
-        main = runs.main(knobs)
+        if (
+            first is not None
+            and first.settling.settled
+            and not first.slips_fully
+            and free[0]
+            and few_steps < knobs.steps
+        ):
+            knobs = _enough_springs(runs, first, knobs, few_steps)
+        main = runs.main(knobs, None if coarser is None or case.pull.is_rigid else MOST_BESIDE)
         if not main.settling.settled:
             # finer steps make a state that hardly repeats harder to find
             best = coarser or _Bounded(main, 0.0)
             return best.finished(knobs.record), best.main
         half = runs.beside(main, knobs.coarser(knobs.steps // 2))
         ringing = _of_ringing(runs, main)
-        if main.slips_fully and ringing == 0 and _clear_of_stick(looked_at(main), looked_at(half)):
+        carried = main.off_load <= knobs.accuracy / 2 or not any(free)
+        if main.slips_fully and carried and ringing == 0 and _clear_of_stick(looked_at(main), looked_at(half)):
             return _Bounded(main, 0.0).finished(knobs.record), main
-        error_springs = _of_springs(runs, main, knobs, few)
+        error_springs = _of_springs(runs, main, knobs, few_steps)
         missing, error_steps = _of_steps(runs, main, half, knobs, free[1])
         error_steps += ringing
         if main.scaled.light and main.scaled.remembers and not case.keeps_contact:
@@ -152,21 +170,33 @@ def within(
                 return finish(march, bounded.error, missing), main
             more_springs, more_steps = False, True
         coarser = bounded
-        knobs = replace(knobs, n_springs=knobs.n_springs * (1 + more_springs), steps=knobs.steps * (1 + more_steps))
+        n_springs, steps = knobs.n_springs * (1 + more_springs), knobs.steps * (1 + more_steps)
+        knobs = replace(
+            knobs,
+            n_springs=max(knobs.n_springs, min(n_springs, MOST_SPRINGS)),
+            steps=max(knobs.steps, min(steps, MOST_STEPS)),
+        )
 
 
-def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few: int) -> Knobs:
-    """The knobs with so many springs that their error is within the accuracy."""
-    while knobs.n_springs < MOST_SPRINGS and _of_springs(runs, first, knobs, few) > knobs.accuracy / 2:
-        knobs = replace(knobs, n_springs=2 * knobs.n_springs)
+def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) -> Knobs:
+    """The knobs with so many springs as the accuracy takes, as long as their runs settle and there is time."""
+    while knobs.n_springs < MOST_SPRINGS and not time_is_over():
+        if not runs.beside(first, knobs.coarser(few_steps)).settling.settled:
+            break
+        if _of_springs(runs, first, knobs, few_steps) <= knobs.accuracy / 2:
+            break
+        knobs = replace(knobs, n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
     return knobs
 
 
-def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few: int) -> float:
+def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int) -> float:
     """Bound on the error of the springs, over mu_0, from runs of few steps with all springs and with half of them."""
-    every = runs.beside(main, knobs.coarser(few))
-    second = runs.beside(main, knobs.coarser(few, knobs.n_springs // 2))
-    return _missed(every, second) + _kink(every, second)
+    every = runs.beside(main, knobs.coarser(few_steps))
+    second = runs.beside(main, knobs.coarser(few_steps, knobs.n_springs // 2))
+    missed = _missed(every, second) + _kink(every, second)
+    if not main.settling.solved or every is main:
+        return missed
+    return missed + max(every.settling.spread, 0.0 if every.settling.settled else BUDGET)
 
 
 def _of_steps(runs: _Runs, main: Steady, half: Steady, knobs: Knobs, extrapolate: bool) -> tuple[float, float]:
@@ -179,10 +209,12 @@ def _of_steps(runs: _Runs, main: Steady, half: Steady, knobs: Knobs, extrapolate
     if main.scaled.light and main.scaled.remembers and not runs.case.keeps_contact:
         others = (runs.beside(main, knobs.coarser(int(share * knobs.steps))) for share in UNEVEN)
         plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others))
-    if extrapolate and not main.scaled.light and half.settling.settled and most.settling.settled:
+    regular = not main.scaled.light and _erratic(runs.fast) == 1
+    if extrapolate and regular and half.settling.settled and most.settling.settled:
         two = (main.cof - half.cof) / 3, (main.cof - most.cof) * 9 / 7  # of second order, what is missing
         apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
-        bound = 3 * apart + LEFT * size + 2 * hidden + main.settling.spread + most.settling.spread
+        bound = 3 * apart + LEFT * size + 2 * hidden
+        bound += main.settling.spread + half.settling.spread + most.settling.spread
         if apart < CONFIRMED * size and bound < plain:
             return 0.5 * (two[0] + two[1]), bound + _of_fast_relaxation(main)
     return 0.0, plain + _of_fast_relaxation(main)

@@ -35,6 +35,7 @@ class State(IntEnum):
 class SlidingRun(ArrayRecord):
     """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
+    `cof` may be extrapolated to steps of no length (`slide`); recorded forces and energies are those of the run itself.
     Recorded forces are those at the end of a step. Where dashpots make them jump within a step, as under a Kelvin punch
     that loses contact, mean F_x over mean F_z of the record differs from `cof` by up to 1e-4.
     """

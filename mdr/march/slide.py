@@ -6,13 +6,11 @@ from collections.abc import Iterable, Iterator
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, Knobs, accuracy_of, check, march, steady
-from mdr.march.refinement import N_SPRINGS, default_steps, that_touch, within
+from mdr.march.refinement import N_SPRINGS, check_size, default_steps, that_touch, within
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, positive
 from mdr.tools.progress import time_limit
-
-MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 
 
 def slide(
@@ -112,11 +110,7 @@ def slide(
         raise ValueError(f"record = {record} periods cannot be kept of n_periods = {n_periods}")
     resolution = n_springs or N_SPRINGS, steps_per_period or default_steps(case)
     knobs = Knobs(*resolution, start, lump, record, accuracy_of(accuracy))
-    if max(knobs.n_springs, knobs.steps) > MOST or knobs.n_springs * knobs.steps * record > MOST_KEPT:
-        raise ValueError(
-            f"n_springs = {knobs.n_springs}, steps_per_period = {knobs.steps}, record = {record} is more than memory "
-            f"holds: at most {MOST} springs or steps, and {MOST_KEPT:g} values of a record"
-        )
+    check_size(knobs.n_springs, knobs.steps, record)
     if limit_s is not None:
         limit_s = positive("limit_s", limit_s, "seconds")
     with time_limit(limit_s):
@@ -135,6 +129,7 @@ def slides(
     """Runs at rising velocities, each begun in the state of the one before: what `slide` answers, sooner."""
     resolution = n_springs or N_SPRINGS, steps_per_period or default_steps(case)
     knobs, near = Knobs(*resolution, "full_slip", lump=True, accuracy=accuracy_of(accuracy)), None
+    check_size(knobs.n_springs, knobs.steps, 0)
     for v_0 in velocities:
         run, end = within(case, v_0, knobs, (n_springs is None, steps_per_period is None), near)
         near = end if end.settling.solved and not end.slips_fully else None
@@ -149,7 +144,7 @@ def alone(case: SlidingContact, v_0: float, *, n_springs: int, steps_per_period:
 
 def cofs_alone(case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int) -> Iterator[float]:
     """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
-    knobs, near = Knobs(n_springs, steps, "full_slip", lump=True), None
+    knobs, near = that_touch(case, Knobs(n_springs, steps, "full_slip", lump=True), free=False), None
     for v_0 in velocities:
         check(case, v_0)
         end = steady(case, v_0, knobs, near=near)
