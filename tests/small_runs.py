@@ -10,6 +10,7 @@ import mdr
 from mdr.march import kernels
 from mdr.materials.operator import Rheology
 from mdr.normal import indentation
+from mdr.tools.anderson import shares
 
 MATERIALS = {
     "elastic": mdr.Elastic(E=3e6, nu=0.4),
@@ -27,6 +28,12 @@ PULLS = {
 TIMES = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 8.0, 8.0, 9.0]) * 1e-3
 DEPTHS = np.array([0.1, 1.0, 0.7, -0.2, 0.6, 0.9, 0.3, 0.8, 0.3, 0.25])
 FORCES = np.array([0.1, 1.0, 0.3, 0.0, 0.5, 0.8, 0.0, 0.0, 0.4, 0.6])
+
+
+def least_squares():
+    """The shares of Anderson's method, with a step that newer ones contain."""
+    steps = np.array([[1.0, 2.0, 0.5, 0.0], [0.3, -1.0, 0.2, 2.0], [1.0, 2.0, 0.5, 0.0]])
+    yield "shares", shares(steps, np.array([1.0, 0.0, 2.0, -1.0]), 1e-10).tolist()
 
 
 def slides():
@@ -76,11 +83,14 @@ def cycles():
             yield f"{name}, force", [*F, *S, *outermost, *at_edge, *begins]
 
 
+MAKERS = (least_squares, slides, presses, cycles)
+
+
 def results():
     """Name -> numbers of every run."""
     few, indentation.STEPS = indentation.STEPS, 40
     try:
-        return {name: [float(x) for x in numbers] for make in (slides, presses, cycles) for name, numbers in make()}
+        return {name: [float(x) for x in numbers] for make in MAKERS for name, numbers in make()}
     finally:
         indentation.STEPS = few
 

@@ -71,7 +71,8 @@ class Waiting:
 
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""
-        settling = assess(self.periods.cof, TOLERANCE)
+        # under a rigid pull a change shrinks at a constant rate, so that any tolerance is met in time
+        settling = assess(self.periods.cof, self.stepper.tolerance if self.scaled.rigid else TOLERANCE)
         if settling.settled and (why := self._still_moves(settling.mean)):
             return replace(settling, settled=False, kind="unsettled", why=why)
         return settling
