@@ -116,8 +116,9 @@ def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
     """
     shape, cycle = case.indenter, case.cycle
     radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
-    gaps = (np.unique([0.0, *shape.profile_1d(np.array(radii))]) - cycle.u_z0) / cycle.du_z
-    return tuple(gaps[(kept_gap(case.T) < gaps) & (gaps < 1)].tolist())
+    depths = {0.0, *(shape.profile_1d(np.array(radii)).tolist() if radii else ())}
+    gaps, kept = {(depth - cycle.u_z0) / cycle.du_z for depth in depths}, kept_gap(case.T)
+    return tuple(sorted(gap for gap in gaps if kept < gap < 1))
 
 
 def mean_normal_force(case: SlidingContact) -> float:
