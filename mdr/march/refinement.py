@@ -124,34 +124,28 @@ def within(
     springs throw the body as they touch.
     """
     check(case, v_0)
-    runs, few_steps, coarser = _Runs(case, v_0, near), 0, None
+    runs, knobs, coarser = _Runs(case, v_0, near), that_touch(case, knobs, free[1]), None
+    few_steps, between = knobs.steps if runs.jolts else knobs.steps // 2, 3 * knobs.steps // 4
+    first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps))) for share in FIRST)), None)
+    if first is not None and first.settling.settled and not first.slips_fully and free[0] and not runs.jolts:
+        knobs = _enough_springs(runs, first, knobs, few_steps)
     while True:
-        knobs = that_touch(case, knobs, free[1])
-        few_steps = knobs.steps if runs.jolts else few_steps or knobs.steps // 2
-        first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps))) for share in FIRST)), None)
-        if (
-            first is not None
-            and first.settling.settled
-            and not first.slips_fully
-            and free[0]
-            and few_steps < knobs.steps
-        ):
-            knobs = _enough_springs(runs, first, knobs, few_steps)
         main = runs.main(knobs, None if coarser is None or case.pull.is_rigid else MOST_BESIDE)
         if not main.settling.settled:
             # finer steps make a state that hardly repeats harder to find
             best = coarser or _Bounded(main, 0.0)
             return best.finished(knobs.record), best.main
-        half = runs.beside(main, knobs.coarser(knobs.steps // 2))
+        half, most = (runs.beside(main, knobs.coarser(steps)) for steps in (knobs.steps // 2, between))
         ringing = _of_ringing(runs, main)
         carried = main.off_load <= knobs.accuracy / 2 or not any(free)
-        if main.slips_fully and carried and ringing == 0 and _clear_of_stick(looked_at(main), looked_at(half)):
-            return _Bounded(main, 0.0).finished(knobs.record), main
-        error_springs = _of_springs(runs, main, knobs, few_steps)
-        missing, error_steps = _of_steps(runs, main, half, knobs, free[1])
+        if main.slips_fully and carried and ringing == 0:
+            march = _Bounded(main, 0.0).looked_at(knobs.record)
+            if _clear_of_stick(march, looked_at(half)):
+                return finish(march), main
+        uneven = main.scaled.light and main.scaled.remembers and not case.keeps_contact
+        error_springs = _of_springs(runs, main, knobs, knobs.steps if runs.jolts else few_steps)
+        missing, error_steps = _of_steps(runs, main, half, most, UNEVEN if uneven else (), free[1])
         error_steps += ringing
-        if main.scaled.light and main.scaled.remembers and not case.keeps_contact:
-            free = (free[0], free[1] and knobs.steps < MOST_UNEVEN)
         if time_is_over():
             if coarser is None:
                 why = "the time limit is over before the runs beside it, which bound cof_error, were done"
@@ -159,23 +153,25 @@ def within(
                 coarser = _Bounded(replace(main, settling=unknown), 0.0)
             return coarser.finished(knobs.record), coarser.main
         bounded, share = _Bounded(main, error_springs + error_steps, missing), knobs.accuracy / 2
+        finer = 2 * knobs.steps if uneven else 2 * between
+        may_refine = free[0] and knobs.n_springs < MOST_SPRINGS, free[1] and finer <= (
+            MOST_UNEVEN if uneven else MOST_STEPS
+        )
         off_load = main.off_load > share
-        more_springs = free[0] and (error_springs > share or off_load) and knobs.n_springs < MOST_SPRINGS
-        more_steps = free[1] and (error_steps > share or off_load) and knobs.steps < MOST_STEPS
+        more_springs = may_refine[0] and (error_springs > share or off_load)
+        more_steps = may_refine[1] and (error_steps > share or off_load)
         met = bounded.error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
         if met or awaited or not (more_springs or more_steps) or main.settling.spread > knobs.accuracy / 4:
             march = bounded.looked_at(knobs.record)
-            if march.sees_contact or not free[1] or knobs.steps >= MOST_STEPS:
+            if march.sees_contact or not may_refine[1]:
                 return finish(march, bounded.error, missing), main
             more_springs, more_steps = False, True
         coarser = bounded
-        n_springs, steps = knobs.n_springs * (1 + more_springs), knobs.steps * (1 + more_steps)
-        knobs = replace(
-            knobs,
-            n_springs=max(knobs.n_springs, min(n_springs, MOST_SPRINGS)),
-            steps=max(knobs.steps, min(steps, MOST_STEPS)),
-        )
+        if more_springs:
+            knobs = replace(knobs, n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
+        if more_steps:
+            knobs, between = replace(knobs, steps=finer), 3 * finer // 4 if uneven else knobs.steps
 
 
 def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) -> Knobs:
@@ -199,21 +195,24 @@ def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int) -> floa
     return missed + max(every.settling.spread, 0.0 if every.settling.settled else BUDGET)
 
 
-def _of_steps(runs: _Runs, main: Steady, half: Steady, knobs: Knobs, extrapolate: bool) -> tuple[float, float]:
+def _of_steps(
+    runs: _Runs, main: Steady, half: Steady, most: Steady, uneven: tuple[float, ...], extrapolate: bool
+) -> tuple[float, float]:
     """What the steps miss of the COF, over mu_0, and the bound on the error of that; zero and the bound on the whole
     where the order of the scheme is not confirmed.
+
+    half, most: companions with half of the steps and with more. uneven: shares of the steps of further ones.
     """
-    most = runs.beside(main, knobs.coarser(3 * knobs.steps // 4))
-    hidden = _kink(main, half)
-    plain = (max(_missed(main, half), 2 * _missed(main, most)) + hidden) * _erratic(runs.fast)
-    if main.scaled.light and main.scaled.remembers and not runs.case.keeps_contact:
-        others = (runs.beside(main, knobs.coarser(int(share * knobs.steps))) for share in UNEVEN)
-        plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others))
-    regular = not main.scaled.light and _erratic(runs.fast) == 1
+    steps, hidden, margin = main.knobs.steps, _kink(main, half), _erratic(runs.fast)
+    lost = (steps / most.knobs.steps) ** 2 - 1  # what `most` misses more than main, over what main misses
+    plain = (max(_missed(main, half), 14 / 9 * _missed(main, most) / lost) + hidden) * margin
+    others = [runs.beside(main, main.knobs.coarser(int(share * steps))) for share in uneven]
+    plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others)) if others else plain
+    regular = not main.scaled.light and margin == 1
     if extrapolate and regular and half.settling.settled and most.settling.settled:
-        two = (main.cof - half.cof) / 3, (main.cof - most.cof) * 9 / 7  # of second order, what is missing
+        two = (main.cof - half.cof) / 3, (main.cof - most.cof) / lost  # of second order, what is missing
         apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
-        bound = 3 * apart + LEFT * size + 2 * hidden
+        bound = 4 * apart + LEFT * size + 2 * hidden
         bound += main.settling.spread + half.settling.spread + most.settling.spread
         if apart < CONFIRMED * size and bound < plain:
             return 0.5 * (two[0] + two[1]), bound + _of_fast_relaxation(main)
