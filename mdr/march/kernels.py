@@ -57,6 +57,7 @@ from mdr.materials.operator import (
     L_STIFFNESS,
     L_TIME,
 )
+from mdr.tools.anderson import shares
 from mdr.tools.jit import compiled
 
 Array = NDArray[np.float64]
@@ -65,8 +66,8 @@ _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep the
 _jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
 _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 
-# The rows of the operator's table are compiled in, and the cache of compiled code sees edits of this file only: who
-# changes them in operator.py is stopped here, and by changing this line has everything compiled anew.
+# The rows of the operator's table are compiled in, and `shares` too, but the cache of compiled code sees edits of this
+# file only: who changes the rows is stopped here, and by changing this line has everything compiled anew.
 assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
 
 # --- what the functions take: arrays and floats by name -------------------------------------------
@@ -681,13 +682,18 @@ def glide(e, held, springs, motion, k_0, out):
 
 
 @_jit
-def within_cone(e, s, w):
-    """Extensions e (n,) brought within those of slip, -s and s, in place; returns the sum of w e."""
-    S = 0.0
-    for i in range(e.size):
-        e[i] = max(min(e[i], s[i]), -s[i])
-        S += w[i] * e[i]
-    return S
+def begin(e, pressed, held, springs):
+    """Bring extensions e (1 + J, n) into the cone of friction, within the compressions pressed (n,), and put their sums
+    over the springs into held: a combination of states may leave that cone.
+    """
+    held.S[0] = 0.0
+    for i in range(pressed.size):
+        e[0, i] = max(min(e[0, i], pressed[i]), -pressed[i])
+        held.S[0] += springs.w[i] * e[0, i]
+    for a in range(held.arms.shape[1]):
+        held.arms[0, a] = 0.0
+        for i in range(pressed.size):
+            held.arms[0, a] += springs.w[i] * e[1 + a, i]
 
 
 @_jit
@@ -779,6 +785,108 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         s_1[:] = s_0
     held.y[0], held.y[1], held.y[2], held.S[0], held.S[1] = y_0, y_m, y_mm, S_0, S_m
     return as_one
+
+
+# --- the periodic state ---------------------------------------------------------------------------
+
+TURN, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
+LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
+
+
+class Search(NamedTuple):
+    """Anderson's method on its way to a state that returns after a period, updated in place. Measured is a state as a
+    vector whose length is the root of its energy.
+    """
+
+    x: Array  #: (n_x,) the state that the next period starts from
+    measured: Array  #: (n_x,) the same, measured
+    start: Array  #: (n_x,) the one that the last period started from
+    image: Array  #: (n_x,) what it came to
+    moved: Array  #: (n_x,) how far that was, measured
+    best: Array  #: (n_x,) the image that moved least
+    ways: Array  #: (memory, n_x) from image to image, oldest first
+    turns: Array  #: (memory, n_x) from move to move, measured
+    counts: NDArray[np.int64]  #: (3,)
+    changes: Array  #: (2,)
+    close: float  #: change at which the search ends
+    plain: int  #: periods before the first combination, while springs find their modes
+    patience: int  #: periods without a smaller change, after which it ends as well
+    growth: float  #: of the change over the least, at which combinations start anew
+
+
+@_jit
+def measure(x, roots, n_e):
+    """A state (n_x,), measured: roots has those of the stiffness of its n_e extensions and of the pull, and of the
+    mass over a step, as what the body travelled in the last step tells its velocity.
+    """
+    out = x * roots
+    out[n_e + 1] = roots[n_e + 1] * (x[n_e] - x[n_e + 1])
+    return out
+
+
+@_jit
+def combine(at, image, reached):
+    """Take into a search what a period has made of at.x, and the same measured; whether the search has come to its end.
+
+    If not, at.x is the state to go on from, which the caller has to measure.
+    """
+    counts, changes = at.counts, at.changes
+    size = change = 0.0
+    moved = reached - at.measured
+    for i in range(reached.size):
+        size += reached[i] * reached[i]
+        change += moved[i] * moved[i]
+    if not np.isfinite(size):
+        changes[BEST] = np.nan
+        return True
+    change = np.sqrt(change) / (np.sqrt(size) + 1e-300)
+    turn = counts[TURN]
+    counts[TURN] += 1
+    if change < changes[BEST]:
+        at.best[:] = image
+        changes[BEST], counts[SINCE] = change, turn
+    if change <= at.close or turn - counts[SINCE] > at.patience:
+        return True
+    if change > at.growth * changes[LEAST] or turn == 0:
+        counts[KEPT], changes[LEAST] = 0, np.inf
+    else:
+        if counts[KEPT] == at.ways.shape[0]:
+            at.ways[:-1], at.turns[:-1] = at.ways[1:].copy(), at.turns[1:].copy()
+            counts[KEPT] -= 1
+        at.ways[counts[KEPT]], at.turns[counts[KEPT]] = image - at.image, moved - at.moved
+        counts[KEPT] += 1
+    changes[LEAST] = min(changes[LEAST], change)
+    at.image[:], at.moved[:], at.x[:] = image, moved, image
+    if turn >= at.plain and counts[KEPT] > 0:
+        share = shares(at.turns[: counts[KEPT]], moved, 1e-10)
+        for j in range(share.size):
+            at.x[:] -= share[j] * at.ways[j]
+    return False
+
+
+@_jit
+def search(at, s, pressed, roots, body, springs, motion, table, n_periods, out):
+    """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end,
+    and whether the core moved as one in the last period.
+
+    s: (1 + J, n) compressions at the start of a period, pressed (n,) those of the springs, also where s keeps none.
+    out: Trace of the last period.
+    """
+    n_x, n = s.shape
+    n_e, now, image, ended = n_x * n, np.empty_like(s), np.empty_like(at.x), False
+    as_one = True
+    e, arms = image[:n_e].reshape(s.shape), image[n_e + 5 :].reshape((2, n_x - 1))
+    held = BodyState(image[n_e : n_e + 3], image[n_e + 3 : n_e + 5], arms)
+    while n_periods > 0 and not ended:
+        n_periods -= 1
+        image[:], now[:] = at.x, s
+        begin(e, pressed, held, springs)
+        at.start[:] = image
+        as_one = march(e, now, held, body, springs, motion, table, 0, out)
+        ended = combine(at, image, measure(image, roots, n_e))
+        if not ended:
+            at.measured[:] = measure(at.x, roots, n_e)
+    return ended, as_one
 
 
 # --- looking at a run -----------------------------------------------------------------------------

@@ -6,7 +6,7 @@ the norm of energy of springs, system spring and mass.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,6 +24,7 @@ FULL = 1e-12  #: what is missing in the COF in full slip: rounding
 NEARLY = 1e-5  #: what is missing in the COF where, within the error of a loose search, it may be that of full slip
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
+AT_ONCE = 2**22  #: extensions times steps that a search marches between two looks at the clock
 SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
 
 
@@ -52,7 +53,8 @@ def search(
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
     if slow and scaled.C:
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
-    guaranteed_stable = bool(slow) and (scaled.rigid or scaled.C > 0)
+    loose = (periodic.LOOSE,) if near and not slow else ()
+    how = periodic.Search(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
     for start in starts:
         x = start.x
 
@@ -61,11 +63,11 @@ def search(
                 raise _OutOfTime
             return stepper.period(stepper.within_friction(like.with_vector(x))).x
 
-        loose = near and not slow
-        for close in ((periodic.LOOSE,) if loose else ()) + (periodic.CLOSE, periodic.CLOSEST):
-            plain = 1 if near else periodic.PLAIN
+        for close in (*loose, periodic.CLOSE, periodic.CLOSEST):
+            how = replace(how, close=close)
             try:
-                found = periodic.find(period, x, norm.of, norm.pushes, slow, guaranteed_stable, close, gain, plain)
+                arrived = _by_anderson(stepper, start.with_vector(x), norm, how)
+                found = periodic.find(period, arrived, norm.of, norm.pushes, how, gain)
             except _OutOfTime:
                 found = None
             if found is None:
@@ -79,6 +81,24 @@ def search(
             x = found.x
     stepper.n_periods = n_before
     return None
+
+
+def _by_anderson(
+    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Search
+) -> periodic.Iterate | None:
+    """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
+    at, left, ended = how.by_anderson(start.x, norm.of(start.x)), how.most, False
+    at_once = max(1, AT_ONCE // (start.e.size * stepper.scaled.steps))
+    while left > 0 and not ended:
+        if time_is_over():
+            raise _OutOfTime
+        ended, last = stepper.search(at, start, norm.roots, min(left, at_once))
+        left -= at_once
+    change = float(at.changes[kernels.BEST])
+    if not np.isfinite(change):
+        return None
+    is_last = at.counts[kernels.SINCE] == at.counts[kernels.TURN] - 1
+    return periodic.Iterate(at.best, change, last if is_last else None)
 
 
 def _nearly_full(cof: float) -> bool:
@@ -115,9 +135,11 @@ def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, n
     # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
     size = float(np.linalg.norm(norm.of(found.x)))
     spread = 2 * found.distance * size / stepper.mean_F_z
-    state, period = stepper.advance(stepper.within_friction(state), 1)
+    period = found.end.period  # began as far from the exact one as `spread` says
+    if period is None:
+        state, period = stepper.advance(stepper.within_friction(state), 1)
     if spread > TOLERANCE and abs(1 - period.cof[-1]) <= FULL:
-        state, looked_at, stays = _slips_for_good(stepper, state, found.change * size)
+        state, looked_at, stays = _slips_for_good(stepper, state, found.end.change * size)
         period = joined([period, looked_at])
         spread = 0.0 if stays else spread
     cof = float(period.cof[-1])
@@ -150,13 +172,13 @@ class EnergyNorm:
         self.n_x = self.n_e + 5 + 2 * scaled.n_arms
         self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
         self.roots[: self.n_e] = np.sqrt(np.outer(scaled.table[L_RATIO], scaled.w)).ravel()
-        self.roots[self.n_e] = 0.0 if scaled.rigid else np.sqrt(scaled.K)
-        self.of_rate = 0.0 if scaled.rigid else np.sqrt(scaled.M or scaled.K) / scaled.h
+        if not scaled.rigid:
+            self.roots[self.n_e : self.n_e + 2] = np.sqrt(scaled.K), np.sqrt(scaled.M or scaled.K) / scaled.h
 
     def of(self, x: Array) -> Array:
         """State vectors (..., n_x) as vectors (..., n_x) whose squares are energies."""
         out = x * self.roots
-        out[..., self.n_e + 1] = self.of_rate * (x[..., self.n_e] - x[..., self.n_e + 1])
+        out[..., self.n_e + 1] = self.roots[self.n_e + 1] * (x[..., self.n_e] - x[..., self.n_e + 1])
         return out
 
     @cached_property

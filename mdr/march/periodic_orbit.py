@@ -20,11 +20,12 @@ as makes the change smaller; the springs follow by marching.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mdr.tools.anderson import shares
+from mdr.march import kernels
+from mdr.march.stepper import Periods
 from mdr.tools.arrays import Array
 
 Step = Callable[[Array], Array]
@@ -53,93 +54,103 @@ LOST = 5  #: corrections in a row of which no share is a gain, after which it en
 
 
 @dataclass(frozen=True, eq=False)
+class Iterate:
+    """A state that a search has come to."""
+
+    x: Array  #: the state
+    change: float  #: how far it moved in the last period, over its size
+    period: Periods | None = None  #: what is known of that period
+
+
+@dataclass(frozen=True, eq=False)
 class FixedPoint:
     """A state that returns after a period."""
 
-    x: Array  #: the state
-    change: float  #: what is left of its change over a period, over its size
-    gain: float  #: bound on its distance to the exact fixed point, over that change
+    end: Iterate  #: the state
+    gain: float  #: bound on its distance to the exact fixed point, over its change over a period
+
+    @property
+    def x(self) -> Array:
+        """The state."""
+        return self.end.x
 
     @property
     def distance(self) -> float:
         """Bound on the distance to the exact fixed point, over the size of the state."""
-        return (self.change + 1e-15) * self.gain  # 1e-15: rounding
+        return (self.end.change + 1e-15) * self.gain  # 1e-15: rounding
+
+
+@dataclass(frozen=True)
+class Search:
+    """How to look for a fixed point; slow: times of the material, in periods, that the springs remember."""
+
+    slow: tuple[float, ...] = ()
+    stable: bool = False  #: whether it is guaranteed that with them no multiplier reaches 1
+    close: float = CLOSE  #: change over a period, over the size of the state, at which Anderson's method ends
+    plain: int = PLAIN  #: periods that are marched before the first combination
+
+    @property
+    def closest(self) -> float:
+        """`close`, or less where changes add up over the slow times."""
+        return min(self.close, AWAY / max(self.slow)) if self.slow else self.close
+
+    @property
+    def enough(self) -> float:
+        """Change that an answer may have."""
+        return replace(self, close=max(self.close, CLOSE)).closest
+
+    @property
+    def most(self) -> int:
+        """Periods after which Anderson's method gives up."""
+        return MOST + A_TIME[1] * len(self.slow)
+
+    def by_anderson(self, x: Array, measured: Array) -> kernels.Search:
+        """Anderson's method at its beginning, from a state (n,) and the same measured."""
+        memory = MEMORY + A_TIME[0] * len(self.slow) - 1
+        (start, image, moved, best), (ways, turns) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
+        return kernels.Search(
+            x=x.copy(),
+            measured=measured.copy(),
+            start=start,
+            image=image,
+            moved=moved,
+            best=best,
+            ways=ways,
+            turns=turns,
+            counts=np.zeros(3, dtype=np.int64),
+            changes=np.array([np.inf, np.inf]),
+            close=self.closest,
+            plain=self.plain,
+            patience=PATIENCE,
+            growth=GROWTH,
+        )
 
 
 def find(
     step: Step,
-    start: Array,
+    near: Iterate | None,
     measure: Measure,
     pushes: tuple[Array, ...],
-    slow: tuple[float, ...] = (),
-    guaranteed_stable: bool = False,
-    close: float = CLOSE,
+    how: Search,
     gain: float | None = None,
-    plain: int = PLAIN,
 ) -> FixedPoint | None:
-    """The fixed point of `step` near `start`, shape (n,), or None.
+    """The fixed point of `step` near a state that Anderson's method has come to, shape (n,), or None.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
-    length along the slow motions. slow: times of the material, in periods, that the springs remember.
-    guaranteed_stable: that with them no multiplier reaches 1. close: change over a period, over the size of the state,
-    at which the search ends; CLOSE is enough for an answer at least. gain: that of the same motion at another
-    resolution, where it is known. plain: periods that are marched before the first combination.
+    length along the slow motions. gain: that of the same motion at another resolution, where it is known.
     """
-    close, enough = (min(one, AWAY / max(slow)) if slow else one for one in (close, max(close, CLOSE)))
-    found = _anderson(step, start, measure, slow, close, plain)
-    if found is None:
+    if near is None:
         return None
-    if found.change > close:
-        found = _newton_picard(step, found, measure, pushes, close)
-    if found.change > enough:
+    if near.change > how.closest:
+        near = _newton_picard(step, near, measure, pushes, how.closest)
+    if near.change > how.enough:
         return None
     if gain is None:
-        gain = _gain(step, found, measure, pushes, slow, guaranteed_stable)
-    return FixedPoint(found.x, found.change, gain) if gain is not None else None
+        gain = _gain(step, near, measure, pushes, how.slow, how.stable)
+    return FixedPoint(near, gain) if gain is not None else None
 
 
-@dataclass(frozen=True, eq=False)
-class _Iterate:
-    x: Array
-    change: float
-
-
-def _anderson(
-    step: Step, x: Array, measure: Measure, slow: tuple[float, ...], close: float, plain: int
-) -> _Iterate | None:
-    """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
-    memory, most = (n + more * len(slow) for n, more in zip((MEMORY, MOST), A_TIME, strict=True))
-    ways: list[Array] = []  # from image to image
-    turns: list[Array] = []  # from change to change, measured
-    image = before = x
-    best, since = _Iterate(x, np.inf), 0
-    least, measured = np.inf, measure(x)
-    for turn in range(most):
-        last, image = image, step(x)
-        reached = measure(image)
-        size = float(np.linalg.norm(reached)) + 1e-300
-        if not np.isfinite(size):
-            return None
-        moved = reached - measured
-        change = float(np.linalg.norm(moved)) / size
-        if change < best.change:
-            best, since = _Iterate(image, change), turn
-        if change <= close or turn - since > PATIENCE:
-            break
-        if change > GROWTH * least or turn == 0:
-            ways, turns, least = [], [], np.inf
-        else:
-            ways, turns = [*ways, image - last][1 - memory :], [*turns, moved - before][1 - memory :]
-        least, before = min(least, change), moved
-        if turn < plain or not turns:
-            x, measured = image, reached
-        else:
-            x = image - shares(np.array(turns), moved, 1e-10) @ np.array(ways)
-            measured = measure(x)
-    return best
-
-
-def _newton_picard(step: Step, start: _Iterate, measure: Measure, pushes: tuple[Array, ...], close: float) -> _Iterate:
+def _newton_picard(step: Step, start: Iterate, measure: Measure, pushes: tuple[Array, ...], close: float) -> Iterate:
     """The state of least change that corrections along the pushed motions lead to.
 
     The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go the
@@ -151,7 +162,7 @@ def _newton_picard(step: Step, start: _Iterate, measure: Measure, pushes: tuple[
         tried_ways = tuple(way * one for way, one in zip(ways, pushes, strict=True))
         before, after = _displaced(step, best.x, (x, image), measure, tried_ways, push)
         size = float(np.linalg.norm(measure(image))) + 1e-300
-        best = _Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
+        best = Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
         turn = measure(after - before).T
         if not np.isfinite(turn).all():
             break
@@ -167,7 +178,7 @@ def _newton_picard(step: Step, start: _Iterate, measure: Measure, pushes: tuple[
             part *= 0.5
         lost = 0 if part >= SHORTEST else lost + 1
         if part >= SHORTEST:
-            best = _Iterate(reached, change)
+            best = Iterate(reached, change)
         if lost:  # no share was a gain: what these pushes saw was not of here
             push *= 0.1
         else:
@@ -199,7 +210,7 @@ def _displaced(
 
 def _gain(
     step: Step,
-    found: _Iterate,
+    found: Iterate,
     measure: Measure,
     pushes: tuple[Array, ...],
     slow: tuple[float, ...],

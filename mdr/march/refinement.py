@@ -154,8 +154,9 @@ def within(
             return coarser.finished(knobs.record), coarser.main
         bounded, share = _Bounded(main, error_springs + error_steps, missing), knobs.accuracy / 2
         finer = 2 * knobs.steps if uneven else 2 * between
-        may_refine = free[0] and knobs.n_springs < MOST_SPRINGS, free[1] and finer <= (
-            MOST_UNEVEN if uneven else MOST_STEPS
+        may_refine = (
+            free[0] and knobs.n_springs < MOST_SPRINGS,
+            free[1] and finer <= (MOST_UNEVEN if uneven else MOST_STEPS),
         )
         off_load = main.off_load > share
         more_springs = may_refine[0] and (error_springs > share or off_load)

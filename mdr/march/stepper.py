@@ -118,9 +118,12 @@ class Stepper:
         """A whole number of periods in place, counted."""
         nothing = np.empty((0, *state.e.shape))
         trace, as_one = self._march(state, n_steps, 0, nothing, nothing)
-        self.n_periods += n_steps // self.scaled.steps
-        self.ticker.tick(n_steps // self.scaled.steps)
+        self._count(n_steps // self.scaled.steps)
         return trace, as_one
+
+    def _count(self, n_periods: int) -> None:
+        self.n_periods += n_periods
+        self.ticker.tick(n_periods)
 
     def _march(self, state: MarchState, n_steps: int, k_0: int, e: Array, s: Array) -> tuple[kernels.Trace, bool]:
         """March a state in place from step k_0 of the period; e, s: see Trace."""
@@ -173,14 +176,22 @@ class Stepper:
         return state, PeriodRecord(seen, y, e_kept, s_kept, stored, period)
 
     def within_friction(self, state: MarchState) -> MarchState:
-        """The state with every extension within the cone of friction, and the sums that belong to it; in place.
-
-        A combination of states may leave that cone.
-        """
-        state.body.S[0] = kernels.within_cone(state.e[0], self._compression(state, 0), self.scaled.w)
-        if self.scaled.n_arms:
-            state.body.arms[0] = state.e[1:] @ self.scaled.w
+        """The state with every extension within the cone of friction, and the sums that belong to it; in place."""
+        kernels.begin(state.e, self._compression(state, 0), state.body, self.springs)
         return state
+
+    def search(self, at: kernels.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
+        """Go on with a search for its periodic state, for at most so many periods; whether it has come to its end, and
+        the last period. like: a state of this march.
+        """
+        n_before, nothing = int(at.counts[kernels.TURN]), np.empty((0, *like.e.shape))
+        trace = kernels.Trace(np.empty(self.scaled.steps), np.empty(self.scaled.steps), nothing, nothing)
+        motion = self.springs, self.motion, self.scaled.table
+        ended, as_one = kernels.search(
+            at, like.s, self._compression(like, 0), roots, self.scaled.body, *motion, n_periods, trace
+        )
+        self._count(int(at.counts[kernels.TURN]) - n_before)
+        return bool(ended), self._periods_of(like.with_vector(at.start).body, trace, bool(as_one))
 
     def _compression(self, state: MarchState, step: int) -> Array:
         """Compressions at a step of the period; the elastic march does not keep them."""
