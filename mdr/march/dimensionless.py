@@ -195,7 +195,7 @@ class ScaledContact:
         """
         if self.rigid:
             return None
-        y_n, resonant = self._full_slip_motion(S), self._resonant(self._inertia())
+        y_n, resonant = self._full_slip_motion(S), self._resonant
         swings = self._velocities(y_n)
         n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(swings))
         F_n = complex(np.fft.rfft(S)[n]) / self.steps * complex(self.rheology.response(n))
@@ -221,7 +221,7 @@ class ScaledContact:
         S = self.normal.S
         y_n = self._full_slip_motion(S)
         driven = np.abs(np.fft.rfft(S)) > 1e-10 * abs(float(S.sum()))
-        if (self._resonant(self._inertia()) & driven)[1:].any():
+        if (self._resonant & driven)[1:].any():
             return np.inf
         y = np.fft.irfft(y_n, self.steps)
         y_dot = (np.roll(y, -1) - np.roll(y, 1)) / (2 * self.h)
@@ -231,8 +231,8 @@ class ScaledContact:
 
     def _state(self, S: Array, y: Array) -> kernels.BodyState:
         """State at phase 0 of a body that was at y (3,), now and before, under the full-slip force S (n_steps,)."""
-        arms_n = self._arms_n(np.fft.rfft(S), self._turn()) if self.n_arms else []
-        arms = [np.fft.irfft(arm_n, self.steps)[[0, -1]] for arm_n in arms_n]
+        arms_n = self._arms_n(self._turn()) if self.n_arms else []
+        arms = [np.fft.irfft(arm_n * np.fft.rfft(S), self.steps)[[0, -1]] for arm_n in arms_n]
         return kernels.BodyState(y, S[[0, -1]], np.array(arms).reshape(-1, 2).T.copy())
 
     def _positions(self, y_n: NDArray[np.complex128]) -> Array:
@@ -241,14 +241,21 @@ class ScaledContact:
 
     def _full_slip_motion(self, S: Array) -> NDArray[np.complex128]:
         """Harmonics of the periodic motion under the full-slip force S (n_steps,), as of rfft; none on a resonance."""
-        S_n, turn = np.fft.rfft(S), self._turn()
-        b_1, b_0, b_m = self.body.b_1, self.body.b_0, self.body.b_m
-        inertia = self._inertia()
-        resonant = self._resonant(inertia)
-        force_n = (b_1 * turn + b_0 + b_m / turn) * S_n
-        for b, old, arm_n in zip(*self.body.arms, self._arms_n(S_n, turn), strict=True):
+        return np.asarray(self._compliance * np.fft.rfft(S))
+
+    @cached_property
+    def _compliance(self) -> NDArray[np.complex128]:
+        """Harmonics of the periodic motion over those of S, (n_steps // 2 + 1,); zero on a resonance."""
+        turn = self._turn()
+        force_n = self.body.b_1 * turn + self.body.b_0 + self.body.b_m / turn
+        for b, old, arm_n in zip(*self.body.arms, self._arms_n(turn), strict=True):
             force_n += (b + old / turn) * arm_n
-        return np.asarray(np.where(resonant, 0, -force_n / np.where(resonant, 1, inertia)))
+        return np.asarray(np.where(self._resonant, 0, -force_n / np.where(self._resonant, 1, self._inertia(turn))))
+
+    @cached_property
+    def _resonant(self) -> NDArray[np.bool_]:
+        """Whether each harmonic is a resonance without damping, (n_steps // 2 + 1,)."""
+        return np.asarray(np.abs(self._inertia(self._turn())) < max(1e-9 * self.h**2, 2e-15))
 
     def _velocities(self, y_n: NDArray[np.complex128]) -> Array:
         """Amplitude of the velocity that each harmonic of the motion has."""
@@ -280,26 +287,17 @@ class ScaledContact:
         """Decay and gain of each arm over a step."""
         return [(float(row[0]), float(row[1])) for row in self.table[[L_DECAY, L_GAIN], 1:].T]
 
-    def _arms_n(self, S_n: NDArray[np.complex128], turn: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
-        return [self._of_arm(decay, gain, turn) * S_n for decay, gain in self._arms()]
-
-    def _of_arm(self, decay: float, gain: float, turn: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """What an arm makes of every harmonic of S: nothing of its mean, however slow it is."""
-        below = turn - decay
-        below[0] = 1.0
-        return np.asarray(gain * (turn - 1) / below)
+    def _arms_n(self, turn: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
+        """What each arm makes of every harmonic of S: nothing of its mean, however slow it is."""
+        return [gain * (turn - 1) / np.where(turn == 1, 1, turn - decay) for decay, gain in self._arms()]
 
     def _turn(self) -> NDArray[np.complex128]:
         """exp(i n h) of every harmonic."""
         return np.asarray(np.exp(1j * self.h * np.arange(self.steps // 2 + 1)))
 
-    def _inertia(self) -> NDArray[np.complex128]:
+    def _inertia(self, turn: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """What the recursion answers every harmonic with."""
-        turn = self._turn()
         return np.asarray(turn - self.body.a_1 - self.body.a_2 / turn)
-
-    def _resonant(self, inertia: NDArray[np.complex128]) -> NDArray[np.bool_]:
-        return np.asarray(np.abs(inertia) < max(1e-9 * self.h**2, 2e-15))
 
     def rest_state(self, v: float) -> kernels.BodyState:
         """State of a body at rest with nothing stretched, from which the pull sets off at v."""

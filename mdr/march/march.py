@@ -83,6 +83,7 @@ class Steady:
     n_periods: int  # marched so far
     on_the_way: float  # periods that a run from rest takes to stretch springs and system
     waited: Waiting | None  # of a march of so many periods
+    seen: PeriodRecord | None  # a close look at the last period, where one was taken
 
     @property
     def scaled(self) -> ScaledContact:
@@ -190,15 +191,15 @@ def steady(
     if not periods.as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
         return steady(case, v_0, replace(knobs, lump=False), n_periods, near, most)
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
-    waited = waiting if orbit is None else None
-    return Steady(case, v_0, knobs, springs, stepper, settling, state, stepper.n_periods, on_the_way, waited)
+    waited, seen = (waiting, None) if orbit is None else (None, orbit.seen)
+    return Steady(case, v_0, knobs, springs, stepper, settling, state, stepper.n_periods, on_the_way, waited, seen)
 
 
 def looked_at(end: Steady) -> March:
     """A close look at further periods of a march, one or as many as are to be kept."""
     stepper, knobs, settling, state = end.stepper, end.knobs, end.settling, end.state
-    records = []
-    for _ in range(max(1, knobs.record)):
+    records = [end.seen] if end.seen is not None and knobs.record == 0 else []
+    while len(records) < max(1, knobs.record):
         state, record = stepper.observe(state, keep=knobs.record > 0)
         records.append(record)
     if not all(np.isfinite(record.period.cof).all() for record in records):

@@ -14,8 +14,8 @@ import numpy as np
 from mdr.march import kernels
 from mdr.march import periodic_orbit as periodic
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
-from mdr.march.stepper import MarchState, Periods, Stepper, joined
+from mdr.march.steady_state import UNKNOWN, Settling
+from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.materials.operator import L_RATIO
 from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
@@ -35,6 +35,7 @@ class Orbit:
     state: MarchState  #: at the end of the period that `period` tells of
     period: Periods
     settling: Settling
+    seen: PeriodRecord | None = None  #: a close look at that period, where one was taken
 
 
 class _OutOfTime(Exception):
@@ -67,6 +68,8 @@ def search(
             how = replace(how, close=close)
             try:
                 arrived = _by_anderson(stepper, start.with_vector(x), norm, how)
+                if arrived is not None and (orbit := _full_slip(stepper, start, arrived, norm)) is not None:
+                    return orbit
                 found = periodic.find(period, arrived, norm.of, norm.pushes, how, gain)
             except _OutOfTime:
                 found = None
@@ -130,37 +133,37 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
     return gain if gain is not None and gain * max(one.h, other.h) ** 2 < SAME_GAIN else None
 
 
+def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm: EnergyNorm) -> Orbit | None:
+    """The orbit of a state that slips throughout, by so much that its change over a period takes ages to end that; None
+    of any other. There is no need to know how far the exact one is: the COF is the same.
+
+    Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
+    """
+    if near.period is None or abs(1 - near.period.cof[-1]) > FULL:
+        return None
+    scaled = stepper.scaled
+    state, record = stepper.observe(stepper.within_friction(like.with_vector(near.x)), keep=False)
+    sums = record.seen.sums
+    change = near.change * float(np.linalg.norm(norm.of(near.x)))
+    drift = change / np.sqrt(scaled.M or (1.0 if scaled.rigid else scaled.K))  # under a rigid pull that of the springs
+    if sums[kernels.STICK_TIME] > 0 or not AGES * drift < sums[kernels.LEAST_SLIP] < np.inf:
+        return None
+    cof = float(record.period.cof[-1])
+    return Orbit(state, record.period, Settling(cof, 0.0, True, "periodic", gain=np.inf), record)
+
+
 def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, norm: EnergyNorm) -> Orbit:
-    """The COF of the periodic state, after one period in it, and how far it may be from the exact one."""
+    """The COF of the periodic state, and how far it may be from that of the exact one."""
     # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
-    size = float(np.linalg.norm(norm.of(found.x)))
-    spread = 2 * found.distance * size / stepper.mean_F_z
+    spread = 2 * found.distance * float(np.linalg.norm(norm.of(found.x))) / stepper.mean_F_z
     period = found.end.period  # began as far from the exact one as `spread` says
     if period is None:
         state, period = stepper.advance(stepper.within_friction(state), 1)
-    if spread > TOLERANCE and abs(1 - period.cof[-1]) <= FULL:
-        state, looked_at, stays = _slips_for_good(stepper, state, found.end.change * size)
-        period = joined([period, looked_at])
-        spread = 0.0 if stays else spread
     cof = float(period.cof[-1])
     if spread <= SOLVED_TOLERANCE:
         return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain))
     why = "a periodic state was found, but not how far it may be from the exact one"
     return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why))
-
-
-def _slips_for_good(stepper: Stepper, state: MarchState, change: float) -> tuple[MarchState, Periods, bool]:
-    """Whether a period is full slip, by so much that a change of this size a period takes ages to end it; and the
-    state after it.
-
-    Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
-    """
-    scaled = stepper.scaled
-    state, record = stepper.observe(state, keep=False)
-    sums = record.seen.sums
-    drift = change / np.sqrt(scaled.M or (1.0 if scaled.rigid else scaled.K))  # under a rigid pull that of the springs
-    stays = sums[kernels.STICK_TIME] == 0 and AGES * drift < sums[kernels.LEAST_SLIP] < np.inf
-    return state, record.period, bool(stays)
 
 
 class EnergyNorm:

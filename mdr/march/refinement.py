@@ -135,13 +135,14 @@ def within(
             # finer steps make a state that hardly repeats harder to find
             best = coarser or _Bounded(main, 0.0)
             return best.finished(knobs.record), best.main
-        half, most = (runs.beside(main, knobs.coarser(steps)) for steps in (knobs.steps // 2, between))
+        half = runs.beside(main, knobs.coarser(knobs.steps // 2))
         ringing = _of_ringing(runs, main)
         carried = main.off_load <= knobs.accuracy / 2 or not any(free)
         if main.slips_fully and carried and ringing == 0:
             march = _Bounded(main, 0.0).looked_at(knobs.record)
             if _clear_of_stick(march, looked_at(half)):
                 return finish(march), main
+        most = runs.beside(main, knobs.coarser(between))
         uneven = main.scaled.light and main.scaled.remembers and not case.keeps_contact
         error_springs = _of_springs(runs, main, knobs, knobs.steps if runs.jolts else few_steps)
         missing, error_steps = _of_steps(runs, main, half, most, UNEVEN if uneven else (), free[1])
