@@ -184,8 +184,9 @@ def has_closed_form(case: SlidingContact) -> bool:
 def friction_alone(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
     """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
     case = resolved(case)
-    out = np.full(v_0.shape, static_cof(case))
-    order = np.argsort(v_0, kind="stable")[int(np.sum(v_0 == 0)) :]
+    at_rest = v_0 == 0
+    out = np.full(v_0.shape, static_cof(case) if at_rest.any() else 0.0)
+    order = np.argsort(v_0, kind="stable")[int(at_rest.sum()) :]
     if has_closed_form(case):
         out[order] = average_friction(case, v_0[order]).cof
     else:

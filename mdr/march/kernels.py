@@ -392,22 +392,20 @@ def kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay):
 
 
 @_jit
-def free_response(e, s, table, out):
-    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows as in Free."""
+def free_response(e, s, table, step, out):
+    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows as in Free, as
+    far as they are asked for: rates where a spring may be in contact, those of the compression where it may touch.
+    """
     out[:] = 0.0
-    for k in range(e.shape[0]):
-        free, rate, end, shed = table[L_FREE, k], table[L_RATE, k], table[L_END, k], table[L_SHED, k]
-        for i in range(e.shape[1]):
-            x = s[k, i]
-            lag = x - e[k, i]
-            out[0, i] += free * x
-            out[1, i] += rate * x
-            out[2, i] += end * x
-            out[3, i] += shed * x
-            out[4, i] += free * lag
-            out[5, i] += rate * lag
-            out[6, i] += end * lag
-            out[7, i] += shed * lag
+    for row in range(4 if table[L_STIFFNESS, 0] > 0.0 else 3):  # what arms shed matters beside a dashpot only
+        first, last = (0, e.shape[1]) if row == L_FREE else (step.n_in, step.n_out)
+        end_of_lag = e.shape[1] if row == L_FREE else step.n_out
+        for k in range(e.shape[0]):
+            share = table[row, k]
+            for i in indices(first, last):
+                out[row, i] += share * s[k, i]
+            for i in indices(0, end_of_lag):
+                out[4 + row, i] += share * (s[k, i] - e[k, i])
 
 
 @_inline
@@ -728,7 +726,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         for a in range(n_arms):
             pull -= body.arms[0, a] * held.arms[0, a] + body.arms[1, a] * held.arms[1, a]
         if n_arms > 0:
-            free_response(e_0, s_0, table, look)
+            free_response(e_0, s_0, table, step, look)
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
         ud_0 = v_0 + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
