@@ -17,7 +17,7 @@ from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.march.slide import cofs_alone, slides
+from mdr.march.slide import cofs_without_bound, slides
 from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
@@ -181,7 +181,7 @@ def has_closed_form(case: SlidingContact) -> bool:
     return case.pull.is_rigid and case.is_of_the_paper
 
 
-def friction_alone(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
+def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
     """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
     case = resolved(case)
     at_rest = v_0 == 0
@@ -190,7 +190,7 @@ def friction_alone(case: SlidingContact, v_0: Array, n_springs: int, steps_per_p
     if has_closed_form(case):
         out[order] = average_friction(case, v_0[order]).cof
     else:
-        out[order] = list(cofs_alone(case, v_0[order].tolist(), n_springs, steps_per_period))
+        out[order] = list(cofs_without_bound(case, v_0[order].tolist(), n_springs, steps_per_period))
     return out
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.units import facts_at
-from mdr.friction.cof_curve import CofCurve, cof_curve, friction_alone
+from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.friction_data import FrictionData
 from mdr.normal.resolved import at_rest, resolved
 from mdr.normal.vary import GROUPS, case_at, fields_of
@@ -176,7 +176,7 @@ class _Model:
         return case_at(self.case, settings)
 
     def residuals(self, x: Array) -> Array:
-        cof = friction_alone(self.case_of(x), self.data.v_0, N_SPRINGS, STEPS)
+        cof = friction_without_bound(self.case_of(x), self.data.v_0, N_SPRINGS, STEPS)
         return (cof - self.data.cof) / (1.0 if self.data.error is None else self.data.error)
 
 

@@ -8,8 +8,7 @@ A threshold on the COF alone would therefore read v_c too low. Two sharper signs
 * In a run without any stick the slip velocity is at least v_0 - v_c, since in full slip the motion relative to the pull
   does not depend on v_0. One such run locates v_c: it is v_0 less the smallest slip velocity.
 * Below v_c there is stick, above it there is none. Two runs close to v_c, one on either side, confirm this. They are
-the
-  bracket, which is widened by what the numbers of steps and springs still change.
+  the bracket, which is widened by what the numbers of steps and springs still change.
 
 Runs at higher velocities, from both starts, then look for stick that returns and for friction that stays low. An
 undamped body loses a free oscillation by instants of stick alone. They reduce it until the slip velocity just touches
@@ -36,7 +35,7 @@ from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.refinement import N_SPRINGS, default_steps
 from mdr.march.run import SlidingRun
-from mdr.march.slide import alone, slide
+from mdr.march.slide import slide, slide_without_bound
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
@@ -175,11 +174,11 @@ class _Search:
         start = start or self.start
         return slide(self.case, v_0, start=start, n_springs=self.n_springs, steps_per_period=self.steps)
 
-    def sight(self, v_0: float, start: str | None = None) -> SlidingRun:
+    def quick_run(self, v_0: float, start: str | None = None) -> SlidingRun:
         """A run that tells whether springs stick; the bound on its error is worked out only where that decides."""
         self._begin(v_0)
         knobs = {"n_springs": self.n_springs, "steps_per_period": self.steps}
-        run = alone(self.case, v_0, **knobs, start=start or self.start)
+        run = slide_without_bound(self.case, v_0, **knobs, start=start or self.start)
         return self.run(v_0, start) if run.settled and _slips(run) and _is_reduced(run) else run
 
     def _begin(self, v_0: float) -> None:
@@ -231,7 +230,7 @@ class _Search:
     def _decided(
         self, v_0: float, look: Callable[[float], SlidingRun] | None = None, apart: float | None = None
     ) -> SlidingRun:
-        """A settled run at this velocity, or close by; look: `sight` or `run`; apart: how close, over v_0."""
+        """A settled run at this velocity, or close by; look: `quick_run` or `run`; apart: how close, over v_0."""
         look, apart = look or self.run, self.margin / 4 if apart is None else apart
         for off in (0.0, apart, -apart):
             if (run := look(v_0 * (1 + off))).settled:
@@ -246,7 +245,7 @@ class _Search:
         """
         guess, unsettled = self.scale, None
         for times in FAR:
-            far = self.sight(times * self.scale, "full_slip")  # from rest it would swing as fast
+            far = self.quick_run(times * self.scale, "full_slip")  # from rest it would swing as fast
             if _is_free(far):
                 guess = far.v_0 - far.least_slip
                 break
@@ -254,7 +253,7 @@ class _Search:
                 break
         v_0 = 1.37 * max(guess, LEAST * self.scale)
         while v_0 < HIGHEST * max(guess, self.scale):
-            run = self.sight(v_0)
+            run = self.quick_run(v_0)
             if _is_free(run):
                 return run
             unsettled = unsettled if run.settled else v_0
@@ -273,7 +272,7 @@ class _Search:
                 slips = [free.least_slip]
                 for finer in (3 * known // 2, 2 * known):
                     setattr(self, knob, finer)
-                    run = self._decided(free.v_0, self.sight)
+                    run = self._decided(free.v_0, self.quick_run)
                     if not _is_free(run):  # free in coarse steps only: begin anew, further up
                         further = self._first_free_run()
                         return None if further is None else self._resolve(further)
@@ -288,18 +287,18 @@ class _Search:
         """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
         low, high = 0.0, free.v_0
         guess = free.v_0 - free.least_slip
-        if guess <= LEAST * self.scale and _is_free(slow := self.sight(LEAST * self.scale)):
+        if guess <= LEAST * self.scale and _is_free(slow := self.quick_run(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         guess = max(guess, LEAST * self.scale)
         for width in (self.margin, 4 * self.margin, 16 * self.margin, 64 * self.margin):
-            above, below = (self._decided(guess * (1 + way * width), self.sight) for way in (1, -1))
+            above, below = (self._decided(guess * (1 + way * width), self.quick_run) for way in (1, -1))
             if _is_free(above) and not _is_free(below):
                 return guess, below.v_0, above.v_0
             low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
             high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
             guess = high * (1 - 1e-12) if not low < guess < high else guess
         while high - low > 2 * self.margin * high:
-            run = self._decided(0.5 * (low + high), self.sight)
+            run = self._decided(0.5 * (low + high), self.quick_run)
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
         return 0.5 * (low + high), low, high
 
@@ -351,10 +350,8 @@ class _Search:
         share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
         if multiple:
             self.steps = max(self.steps, IN_STEP)
-            if (
-                self.start == "full_slip" and high < (1 - CLOSER) * without
-            ):  # runs have found the free oscillation that keeps springs from sticking
-                return self._lock_in(high, without)
+            if self.start == "full_slip" and high < (1 - CLOSER) * without:
+                return self._lock_in(high, without)  # runs have found the free oscillation that keeps springs off stick
         near = self.run(share * v_c) if multiple else self.look(share * v_c, self.start)
         if multiple and _only_grazes(near) and _only_grazes(self.run(near.v_0)):
             return self._lock_in(near.v_0, high)

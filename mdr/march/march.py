@@ -205,10 +205,9 @@ def looked_at(end: Steady) -> March:
     if not all(np.isfinite(record.period.cof).all() for record in records):
         raise out_of_range(end.v_0)
     if knobs.lump and not all(record.period.as_one for record in records):
-        alone = replace(knobs, lump=False)
-        again = steady(end.case, end.v_0, alone, None if end.waited is None else end.waited.n)
+        again = steady(end.case, end.v_0, replace(knobs, lump=False), None if end.waited is None else end.waited.n)
         assert again is not None
-        return looked_at(again)
+        return looked_at(again if settling.settled else replace(again, settling=settling))
     if end.waited is not None:
         waited = copy(end.waited)
         for record in records:

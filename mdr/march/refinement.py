@@ -1,13 +1,14 @@
 """A run as accurate as is asked for: its companions, the bound on its error, more springs and steps until that is met.
 
-Beside a run go companions: with half the steps and with three quarters of them (for two of them may agree by chance),
-and two of few steps with all springs and with half of them. The scheme is of second order, so the difference to half
-the resolution is three times the error, and that to three quarters of the steps 7/9 of it; the greater of the two,
-springs and spread of the windows bound the error of the COF. Where the three numbers of steps confirm the order, the
-COF is extrapolated, and what the two estimates differ by bounds what is left. Where dashpots touch a body that no mass
-holds, its velocity jumps, the error falls at first order and erratically, and companions of steps in no simple ratio
-are added.
+Beside a run go companions: with half the steps and with three quarters or two thirds of them (for two of them may
+agree by chance), and two of few steps with all springs and with half of them. The scheme is of second order, so the
+difference to half the resolution is three times the error, and that to three quarters of the steps 7/9 of it; the
+greater of the two, springs and spread of the windows bound the error of the COF. Where the three numbers of steps
+confirm the order, the COF is extrapolated, and what the two estimates differ by bounds what is left. Where dashpots
+touch a body that no mass holds, its velocity jumps, the error falls at first order and erratically, and companions of
+steps in no simple ratio are added.
 
+Steps grow by a half and by a third in turn: 256, 384, 512, 768 ... So the companions of a run are the two before it.
 A search begins with few springs and steps. Each run begins in the periodic state of the one before.
 """
 
@@ -26,8 +27,8 @@ from mdr.tools.progress import time_is_over
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
-N_SPRINGS, _STEPS = 96, 256  # first choice; doubled while cof_error exceeds the accuracy asked for
-_STEPS_OF_JOLTS = 1024
+N_SPRINGS, _STEPS = 96, 256  # first choice; refined while cof_error exceeds the accuracy asked for
+_STEPS_OF_JOLTS = 1024  # the same for a body without mass on dashpots, whose error falls at first order
 MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
 LEFT = 0.1  #: share of what is extrapolated that counts as error

@@ -136,13 +136,17 @@ def slides(
         yield run
 
 
-def alone(case: SlidingContact, v_0: float, *, n_springs: int, steps_per_period: int, start: str) -> SlidingRun:
+def slide_without_bound(
+    case: SlidingContact, v_0: float, *, n_springs: int, steps_per_period: int, start: str
+) -> SlidingRun:
     """A run without companions: its error is that of settling."""
     knobs = Knobs(n_springs, steps_per_period, start, lump=True)
     return finish(march(case, v_0, that_touch(case, knobs, free=False)))
 
 
-def cofs_alone(case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int) -> Iterator[float]:
+def cofs_without_bound(
+    case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int
+) -> Iterator[float]:
     """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
     knobs, near = that_touch(case, Knobs(n_springs, steps, "full_slip", lump=True), free=False), None
     for v_0 in velocities:
