@@ -130,7 +130,7 @@ def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
         run = slide(case, v_0 / 1.07, **knobs)
         return replace(run, v_0=v_0, least_slip=1.07 * run.least_slip)
 
-    for name in ("slide", "alone"):
+    for name in ("slide", "slide_without_bound"):
         monkeypatch.setattr(measurement, name, slow)
     found = mdr.measure_critical_velocity(case)
     assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=BUDGET)

@@ -30,7 +30,7 @@ def world(monkeypatch):
                 n_periods=n_periods,
             )  # fmt: skip
 
-        for name in ("slide", "alone"):
+        for name in ("slide", "slide_without_bound"):
             monkeypatch.setattr(measurement, name, slide)
 
     return make
