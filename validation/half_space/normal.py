@@ -43,10 +43,14 @@ def pressure(product: Callable[[Array], Array], g: Array, start: Array, toleranc
         image = product(direction)
         curvature = float(np.sum(direction * image))
         step = float(np.sum(r * direction)) / curvature if curvature > 0 else 0.0
-        new = np.maximum(p - step * direction, 0.0)
+        free = p - step * direction
+        new = np.maximum(free, 0.0)
         pulled = (new == 0) & (residual < -tolerance * scale) & ~contact
-        if pulled.any() and step > 0:  # cells that overlap come into contact
+        comes = bool(pulled.any()) and step > 0
+        if comes:  # cells that overlap come into contact
             new[pulled] = -step * residual[pulled]
             before = np.inf
-        p, residual = new, product(new) - g
+        # the product is linear along a step that changes no contact
+        residual = product(new) - g if comes or np.any(free < 0) else residual - step * image
+        p = new
     raise NotConverged(f"the normal problem is off by {wrong / scale:.1e} of its depth after {most} iterations")
