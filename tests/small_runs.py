@@ -2,12 +2,14 @@
 
 import json
 from dataclasses import replace
+from itertools import cycle
 
 import numpy as np
 from conftest import contact
 
 import mdr
 from mdr.march import kernels
+from mdr.march.march import Knobs, march
 from mdr.materials.operator import Rheology
 from mdr.normal import indentation
 from mdr.tools.anderson import shares
@@ -37,21 +39,29 @@ def least_squares():
 
 
 def slides():
-    """Every kind of spring, motion and pull, from both starts, in an odd and an even number of steps."""
-    like = contact("paraboloid")
+    """Every kind of spring, motion and pull; in turn from both starts, in an odd and an even number of steps."""
+    like, starts = contact("paraboloid"), cycle((("full_slip", 2), ("rest", 3)))
     for name, material in MATERIALS.items():
         for motion, depth_ratio in MOTIONS.items():
             for pull, groups in PULLS.items():
                 oscillation = replace(like.oscillation, u_z0=depth_ratio * like.oscillation.du_z)
                 of_pull = contact("paraboloid", **groups).pull
                 case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull)
-                for start, n_periods in (("full_slip", 2), ("rest", 3)):
-                    v_0 = 0.4 * case.unit_velocity
-                    knobs = {"n_springs": 16, "steps_per_period": 25, "n_periods": n_periods, "start": start}
-                    run = mdr.slide(case, v_0, record=n_periods - 2, **knobs)
-                    energy = run.energy_balance
-                    numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss]
-                    yield f"{name}, {motion}, {pull}, {start}", [*numbers, *(() if run.F_x is None else run.F_x)]
+                start, n_periods = next(starts)
+                knobs = {"n_springs": 16, "steps_per_period": 25, "n_periods": n_periods, "start": start}
+                run = mdr.slide(case, 0.4 * case.unit_velocity, record=n_periods - 2, **knobs)
+                energy = run.energy_balance
+                numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss]
+                yield f"{name}, {motion}, {pull}, {start}", [*numbers, *(() if run.F_x is None else run.F_x)]
+
+
+def searches():
+    """Periodic states that are solved for, of a body on springs without memory and with arms."""
+    for name in ("elastic", "arms"):
+        of_pull = contact("paraboloid", k_ratio=0.7, omega_0_ratio=1.6, c_ratio=0.1)
+        case = replace(of_pull, material=MATERIALS[name])
+        run = march(case, 0.4 * case.unit_velocity, Knobs(16, 32, "full_slip", lump=True, accuracy=1e-8))
+        yield f"search, {name}", [run.cof, run.settling.solved]
 
 
 def presses():
@@ -83,7 +93,7 @@ def cycles():
             yield f"{name}, force", [*F, *S, *outermost, *at_edge, *begins]
 
 
-MAKERS = (least_squares, slides, presses, cycles)
+MAKERS = (least_squares, slides, searches, presses, cycles)
 
 
 def results():

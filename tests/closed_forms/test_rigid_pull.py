@@ -29,10 +29,10 @@ def refined_elastic(n, depth_ratio, v_hat):
 # --- the value --------------------------------------------------------------------------------------------------
 
 
-def test_two_hundred_elastic_contacts_against_the_twin():
+def test_eighty_elastic_contacts_against_the_twin():
     rng = np.random.default_rng(7)
     worst = []
-    for _ in range(200):
+    for _ in range(80):
         shape = rng.choice(list(SHAPES))
         depth_ratio = 1 / rng.uniform(0.01, 50) if rng.random() < 0.8 else -rng.uniform(0, 0.9)
         v_hat = rng.choice([10 ** rng.uniform(-4, 0), rng.uniform(0, 1), 1 - 10 ** rng.uniform(-4, 0)])
@@ -43,10 +43,10 @@ def test_two_hundred_elastic_contacts_against_the_twin():
     assert max(worst) <= ELASTIC_BUDGET
 
 
-def test_forty_kelvin_contacts_against_the_twin():
+def test_sixteen_kelvin_contacts_against_the_twin():
     rng = np.random.default_rng(8)
     worst = []
-    for _ in range(40):
+    for _ in range(16):
         shape, T, v_hat = rng.choice(list(SHAPES)), 10 ** rng.uniform(-2, 1.48), rng.uniform(0.005, 0.995)
         depth_ratio = 10 ** rng.uniform(-1.7, 1.5) if rng.random() < 0.8 else -rng.uniform(0, 0.9)
         cof, error, _ = friction(contact(shape, depth_ratio, T), v_hat)
