@@ -57,7 +57,7 @@ def search(
     loose = (periodic.LOOSE,) if near and not slow else ()
     how = periodic.Search(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
     for start in starts:
-        x = start.x
+        x, orbit = start.x, None
 
         def period(x: Array, like: MarchState = start) -> Array:
             if time_is_over():
@@ -68,8 +68,8 @@ def search(
             how = replace(how, close=close)
             try:
                 arrived = _by_anderson(stepper, start.with_vector(x), norm, how)
-                if arrived is not None and (orbit := _full_slip(stepper, start, arrived, norm)) is not None:
-                    return orbit
+                if arrived is not None and (full := _full_slip(stepper, start, arrived, norm)) is not None:
+                    return full
                 found = periodic.find(period, arrived, norm.of, norm.pushes, how, gain)
             except _OutOfTime:
                 found = None
@@ -79,9 +79,11 @@ def search(
             told = close < periodic.LOOSE or not _nearly_full(orbit.settling.mean)
             if orbit.settling.spread <= stepper.tolerance and told:
                 return orbit
-            if slow or (orbit.settling.settled and close == periodic.CLOSEST):
+            if orbit.settling.settled and (slow or close == periodic.CLOSEST):
                 return orbit
             x = found.x
+        if slow and orbit is not None:  # waiting for arms takes far longer
+            return orbit
     stepper.n_periods = n_before
     return None
 
