@@ -57,7 +57,7 @@ from mdr.materials.operator import (
     L_STIFFNESS,
     L_TIME,
 )
-from mdr.tools.anderson import shares
+from mdr.tools.anderson import VERSION, shares
 from mdr.tools.jit import compiled
 
 Array = NDArray[np.float64]
@@ -67,8 +67,9 @@ _jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
 _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 
 # The rows of the operator's table are compiled in, and `shares` too, but the cache of compiled code sees edits of this
-# file only: who changes the rows is stopped here, and by changing this line has everything compiled anew.
+# file only: who changes them elsewhere is stopped here, and by changing these lines has everything compiled anew.
 assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
+assert VERSION == 1
 
 # --- what the functions take: arrays and floats by name -------------------------------------------
 

@@ -80,7 +80,7 @@ class Steady:
     stepper: Stepper
     settling: Settling
     state: MarchState  # at the end
-    n_periods: int  # marched so far
+    n_periods: int  # marched so far, without one that was looked at closely
     on_the_way: float  # periods that a run from rest takes to stretch springs and system
     waited: Waiting | None  # of a march of so many periods
     seen: PeriodRecord | None  # a close look at the last period, where one was taken
@@ -192,7 +192,8 @@ def steady(
         return steady(case, v_0, replace(knobs, lump=False), n_periods, near, most)
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
     waited, seen = (waiting, None) if orbit is None else (None, orbit.seen)
-    return Steady(case, v_0, knobs, springs, stepper, settling, state, stepper.n_periods, on_the_way, waited, seen)
+    before = stepper.n_periods - (seen is not None)
+    return Steady(case, v_0, knobs, springs, stepper, settling, state, before, on_the_way, waited, seen)
 
 
 def looked_at(end: Steady) -> March:
@@ -207,7 +208,10 @@ def looked_at(end: Steady) -> March:
     if knobs.lump and not all(record.period.as_one for record in records):
         again = steady(end.case, end.v_0, replace(knobs, lump=False), None if end.waited is None else end.waited.n)
         assert again is not None
-        return looked_at(again if settling.settled else replace(again, settling=settling))
+        march = looked_at(again)
+        if settling.settled or end.waited is not None:
+            return march
+        return replace(march, settling=replace(march.settling, settled=False, kind="unsettled", why=settling.why))
     if end.waited is not None:
         waited = copy(end.waited)
         for record in records:

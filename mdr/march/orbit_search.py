@@ -24,7 +24,7 @@ FULL = 1e-12  #: what is missing in the COF in full slip: rounding
 NEARLY = 1e-5  #: what is missing in the COF where, within the error of a loose search, it may be that of full slip
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
-AT_ONCE = 2**22  #: extensions times steps that a search marches between two looks at the clock
+UNWATCHED = 2**22  #: extensions times steps that a search marches between two looks at the clock
 SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
 
 
@@ -55,7 +55,7 @@ def search(
     if slow and scaled.C:
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
     loose = (periodic.LOOSE,) if near and not slow else ()
-    how = periodic.Search(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
+    how = periodic.Settings(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
     for start in starts:
         x, orbit = start.x, None
 
@@ -89,11 +89,11 @@ def search(
 
 
 def _by_anderson(
-    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Search
+    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Settings
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     at, left, ended = how.by_anderson(start.x, norm.of(start.x)), how.most, False
-    at_once = max(1, AT_ONCE // (start.e.size * stepper.scaled.steps))
+    at_once = max(1, UNWATCHED // (start.e.size * stepper.scaled.steps))
     while left > 0 and not ended:
         if time_is_over():
             raise _OutOfTime
@@ -136,8 +136,9 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
 
 
 def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm: EnergyNorm) -> Orbit | None:
-    """The orbit of a state that slips throughout, by so much that its change over a period takes ages to end that; None
-    of any other. There is no need to know how far the exact one is: the COF is the same.
+    """The orbit of a state that slips throughout, by so much that its change over a period, however large that still
+    is, takes ages to end it; None of any other. There is no need to know how far the exact one is: the COF is the same,
+    and the least slip velocity is told to that change.
 
     Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
     """

@@ -81,7 +81,7 @@ class FixedPoint:
 
 
 @dataclass(frozen=True)
-class Search:
+class Settings:
     """How to look for a fixed point; slow: times of the material, in periods, that the springs remember."""
 
     slow: tuple[float, ...] = ()
@@ -131,10 +131,11 @@ def find(
     near: Iterate | None,
     measure: Measure,
     pushes: tuple[Array, ...],
-    how: Search,
+    how: Settings,
     gain: float | None = None,
 ) -> FixedPoint | None:
-    """The fixed point of `step` near a state that Anderson's method has come to, shape (n,), or None.
+    """The fixed point of `step` near the state that Anderson's method has come to, shape (n,); None where there is none
+    of either.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
     length along the slow motions. gain: that of the same motion at another resolution, where it is known.

@@ -2,13 +2,15 @@
 
 Beside a run go companions: with half the steps and with three quarters or two thirds of them (for two of them may
 agree by chance), and two of few steps with all springs and with half of them. The scheme is of second order, so the
-difference to half the resolution is three times the error, and that to three quarters of the steps 7/9 of it; the
-greater of the two, springs and spread of the windows bound the error of the COF. Where the three numbers of steps
-confirm the order, the COF is extrapolated, and what the two estimates differ by bounds what is left. Where dashpots
-touch a body that no mass holds, its velocity jumps, the error falls at first order and erratically, and companions of
-steps in no simple ratio are added.
+difference to half the steps is three times the error, that to three quarters 7/9 of it and that to two thirds 5/4. The
+first, or 14/9 of the error by the other if that is more, bounds the error of the COF, together with springs and spread
+of the windows. Where the three numbers of steps confirm the order, the COF is extrapolated, and what the two estimates
+differ by bounds what is left.
 
-Steps grow by a half and by a third in turn: 256, 384, 512, 768 ... So the companions of a run are the two before it.
+Refined steps grow by a half and by a third in turn, 256, 384, 512, 768 ..., so that the two runs before are companions
+of the next. Where dashpots touch a body that no mass holds, its velocity jumps, and the error falls at first order and
+erratically: there steps double, and companions of steps in no simple ratio are added.
+
 A search begins with few springs and steps. Each run begins in the periodic state of the one before.
 """
 
@@ -33,7 +35,8 @@ MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
 LEFT = 0.1  #: share of what is extrapolated that counts as error
 FIRST = (0.5, 0.75, 0.25)  #: of the steps, of runs whose periodic state the main one may begin in
-CONFIRMED = 0.2  #: share by which two estimates of what the steps miss, of second order, may differ
+CONFIRMED = 0.2  #: share by which two estimates of what the steps miss, of second order, may differ, over 2 - ratio
+APART = 2.5  #: times their difference that counts as error, times 2 - ratio
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
 UNEVEN = (0.53, 0.61, 0.69, 0.83, 0.91)  #: of the steps, of companions of motions that jump as dashpots touch
@@ -140,9 +143,9 @@ def within(
         ringing = _of_ringing(runs, main)
         carried = main.off_load <= knobs.accuracy / 2 or not any(free)
         if main.slips_fully and carried and ringing == 0:
-            march = _Bounded(main, 0.0).looked_at(knobs.record)
+            march = looked_at(main)
             if _clear_of_stick(march, looked_at(half)):
-                return finish(march), main
+                return _Bounded(main, 0.0).finished(knobs.record) if knobs.record else finish(march), main
         most = runs.beside(main, knobs.coarser(between))
         uneven = main.scaled.light and main.scaled.remembers and not case.keeps_contact
         error_springs = _of_springs(runs, main, knobs, knobs.steps if runs.jolts else few_steps)
@@ -155,11 +158,9 @@ def within(
                 coarser = _Bounded(replace(main, settling=unknown), 0.0)
             return coarser.finished(knobs.record), coarser.main
         bounded, share = _Bounded(main, error_springs + error_steps, missing), knobs.accuracy / 2
-        finer = 2 * knobs.steps if uneven else 2 * between
-        may_refine = (
-            free[0] and knobs.n_springs < MOST_SPRINGS,
-            free[1] and finer <= (MOST_UNEVEN if uneven else MOST_STEPS),
-        )
+        most_steps = MOST_UNEVEN if uneven else MOST_STEPS
+        finer = min(2 * knobs.steps if uneven else 2 * between, most_steps)
+        may_refine = free[0] and knobs.n_springs < MOST_SPRINGS, free[1] and knobs.steps < most_steps
         off_load = main.off_load > share
         more_springs = may_refine[0] and (error_springs > share or off_load)
         more_steps = may_refine[1] and (error_steps > share or off_load)
@@ -174,7 +175,8 @@ def within(
         if more_springs:
             knobs = replace(knobs, n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
         if more_steps:
-            knobs, between = replace(knobs, steps=finer), 3 * finer // 4 if uneven else knobs.steps
+            between = knobs.steps if finer == 2 * between and not uneven else 3 * finer // 4
+            knobs = replace(knobs, steps=finer)
 
 
 def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) -> Knobs:
@@ -213,13 +215,23 @@ def _of_steps(
     plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others)) if others else plain
     regular = not main.scaled.light and margin == 1
     if extrapolate and regular and half.settling.settled and most.settling.settled:
-        two = (main.cof - half.cof) / 3, (main.cof - most.cof) / lost  # of second order, what is missing
-        apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
-        bound = 4 * apart + LEFT * size + 2 * hidden
-        bound += main.settling.spread + half.settling.spread + most.settling.spread
-        if apart < CONFIRMED * size and bound < plain:
-            return 0.5 * (two[0] + two[1]), bound + _of_fast_relaxation(main)
+        missing, bound = extrapolated(main.cof, half.cof, most.cof, steps / most.knobs.steps)
+        bound += 2 * hidden + main.settling.spread + half.settling.spread + most.settling.spread
+        if bound < plain:
+            return missing, bound + _of_fast_relaxation(main)
     return 0.0, plain + _of_fast_relaxation(main)
+
+
+def extrapolated(cof: float, half: float, most: float, ratio: float) -> tuple[float, float]:
+    """What a value misses to steps of no length by those with half of the steps and with 1/ratio of them, ratio < 2,
+    and the bound on the error of that; infinite where the three do not confirm an error of second order.
+
+    Of an error of first order the two estimates differ by (2 - ratio)/3 of the greater. Both limits follow this.
+    """
+    two = (cof - half) / 3, (cof - most) / (ratio**2 - 1)
+    apart, size = abs(two[0] - two[1]), max(abs(two[0]), abs(two[1]))
+    confirmed = apart < CONFIRMED * (2 - ratio) * size
+    return 0.5 * (two[0] + two[1]), APART / (2 - ratio) * apart + LEFT * size if confirmed else np.inf
 
 
 def that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:

@@ -7,6 +7,10 @@ import numpy as np
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
+VERSION = (
+    1  #: of `shares`, which march/kernels.py compiles in: raise it with every change, and the line there that asks
+)
+
 
 @compiled(nogil=True, error_model="numpy")
 def shares(steps: Array, last: Array, rcond: float) -> Array:

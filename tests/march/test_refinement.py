@@ -29,6 +29,15 @@ def test_the_accuracy_asked_for_is_met_and_the_error_within_its_bound(shape, T, 
         assert abs(run.cof - exact(case, v_0)) <= run.cof_error
 
 
+@pytest.mark.parametrize("ratio", [4 / 3, 3 / 2])
+@pytest.mark.parametrize("order", [0.5, 1.0, 1.2, 1.5, 2.0, 2.2, 3.0, 4.0])
+def test_an_error_of_another_order_is_not_extrapolated_beyond_its_bound(order, ratio):
+    cofs = [1 + 1e-3 * coarser**order for coarser in (1.0, 2.0, ratio)]
+    missing, bound = refinement.extrapolated(*cofs, ratio)
+    assert abs(cofs[0] + missing - 1) <= bound
+    assert math.isinf(bound) == (order < 1.5 or order > 2.2)
+
+
 def test_less_accuracy_takes_fewer_steps():
     sizes = [(run.n_springs, run.steps_per_period) for run in (mdr.slide(BODY, 5e-4, accuracy=a) for a in (1e-3, 1e-6))]
     assert sizes[0] < sizes[1]
