@@ -89,7 +89,7 @@ def figure(table=coarse):
             look = {"levels": levels, "norm": norm, "extend": "max"}
             ax.contourf(frequency, amplitude, values.T, cmap="viridis", alpha=0.8, **look)
             lines = ax.contour(frequency, amplitude, values.T, levels=levels, colors="k", linewidths=0.7)
-            ax.clabel(lines, fmt="%g", fontsize=9)
+            ax.clabel(lines, fmt="%g", fontsize=9, zorder=1)
             ax.fill_between(frequency, amplitude[0], 1e6 * least_amplitude(table), color="white", zorder=2)
             ax.plot(frequency, 1e6 * least_amplitude(table), color=COLOURS[1], linewidth=2.2, label="half at rest")
             ax.set(title=title, xscale="log", xlabel="frequency [Hz]")
