@@ -57,7 +57,7 @@ from mdr.materials.operator import (
     L_STIFFNESS,
     L_TIME,
 )
-from mdr.tools.anderson import VERSION, shares
+from mdr.tools.anderson import SHARES_VERSION, shares
 from mdr.tools.jit import compiled
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ _inline = njit(inline="always", error_model="numpy", fastmath=_FAST)
 # The rows of the operator's table are compiled in, and `shares` too, but the cache of compiled code sees edits of this
 # file only: who changes them elsewhere is stopped here, and by changing these lines has everything compiled anew.
 assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
-assert VERSION == 1
+assert SHARES_VERSION == 1
 
 # --- what the functions take: arrays and floats by name -------------------------------------------
 
@@ -405,7 +405,7 @@ def free_response(e, s, table, step, out):
     far as they are asked for: rates where a spring may be in contact, those of the compression where it may touch.
     """
     out[:] = 0.0
-    for row in range(4 if table[L_STIFFNESS, 0] > 0.0 else 3):  # what arms shed matters beside a dashpot only
+    for row in range(L_SHED + 1 if table[L_STIFFNESS, 0] > 0.0 else L_SHED):  # only a dashpot asks what arms shed
         first, last = (0, e.shape[1]) if row == L_FREE else (step.n_in, step.n_out)
         end_of_lag = e.shape[1] if row == L_FREE else step.n_out
         for k in range(e.shape[0]):
@@ -799,7 +799,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
 
 # --- the periodic state ---------------------------------------------------------------------------
 
-TURN, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
+PERIODS, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
 LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
 
 
@@ -849,14 +849,14 @@ def combine(at, image, reached):
         changes[BEST] = np.nan
         return True
     change = np.sqrt(change) / (np.sqrt(size) + 1e-300)
-    turn = counts[TURN]
-    counts[TURN] += 1
+    period = counts[PERIODS]
+    counts[PERIODS] += 1
     if change < changes[BEST]:
         put(image, at.best)
-        changes[BEST], counts[SINCE] = change, turn
-    if change <= at.close or turn - counts[SINCE] > at.patience:
+        changes[BEST], counts[SINCE] = change, period
+    if change <= at.close or period - counts[SINCE] > at.patience:
         return True
-    if change > at.growth * changes[LEAST] or turn == 0:
+    if change > at.growth * changes[LEAST] or period == 0:
         counts[KEPT], changes[LEAST] = 0, np.inf
     else:
         if counts[KEPT] == at.ways.shape[0]:
@@ -864,16 +864,16 @@ def combine(at, image, reached):
                 put(at.ways[j], at.ways[j - 1])
                 put(at.turns[j], at.turns[j - 1])
             counts[KEPT] -= 1
-        way, bend = at.ways[counts[KEPT]], at.turns[counts[KEPT]]
+        way, turn = at.ways[counts[KEPT]], at.turns[counts[KEPT]]
         for i in range(image.size):
             way[i] = image[i] - at.image[i]
-            bend[i] = (reached[i] - at.measured[i]) - at.moved[i]
+            turn[i] = (reached[i] - at.measured[i]) - at.moved[i]
         counts[KEPT] += 1
     changes[LEAST] = min(changes[LEAST], change)
     for i in range(image.size):
         at.image[i] = at.x[i] = image[i]
         at.moved[i] = reached[i] - at.measured[i]
-    if turn >= at.plain and counts[KEPT] > 0:
+    if period >= at.plain and counts[KEPT] > 0:
         share = shares(at.turns[: counts[KEPT]], at.moved, 1e-10)
         for j in range(share.size):
             for i in range(image.size):

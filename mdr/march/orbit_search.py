@@ -55,7 +55,7 @@ def search(
     if slow and scaled.C:
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
     loose = (periodic.LOOSE,) if near and not slow else ()
-    how = periodic.Settings(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
+    how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
     for start in starts:
         x, orbit = start.x, None
 
@@ -89,7 +89,7 @@ def search(
 
 
 def _by_anderson(
-    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Settings
+    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     at, left, ended = how.by_anderson(start.x, norm.of(start.x)), how.most, False
@@ -102,7 +102,7 @@ def _by_anderson(
     change = float(at.changes[kernels.BEST])
     if not np.isfinite(change):
         return None
-    is_last = at.counts[kernels.SINCE] == at.counts[kernels.TURN] - 1
+    is_last = at.counts[kernels.SINCE] == at.counts[kernels.PERIODS] - 1
     return periodic.Iterate(at.best, change, last if is_last else None)
 
 
@@ -182,9 +182,10 @@ class EnergyNorm:
             self.roots[self.n_e : self.n_e + 2] = np.sqrt(scaled.K), np.sqrt(scaled.M or scaled.K) / scaled.h
 
     def of(self, x: Array) -> Array:
-        """State vectors (..., n_x) as vectors (..., n_x) whose squares are energies."""
-        out = x * self.roots
-        out[..., self.n_e + 1] = self.roots[self.n_e + 1] * (x[..., self.n_e] - x[..., self.n_e + 1])
+        """State vectors (..., n_x), measured: vectors (..., n_x) whose squares are energies."""
+        out = np.empty_like(x)
+        for one, measured in zip(x.reshape(-1, self.n_x), out.reshape(-1, self.n_x), strict=True):
+            kernels.measure(one, self.roots, self.n_e, measured)
         return out
 
     @cached_property

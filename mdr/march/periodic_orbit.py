@@ -81,7 +81,7 @@ class FixedPoint:
 
 
 @dataclass(frozen=True)
-class Settings:
+class Options:
     """How to look for a fixed point; slow: times of the material, in periods, that the springs remember."""
 
     slow: tuple[float, ...] = ()
@@ -106,7 +106,7 @@ class Settings:
 
     def by_anderson(self, x: Array, measured: Array) -> kernels.Search:
         """Anderson's method at its beginning, from a state (n,) and the same measured."""
-        memory = MEMORY + A_TIME[0] * len(self.slow) - 1
+        memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # ways between so many images
         (start, image, moved, best), (ways, turns) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
         return kernels.Search(
             x=x.copy(),
@@ -131,7 +131,7 @@ def find(
     near: Iterate | None,
     measure: Measure,
     pushes: tuple[Array, ...],
-    how: Settings,
+    how: Options,
     gain: float | None = None,
 ) -> FixedPoint | None:
     """The fixed point of `step` near the state that Anderson's method has come to, shape (n,); None where there is none

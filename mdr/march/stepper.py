@@ -184,13 +184,13 @@ class Stepper:
         """Go on with a search for its periodic state, for at most so many periods; whether it has come to its end, and
         the last period. like: a state of this march.
         """
-        n_before, nothing = int(at.counts[kernels.TURN]), np.empty((0, *like.e.shape))
+        n_before, nothing = int(at.counts[kernels.PERIODS]), np.empty((0, *like.e.shape))
         trace = kernels.Trace(np.empty(self.scaled.steps), np.empty(self.scaled.steps), nothing, nothing)
         motion = self.springs, self.motion, self.scaled.table
         ended, as_one = kernels.search(
             at, like.s, self._compression(like, 0), roots, self.scaled.body, *motion, n_periods, trace
         )
-        self._count(int(at.counts[kernels.TURN]) - n_before)
+        self._count(int(at.counts[kernels.PERIODS]) - n_before)
         return bool(ended), self._periods_of(like.with_vector(at.start).body, trace, bool(as_one))
 
     def _compression(self, state: MarchState, step: int) -> Array:

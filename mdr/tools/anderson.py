@@ -7,7 +7,7 @@ import numpy as np
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
-VERSION = 1  #: of `shares`, which march/kernels.py compiles in and asks for: raise it there too with every change
+SHARES_VERSION = 1  #: march/kernels.py compiles `shares` in and asks for this: raise it there too with every change
 
 
 @compiled(nogil=True, error_model="numpy")

@@ -26,7 +26,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
-                "own, which takes a quarter of a minute; let NUMBA_CACHE_DIR name a folder that can"
+                "own, which takes half a minute; let NUMBA_CACHE_DIR name a folder that can"
             )
             ready = njit(**options)(function)
         return ready

@@ -24,7 +24,7 @@ def itself(x):
 
 def find(step, x):
     """The fixed point by the march's own method, on a map of which the march knows nothing."""
-    how = periodic.Settings()
+    how = periodic.Options()
     at = how.by_anderson(x, x)
     for _ in range(how.most):
         image = step(at.x.copy())

@@ -30,15 +30,15 @@ def pressure(product: Callable[[Array], Array], g: Array, start: Array, toleranc
     p = np.maximum(start, 0.0)
     if not p.any():
         p = np.where(g > 0, 1e-12 * scale, 0.0)
-    direction, before, residual, known = np.zeros_like(p), np.inf, product(p) - g, True
+    direction, before, residual, exact = np.zeros_like(p), np.inf, product(p) - g, True
     for _ in range(most):
         contact = p > 0
         r = np.where(contact, residual, 0.0)
         wrong = np.max(np.abs(r))
         if wrong <= tolerance * scale and np.min(residual) >= -tolerance * scale:
-            if known:
+            if exact:
                 return p
-            residual, known = product(p) - g, True
+            residual, exact = product(p) - g, True
             continue
         norm = float(np.sum(r * r))
         direction = np.where(contact, r + (norm / before if np.isfinite(before) else 0.0) * direction, 0.0)
@@ -53,8 +53,8 @@ def pressure(product: Callable[[Array], Array], g: Array, start: Array, toleranc
         if comes:  # cells that overlap come into contact
             new[pulled] = -step * residual[pulled]
             before = np.inf
-        known = comes or bool(np.any(free < 0))
-        # along a step that changes no contact the product is linear: its rounding adds up until it is taken anew
-        residual = product(new) - g if known else residual - step * image
+        exact = comes or bool(np.any(free < 0))
+        # along a step that changes no contact the product is linear, but for rounding, which adds up
+        residual = product(new) - g if exact else residual - step * image
         p = new
     raise NotConverged(f"the normal problem is off by {wrong / scale:.1e} of its depth after {most} iterations")
