@@ -1,4 +1,4 @@
-"""mdr: sliding friction of axisymmetric contacts under normal oscillation, spring by spring.
+"""mdr: sliding friction of axisymmetric contacts under vibration, spring by spring.
 
 The names below stand in the order of the chain: from an indenter and a material, through springs, motion and pull, to
 a sliding contact; from there to closed forms, runs, curves and the verdict on the closed-form critical velocity.
@@ -7,6 +7,7 @@ a sliding contact; from there to closed forms, runs, curves and the verdict on t
 from mdr.indenters import *
 from mdr.materials import *
 from mdr.case.motion import *
+from mdr.case.in_plane import *
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.case.contact import SlidingContact
 from mdr.normal.resolved import resolved
@@ -26,6 +27,7 @@ from mdr.march.run import SlidingRun, State
 from mdr.march.slide import slide
 from mdr.friction.surface_fields import SurfaceFields, surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve
+from mdr.friction.shaken import HoldingBand, blocked_cof, holding_band, no_load_velocity
 from mdr.friction.measured_velocity import MeasuredVelocity, measure_critical_velocity
 from mdr.friction.verdict import Verdict, verdict
 from mdr.friction.friction_data import FrictionData, read_friction_data
@@ -33,6 +35,7 @@ from mdr.friction.fit import Fit, fit
 from mdr.studies import Quantity, Study, StudyError, read_study, sweep
 
 from mdr import indenters, materials
+from mdr.case import in_plane as _in_plane
 from mdr.case import motion as _motion
 
 from mdr.tools.version import __version__ as __version__
@@ -43,6 +46,7 @@ __all__ = [
     "EnergyBalance",
     "Fit",
     "FrictionData",
+    "HoldingBand",
     "Indentation",
     "MeasuredVelocity",
     "PartialSlip",
@@ -59,15 +63,18 @@ __all__ = [
     "SurfaceFields",
     "TangentialLoop",
     "Verdict",
+    "blocked_cof",
     "cof_curve",
     "coupled_critical_velocity",
     "coupling_loss",
     "critical_velocity",
     "fit",
     "full_slip_critical_velocity",
+    "holding_band",
     "indent",
     "laws",
     "measure_critical_velocity",
+    "no_load_velocity",
     "parse_case",
     "partial_slip",
     "radial_rub",
@@ -87,3 +94,4 @@ __all__ = [
 __all__ += indenters.__all__  # shapes, materials and motions are listed where they stand
 __all__ += materials.__all__
 __all__ += _motion.__all__
+__all__ += _in_plane.__all__

@@ -17,23 +17,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.depth_cycle import Cycle, stick_limit
+from mdr.case.depth_cycle import Cycle, peak, stick_limit
+from mdr.case.in_plane import Shake, whole_ratio
 from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
-from mdr.tools.checks import instance
+from mdr.tools.checks import FieldError, instance
 from mdr.tools.fields import check_fields, facts
 
 SAME = 1e-9  #: of a dynamic modulus: rounding of a sum over arms
 #: abstract base class of each part
-KINDS: dict[str, type[Any]] = {"indenter": Indenter, "material": Material, "oscillation": Motion, "pull": Pull}
+KINDS: dict[str, type[Any]] = {
+    "indenter": Indenter,
+    "material": Material,
+    "oscillation": Motion,
+    "pull": Pull,
+    "shake": Shake,
+}
+OPTIONAL = ("shake",)  #: parts that may be None
 
 
 @dataclass(frozen=True)
 class SlidingContact:
-    """An indenter that slides on a half-space while it is shaken in the normal direction."""
+    """An indenter that slides on a half-space while it is shaken, in the normal direction or along its way."""
 
     indenter: Indenter = field(metadata=facts("", "shape", rule=None))
     material: Material = field(metadata=facts("", "half-space", rule=None))
@@ -44,10 +52,12 @@ class SlidingContact:
     )
     oscillation: Motion = field(metadata=facts("", "normal motion", rule=None))
     pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
+    shake: Shake | None = field(default=None, metadata=facts("", "motion in the plane besides the pull", rule=None))
 
     def __post_init__(self) -> None:
         for name, kind in KINDS.items():
-            instance(name, getattr(self, name), kind)
+            if name not in OPTIONAL or getattr(self, name) is not None:
+                instance(name, getattr(self, name), kind)
         self._refuse_what_springs_do_not_know()
         check_fields(self)
         if self.material.E_star == 0:
@@ -55,6 +65,13 @@ class SlidingContact:
                 "E_inf = 0: a mean load relaxes to nothing, or sinks in without end, so that there is no periodic "
                 "state whose friction could be averaged; give the material a long-time modulus, or use indent()"
             )
+        if not self.oscillation.omega and (self.shake is None or self.shake.is_still):
+            raise FieldError(
+                f"nothing oscillates: {self.oscillation!r} is constant, and shake = {self.shake!r}; give a shake with "
+                "an amplitude, or an oscillation",
+                "shake",
+            )
+        _ = self.repeats  # refuses frequencies in no ratio
         object.__setattr__(self, "oscillation", self.oscillation.on(self.indenter, self.material))
         if self.oscillation.knows_depth:
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
@@ -79,7 +96,7 @@ class SlidingContact:
             )
         if type(self.material).dynamic_modulus is Material.dynamic_modulus:
             return
-        omega = self.oscillation.omega
+        omega = self.omega
         own = complex(self.material.dynamic_modulus(omega))
         known = complex(Material.dynamic_modulus(self.material, omega))
         if not abs(own - known) <= SAME * abs(known):
@@ -92,7 +109,7 @@ class SlidingContact:
     def _refuse_incomplete(self) -> None:
         """A hollow face must press everywhere at every instant."""
         cycle, needed = self.cycle, self.indenter.least_depth
-        least = cycle.u_z0 + cycle.du_z * self.kept_gap
+        least = cycle.u_z0 + cycle.unit * self.kept_gap
         if least < needed:
             raise ValueError(
                 f"u_z0 = {cycle.u_z0:.6g} m is too shallow for {type(self.indenter).__name__}: with this oscillation "
@@ -101,20 +118,72 @@ class SlidingContact:
             )
 
     @property
+    def repeats(self) -> tuple[int, int]:
+        """Periods of the oscillation, and of the shake, in the period of the case; 0 of what does not move."""
+        return repeats(self.oscillation, self.shake)
+
+    @property
+    def omega(self) -> float:
+        """Angular frequency [rad/s] of the period after which oscillation and shake both repeat."""
+        return common_frequency(self.oscillation, self.shake)
+
+    @property
+    def period(self) -> float:
+        """2 pi/omega [s]."""
+        return 2 * np.pi / self.omega
+
+    @property
+    def is_shaken(self) -> bool:
+        """Whether it moves in the plane besides the pull."""
+        return self.repeats[1] > 0
+
+    @property
     def cycle(self) -> Cycle:
         """The depth over one period."""
-        return self.oscillation.cycle
+        return self.oscillation.cycle.repeated(max(self.repeats[0], 1), self.omega)
+
+    @property
+    def drive(self) -> NDArray[np.complex128]:
+        """X_n [m], shape (N,), of the shake x(t) = Re of sum X_n exp(i n omega t), n = 1 ... N; empty without one."""
+        n_x = self.repeats[1]
+        if self.shake is None or not n_x:
+            return np.zeros(0, dtype=complex)
+        out = np.zeros(n_x * self.shake.along.size, dtype=complex)
+        out[n_x - 1 :: n_x] = self.shake.along
+        return out
+
+    @property
+    def way(self) -> NDArray[np.complex128]:
+        """X_n [m] of the way that the shake takes the indenter, without friction; infinite on an undamped resonance.
+
+        Of a shaken pulling point it is what spring, damper and mass pass on: (k_x + i n omega c_x) H(n omega) X_n.
+        """
+        drive = self.drive
+        if not drive.size or self.pull.is_rigid or self.shake is None or self.shake.at == "tool":
+            return drive
+        _, c_x, k_x = self.pull.coefficients
+        n_omega = self.omega * np.arange(1, drive.size + 1)
+        H, out = np.asarray(self.pull.receptance(n_omega)), np.zeros_like(drive)
+        passed = (drive != 0) & np.isfinite(H)
+        out[passed] = (k_x + 1j * n_omega[passed] * c_x) * H[passed] * drive[passed]
+        out[(drive != 0) & ~np.isfinite(H)] = np.inf
+        return out
+
+    @property
+    def mirrored(self) -> SlidingContact:
+        """The contact seen from the other side: what it does forward, this one does backward."""
+        return self if self.shake is None else replace(self, shake=self.shake.mirrored)
 
     @property
     def rheology(self) -> Rheology:
         """The operator of the material in units of the long-time modulus and of 1/omega."""
-        return Rheology.of(self.material, self.oscillation.omega)
+        return Rheology.of(self.material, self.omega)
 
     @property
     def u_z_max(self) -> float:
-        """Greatest depth [m]: u_z0 + du_z."""
+        """Greatest depth [m]: u_z0 + du_z of a harmonic oscillation."""
         cycle = self.cycle
-        return cycle.u_z0 + cycle.du_z * cycle.greatest
+        return cycle.u_z0 + cycle.unit * cycle.greatest
 
     @property
     def working_depth(self) -> float:
@@ -169,8 +238,27 @@ class SlidingContact:
 
     @property
     def unit_velocity(self) -> float:
-        """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities."""
-        return stick_limit(self.mu_0, self.cycle.du_z, self.oscillation.omega, self.material.mindlin_ratio)
+        """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities.
+
+        At a constant depth u_z0 stands for du_z.
+        """
+        return stick_limit(self.mu_0, self.cycle.unit, self.omega, self.material.mindlin_ratio)
+
+    @property
+    def chi(self) -> float:
+        """du_x/(mu_0 kappa u_z0) [-], half the way of the shake over the deflection at which springs slip."""
+        reach = self.mu_0 * self.material.mindlin_ratio * self.cycle.u_z0
+        way = self.drive
+        if not way.size:
+            return 0.0
+        return 0.5 * (peak(way) + peak(-way)) / reach if reach else np.inf
+
+    @property
+    def pace(self) -> float:
+        """Sum of the velocities [m/s] that oscillation and shake bring about: a scale, no less than any of them."""
+        way = self.way
+        fastest = float(np.sum(self.omega * np.arange(1, way.size + 1) * np.abs(way)))
+        return self.unit_velocity * (self.cycle.du_z > 0) + fastest
 
     @property
     def kept_gap(self) -> float:
@@ -181,13 +269,28 @@ class SlidingContact:
     def keeps_contact(self) -> bool:
         """Whether the centre of the contact is never lost: Eq. (5), u_z0 > du_z sqrt(1 + T²), for a Kelvin material."""
         cycle = self.cycle
-        return cycle.u_z0 > -cycle.du_z * self.kept_gap
+        return cycle.u_z0 > -cycle.unit * self.kept_gap
 
     @property
     def is_of_the_paper(self) -> bool:
-        """Whether depth is harmonic and material without arms: as in the paper, where more is in closed form."""
+        """Whether depth is harmonic and material without arms: as in the paper, the normal force in closed form."""
         prescribed = self.oscillation.knows_depth and self.oscillation.load is None
         return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
+
+
+def repeats(oscillation: Motion, shake: Shake | None) -> tuple[int, int]:
+    """Periods of each in the period after which both repeat; 0 of what does not move."""
+    if shake is None or shake.is_still:
+        return 1, 0
+    return whole_ratio(oscillation.omega, shake.omega) if oscillation.omega else (0, 1)
+
+
+def common_frequency(oscillation: Motion, shake: Shake | None) -> float:
+    """Angular frequency [rad/s] of that period."""
+    n_z, n_x = repeats(oscillation, shake)
+    if shake is None or n_z:
+        return oscillation.omega / max(n_z, 1)
+    return shake.omega / n_x
 
 
 def require_case(case: object) -> SlidingContact:

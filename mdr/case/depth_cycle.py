@@ -1,15 +1,16 @@
-"""One period of depth, whatever imposes it: mean, swing, extremes, and z(phase) in units of the swing.
+"""One period of depth, whatever imposes it: mean, swing, extremes, and z(phase) in a unit of length.
 
-    u_z(t) = u_z0 + du_z z(omega t),    z(phase) = sum over n of c_n cos(n phase) + s_n sin(n phase).
+    u_z(t) = u_z0 + unit z(omega t),    z(phase) = sum over n of c_n cos(n phase) + s_n sin(n phase).
 
-The unit du_z is half the way between the extremes; a harmonic motion is c_1 = 1. What a spring that keeps contact feels
-is a sum of harmonics too, each with the response of the material, and its least force tells which springs keep contact.
+The unit is the amplitude du_z, half the way between the extremes, so that a harmonic motion is c_1 = 1; of a constant
+depth, z = 0, it is the depth. What a spring that keeps contact feels is a sum of harmonics too, each with the response
+of the material, and its least force tells which springs keep contact.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,10 +26,10 @@ class Cycle(ArrayRecord):
     """A periodic depth; harmonics of shape (N,), of orders 1 to N."""
 
     u_z0: float  #: mean depth [m]
-    du_z: float  #: half the way from the least to the greatest depth [m]
+    unit: float  #: half the way from the least to the greatest depth [m]; u_z0 where it is constant
     omega: float  #: angular frequency of the period [rad/s]
-    cos: Array  #: c_n, over du_z
-    sin: Array  #: s_n, over du_z
+    cos: Array  #: c_n, over the unit
+    sin: Array  #: s_n, over the unit
     least: float  #: least z
     greatest: float  #: greatest z
     missing: float = 0.0  #: of the balance of forces that the depth was solved from, over the mean load
@@ -39,6 +40,11 @@ class Cycle(ArrayRecord):
         return cls(u_z0, du_z, omega, np.ones(1), np.zeros(1), -1.0, 1.0)
 
     @classmethod
+    def constant(cls, u_z0: float, omega: float) -> Cycle:
+        """u_z0 > 0 at all times; omega: of whatever else moves."""
+        return cls(u_z0, u_z0, omega, np.zeros(1), np.zeros(1), 0.0, 0.0)
+
+    @classmethod
     def series(cls, u_z0: float, omega: float, cos: Array, sin: Array) -> Cycle:
         """A Fourier series with coefficients in m."""
         amplitude = complex_harmonics(cos, sin)
@@ -47,6 +53,19 @@ class Cycle(ArrayRecord):
         if du_z == 0:
             return cls(u_z0, 0.0, omega, np.zeros_like(cos), np.zeros_like(sin), 0.0, 0.0)
         return cls(u_z0, du_z, omega, cos / du_z, sin / du_z, low / du_z, high / du_z)
+
+    def repeated(self, n: int, omega: float) -> Cycle:
+        """The same depth over a period n times as long, whose angular frequency is omega."""
+        if n == 1 and omega == self.omega:
+            return self
+        cos, sin = np.zeros((2, n * self.cos.size))
+        cos[n - 1 :: n], sin[n - 1 :: n] = self.cos, self.sin
+        return replace(self, omega=omega, cos=cos, sin=sin)
+
+    @property
+    def du_z(self) -> float:
+        """Amplitude [m]: half the way from the least to the greatest depth."""
+        return self.unit * 0.5 * (self.greatest - self.least)
 
     @property
     def is_harmonic(self) -> bool:
@@ -59,7 +78,7 @@ class Cycle(ArrayRecord):
         return complex_harmonics(self.cos, self.sin)
 
     def z(self, phase: Array) -> Array:
-        """Depth less its mean, over du_z, at phases of any shape."""
+        """Depth less its mean, over the unit, at phases of any shape."""
         return self._sum(phase, self.cos, self.sin)
 
     def rate(self, phase: Array) -> Array:
@@ -87,7 +106,7 @@ class Cycle(ArrayRecord):
         return tuple(np.concatenate([row, row[:1]]) for row in values)  # type: ignore[return-value]
 
     def kept_gap(self, response: Callable[[Array], NDArray[np.complex128]]) -> float:
-        """Gap, in du_z from the mean depth, of the shallowest spring that never leaves: its least force is zero.
+        """Gap, in units from the mean depth, of the shallowest spring that never leaves: its least force is zero.
 
         response: of the material to harmonics n (N,), over its long-time modulus.
         """

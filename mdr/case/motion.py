@@ -1,4 +1,5 @@
 """The imposed normal motion: a depth that oscillates, Eq. (3), a periodic depth of any form, or an oscillating load.
+A depth or a load that is constant stands beside a motion in the plane (in_plane.py).
 
 Symbols: u_z0 mean indentation depth [m], du_z amplitude [m], omega angular frequency [rad/s], F_z0 mean load [N],
 dF_z its amplitude [N], m_z mass that the load moves [kg].
@@ -21,10 +22,11 @@ from mdr.materials.base import Material
 from mdr.tools.checks import FieldError, FieldTypeError, count, finite, finite_array, not_negative
 from mdr.tools.fields import Record, facts
 
-__all__ = ["LoadOscillation", "Motion", "NormalOscillation", "PeriodicMotion"]
+__all__ = ["ConstantDepth", "ConstantLoad", "LoadOscillation", "Motion", "NormalOscillation", "PeriodicMotion"]
 
 
-def _amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
+def amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
+    """A list of amplitudes [m], as a tuple. FieldTypeError or FieldError for what is none."""
     if isinstance(values, str) or not isinstance(values, Sequence | np.ndarray):
         raise FieldTypeError(f"{name} must be a list of amplitudes in m, got {values!r}", name)
     return tuple(finite(f"{name}[{n}]", value) for n, value in enumerate(values))
@@ -41,10 +43,10 @@ class Motion(Record, ABC):
 
         @property
         def omega(self) -> float:
-            """Angular frequency [rad/s]: a field or a property of the subclass."""
+            """Angular frequency [rad/s], zero of what is constant: a field or a property of the subclass."""
 
     #: the load that the depth was solved from; None where the depth itself is prescribed
-    load: LoadOscillation | None = None
+    load: LoadOscillation | ConstantLoad | None = None
 
     @property
     @abstractmethod
@@ -63,8 +65,8 @@ class Motion(Record, ABC):
 
     @property
     def period(self) -> float:
-        """2 pi/omega [s]."""
-        return 2 * np.pi / self.omega
+        """2 pi/omega [s]; infinite of what is constant."""
+        return 2 * np.pi / self.omega if self.omega else np.inf
 
     def on(self, indenter: Indenter, material: Material) -> Motion:
         """The motion of a contact of these two: itself, unless it was solved for another contact.
@@ -97,7 +99,7 @@ class Motion(Record, ABC):
             Depth [m] in the shape of t.
         """
         cycle = self.cycle
-        return cycle.u_z0 + cycle.du_z * cycle.z(self.omega * finite_array("t", t, "s"))
+        return cycle.u_z0 + cycle.unit * cycle.z(self.omega * finite_array("t", t, "s"))
 
     def u_z_dot(self, t: ArrayLike) -> NDArray[np.float64]:
         """Rate of the depth [m/s] over time.
@@ -113,7 +115,7 @@ class Motion(Record, ABC):
             Rate [m/s] in the shape of t.
         """
         cycle = self.cycle
-        return cycle.du_z * self.omega * cycle.rate(self.omega * finite_array("t", t, "s"))
+        return cycle.unit * self.omega * cycle.rate(self.omega * finite_array("t", t, "s"))
 
 
 @dataclass(frozen=True)
@@ -144,6 +146,23 @@ class NormalOscillation(Motion):
 
 
 @dataclass(frozen=True)
+class ConstantDepth(Motion):
+    """A depth that does not change, u_z(t) = u_z0 > 0: the contact is shaken in the plane alone."""
+
+    u_z0: float = field(metadata=facts("m", "indentation depth", label="depth $u_{z0}$"))
+
+    @property
+    def omega(self) -> float:
+        """Zero: it does not oscillate."""
+        return 0.0
+
+    @property
+    def cycle(self) -> Cycle:
+        """The depth at all times."""
+        return Cycle.constant(self.u_z0, self.omega)
+
+
+@dataclass(frozen=True)
 class PeriodicMotion(Motion):
     """A periodic normal motion of prescribed depth, as a Fourier series ::
 
@@ -155,8 +174,8 @@ class PeriodicMotion(Motion):
 
     omega: float = field(metadata=FREQUENCY)
     u_z0: float = field(metadata=MEAN_DEPTH)
-    cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", _amplitudes))
-    sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", _amplitudes))
+    cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
+    sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes))
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -166,7 +185,7 @@ class PeriodicMotion(Motion):
             object.__setattr__(self, name, (values + (0.0,) * length)[:length])
         if not length:
             raise FieldError("cos and sin are all zero: nothing oscillates; give an amplitude in m", "cos")
-        deepest = self.u_z0 + self.cycle.du_z * self.cycle.greatest
+        deepest = self.u_z0 + self.cycle.unit * self.cycle.greatest
         if deepest <= 0:
             raise FieldError(f"u_z = {deepest:.6g} m at its deepest: the indenter never touches; raise u_z0", "u_z0")
 
@@ -241,11 +260,7 @@ class LoadOscillation(Motion):
     @property
     def cycle(self) -> Cycle:
         """Raises ValueError: the depth is asked of the resolved case."""
-        raise ValueError(
-            f"the depth under {self!r}, and with it cycle, working_depth, u_z_max, k_zc, k_xc, gamma_zc, gamma_xc, "
-            "alpha, kept_gap, unit_velocity and keeps_contact, follow from shape and material too: "
-            "ask mdr.resolved(case)"
-        )
+        raise _follows(self)
 
     def F_z(self, t: ArrayLike) -> NDArray[np.float64]:
         """Load F_z0 + dF_z cos(omega t) [N].
@@ -261,6 +276,39 @@ class LoadOscillation(Motion):
             Load [N] in the shape of t.
         """
         return self.F_z0 + self.dF_z * np.cos(self.omega * finite_array("t", t, "s"))
+
+
+@dataclass(frozen=True)
+class ConstantLoad(Motion):
+    """A normal load that does not change: the contact is shaken in the plane alone.
+
+    `mdr.resolved(case)` knows the depth at which it rests.
+    """
+
+    F_z0: float = field(metadata=facts("N", "load", label="load $F_{z0}$"))
+
+    @property
+    def omega(self) -> float:
+        """Zero: it does not oscillate."""
+        return 0.0
+
+    @property
+    def knows_depth(self) -> bool:
+        """False: the depth follows from shape and material too."""
+        return False
+
+    @property
+    def cycle(self) -> Cycle:
+        """Raises ValueError: the depth is asked of the resolved case."""
+        raise _follows(self)
+
+
+def _follows(load: Motion) -> ValueError:
+    return ValueError(
+        f"the depth under {load!r}, and with it cycle, working_depth, u_z_max, k_zc, k_xc, gamma_zc, gamma_xc, "
+        "alpha, kept_gap, unit_velocity and keeps_contact, follow from shape and material too: "
+        "ask mdr.resolved(case)"
+    )
 
 
 @lru_cache(maxsize=256)

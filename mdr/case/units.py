@@ -20,6 +20,11 @@ NO_FIELDS = {
     "k_x/k_xc": facts(
         "-", "stiffness of the system spring over that of the contact", label="system stiffness $k_x/k_{xc}$"
     ),
+    "chi": facts(
+        "-",
+        "amplitude along the pull over the deflection at which springs slip, du_x/(mu_0 kappa u_z0)",
+        label=r"amplitude $\chi$",
+    ),
     "omega_0/omega": facts(
         "-", "natural frequency of the body over that of the oscillation", label=r"natural frequency $\omega_0/\omega$"
     ),

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.in_plane import way_of
+from mdr.case.motion import LoadOscillation
 from mdr.closed_forms.paper import eq_1, eq_15, linear_critical_velocity
 from mdr.normal.resolved import at_rest
 
 
-def critical_velocity(case: SlidingContact) -> float:
+def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     """Critical velocity [m/s] in closed form, Eq. (15): pulled faster, the oscillation no longer lowers friction.
 
     The stiffnesses k_zc, k_xc and the damping gamma_zc of the contact are those at the mean depth.
@@ -18,6 +21,9 @@ def critical_velocity(case: SlidingContact) -> float:
     ----------
     case : SlidingContact
         The contact.
+    direction : {1, -1}
+        1 is the pull forward, -1 the pull the other way, whose velocity is given as a positive number too. They differ
+        only where something shakes in the plane and in the normal direction.
 
     Returns
     -------
@@ -28,6 +34,8 @@ def critical_velocity(case: SlidingContact) -> float:
     ------
     TypeError
         For what is no SlidingContact.
+    ValueError
+        For another direction.
 
     See Also
     --------
@@ -56,6 +64,13 @@ def critical_velocity(case: SlidingContact) -> float:
 
         v_c = mu_0 omega dF_z |kappa + K_z H|/|K_z - m_z omega²|
 
+    A shake along the pull adds its own velocity. With X exp(i omega t) the way on which it takes the indenter, at the
+    tool du_x exp(i phi_x), at the pull this times (k_x + i omega c_x) H, and the upper sign forward ::
+
+        v_c = omega |mu_0 (kappa + K_z H) du_z -+ X|
+
+    Alone, v_c = omega |X|: it knows neither shape nor depth nor material.
+
     Examples
     --------
     >>> import mdr
@@ -66,17 +81,17 @@ def critical_velocity(case: SlidingContact) -> float:
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
     0.000486 m/s
     """
-    case = at_rest(case)
-    oscillation, kappa, pull = case.oscillation, case.material.mindlin_ratio, case.pull
-    if case.is_of_the_paper:
+    case, direction = at_rest(case), way_of(direction)
+    kappa, pull = case.material.mindlin_ratio, case.pull
+    if case.is_of_the_paper and not case.is_shaken:
         du_z = case.cycle.du_z
         if pull.is_rigid or case.k_zc == 0:
-            return eq_1(case.mu_0, du_z, oscillation.omega, kappa)
+            return eq_1(case.mu_0, du_z, case.omega, kappa)
         m, c_x, k_x = pull.coefficients
         return eq_15(
             case.mu_0,
             du_z,
-            oscillation.omega,
+            case.omega,
             case.k_zc,
             case.k_xc,
             case.gamma_zc,
@@ -84,23 +99,35 @@ def critical_velocity(case: SlidingContact) -> float:
             m,
             c_x,
         )
-    omega = oscillation.omega
-    if (load := oscillation.load) is not None:
-        impedance = case.dynamic_stiffness(omega) - load.m_z * omega**2
-        if impedance == 0:
-            return float("inf")
-        u_n = np.atleast_1d(load.dF_z / impedance)
-    else:
-        u_n = case.cycle.du_z * case.cycle.harmonics
-    n_omega = omega * np.arange(1, u_n.size + 1)
-    return linear_critical_velocity(
-        case.mu_0, omega, u_n, kappa, case.dynamic_stiffness(n_omega), np.asarray(pull.receptance(n_omega))
-    )
+    u_n, X_n = _depth_harmonics(case), case.way
+    if not (np.isfinite(u_n).all() and np.isfinite(X_n).all()):
+        return float("inf")
+    X_n = direction * X_n
+    size = max(u_n.size, X_n.size)
+    u_n, X_n = (np.pad(values, (0, size - values.size)) for values in (u_n, X_n))
+    n_omega = case.omega * np.arange(1, size + 1)
+    H_n = np.asarray(pull.receptance(n_omega))
+    return linear_critical_velocity(case.mu_0, case.omega, u_n, kappa, case.dynamic_stiffness(n_omega), H_n, X_n)
+
+
+def _depth_harmonics(case: SlidingContact) -> NDArray[np.complex128]:
+    """u_n [m], (N,), of the depth over the period of the case; under a load those that it causes at small amplitude."""
+    load, n_z = case.oscillation.load, case.repeats[0]
+    if load is None:
+        return np.asarray(case.cycle.unit * case.cycle.harmonics)
+    if not isinstance(load, LoadOscillation):
+        return np.zeros(1, dtype=complex)
+    u_n = np.zeros(n_z, dtype=complex)
+    impedance = complex(case.dynamic_stiffness(load.omega)) - load.m_z * load.omega**2
+    u_n[-1] = load.dF_z / impedance if impedance else np.inf
+    return u_n
 
 
 def formula_of(case: SlidingContact) -> str:
     """Which closed form critical_velocity(case) is, in words; without stiffness at the mean depth Eq. (1) is left."""
     case = at_rest(case)
+    if case.is_shaken:
+        return "Eq. (15) with the shake" if case.oscillation.omega else "The velocity of the shake alone"
     if case.oscillation.load is not None:
         return "Eq. (15) at the depth that the load brings about"
     if case.pull.is_rigid or case.k_zc == 0:

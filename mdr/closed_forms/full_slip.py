@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.motion import LoadOscillation
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle, of_harmonics
 from mdr.normal.kelvin_edges import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
@@ -62,12 +63,12 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     cycle = case.cycle
     n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
-    u_z_dot = cycle.omega * cycle.du_z * cycle.over_a_period(n_t)[1][:-1]
+    u_z_dot = cycle.omega * cycle.unit * cycle.over_a_period(n_t)[1][:-1]
     if not case.is_of_the_paper:
         known = followed(case, n_t)
         return FullSlip(phase / cycle.omega, force_of(case, known), known.contact_radius, u_z_dot, known.in_contact)
     edge = contact_edge(phase, case.T)
-    g_c = np.maximum(cycle.u_z0 + cycle.du_z * edge, 0)
+    g_c = np.maximum(cycle.u_z0 + cycle.unit * edge, 0)
     F_N = _force(case, phase, edge)
     return FullSlip(phase / cycle.omega, F_N, np.asarray(case.indenter.contact_radius(g_c)), u_z_dot, g_c > 0)
 
@@ -89,12 +90,14 @@ def force_of(case: SlidingContact, known: NormalCycle) -> Array:
     load, n_t = case.oscillation.load, known.F_N.size
     if load is None:
         return case.material.E_star * known.F_N
-    F_z = load.F_z0 + load.dF_z * np.cos(2 * np.pi * np.arange(n_t) / n_t)
+    if not isinstance(load, LoadOscillation):
+        return np.full(n_t, load.F_z0)
+    F_z = load.F_z0 + load.dF_z * np.cos(2 * np.pi * case.repeats[0] * np.arange(n_t) / n_t)
     if not load.m_z:
         return F_z
     cycle = case.cycle
     n = np.arange(1.0, cycle.cos.size + 1)
-    return F_z + load.m_z * load.omega**2 * cycle.du_z * of_harmonics(n**2 * cycle.harmonics, n_t)
+    return F_z + load.m_z * case.omega**2 * cycle.unit * of_harmonics(n**2 * cycle.harmonics, n_t)
 
 
 def normal_force(case: SlidingContact, phase: Array) -> Array:
@@ -104,8 +107,8 @@ def normal_force(case: SlidingContact, phase: Array) -> Array:
 
 def _force(case: SlidingContact, phase: Array, edge: Array) -> Array:
     cycle, E_star = case.cycle, case.material.E_star
-    g_c = cycle.u_z0 + cycle.du_z * edge
-    above = cycle.du_z * (np.cos(phase) - edge - case.T * np.sin(phase))  # u_z - g_c + tau u_z'
+    g_c = cycle.u_z0 + cycle.unit * edge
+    above = cycle.unit * (np.cos(phase) - edge - case.T * np.sin(phase))  # u_z - g_c + tau u_z'
     elastic = np.asarray(case.indenter.force(g_c, E_star))
     return np.maximum(elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above, 0)
 
@@ -117,7 +120,7 @@ def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
     shape, cycle = case.indenter, case.cycle
     radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
     depths = {0.0, *(shape.profile_1d(np.array(radii)).tolist() if radii else ())}
-    gaps, kept = {(depth - cycle.u_z0) / cycle.du_z for depth in depths}, kept_gap(case.T)
+    gaps, kept = {(depth - cycle.u_z0) / cycle.unit for depth in depths}, kept_gap(case.T)
     return tuple(sorted(gap for gap in gaps if kept < gap < 1))
 
 
@@ -177,7 +180,7 @@ def static_cof(case: SlidingContact) -> float:
         F_N = force_of(case, followed(case, N_STEPS))
         return case.mu_0 * max(_least(F_N), 0.0) / float(F_N.mean())
     cycle = case.cycle
-    least = case.indenter.force(cycle.u_z0 + cycle.du_z * kept_gap(case.T), case.material.E_star)
+    least = case.indenter.force(cycle.u_z0 + cycle.unit * kept_gap(case.T), case.material.E_star)
     return case.mu_0 * float(least) / mean_normal_force(case)
 
 

@@ -23,9 +23,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
 
-from mdr.case.contact import SlidingContact
+from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import peaks
+from mdr.case.in_plane import way_of
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
 from mdr.normal.followed_force import N_STEPS
@@ -42,7 +44,7 @@ RESONANT_FOLLOWED = 1e-8  #: the same of a force followed spring by spring
 RESONANT = 1e-10  #: share of F_N that a harmonic on an undamped resonance may have and count as none
 
 
-def full_slip_critical_velocity(case: SlidingContact) -> float:
+def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape.
 
     It is Eq. (15) with all harmonics of the normal force in the place of the first one.
@@ -51,21 +53,30 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
     ----------
     case : SlidingContact
         The contact.
+    direction : {1, -1}
+        1 is the pull forward, -1 the pull the other way, whose velocity is given as a positive number too.
 
     Returns
     -------
     float
-        v_c [m/s]. Infinite on an undamped resonance, k_x = m (n omega)² with a harmonic F_n that is not zero. Infinite
-        too for a body without mass and damper whose contact is lost and touches again with a jump of F_N' (a Kelvin
-        material, unless the tip is sharp): for an instant its velocity has no bound.
+        v_c [m/s]. Negative where friction is full at any pull in this direction, and some way into the other one, as
+        of a shaken contact that is lost in part of the period. Infinite on an undamped resonance, k_x = m (n omega)²
+        with a harmonic F_n that is not zero. Infinite too for a body without mass and damper whose contact is lost and
+        touches again with a jump of F_N' (a Kelvin material, unless the tip is sharp): for an instant its velocity has
+        no bound.
 
     Raises
     ------
     TypeError
         For what is no SlidingContact.
+    ValueError
+        For another direction.
 
     Notes
     -----
+    A shake along the pull takes off its velocity x' forward, and adds it the other way: v_c is the greatest
+    mu_0 kappa u_z' - y' -+ x' while any spring is in contact.
+
     The error is 1e-8 for a harmonic depth on an elastic or Kelvin material. Other materials and motions have their
     normal force computed spring by spring. The error is then 1e-6 under a rigid pull or while contact is kept, and 1e-3
     where contact is lost and springs touch again on slow dashpots. For a body with neither mass nor damper it is 1e-3
@@ -81,10 +92,13 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
     >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
     0.000516 m/s
     """
-    case = resolved(case)
-    if not case.is_of_the_paper:
-        return _by_harmonics(case)
-    omega, unit = case.oscillation.omega, case.unit_velocity
+    direction, X_n = way_of(direction), require_case(case).way
+    if not np.isfinite(X_n).all():
+        return np.inf
+    case, X_n = resolved(case), direction * X_n
+    if not case.is_of_the_paper or (case.is_shaken and case.pull.is_rigid):
+        return _by_harmonics(case, X_n)
+    omega, unit = case.omega, case.unit_velocity
     on, off = contact_span(case)
     if case.pull.is_rigid:
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
@@ -99,17 +113,23 @@ def full_slip_critical_velocity(case: SlidingContact) -> float:
         y_dot -= 2 * (panels.harmonic(y_dot, resonant) * np.exp(1j * resonant * panels.phase)).real
     middle = 0.5 * (panels.low + panels.high)
     touching = (middle >= on) | (middle <= off)
-    rates = (-unit * np.sin(panels.phase) - y_dot)[touching]
+    n = np.arange(1, X_n.size + 1)
+    shaken = (1j * n * omega * X_n * np.exp(1j * panels.phase[..., None] * n)).real.sum(axis=-1)
+    rates = (-unit * np.sin(panels.phase) - y_dot - shaken)[touching]
     return max(_peak(rates[k]) for k in np.argsort(rates.max(axis=1))[-3:])
 
 
-def _by_harmonics(case: SlidingContact) -> float:
-    """Full-slip critical velocity [m/s] of any material and motion, from the harmonics of the normal force."""
-    cycle, pull, omega = case.cycle, case.pull, case.oscillation.omega
+def _by_harmonics(case: SlidingContact, X_n: NDArray[np.complex128]) -> float:
+    """Full-slip critical velocity [m/s] of any material and motion, from the harmonics of the normal force.
+
+    X_n: of the way [m] of the shake in the direction of the pull.
+    """
+    cycle, pull, omega = case.cycle, case.pull, case.omega
     known = followed(case, N_STEPS)
     rates = np.zeros(N_STEPS // 2 - 1, dtype=complex)  # of mu_0 kappa u_z - y
     n = np.arange(1, rates.size + 1)
     rates[: cycle.cos.size] += case.unit_velocity * (1j * n * np.resize(cycle.harmonics, n.size))[: cycle.cos.size]
+    rates[: X_n.size] -= 1j * n[: X_n.size] * omega * X_n
     if not pull.is_rigid:
         F_n = np.fft.rfft(force_of(case, known))[1:-1] / N_STEPS
         resonant = _resonant_harmonic(pull, omega)
@@ -126,7 +146,7 @@ def _by_harmonics(case: SlidingContact) -> float:
 
 def contact_span(case: SlidingContact) -> tuple[float, float]:
     """Phases (touch, leave) of the centre: contact from touch to leave + 2 pi; (0, 2 pi) where it is never lost."""
-    gap = -case.cycle.u_z0 / case.cycle.du_z
+    gap = -case.cycle.u_z0 / case.cycle.unit
     if gap <= kept_gap(case.T):
         return 0.0, 2 * np.pi
     return touching_phase(gap, case.T), float(leaving_phase(gap, case.T))
@@ -157,7 +177,7 @@ def _time_panels(case: SlidingContact, smallest: float) -> _TimePanels:
     graded = np.concatenate([[0.0], levels[::-1], [0.5], 1 - levels, [1.0]])
     ends = np.unique(np.concatenate([low + (high - low) * graded for low, high in pairwise(sorted(cuts))]))
     if np.isfinite(pull.omega_0):
-        most = max(np.pi * case.oscillation.omega / pull.omega_0, 2 * np.pi / MOST_PANELS)
+        most = max(np.pi * case.omega / pull.omega_0, 2 * np.pi / MOST_PANELS)
         length = np.diff(ends)
         parts = np.ceil(length / most).astype(int)
         part = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)  # 0, 1, ... in each stretch

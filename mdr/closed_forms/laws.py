@@ -353,7 +353,7 @@ def first_order(case: SlidingContact, n_t: int = 4096) -> float:
     case = _of_the_paper(case)
     q_m = _second_order_force(case.T, n_t)
     m = np.arange(q_m.size)
-    H = np.asarray(case.pull.receptance(m * case.oscillation.omega))
+    H = np.asarray(case.pull.receptance(m * case.omega))
     if not np.all(np.isfinite(H)):
         raise ValueError("the natural frequency of the undamped body is a multiple of omega: C is infinite")
     single = case.material.mindlin_ratio + case.k_zc * (1 + 1j * case.T) * H[1]
@@ -490,7 +490,7 @@ def least_over_depth(case: SlidingContact) -> LeastOverDepth:
 
 def _groups(case: SlidingContact) -> tuple[complex, complex]:
     """Dynamic stiffness q [N/m] of the body and z = 1 + i T."""
-    (m, c_x, k_x), omega = _oscillator(case), case.oscillation.omega
+    (m, c_x, k_x), omega = _oscillator(case), case.omega
     return complex(m * omega**2 - k_x, -c_x * omega), complex(1, case.T)
 
 
@@ -544,7 +544,7 @@ def onset(case: SlidingContact) -> float:
     eps = case.alpha * float(np.hypot(1, T)) - 1
     if eps <= 0:
         return 0.0
-    omega, k_zc = case.oscillation.omega, case.k_zc
+    omega, k_zc = case.omega, case.k_zc
     single = case.material.mindlin_ratio + k_zc * (1 + 1j * T) * complex(case.pull.receptance(omega))
     later = (-np.angle(1j * single) - turning_phase(T)) % (2 * np.pi) / omega  # t*
     A, B = (4 * np.sqrt(2) / 3 * eps**1.5, 0.0) if T == 0 else (4.5 * eps**2 / T, 4.5 * eps**2)
@@ -595,7 +595,7 @@ def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     case = _of_the_paper(case)
     if case.T == 0:
         raise ValueError("T = 0: an elastic surface is back at once; the law is that of a slow material, T >> 1")
-    lam, m, omega, du_z = _free_oscillation(case), _mass(case), case.oscillation.omega, case.cycle.du_z
+    lam, m, omega, du_z = _free_oscillation(case), _mass(case), case.omega, case.cycle.du_z
     springs = SpringArray.of(case, n_springs)
     depth = np.maximum(du_z - springs.gap, 0)
     early = 2 / 3 * np.sqrt(4 * np.pi * depth / (case.T * du_z)) / omega
@@ -639,7 +639,7 @@ def half_a_blow(case: SlidingContact) -> float:
     """
     case = _of_the_paper(case)
     F = float(case.indenter.force(case.u_z_max, case.material.E_star))
-    return float(np.pi * case.mu_0 * F / (_mass(case) * case.oscillation.omega))
+    return float(np.pi * case.mu_0 * F / (_mass(case) * case.omega))
 
 
 # --- an undamped body on a multiple of the frequency ---
@@ -715,7 +715,7 @@ def resonance_residue(case: SlidingContact, n: int) -> float:
     """
     share = harmonic_share(case, n)
     residue = case.mu_0 * share * mean_normal_force(case)
-    return float(residue / (_mass(case) * case.oscillation.omega))
+    return float(residue / (_mass(case) * case.omega))
 
 
 def lock_in(n: int) -> float:

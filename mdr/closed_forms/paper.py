@@ -208,7 +208,13 @@ def eq_15(
 
 
 def linear_critical_velocity(
-    mu_0: float, omega: float, u_n: ArrayLike, mindlin_ratio: float, K_n: ArrayLike, H_n: ArrayLike
+    mu_0: float,
+    omega: float,
+    u_n: ArrayLike,
+    mindlin_ratio: float,
+    K_n: ArrayLike,
+    H_n: ArrayLike,
+    X_n: ArrayLike = 0,
 ) -> float:
     """Critical velocity [m/s] of a contact that answers linearly, of any rheology, to a periodic depth.
 
@@ -219,16 +225,17 @@ def linear_critical_velocity(
     K_n = K_z(n omega) is the dynamic contact stiffness [N/m], H_n = H(n omega) the receptance of the pull [m/N]. In
     full slip every spring in contact slips at u_x' - mu_0 kappa u_z', and the body moves by -mu_0 H F_N. One harmonic
     of a Kelvin contact is Eq. (15), ``v_c = mu_0 omega du_z |kappa + K_z H|``. Holds under the conditions of Eq. (15).
-    It is infinite where H_n is infinite and u_n is not zero.
+    It is infinite where H_n is infinite and u_n is not zero. X_n [m], (N,), are the harmonics of a way along the pull
+    on which the indenter is shaken besides; it slips at this velocity less, so that i n omega X_n is taken off.
     """
-    u_n, K_n, H_n = (np.atleast_1d(np.asarray(values, dtype=complex)) for values in (u_n, K_n, H_n))
+    u_n, K_n, H_n, X_n = (np.atleast_1d(np.asarray(values, dtype=complex)) for values in (u_n, K_n, H_n, X_n))
     there = u_n != 0
     if not np.all(np.isfinite(H_n[there])):
         return float("inf")
     n = np.arange(1, u_n.size + 1)
     amplitudes = np.zeros_like(u_n)
     amplitudes[there] = (1j * n * omega * mu_0 * u_n)[there] * (mindlin_ratio + K_n[there] * H_n[there])
-    return peak(amplitudes)
+    return peak(amplitudes - 1j * n * omega * X_n)
 
 
 # --- the deficit of the flat punch ---

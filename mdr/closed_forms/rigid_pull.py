@@ -113,7 +113,7 @@ def near_critical(case: SlidingContact) -> Asymptote:
     """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, for u_z0 such that the centre touches at phase 3 pi/2."""
     case = _rigid(case)
     k_zc, F_N = _stiffness(case, contact_edge(np.array(1.5 * np.pi), case.T)), mean_normal_force(case)
-    share = float(k_zc) * case.cycle.du_z / F_N
+    share = float(k_zc) * case.cycle.unit / F_N
     if share == 0:
         raise ValueError("the contact is open at the instant of fastest approach: v_c is less than Eq. (1) here")
     if case.T == 0:
@@ -126,7 +126,7 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     case = _rigid(case)
     cycle, T, F_N = case.cycle, case.T, mean_normal_force(case)
     R = -kept_gap(T)
-    core = float(_stiffness(case, np.array(-R))) * cycle.du_z / F_N
+    core = float(_stiffness(case, np.array(-R))) * cycle.unit / F_N
     if T > 0 and core > 0:
         return Asymptote(2 / 3, 0.5 * np.cbrt(R) * (3 * np.pi * T) ** (2 / 3) * core)
     if T > 0:
@@ -137,7 +137,7 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     for low, high in pairwise(marks):
         phi = rule.between(np.array(low), np.array(high))
         total += (high - low) * float(np.sum(rule.weight * phi * _stiffness(case, np.cos(phi))))
-    return Asymptote(1.0, 2 / np.pi * cycle.du_z / F_N * total)
+    return Asymptote(1.0, 2 / np.pi * cycle.unit / F_N * total)
 
 
 def _rigid(case: SlidingContact) -> SlidingContact:
@@ -153,7 +153,7 @@ def _rigid(case: SlidingContact) -> SlidingContact:
 
 def _stiffness(case: SlidingContact, gap: Array) -> Array:
     """k_zc [N/m] of a contact whose edge stands at this gap."""
-    depth = case.cycle.u_z0 + case.cycle.du_z * gap
+    depth = case.cycle.u_z0 + case.cycle.unit * gap
     return np.asarray(case.indenter.stiffness(depth, case.material.E_star))
 
 
@@ -181,10 +181,10 @@ def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
         lag += np.sum(weight * stick.D * (T + sigma / (1 - stick.kept)) * (1 - stick.slope), axis=1)
         sticks += np.sum(weight * _impulse_rate(stick, gap, T), axis=1)
     core = _stick(longest, v, T)
-    depth = cycle.u_z0 + cycle.du_z * contact_edge(core.begin, T)
+    depth = cycle.u_z0 + cycle.unit * contact_edge(core.begin, T)
     core_force = np.asarray(case.indenter.force(depth, case.material.E_star))
     F_N = mean_normal_force(case)
-    return np.array([lag, sticks + longest * core_force / cycle.du_z]) * cycle.du_z / (2 * np.pi * F_N)
+    return np.array([lag, sticks + longest * core_force / cycle.unit]) * cycle.unit / (2 * np.pi * F_N)
 
 
 def _stick(sigma: Array, v: Array, T: float) -> _Stick:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from mdr.case import motion
+from mdr.case import in_plane, motion
+from mdr.case.in_plane import Shake
 from mdr.case.motion import Motion
 from mdr.commands.output import DONE, WrongInput, print_json
 
@@ -23,6 +24,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--pull", default="SpringPull", metavar="name", help="SpringPull or RigidPull (default: SpringPull)"
     )
+    shakes = ", ".join(name for name in in_plane.__all__ if name != Shake.__name__)
+    command.add_argument("--shake", default="none", metavar="name", help=f"{shakes} (default: none)")
 
 
 def shapes(args: argparse.Namespace, _: None) -> int:
@@ -45,7 +48,7 @@ def case(args: argparse.Namespace, _: None) -> int:
     from mdr.files.examples import example, example_file
 
     try:
-        found = example(args.example, args.material, args.motion, args.pull)
+        found = example(args.example, args.material, args.motion, args.pull, args.shake)
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
     if args.json:

@@ -17,10 +17,12 @@ from mdr.commands.output import (
     complain,
     made_by,
     print_json,
+    print_rows,
     require_free,
     velocity_text,
     write_figure,
 )
+from mdr.commands.velocity import at_rest, rows_at_rest
 from mdr.files.case_files import write_case
 from mdr.normal.resolved import resolved
 from mdr.tools.atomic_write import write_whole
@@ -36,9 +38,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """Where to write, and over which velocities."""
     folder = "write curve.csv, curve.png and curve.svg here"
     command.add_argument("-o", "--output", metavar="folder", type=Path, help=folder)
-    command.add_argument("--points", type=_points, default=24, help="how many velocities, from 0 on (default: 24)")
+    command.add_argument("--points", type=_points, default=24, help="how many velocities (default: 24)")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
     command.add_argument("--up-to", type=_multiple, default=1.3, help="highest velocity over v_c (default: 1.3)")
+    command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
 
 
 def curve(args: argparse.Namespace, case: SlidingContact) -> int:
@@ -50,15 +53,23 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
         require_free([args.output / name for name in ("curve.csv", "curve.png", "curve.svg")])
     from mdr.friction.cof_curve import cof_curve
 
-    found = cof_curve(case, velocity_scale(case) * np.linspace(0, args.up_to, args.points), accuracy=args.accuracy)
+    least = -args.up_to * velocity_scale(case.mirrored) if case.is_shaken else 0.0
+    velocities = np.linspace(least, args.up_to * velocity_scale(case), args.points)
+    found = cof_curve(case, velocities, accuracy=args.accuracy)
     if args.output is not None:
         _write_csv(args, case, found)
         _write_figures(args, found)
     if args.json:
-        scalars = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof}
+        scalars: dict[str, Any] = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof}
+        if case.is_shaken:
+            band, blocked, free = at_rest(case)
+            scalars |= {"v_c_back": found.v_c_back, "holding_band": [band.low, band.high]}
+            scalars |= {"blocked_cof": blocked, "no_load_velocity": free}
         print_json(args, scalars | _columns(found), case)
     else:
         _print_curve(found)
+        if case.is_shaken:
+            print_rows(rows_at_rest(*at_rest(case)))
     unsettled = int(np.sum(~found.settled))
     if unsettled:
         reasons = "".join(f"\n  {why}" for why in dict.fromkeys(_loose_ends(found)))
@@ -71,7 +82,8 @@ def velocity_scale(case: SlidingContact) -> float:
     v_c = critical_velocity(case)
     if math.isfinite(v_c) and v_c > 0:
         return v_c
-    return resolved(case).unit_velocity
+    known = resolved(case)
+    return known.pace if math.isfinite(known.pace) else known.unit_velocity
 
 
 def _points(text: str) -> int:
@@ -102,7 +114,9 @@ def _loose_ends(curve: CofCurve) -> list[str]:
 
 def _print_curve(curve: CofCurve) -> None:
     scaled = math.isfinite(curve.v_c) and curve.v_c > 0
-    print(f"v_c = {velocity_text(curve.v_c)}, mu_0 = {curve.mu_0:.6g}, static COF = {curve.static_cof:.6g}")
+    back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
+    static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
+    print(f"v_c = {velocity_text(curve.v_c)}{back}, mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}")
     print(f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled")
     columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled)
     for v_0, cof, error, stick, settled in zip(*columns, strict=True):

@@ -4,24 +4,32 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
 from mdr.commands.output import DONE, FAILED, add_accuracy, print_json, print_rows, velocity_text
-from mdr.commands.velocity import equation_of
+from mdr.commands.velocity import at_rest, equation_of, rows_at_rest
 from mdr.friction.verdict import WITHIN
+
+if TYPE_CHECKING:
+    from mdr.friction.verdict import Verdict
 
 
 def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     """Print v_c, its bracket and what showed it; status 1 where there is none."""
     from mdr.friction.measured_velocity import measure_critical_velocity
 
-    found = measure_critical_velocity(case, accuracy=args.accuracy)
+    ways = (1, -1) if case.is_shaken else (1,)
+    measured = [measure_critical_velocity(case, way, accuracy=args.accuracy) for way in ways]
     if args.json:
-        print_json(args, {name: getattr(found, name) for name in ("v_c", "low", "high", "kind", "why")}, case)
+        told = [{name: getattr(one, name) for name in ("v_c", "low", "high", "kind", "why")} for one in measured]
+        print_json(args, told[0] | ({"other_way": told[1]} if case.is_shaken else {}), case)
     else:
-        print_rows([("v_c", velocity_text(found.v_c), found.kind), *_bracket(found), ("", found.why, "")])
-    return DONE if found.v_c is not None else FAILED
+        for name, found in zip(("forward", "other way") if case.is_shaken else ("v_c",), measured, strict=True):
+            print_rows([(name, velocity_text(found.v_c), found.kind), *_bracket(found), ("", found.why, "")])
+        if case.is_shaken:
+            print_rows(rows_at_rest(*at_rest(case)))
+    return DONE if all(found.v_c is not None for found in measured) else FAILED
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -41,23 +49,38 @@ def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     from mdr.friction import verdict as judgement
 
     found, (equation, how) = judgement.verdict(case, within=args.within, accuracy=args.accuracy), equation_of(case)
+    ways = [("", found)] if found.other_way is None else [("forward", found), ("the other way", found.other_way)]
     if args.json:
         names = ("eq_15", "full_slip", "measured", "deviation", "within", "good", "holds", "why")
-        print_json(args, {name: getattr(found, name) for name in names} | {"sentence": str(found)}, case)
+        told = [{name: getattr(one, name) for name in names} for _, one in ways]
+        more = {"other_way": told[1], "at_rest": found.at_rest} if len(ways) > 1 else {}
+        print_json(args, told[0] | more | {"sentence": str(found)}, case)
     else:
         print(found)
-        off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
-        vanishes = found.eq_15 <= found.least
-        against = f"measured less {equation}, over 1e-4 of Eq. (1)" if vanishes else f"measured over {equation}, less 1"
-        print_rows([
-            (equation, velocity_text(found.eq_15), how),
-            ("full slip", velocity_text(found.full_slip), "any amplitude, all harmonics of the force"),
-            ("measured", velocity_text(found.measured), "from simulation alone"),
-            ("deviation", off, against),
-            ("good", _yes_or_no(found.good, "undefined"), f"to {100 * found.within:.4g} %"),
-            ("holds", _yes_or_no(found.holds, "cannot be judged"), "to the bracket of the measurement"),
-        ])  # fmt: skip
-    return DONE if found.holds or found.measured is not None else FAILED  # no v_c on a resonance is an answer
+        for way, one in ways:
+            if way:
+                print(f"\n{way}:")
+            _print_verdict(one, equation, how)
+        if case.is_shaken:
+            print("\nat rest:")
+            print_rows(rows_at_rest(*at_rest(case)))
+    known = [one.holds or one.measured is not None for _, one in ways]
+    return DONE if all(known) else FAILED  # no v_c on a resonance is an answer
+
+
+def _print_verdict(found: Verdict, equation: str, how: str) -> None:
+    """The numbers of a verdict."""
+    off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
+    vanishes = found.eq_15 <= found.least
+    against = f"measured less {equation}, over 1e-4 of Eq. (1)" if vanishes else f"measured over {equation}, less 1"
+    print_rows([
+        (equation, velocity_text(found.eq_15), how),
+        ("full slip", velocity_text(found.full_slip), "any amplitude, all harmonics of the force"),
+        ("measured", velocity_text(found.measured), "from simulation alone"),
+        ("deviation", off, against),
+        ("good", _yes_or_no(found.good, "undefined"), f"to {100 * found.within:.4g} %"),
+        ("holds", _yes_or_no(found.holds, "cannot be judged"), "to the bracket of the measurement"),
+    ])  # fmt: skip
 
 
 def _yes_or_no(answer: bool | None, neither: str) -> str:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
 from mdr.normal.resolved import resolved
+
+if TYPE_CHECKING:
+    from mdr.friction.shaken import HoldingBand
 
 
 def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
@@ -15,10 +19,12 @@ def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
     from mdr.closed_forms.full_slip import static_cof
     from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 
+    if case.is_shaken:
+        return _shaken(args, case)
     v_c, full_slip, static = critical_velocity(case), full_slip_critical_velocity(case), static_cof(case)
     known = resolved(case)
     (equation, how), kappa = equation_of(case), case.material.mindlin_ratio
-    loss = float(case.material.loss_tangent(case.oscillation.omega))
+    loss = float(case.material.loss_tangent(case.omega))
     if args.json:
         values = {
             "equation": equation, "v_c": v_c, "full_slip": full_slip, "static_cof": static, "mu_0": case.mu_0,
@@ -38,7 +44,57 @@ def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE
 
 
+def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
+    """The same of a contact that is shaken in the plane, for each way of the pull, and what it does at rest."""
+    from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+
+    known, (equation, how) = resolved(case), equation_of(case)
+    v_c, full = ([one(case, way) for way in (1, -1)] for one in (critical_velocity, full_slip_critical_velocity))
+    band, blocked, free = at_rest(case)
+    if args.json:
+        values = {
+            "equation": equation, "v_c": v_c[0], "v_c_back": v_c[1], "full_slip": full[0], "full_slip_back": full[1],
+            "mu_0": case.mu_0, "holding_band": [band.low, band.high], "blocked_cof": blocked, "no_load_velocity": free,
+            "alpha": known.alpha, "chi": known.chi, "T": case.T, "mindlin_ratio": case.material.mindlin_ratio,
+            "keeps_contact": known.keeps_contact,
+        }  # fmt: skip
+        return print_json(args, values, case)
+    print_rows([
+        ("forward", velocity_text(v_c[0]), f"critical velocity by {equation}{', ' if how else ''}{how}"),
+        ("other way", velocity_text(v_c[1]), "the same, pulled the other way"),
+        ("full slip", velocity_text(full[0]), "critical velocity forward, any amplitude, all harmonics of the force"),
+        ("other way", velocity_text(full[1]), "the same, pulled the other way"),
+        *rows_at_rest(band, blocked, free),
+        ("alpha", f"{known.alpha:.6g}", "half the swing of the depth over its mean, du_z/u_z0"),
+        ("chi", f"{known.chi:.6g}", "amplitude of the shake over the deflection at which springs slip"),
+        ("contact", "kept" if known.keeps_contact else "lost in part of the period", "at its centre, Eq. (5)"),
+    ])  # fmt: skip
+    return DONE
+
+
+def at_rest(case: SlidingContact) -> tuple[HoldingBand, float | None, float]:
+    """The band of loads that a shaken contact holds, its blocked friction if that is one number, its free velocity."""
+    from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
+
+    try:
+        blocked: float | None = blocked_cof(case)
+    except ValueError:  # a band
+        blocked = None
+    return holding_band(case), blocked, no_load_velocity(case)
+
+
+def rows_at_rest(band: HoldingBand, blocked: float | None, free: float) -> list[tuple[str, str, str]]:
+    """The same in words."""
+    one = "a band" if blocked is None else f"{blocked:.6g}"
+    return [
+        ("band", f"{band.low:.6g} to {band.high:.6g}", "mean F_x over mean F_z that it holds at rest, held rigidly"),
+        ("blocked", one, "mean F_x over mean F_z where the pull stands still"),
+        ("no load", f"{free:.6g} m/s", "velocity at which nothing holds it back"),
+    ]
+
+
 def equation_of(case: SlidingContact) -> tuple[str, str]:
     """Number and circumstances of the closed form."""
     number, closing, rest = formula_of(case).partition(")")
-    return number + closing, rest.strip() or "contact stiffness at the mean depth"
+    usual = "" if case.is_shaken else "contact stiffness at the mean depth"
+    return number + closing, rest.strip() or usual

@@ -18,9 +18,15 @@ default, and no [pull] is a rigid pull:
     omega = 314.159
     [pull]
     k_x = 2e4
+    [shake]
+    omega = 314.159
+    du_x = 3e-6
 
-[oscillation] may name its record, motion = "LoadOscillation". Without a name it is a LoadOscillation where one of the
-keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a NormalOscillation.
+[oscillation] may name its record, motion = "LoadOscillation", and must name a ConstantDepth or ConstantLoad. Without a
+name it is a LoadOscillation where one of the keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and
+else a NormalOscillation.
+[shake] is left out where nothing moves in the plane besides the pull; without a name it is an InPlaneMotion where a
+list of amplitudes is given, and else an InPlaneOscillation.
 A Prony material has arms = [[E_j, tau_j], ...].
 
 A file that is wrong is refused with every fault at once: what is missing, what is no key, each value that the rule of
@@ -40,8 +46,9 @@ from types import ModuleType
 from typing import Any
 
 from mdr import indenters, materials
-from mdr.case import motion
+from mdr.case import in_plane, motion
 from mdr.case.contact import SlidingContact, as_given
+from mdr.case.in_plane import Shake
 from mdr.case.motion import Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
@@ -173,7 +180,7 @@ def write_case(case: SlidingContact) -> str:
         value = getattr(case, field.name)
         if field.name not in _TABLES:
             top.append(f"{field.name} = {toml_value(value)}")
-        elif not isinstance(value, RigidPull):
+        elif value is not None and not isinstance(value, RigidPull):
             tables.append(_written(_TABLES[field.name], value))
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
@@ -362,6 +369,7 @@ _TABLES = {
         _Table("material", "model", materials, Material),
         _Table("oscillation", "motion", motion, Motion, motion.UNNAMED),
         _Table("pull", "", None, SpringPull, (SpringPull,)),
+        _Table("shake", "motion", in_plane, Shake, in_plane.UNNAMED),
     )
 }
 _HARMLESS = {

@@ -1,4 +1,4 @@
-"""Starting files: a commented case for each shape, material, motion and pull that a file can carry.
+"""Starting files: a commented case for each shape, material, motion, pull and shake that a file can carry.
 
 Every example is a small body of rubber 20 µm deep, which touches over a disc of about 1 mm.
 """
@@ -12,7 +12,16 @@ import numpy as np
 
 from mdr import indenters, materials
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.motion import UNNAMED, LoadOscillation, Motion, NormalOscillation, PeriodicMotion
+from mdr.case.in_plane import InPlaneMotion, InPlaneOscillation, Shake
+from mdr.case.motion import (
+    UNNAMED,
+    ConstantDepth,
+    ConstantLoad,
+    LoadOscillation,
+    Motion,
+    NormalOscillation,
+    PeriodicMotion,
+)
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.case_files import toml_value
 from mdr.tools.fields import facts_of
@@ -68,7 +77,13 @@ PULLS: dict[str, RigidPull | SpringPull] = {
     "SpringPull": SpringPull(k_x=2e4, m=0.1, c_x=4.0),
     "RigidPull": RigidPull(),
 }
-MOTIONS = ("NormalOscillation", "PeriodicMotion", "LoadOscillation")
+MOTIONS = ("NormalOscillation", "PeriodicMotion", "LoadOscillation", "ConstantDepth", "ConstantLoad")
+SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  # m
+SHAKES: dict[str, Shake] = {
+    "InPlaneOscillation": InPlaneOscillation(omega=OMEGA, du_x=1e-5, phi_x=1.5708),
+    "InPlaneMotion": InPlaneMotion(omega=OMEGA, x_sin=SAWTOOTH),
+}
+STILL = "none"  #: the name of no shake
 
 
 def example(
@@ -76,14 +91,19 @@ def example(
     material: str = "KelvinVoigt",
     motion: str = "NormalOscillation",
     pull: str = "SpringPull",
+    shake: str = STILL,
 ) -> SlidingContact:
     """The example of these records, named as in Python, in any case and with or without underscores.
 
+    A constant depth or load is shaken in the plane, unless asked otherwise harmonically, as something has to move.
     Raises ValueError for a name that is none, with the nearest.
     """
     indenter, body = SHAPES[_named("shape", shape, SHAPES)], MATERIALS[_named("material", material, MATERIALS)]
     moved = _motion(_named("motion", motion, MOTIONS), indenter, body)
-    return SlidingContact(indenter, body, 0.5, moved, PULLS[_named("pull", pull, PULLS)])
+    shaken = SHAKES.get(_named("shake", shake, (*SHAKES, STILL)))
+    if shaken is None and not moved.omega:
+        shaken = SHAKES["InPlaneOscillation"]
+    return SlidingContact(indenter, body, 0.5, moved, PULLS[_named("pull", pull, PULLS)], shaken)
 
 
 def example_file(case: SlidingContact) -> str:
@@ -94,11 +114,14 @@ def example_file(case: SlidingContact) -> str:
         ("material", "model", "the half-space", case.material),
         ("oscillation", _choice(case.oscillation), _of_motion(case.oscillation), case.oscillation),
         ("pull", "", "what drags it; a rigid pull without this table", case.pull),
+        ("shake", "", "motion in the plane besides the pull", case.shake),
     ]
     lines = [_line(one, case) for one in fields(case) if one.name == "mu_0"]
     for name, choice, meaning, record in tables:
         if isinstance(record, RigidPull):
             lines += ["", "# no [pull]: a rigid pull; give k_x [N/m], m [kg] and c_x [N s/m] for a body on a spring"]
+            continue
+        if record is None:
             continue
         lines += ["", f"{f'[{name}]':<{WIDEST}}# {meaning}"]
         if choice:
@@ -112,7 +135,11 @@ def _motion(name: str, indenter: indenters.Indenter, material: materials.Materia
         return NormalOscillation(u_z0=DEPTH, du_z=2e-6, omega=OMEGA)
     if name == "PeriodicMotion":
         return PeriodicMotion(omega=OMEGA, u_z0=DEPTH, cos=(2e-6, 5e-7), sin=(0.0, 3e-7))
+    if name == "ConstantDepth":
+        return ConstantDepth(u_z0=DEPTH)
     load = float(f"{float(indenter.force(DEPTH, material.E_star)):.2g}")
+    if name == "ConstantLoad":
+        return ConstantLoad(F_z0=load)
     return LoadOscillation(F_z0=load, dF_z=float(f"{load / 10:.2g}"), omega=OMEGA)
 
 
@@ -129,6 +156,8 @@ def _of_motion(motion: Motion) -> str:
         return "depth u_z0 + sum over n of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t)"
     if isinstance(motion, NormalOscillation):
         return "depth u_z0 + du_z cos(omega t)"
+    if isinstance(motion, ConstantDepth | ConstantLoad):
+        return "what does not change"
     return (type(motion).__doc__ or "a motion").splitlines()[0]
 
 
@@ -160,4 +189,4 @@ def _named(kind: str, name: str, known: Any) -> str:
     return found
 
 
-__all__ = ["MATERIALS", "MOTIONS", "PULLS", "SHAPES", "example", "example_file"]
+__all__ = ["MATERIALS", "MOTIONS", "PULLS", "SHAKES", "SHAPES", "STILL", "example", "example_file"]

@@ -7,14 +7,15 @@ from inspect import isabstract
 from typing import Any, TypeVar
 
 from mdr import indenters, materials
-from mdr.case import motion
+from mdr.case import in_plane, motion
+from mdr.case.in_plane import Shake
 from mdr.case.motion import Motion
 from mdr.indenters import Indenter
 from mdr.materials import Material
 
 Record = TypeVar("Record", bound=type[Any])
 
-_KINDS = (Indenter, Material, Motion)
+_KINDS = (Indenter, Material, Motion, Shake)
 _OWN: dict[str, type[Any]] = {}
 
 
@@ -24,7 +25,8 @@ def register(record: Record) -> Record:
     Parameters
     ----------
     record : type
-        A dataclass, a subclass of `Indenter`, `Material` or `Motion` whose fields are numbers, words or lists of them.
+        A dataclass, a subclass of `Indenter`, `Material`, `Motion` or `Shake` whose fields are numbers, words or lists
+        of them.
         Its name in a file is that of the class.
 
     Returns
@@ -57,7 +59,9 @@ def register(record: Record) -> Record:
         raise TypeError(f"record must be a dataclass that is an {kinds} and answers all that it must, got {record!r}")
     name = record.__name__
     known = _OWN.get(name, record)
-    if any(name in module.__all__ for module in (indenters, materials, motion)) or _home(known) != _home(record):
+    if any(name in module.__all__ for module in (indenters, materials, motion, in_plane)) or _home(known) != _home(
+        record
+    ):
         raise ValueError(f"{name} is the name of another record that a file can name; rename the class")
     _OWN[name] = record
     return record

@@ -33,7 +33,7 @@ LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions
 class CofCurve(ArrayRecord):
     """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
 
-    The point v_0 = 0 is the static limit.
+    The point v_0 = 0 is the static limit, of a pull ever slower forward.
     """
 
     v_0: Array  #: pulling velocities [m/s]
@@ -43,8 +43,9 @@ class CofCurve(ArrayRecord):
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
     v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
     mu_0: float  #: local coefficient of friction [-]
-    static_cof: float  #: limit v_0 -> 0 [-]
+    static_cof: float  #: limit v_0 -> +0 [-]
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
+    v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
 
     def plot(self, ax: Any = None) -> Any:
         """Draw cof/mu_0 over v_0/v_c.
@@ -103,7 +104,8 @@ def cof_curve(
     case : SlidingContact
         The contact.
     v_0 : array_like of float, shape (n_v,)
-        Pulling velocities [m/s], zero or above. Zero is the static limit.
+        Pulling velocities [m/s], zero or above. Zero is the static limit. Where something shakes in the plane they may
+        be of either sign, friction too, and zero is the limit of a pull ever slower forward.
     method : {None, "march"}
         None takes the closed form where there is one (a rigid pull, a harmonic depth, an elastic or Kelvin material)
         and one run for each velocity elsewhere. "march" takes runs for every case.
@@ -146,13 +148,19 @@ def cof_curve(
     velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)  # a copy: the record keeps it
     if velocities.ndim != 1 or velocities.size == 0:
         raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
+    knobs = (n_springs, steps_per_period, accuracy)
+    if case.is_shaken:
+        return _shaken_curve(case, velocities, method, knobs)
     if np.any(velocities < 0):
-        raise ValueError(f"v_0 must not be negative, got {float(velocities.min())!r} m/s")
+        raise ValueError(
+            f"v_0 must not be negative, got {float(velocities.min())!r} m/s: friction is the same both ways where "
+            "nothing shakes in the plane"
+        )
     static, moving = static_cof(case), velocities > 0
     if method is None and has_closed_form(case):
         columns = _closed_form(case, velocities[moving])
     else:
-        columns = _runs(case, velocities[moving], n_springs, steps_per_period, accuracy)
+        columns = _ordered(velocities[moving], _runs(case, velocities[moving], *knobs))
     cof, error, settled, sticks, why = columns
 
     def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:
@@ -174,16 +182,46 @@ def cof_curve(
 
 
 Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
+Given = tuple[int | None, int | None, float]  #: springs, steps and accuracy
+
+
+def _shaken_curve(case: SlidingContact, v_0: Array, method: str | None, knobs: Given) -> CofCurve:
+    """The curve of a contact that is shaken in the plane: that of its mirror image, turned, for the other way."""
+    velocities = np.append(v_0, 0.0) if not np.any(v_0 == 0) else v_0
+    columns: list[NDArray[Any]] = [
+        np.empty(velocities.size, dtype=kind) for kind in (float, float, bool, float, object)
+    ]
+    for one, side, where in ((case, 1.0, velocities >= 0), (case.mirrored, -1.0, velocities < 0)):
+        if where.any():
+            parts = _runs(one, np.abs(velocities[where]), *knobs)
+            for column, part in zip(columns, (side * parts[0] + 0.0, *parts[1:]), strict=True):
+                column[where] = part
+    cof, error, settled, sticks, why = _ordered(velocities, tuple(columns))  # type: ignore[arg-type]
+    n = v_0.size
+    return CofCurve(
+        v_0=v_0,
+        cof=cof[:n],
+        cof_error=error[:n],
+        settled=settled[:n],
+        stick_share=sticks[:n],
+        v_c=critical_velocity(case),
+        mu_0=case.mu_0,
+        static_cof=float(cof[np.flatnonzero(velocities == 0)[0]]),
+        why=tuple(why[:n].tolist()),
+        v_c_back=critical_velocity(case, -1),
+    )
 
 
 def has_closed_form(case: SlidingContact) -> bool:
     """Whether the curve of a case is known in closed form."""
-    return case.pull.is_rigid and case.is_of_the_paper
+    return case.pull.is_rigid and case.is_of_the_paper and not case.is_shaken
 
 
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
     """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
     case = resolved(case)
+    if case.is_shaken:
+        return _shaken_without_bound(case, v_0, n_springs, steps_per_period)
     at_rest = v_0 == 0
     out = np.full(v_0.shape, static_cof(case) if at_rest.any() else 0.0)
     order = np.argsort(v_0, kind="stable")[int(at_rest.sum()) :]
@@ -191,6 +229,15 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
         out[order] = average_friction(case, v_0[order]).cof
     else:
         out[order] = list(cofs_without_bound(case, v_0[order].tolist(), n_springs, steps_per_period))
+    return out
+
+
+def _shaken_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
+    out = np.empty(v_0.shape)
+    for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
+        order = np.flatnonzero(where)[np.argsort(np.abs(v_0[where]), kind="stable")]
+        cofs = cofs_without_bound(one, np.abs(v_0[order]).tolist(), n_springs, steps_per_period)
+        out[order] = side * np.array(list(cofs))
     return out
 
 
@@ -203,13 +250,19 @@ def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
 def _runs(
     case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None, accuracy: float
 ) -> Columns:
+    """One run for each velocity >= 0."""
     order = np.argsort(v_0, kind="stable")
     rising = slides(case, progress(v_0[order].tolist(), "cof_curve"), n_springs, steps_per_period, accuracy)
     ended = dict(zip(order.tolist(), rising, strict=True))
     runs = [ended[i] for i in range(v_0.size)]
     cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
     settled = np.array([run.settled for run in runs], dtype=bool)
-    why = np.array([run.why for run in runs], dtype=object)
+    return cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object)
+
+
+def _ordered(v_0: Array, columns: Columns) -> Columns:
+    """The columns of runs, without those that contradict another one."""
+    cof, error, settled, sticks, why = columns
     wrong = disordered(v_0, cof, error, settled)
     why[wrong] = "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
     return cof, error, settled & ~wrong, sticks, why

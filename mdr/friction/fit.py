@@ -245,7 +245,7 @@ def _value(case: SlidingContact, path: str) -> Any:
         return getattr(case.pull, "k_x", 0.0) / at_rest(case).k_xc
     if path == "omega_0/omega":
         omega_0 = case.pull.omega_0
-        return omega_0 / case.oscillation.omega if omega_0 < np.inf else 0.0
+        return omega_0 / case.omega if omega_0 < np.inf else 0.0
     slot, _, field = path.partition(".")
     return getattr(getattr(case, slot), field)
 

@@ -32,6 +32,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.in_plane import way_of
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.refinement import N_SPRINGS, default_steps
 from mdr.march.run import SlidingRun
@@ -100,7 +101,12 @@ class MeasuredVelocity:
 
 
 def measure_critical_velocity(
-    case: SlidingContact, *, start: str = "full_slip", limit_s: float | None = None, accuracy: float = BUDGET
+    case: SlidingContact,
+    direction: int = 1,
+    *,
+    start: str = "full_slip",
+    limit_s: float | None = None,
+    accuracy: float = BUDGET,
 ) -> MeasuredVelocity:
     """Critical velocity [m/s] from simulated runs alone, with its bracket.
 
@@ -110,6 +116,9 @@ def measure_critical_velocity(
     ----------
     case : SlidingContact
         The contact.
+    direction : {1, -1}
+        1 is the pull forward, -1 the pull the other way, whose velocities are given as positive numbers too. They
+        differ only where something shakes in the plane.
     start : {"full_slip", "rest"}
         First state of the runs that locate v_c, as in `slide`.
     limit_s : float, optional
@@ -126,7 +135,7 @@ def measure_critical_velocity(
     Raises
     ------
     ValueError
-        For an unknown start.
+        For an unknown start or direction.
     TypeError
         For a case that is no SlidingContact.
 
@@ -147,7 +156,10 @@ def measure_critical_velocity(
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    search = _Search(resolved(case), start, max(MARGIN * accuracy_of(accuracy), NARROWEST))
+    known = resolved(case)
+    search = _Search(
+        known if way_of(direction) == 1 else known.mirrored, start, max(MARGIN * accuracy_of(accuracy), NARROWEST)
+    )
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:
             return search.measure()
@@ -167,7 +179,7 @@ class _Search:
         self.ticker = Ticker("measure_critical_velocity, runs")
         self.steps, self.n_springs = default_steps(case), N_SPRINGS
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
-        self.scale = case.unit_velocity  # only a scale of velocity
+        self.scale = case.pace  # only a scale of velocity
 
     def run(self, v_0: float, start: str | None = None) -> SlidingRun:
         self._begin(v_0)
@@ -305,7 +317,7 @@ class _Search:
     def _jumps(self) -> bool:
         """True if the velocity of the body jumps whenever a spring touches: no inertia, and dashpots that touch."""
         case = self.case
-        kept = case.cycle.u_z0 + case.cycle.du_z * case.kept_gap
+        kept = case.cycle.u_z0 + case.cycle.unit * case.kept_gap
         moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
         light = not case.pull.is_rigid and case.pull.coefficients[:2] == (0, 0)
         return bool(light and case.T > 0 and moving_edge)
@@ -374,7 +386,7 @@ class _Search:
         pull = self.case.pull
         if pull.damping_ratio > 0 or np.isinf(pull.omega_0):
             return 0
-        ratio = pull.omega_0 / self.case.oscillation.omega
+        ratio = pull.omega_0 / self.case.omega
         return round(ratio) if abs(ratio - round(ratio)) < SAME_MULTIPLE * ratio else 0
 
     def _lock_in(self, full: float, stick: float) -> MeasuredVelocity:

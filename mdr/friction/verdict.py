@@ -1,9 +1,12 @@
-"""The verdict: how good Eq. (15) is, beside the full-slip value and the measured one, and why they differ."""
+"""The verdict: how good Eq. (15) is, beside the full-slip value and the measured one, and why they differ.
+
+A contact that is shaken in the plane has one for each way of the pull, and a sentence on what it does at rest.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,9 +15,11 @@ from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlik
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
+from mdr.friction.shaken import holding_band, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between
+from mdr.tools.progress import time_limit
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
@@ -39,9 +44,13 @@ class Verdict:
     formula: str = "Eq. (15)"  #: the closed form judged
     within: float = WITHIN  #: largest deviation, up or down, that is called good [-]
     least: float = 0.0  #: 1e-4 of Eq. (1) [m/s]: a velocity below it is not told from zero
+    other_way: Verdict | None = None  #: that of the pull the other way, where something shakes in the plane
+    at_rest: str = ""  #: what the contact does there without a pull, in a sentence
 
     def __post_init__(self) -> None:
         _tolerance(self.within)
+        if self.other_way is not None and self.other_way.within != self.within:
+            object.__setattr__(self, "other_way", replace(self.other_way, within=self.within))
 
     @property
     def good(self) -> bool | None:
@@ -58,7 +67,10 @@ class Verdict:
                 f"measured v_c = {self.measured:.6g} m/s (between {found.low:.8g} and {found.high:.8g}), "
                 f"against {self.eq_15:.6g} m/s"
             )
-        return f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
+        sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
+        if self.other_way is None:
+            return sentence
+        return f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}"
 
     def _use(self, measured: float) -> str:
         """How good the formula is, and what to use in its place."""
@@ -107,8 +119,9 @@ def verdict(
     Returns
     -------
     Verdict
-        Print it for the sentence. `good` judges by the tolerance `within`. `holds` judges by the bracket of the
-        measurement, some 4e-5 of v_c wide, so that small deviations count.
+        Print it for the sentence. Of a contact that is shaken in the plane it is the verdict on the pull forward, with
+        that on the other way beside it, and what the contact does at rest. `good` judges by the tolerance `within`.
+        `holds` judges by the bracket of the measurement, some 4e-5 of v_c wide, so that small deviations count.
 
     Raises
     ------
@@ -127,10 +140,36 @@ def verdict(
     >>> found.good, found.holds, found.formula
     (True, True, 'Eq. (1)')
     """
-    case = resolved(case)
+    case, within = resolved(case), _tolerance(within)  # before the runs, not after them
+    forward = _judged(case, within, limit_s, accuracy)
+    if not case.is_shaken:
+        return forward
+    with time_limit(limit_s):
+        back, rest = _judged(case.mirrored, within, limit_s, accuracy), _at_rest(case)
+    return replace(forward, other_way=back, at_rest=rest)
+
+
+def _at_rest(case: SlidingContact) -> str:
+    """What a shaken contact does without a pull."""
+    try:
+        band, free = holding_band(case), no_load_velocity(case)
+    except ValueError as unknown:
+        return f"At rest: {unknown}"
+    if band.contains(0.0) and not band.is_one_number:
+        held = f"up to {band.high:.3g} of the load pulled forward and {-band.low:.3g} the other way"
+        return f"At rest it holds {held}, of mu_0 = {case.mu_0:.6g}"
+    push = 0.5 * (band.low + band.high)
+    if abs(push) <= 2 * band.error:
+        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
+    way = "forward" if push < 0 else "backward"
+    held = f"held, it pushes with {abs(push):.3g} of the load"
+    return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
+
+
+def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy: float) -> Verdict:
+    """The verdict on the pull forward."""
     eq_15, full = critical_velocity(case), full_slip_critical_velocity(case)
-    within = _tolerance(within)  # before the runs, not after them
-    found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.unit_velocity
+    found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.pace
     deviation: float | None = None
     holds: bool | None
     if found.v_c is None:
@@ -178,7 +217,7 @@ def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> 
         return None
     if not np.isfinite(eq_15):
         return True
-    return None if eq_15 > HIGHEST * case.unit_velocity else False  # beyond that no run has looked
+    return None if eq_15 > HIGHEST * case.pace else False  # beyond that no run has looked
 
 
 def _has_mass(case: SlidingContact) -> bool:

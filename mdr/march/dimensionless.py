@@ -58,6 +58,10 @@ class ScaledContact:
     w: Array  #: (n,) share of each spring in the stiffness
     z: Array  #: (n_steps + 1,) normal motion over one period
     z_dot: Array  #: (n_steps + 1,) its rate
+    x: Array  #: (n_steps + 1,) way on which a shake takes the indenter along the pull
+    x_dot: Array  #: (n_steps + 1,) its rate
+    drive: Array  #: (n_steps + 1,) motion of the pulling point besides the pull; zero where the tool is shaken
+    is_shaken: bool  #: whether there is one
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
     table: Array  #: (L_ROWS, 1 + J) the same over one step
     body: kernels.Body  #: recursion of the body
@@ -123,17 +127,30 @@ class ScaledContact:
         """Scale a case, its springs and its motion; lump the core that never leaves into its first spring if asked."""
         cycle, kappa, rheology = case.cycle, case.material.mindlin_ratio, case.rheology
         width = float(springs.width.sum())
-        gap, w, margin, n_lumped = springs.gap / cycle.du_z, springs.width / width, -np.inf, 1
-        if lump and springs.n_core > 1:
+        gap, w, margin, n_lumped = springs.gap / cycle.unit, springs.width / width, -np.inf, 1
+        core = gap[: springs.n_core]
+        if lump and core.size > 1 and (not case.is_shaken or core.max() == core.min()):  # a shake has edges slip back
             gap, w, margin, n_lumped = _lumped(gap, w, springs.n_core)
-        length_x = case.mu_0 * kappa * cycle.du_z
+        length_x = case.mu_0 * kappa * cycle.unit
         z, z_dot = cycle.over_a_period(steps)
+        if not np.isfinite(case.way).all():
+            raise ValueError(
+                "the pulling point is shaken at the undamped natural frequency of the body: in full slip there is no "
+                "periodic motion to begin with; give the pull a damper c_x, or move omega or m"
+            )
+        x, x_dot = series_over_a_period(case.way / length_x, steps)
+        at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
+        drive = series_over_a_period(case.drive / length_x, steps)[0] if at_pull else np.zeros(steps + 1)
         M, C, K = _body_groups(case, springs.G_star * width)
         return cls(
             gap=gap,
             w=w,
             z=z,
             z_dot=z_dot,
+            x=x,
+            x_dot=x_dot,
+            drive=drive,
+            is_shaken=case.is_shaken,
             rheology=rheology,
             table=rheology.over_step(2 * np.pi / steps),
             body=_recursion(M, C, K, rheology, 2 * np.pi / steps),
@@ -144,7 +161,7 @@ class ScaledContact:
             n_lumped=n_lumped,
             n_core=springs.n_core - n_lumped + 1,
             length_x=length_x,
-            length_z=cycle.du_z,
+            length_z=cycle.unit,
             stiffness_x=springs.G_star * width,
             stiffness_z=springs.E_star * width,
             omega=cycle.omega,
@@ -169,9 +186,13 @@ class ScaledContact:
         return kernels.Springs(self.gap, self.w, self.lump_margin)
 
     def motion(self, v: float) -> kernels.Motion:
-        """The way of the indenter over a period, in the plane that of a pull at the steady velocity v."""
-        dx, x_dot = np.full(self.steps, v * self.h), np.full(self.steps + 1, v)
-        return kernels.Motion(self.z, self.z_dot, dx, x_dot, self.normal.spans)
+        """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
+        dx, x_dot = v * self.h + np.diff(self.x), v + self.x_dot
+        return kernels.Motion(self.z, self.z_dot, v, self.is_shaken, dx, x_dot, self.normal.spans)
+
+    def pace(self, v: float) -> float:
+        """A scale of velocities where the pull is at v: this, or that of the shake if it is faster."""
+        return max(v, float(np.abs(self.x_dot).max()))
 
     def full_slip_state(self, S: Array, v: float = np.inf) -> kernels.BodyState:
         """State of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
@@ -183,7 +204,7 @@ class ScaledContact:
         if self.rigid:
             return self._state(S, np.zeros(3))
         y_n = self._full_slip_motion(S)
-        most = FASTEST_START * v
+        most = FASTEST_START * self.pace(v)
         cut = most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1.0
         return self._state(S, self._positions(y_n * cut))
 
@@ -199,7 +220,8 @@ class ScaledContact:
         swings = self._velocities(y_n)
         n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(swings))
         F_n = complex(np.fft.rfft(S)[n]) / self.steps * complex(self.rheology.response(n))
-        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not (resonant[n] or swings[n] > FASTEST_START * v):
+        far = resonant[n] or swings[n] > FASTEST_START * self.pace(v)
+        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not far:
             return None
         y_n[n] = 0
         state = self._state(S, self._positions(y_n))
@@ -227,7 +249,7 @@ class ScaledContact:
         y_dot = (np.roll(y, -1) - np.roll(y, 1)) / (2 * self.h)
         spans = self.normal.spans
         touching = (spans[1] > 0) & (np.roll(spans[1], 1) > 0)  # contact at the node between two steps
-        return float((self.z_dot[:-1] - y_dot)[touching].max(initial=0.0))
+        return float((self.z_dot[:-1] - self.x_dot[:-1] - y_dot)[touching].max(initial=0.0))
 
     def _state(self, S: Array, y: Array) -> kernels.BodyState:
         """State at phase 0 of a body that was at y (3,), now and before, under the full-slip force S (n_steps,)."""
@@ -305,6 +327,16 @@ class ScaledContact:
         return kernels.BodyState(y, np.zeros(2), np.zeros((2, self.n_arms)))
 
 
+def series_over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:
+    """Re of sum X_n exp(i n phase) and its rate at equidistant phases, both ends included: (steps + 1,)."""
+    phase = 2 * np.pi * np.arange(steps + 1) / steps
+    x, rate = np.zeros((2, steps + 1))
+    for n in np.flatnonzero(harmonics) + 1:
+        turning = harmonics[n - 1] * np.exp(1j * n * phase)
+        x, rate = x + turning.real, rate - n * turning.imag
+    return x, rate
+
+
 def fast_ratio(case: SlidingContact) -> float:
     """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
     if case.pull.is_rigid:
@@ -315,7 +347,7 @@ def fast_ratio(case: SlidingContact) -> float:
 
 
 def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
-    (m, c_x, k_x), omega = case.pull.coefficients, case.oscillation.omega
+    (m, c_x, k_x), omega = case.pull.coefficients, case.omega
     return m * omega**2 / stiffness, c_x * omega / stiffness, k_x / stiffness
 
 

@@ -83,10 +83,12 @@ class Springs(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """The way of the indenter over one period of n_z steps: normal to the plane, and of the pull in the plane."""
+    """The way of the indenter over one period of n_z steps: normal to the plane, and in the plane, without the body."""
 
     z: Array  #: (n_z + 1,) normal motion
     z_dot: Array  #: (n_z + 1,) its rate
+    v: float  #: steady velocity of the pull
+    shaken: bool  #: whether it moves in the plane besides the pull
     dx: Array  #: (n_z,) travel in the plane in each step
     x_dot: Array  #: (n_z + 1,) velocity in the plane
     spans: NDArray[np.int64]  #: (2, n_z) springs before the first press throughout a step, from the second on none does
@@ -143,6 +145,7 @@ class Move(NamedTuple):
     surge: float  #: how its velocity changes within the step (`growth_of`)
     jump: float
     jumps: bool
+    shaken: bool  #: whether slip backward is the rule, so that its beginning and end within a step are told too
 
 
 class Law(NamedTuple):
@@ -244,30 +247,38 @@ def touches_flat(gap, w, z):
 
 
 @_inline
-def moved(du, ud_0, ud_1, h, jumps):
+def moved(du, ud_0, ud_1, h, jumps, shaken):
     """What the body does in a step, from its travel and its velocities at both ends."""
     surge, jump = growth_of(du, ud_0, ud_1, h, jumps)
-    return Move(du, ud_0, ud_1, surge, jump, jumps)
+    return Move(du, ud_0, ud_1, surge, jump, jumps, shaken)
 
 
 @_inline
-def elastic_spring(e, gap, z_1, move, inverse_dz, bend, late):
+def latenesses(step, move):
+    """What elastic springs that turned from slip to stick within the step fall behind, forward and backward."""
+    late = after_change(step.zd_0 - move.ud_0, step.zd_1 - move.ud_1, step.h, 0.0) if step.zd_0 < move.ud_0 else 0.0
+    back = move.shaken and step.zd_0 < -move.ud_0
+    return late, after_change(step.zd_0 + move.ud_0, step.zd_1 + move.ud_1, step.h, 0.0) if back else 0.0
+
+
+@_inline
+def elastic_spring(e, gap, z_1, move, inverse_dz, bend, late, late_back):
     """One elastic spring over one step: new extension, compression, share of the step in contact, trial extension.
 
-    late: what a spring that turned from slip to stick within the step falls behind.
+    late, late_back: of `latenesses`.
     """
     s = max(z_1 - gap, 0.0)
     way = min(s * inverse_dz, 1.0)
     travelled = way * ((1.0 - bend) + bend * way)
     trial = e + travelled * ((move.du + move.surge) - travelled * move.surge) + (1.0 - travelled) * move.jump
-    return max(min(trial, s - travelled * late), -s), s, travelled, trial
+    return max(min(trial, s - travelled * late), travelled * late_back - s), s, travelled, trial
 
 
 @_inline
-def slip_or_stick(s, trial, travelled, step, move, law, free):
+def slip_or_stick(s, trial, travelled, step, move, law, free, shaken):
     """New extension of a spring with memory that is compressed to s and would stick at `trial`.
 
-    travelled: share of the step in contact.
+    travelled: share of the step in contact. shaken: as of Move, known when this is compiled.
     """
     D_0 = (step.zd_0 - move.ud_0) + free.lag_rate  # lead of the sinking indenter over the body; > 0: sticks at first
     sticks = D_0 > 0.0
@@ -275,14 +286,30 @@ def slip_or_stick(s, trial, travelled, step, move, law, free):
     D_1 = (step.zd_1 - move.ud_1) + (held if sticks else free.lag_end)
     turn = -1.0 if sticks else 1.0
     change = after_change(turn * D_0, turn * D_1, step.h, law.damping) if (law.dashpot or not sticks) else 0.0
-    forward = s - free.lag
-    first = min((trial if (sticks and law.dashpot) else forward) - travelled * change, forward)
-    first = first if law.dashpot else min(first, trial)
-    return max(first, (free.s + free.s) - free.lag - s)
+    forward, backward = s - free.lag, (free.s + free.s) - free.lag - s
+    if not shaken:
+        first = min((trial if (sticks and law.dashpot) else forward) - travelled * change, forward)
+        first = first if law.dashpot else min(first, trial)
+        return max(first, backward)
+    # the same of slip backward, seen in a mirror: e and the motion in the plane turned, the lag s + e
+    B_0 = (step.zd_0 + move.ud_0) + (free.s_rate + free.s_rate - free.lag_rate)
+    sticks_back = B_0 > 0.0
+    held_back = law.stiffness * (max(s + trial, 0.0) - (free.s_shed + free.s_shed - free.lag_shed))
+    B_1 = (step.zd_1 + move.ud_1) + (held_back if sticks_back else free.s_end + free.s_end - free.lag_end)
+    turn_back = -1.0 if sticks_back else 1.0
+    change_back = after_change(turn_back * B_0, turn_back * B_1, step.h, law.damping)
+    if law.dashpot:
+        at_first = (trial if sticks_back else backward) if sticks else forward
+        at_first -= travelled * change if sticks_back else 0.0
+        at_first += travelled * change_back if sticks else 0.0
+        return max(min(at_first, forward), backward)
+    most = forward if sticks else forward - travelled * change
+    least = backward if sticks_back else backward + travelled * change_back
+    return max(min(trial, most), least)
 
 
 @_inline
-def viscous_spring(e, s_0, gap, step, move, law, free):
+def viscous_spring(e, s_0, gap, step, move, law, free, shaken):
     """One spring with memory over one step: new extension, compression, share of it in contact, trial extension."""
     pressed = step.z_1 - gap
     ahead = s_0 - (step.z_0 - gap)  # height of the relaxed surface over the indenter at the start
@@ -295,7 +322,7 @@ def viscous_spring(e, s_0, gap, step, move, law, free):
     travelled = way * (1.0 - bend_of(step.zd_0 + free.s_rate, step.zd_1 + free.s_end) * (1.0 - way))
     flown = 1.0 - travelled
     trial = e + flown * (free.s - free.lag - e + move.jump) + travelled * (move.du + flown * move.surge)
-    return slip_or_stick(s, trial, travelled, step, move, law, free), s, travelled, trial
+    return slip_or_stick(s, trial, travelled, step, move, law, free, shaken), s, travelled, trial
 
 
 @_inline
@@ -325,14 +352,14 @@ def elastic_step_in_place(e, springs, step, move, n_at_rest):
     gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
     inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
     bend = bend_of(step.zd_0, step.zd_1)
-    late = after_change(step.zd_0 - move.ud_0, step.zd_1 - move.ud_1, step.h, 0.0) if step.zd_0 < move.ud_0 else 0.0
+    late, late_back = latenesses(step, move)
     total = 0.0
     for i in indices(0, step.n_in):
         s = z_1 - gap[i]
-        e[0, i] = max(min(e[0, i] + du, s - late), -s)
+        e[0, i] = max(min(e[0, i] + du, s - late), late_back - s)
         total += w[i] * e[0, i]
     for i in indices(step.n_in, step.n_out):
-        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, move, inverse_dz, bend, late)[0]
+        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)[0]
         total += w[i] * e[0, i]
     for i in indices(step.n_out, n_at_rest):
         e[0, i] = 0.0
@@ -345,20 +372,22 @@ def elastic_step(e_0, e_1, springs, step, move):
     gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
     inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
     bend = bend_of(step.zd_0, step.zd_1)
-    late = after_change(step.zd_0 - move.ud_0, step.zd_1 - move.ud_1, step.h, 0.0) if step.zd_0 < move.ud_0 else 0.0
+    late, late_back = latenesses(step, move)
     total = 0.0
     stuck = 0.0
     for i in indices(0, step.n_in):
         s = z_1 - gap[i]
-        e = max(min(e_0[0, i] + du, s - late), -s)
+        e = max(min(e_0[0, i] + du, s - late), late_back - s)
         e_1[0, i] = e
         total += w[i] * e
-        stuck += w[i] if (e == e_0[0, i] + du or (late > 0.0 and e > 0.0)) else 0.0
+        turned = (late > 0.0 and e > 0.0) or (late_back > 0.0 and e < 0.0)
+        stuck += w[i] if (e == e_0[0, i] + du or turned) else 0.0
     for i in indices(step.n_in, step.n_out):
-        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late)
+        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)
         e_1[0, i] = e
         total += w[i] * e
-        stuck += w[i] * (1.0 if move.jumps else travelled) if (e == trial or (late > 0.0 and e > 0.0)) else 0.0
+        turned = (late > 0.0 and e > 0.0) or (late_back > 0.0 and e < 0.0)
+        stuck += w[i] * (1.0 if move.jumps else travelled) if (e == trial or turned) else 0.0
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = 0.0
     return total, stuck
@@ -367,20 +396,29 @@ def elastic_step(e_0, e_1, springs, step, move):
 @_jit
 def kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay):
     """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
+    if move.shaken:
+        return kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, True)
+    return kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, False)
+
+
+@_inline
+def kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, shaken):
+    """As `kelvin_step`; shaken is known when this is compiled."""
     gap, w, du, law = springs.gap, springs.w, move.du, Law(True, rate, rate)
     total = 0.0
     stuck = 0.0
     for i in indices(0, step.n_in):
         s = step.z_1 - gap[i]
         trial = e_0[0, i] + du
-        e = slip_or_stick(s, trial, 1.0, step, move, law, kelvin_free(e_0[0, i], s_0[0, i], rate, decay))
+        free = kelvin_free(e_0[0, i], s_0[0, i], rate, decay)
+        e = slip_or_stick(s, trial, 1.0, step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in indices(step.n_in, step.n_out):
         free = kelvin_free(e_0[0, i], s_0[0, i], rate, decay)
-        e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free)
+        e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
@@ -400,13 +438,14 @@ def put(x, out):
 
 
 @_jit
-def free_response(e, s, table, step, out):
+def free_response(e, s, table, step, shaken, out):
     """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows as in Free, as
-    far as they are asked for: rates where a spring may be in contact, those of the compression where it may touch.
+    far as they are asked for: rates where a spring may be in contact, those of the compression where it may touch, or,
+    where slip backward asks for them too, in contact.
     """
     out[:] = 0.0
     for row in range(L_SHED + 1 if table[L_STIFFNESS, 0] > 0.0 else L_SHED):  # only a dashpot asks what arms shed
-        first, last = (0, e.shape[1]) if row == L_FREE else (step.n_in, step.n_out)
+        first, last = (0, e.shape[1]) if row == L_FREE else (0 if shaken else step.n_in, step.n_out)
         end_of_lag = e.shape[1] if row == L_FREE else step.n_out
         for k in range(e.shape[0]):
             share = table[row, k]
@@ -428,19 +467,28 @@ def arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
 
     look (8, n): of `free_response`.
     """
+    if move.shaken:
+        return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True)
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, False)
+
+
+@_inline
+def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
+    """As `arms_step`; shaken is known when this is compiled."""
     gap, w, du = springs.gap, springs.w, move.du
     total = 0.0
     stuck = 0.0
     for i in indices(0, step.n_in):
         s = step.z_1 - gap[i]
         trial = e_0[0, i] + du
-        e = slip_or_stick(s, trial, 1.0, step, move, law, free_of(look, i))
+        e = slip_or_stick(s, trial, 1.0, step, move, law, free_of(look, i), shaken)
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
         stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in indices(step.n_in, step.n_out):
-        e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free_of(look, i))
+        free = free_of(look, i)
+        e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
@@ -485,7 +533,7 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
-    law, at_rest = law_of(table), Move(0.0, 0.0, 0.0, 0.0, 0.0, False)
+    law, at_rest = law_of(table), Move(0.0, 0.0, 0.0, 0.0, 0.0, False, False)
     total = 0.0
     for j in range(n_steps):
         k = (k_0 + j) % n_z
@@ -497,7 +545,7 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
             shed += table[L_SHED, a] * x[a]
         step = Step(0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
         alone = Free(free, rate, end, shed, 0.0, 0.0, 0.0, 0.0)
-        _, value, share, _ = viscous_spring(0.0, x[0], gap, step, at_rest, law, alone)
+        _, value, share, _ = viscous_spring(0.0, x[0], gap, step, at_rest, law, alone, False)
         for a in range(1, x.size):
             x[a] = table[L_DECAY, a] * x[a] + table[L_GAIN, a] * (value - x[0])
         x[0] = value
@@ -625,7 +673,7 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
         for i in range(n):
             s[0, i] = max(z[0] - gap[i], 0.0)
         once = np.empty(n)
-        law, at_rest = Law(True, rate, rate), Move(0.0, 0.0, 0.0, 0.0, 0.0, False)
+        law, at_rest = Law(True, rate, rate), Move(0.0, 0.0, 0.0, 0.0, 0.0, False, False)
         for turn in range(1 if decay == 0.0 else 3):  # the third is for spans, and tells whether it is like the second
             put(s[0], once)
             for k in range(n_z):
@@ -637,7 +685,7 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
                         value = max(z[k + 1] - gap[i], 0.0)
                     else:
                         alone = kelvin_free(s[0, i], s[0, i], rate, decay)
-                        _, value, _, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone)
+                        _, value, _, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone, False)
                     s[0, i] = value
                     total += w[i] * value
                     follows = value > 0.0 and value <= z[k + 1] - gap[i]
@@ -674,7 +722,7 @@ def glide(e, held, springs, motion, k_0, out):
     for j in range(out.S.size):
         n_in, n_out = span_of(motion.spans, k, n)
         step = Step(n_in, n_out, z[k], z[k + 1], zd[k], zd[k + 1], h)
-        move = moved(motion.dx[k], motion.x_dot[k], motion.x_dot[k + 1], h, False)
+        move = moved(motion.dx[k], motion.x_dot[k], motion.x_dot[k + 1], h, False, motion.shaken)
         S_m, S_0 = S_0, elastic_step_in_place(e, springs, step, move, n_at_rest)
         n_at_rest = n_out
         out.S[j] = S_0
@@ -737,12 +785,13 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         for a in range(n_arms):
             pull -= body.arms[0, a] * held.arms[0, a] + body.arms[1, a] * held.arms[1, a]
         if n_arms > 0:
-            free_response(e_0, s_0, table, step, look)
+            free_response(e_0, s_0, table, step, motion.shaken, look)
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
         ud_0 = v_0 + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
         for turn in range(80):
-            move = moved(motion.dx[k] + (y_1 - y_0), ud_0, v_1 + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h, h, jumps)
+            ud_1 = v_1 + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
+            move = moved(motion.dx[k] + (y_1 - y_0), ud_0, ud_1, h, jumps, motion.shaken)
             if elastic:
                 S_1, stuck = elastic_step(e_0, e_1, springs, step, move)
             elif n_arms == 0:
@@ -915,12 +964,13 @@ def search(at, s, pressed, roots, body, springs, motion, table, n_periods, out):
 FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3
 
 # what `observe` adds up, in the order of its `sums`
-N_SUMS = 9
+N_SUMS = 10
 (
     SUM_S,
     STICK_TIME,
     CONTACT_TIME,
     SHEAR_WORK,
+    SHAKE_WORK,
     NORMAL_WORK,
     FRICTION_LOSS,
     SHEAR_VISCOUS,
@@ -1036,7 +1086,7 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
         ux_dot_0 = motion.x_dot[k] + (3.0 * y[j + 2] - 4.0 * y[j + 1] + y[j]) / (2.0 * h)
         ux_dot = motion.x_dot[k + 1] + (3.0 * y[j + 3] - 4.0 * y[j + 2] + y[j + 1]) / (2.0 * h)
         jumps = light and not presses_0 and touches_flat(gap, w, z_1)
-        move = moved(motion.dx[k] + (y[j + 3] - y[j + 2]), ux_dot_0, ux_dot, h, jumps)
+        move = moved(motion.dx[k] + (y[j + 3] - y[j + 2]), ux_dot_0, ux_dot, h, jumps, motion.shaken)
         growth = max(((ux_dot - zd_1) - (ux_dot_0 - step.zd_0)) / h, 0.0)  # of the common slip velocity
         S_1 = P_1 = sum_x = sum_z = stick = friction = shear_viscous = normal_viscous = shear_arms = press_arms = 0.0
         if n_x > 1:
@@ -1108,6 +1158,7 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
         sums[STICK_TIME] += stick * h
         sums[CONTACT_TIME] += sum_z * h
         sums[SHEAR_WORK] += shear * move.du / h
+        sums[SHAKE_WORK] += shear * (motion.dx[k] / h - motion.v)
         sums[NORMAL_WORK] += press * (z_1 - step.z_0) / h
         sums[FRICTION_LOSS] += friction
         sums[SHEAR_VISCOUS] += shear_viscous

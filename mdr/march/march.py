@@ -144,10 +144,11 @@ class March:
 
     @property
     def least_slip(self) -> float:
-        """Least slip velocity in contact over v_0 of a run in full slip; zero of any other."""
+        """Least slip velocity in contact over v_0, or that of a shake, of a run in full slip; zero of any other."""
         sums = self.account.seen.sums
         full = float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < FULL
-        return float(sums[kernels.LEAST_SLIP]) / self.end.stepper.v if full else 0.0
+        stepper = self.end.stepper
+        return float(sums[kernels.LEAST_SLIP]) / stepper.scaled.pace(stepper.v) if full else 0.0
 
 
 def steady(
@@ -235,12 +236,12 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
 def check(case: SlidingContact, v_0: float) -> None:
     """Refuse a velocity or an amplitude that is lost in the digits of a march."""
     cycle = case.cycle
-    if cycle.u_z0 > DEEPEST * cycle.du_z:
+    if cycle.u_z0 > DEEPEST * cycle.unit:
         raise ValueError(
-            f"the amplitude du_z = {cycle.du_z:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
+            f"the amplitude du_z = {cycle.unit:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
-    if v_0 > FASTEST * case.unit_velocity:
+    if v_0 > FASTEST * max(case.pace, case.unit_velocity):
         raise ValueError(
             f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
         )
@@ -260,7 +261,7 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Or
 
 def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
     """Why the COF that a march has settled at cannot be one; nothing if it can."""
-    least = float(account.seen.F_z.min()) / stepper.mean_F_z
+    least = -1.0 if stepper.scaled.is_shaken else float(account.seen.F_z.min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
     return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.h**2)
 

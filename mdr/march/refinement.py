@@ -46,10 +46,10 @@ def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: they resolve the oscillation of the body on the
     contact, if that can be afforded, and more where a body without mass jolts as dashpots touch.
     """
-    fast = fast_ratio(case)
+    fast, plain = fast_ratio(case), _STEPS * max(1, *case.repeats)
     if np.isinf(fast):
-        return _STEPS_OF_JOLTS if case.rheology.remembers and not case.keeps_contact else _STEPS
-    return _STEPS if fast * 2 * RESOLVED < _STEPS else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
+        return max(_STEPS_OF_JOLTS, plain) if case.rheology.remembers and not case.keeps_contact else plain
+    return plain if fast * 2 * RESOLVED < plain else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
 
 
 class _Runs:
@@ -289,7 +289,8 @@ def _of_fast_relaxation(main: Steady) -> float:
     if T == 0:
         return 0.0
     core = float(main.scaled.w[: main.scaled.n_core].sum())
-    return max(core, 0.25) * h**2 / 3 * h / (2 * T + h) / main.mean_F_z
+    swing = 1.0 + float(np.abs(main.scaled.x_dot).max())  # of the modes' rates, which a shake adds to
+    return swing * max(core, 0.25) * h**2 / 3 * h / (2 * T + h) / main.mean_F_z
 
 
 def _missed(main: Steady, companion: Steady) -> float:

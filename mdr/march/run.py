@@ -1,12 +1,12 @@
 """What comes out of a march, in SI: SlidingRun, its modes, its energies and its recorded periods.
 
-Sign and symbols: F_x > 0 holds the indenter back [N], F_z > 0 presses [N], v_0 pulling velocity [m/s], u_x position
-of the body [m].
+Sign and symbols: F_x > 0 holds back an indenter that is pulled forward [N], F_z > 0 presses [N], v_0 pulling velocity
+[m/s], u_x position of the indenter [m].
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Any
 
@@ -46,7 +46,7 @@ class SlidingRun(ArrayRecord):
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
-    least_slip: float  #: smallest slip velocity of a spring in contact in that period [m/s]
+    least_slip: float  #: smallest slip velocity, the way of the pull, of a spring in contact in that period [m/s]
     mean_F_x: float  #: [N]
     mean_F_z: float  #: [N]
     energy_balance: EnergyBalance  #: of one of the last periods
@@ -57,7 +57,7 @@ class SlidingRun(ArrayRecord):
     steps_per_period: int  #: time steps of one period
     n_periods: int  #: periods marched
     t: Array | None = None  #: (n_t,) instants [s]
-    u_x: Array | None = None  #: (n_t,) position of the body [m]
+    u_x: Array | None = None  #: (n_t,) position of the indenter [m]: of the body, with what shakes the tool
     u_z: Array | None = None  #: (n_t,) depth [m]
     F_x: Array | None = None  #: (n_t,) tangential force at the end of a step [N]
     F_z: Array | None = None  #: (n_t,) normal force at the end of a step [N]
@@ -68,6 +68,15 @@ class SlidingRun(ArrayRecord):
     f_x: Array | None = None  #: (n_t, n_springs) tangential forces of the springs, pairs at +x and -x [N]
     f_z: Array | None = None  #: (n_t, n_springs) normal forces [N]
     state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
+
+    @property
+    def mirrored(self) -> SlidingRun:
+        """The run seen from the other side, which goes the other way."""
+        turned = {name: _turned(getattr(self, name)) for name in ("v_0", "cof", "mean_F_x", "u_x", "F_x", "e", "f_x")}
+        state = self.state
+        if state is not None:
+            state = np.array([State.FREE, State.STICK, State.SLIP_BACK, State.SLIP], dtype=state.dtype)[state]
+        return replace(self, **turned, state=state)
 
     def plot(self) -> Any:
         """Draw what was recorded: the mode of every spring over time, and the forces below.
@@ -82,6 +91,10 @@ class SlidingRun(ArrayRecord):
         return plots.plot_run(self)
 
 
+def _turned(values: Any) -> Any:
+    return None if values is None else 0.0 - values  # no -0.0
+
+
 def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = "") -> SlidingRun:
     """From scaled form to SI. error: bound on that of the COF, over mu_0; missing: what the steps are known to miss."""
     case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
@@ -92,7 +105,7 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
         raise too_coarse(scaled.steps)
     mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
     error += march.end.missing_load
-    cof = min(settling.mean + missing, 1.0) if missing else settling.mean
+    cof = max(min(settling.mean + missing, 1.0), -1.0) if missing else settling.mean
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     return SlidingRun(
@@ -141,7 +154,7 @@ def _recorded(march: March) -> dict[str, Any]:
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
     )
     n_steps = F_x.size
-    t = (march.n_periods - march.end.knobs.record) * march.end.case.oscillation.period + np.arange(
+    t = (march.n_periods - march.end.knobs.record) * march.end.case.period + np.arange(
         1, n_steps + 1
     ) * scaled.h / scaled.omega
     n = scaled.n_lumped
@@ -153,7 +166,7 @@ def _recorded(march: March) -> dict[str, Any]:
     share = springs.width / springs.width.sum()
     return {
         "t": t,
-        "u_x": march.end.v_0 * t + y * scaled.length_x,
+        "u_x": march.end.v_0 * t + (y + scaled.x[phase]) * scaled.length_x,
         "u_z": march.end.case.cycle.u_z0 + scaled.length_z * scaled.z[phase],
         "F_x": F_x * scaled.stiffness_x * scaled.length_x,
         "F_z": F_z * scaled.stiffness_z * scaled.length_z,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, Knobs, accuracy_of, check, march, steady
 from mdr.march.refinement import N_SPRINGS, check_size, default_steps, that_touch, within
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
-from mdr.tools.checks import count, positive
+from mdr.tools.checks import count, finite, positive
 from mdr.tools.progress import time_limit
 
 
@@ -26,7 +27,7 @@ def slide(
     limit_s: float | None = None,
     accuracy: float = BUDGET,
 ) -> SlidingRun:
-    """Friction [-] of a contact that slides at v_0 under its normal oscillation, by a run in time.
+    """Friction [-] of a contact that slides at v_0 while it is shaken, by a run in time.
 
     Every spring has its own state: free, stick or slip. The run goes on until the motion repeats (`run.settled`).
 
@@ -35,7 +36,9 @@ def slide(
     case : SlidingContact
         The contact.
     v_0 : float
-        Pulling velocity [m/s], above zero. The limit of zero velocity is `static_cof`.
+        Pulling velocity [m/s], above zero. The limit of zero velocity is `static_cof`. Where something shakes in the
+        plane it may be of either sign, or zero: there a contact that can hold ends in a state that depends on its
+        start, see `holding_band`.
     n_springs : int, optional
         Springs at x > 0, each for the pair at +x and -x. None chooses them, and the steps, so that `cof_error` is
         within the accuracy where that is possible.
@@ -46,8 +49,8 @@ def slide(
         None goes on until the motion has settled. A number runs exactly so many periods, without the companion runs
         that bound the error: `cof_error` then holds settling only.
     start : {"full_slip", "rest"}
-        First state. "full_slip": all springs slide; the periodic state of a body is then solved for. "rest": no spring
-        is loaded in the plane; the run waits for the periodic state.
+        First state. "full_slip": all springs slide the way of the pull; the periodic state of a body is then solved
+        for. "rest": no spring is loaded in the plane; the run waits for the periodic state.
     record : int
         Number of last periods whose forces and springs are kept as arrays. 0 keeps none.
     lump : bool
@@ -94,7 +97,11 @@ def slide(
     case = resolved(case)
     if not isinstance(lump, bool):
         raise TypeError(f"lump must be True or False, got {lump!r}")
-    v_0 = positive("v_0", v_0, "pulling velocity in m/s; the limit of zero velocity is static_cof(case)")
+    v_0 = _velocity(case, v_0)
+    if v_0 < 0:
+        case, v_0, back = case.mirrored, -v_0, True
+    else:
+        back = False
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
     least = 32 if n_periods is None else 16  # companions have half
@@ -115,8 +122,17 @@ def slide(
         limit_s = positive("limit_s", limit_s, "seconds")
     with time_limit(limit_s):
         if n_periods is not None:
-            return finish(march(case, v_0, knobs, n_periods), why="no companion run: cof_error holds settling only")
-        return within(case, v_0, knobs, free=(n_springs is None, steps_per_period is None))[0]
+            run = finish(march(case, v_0, knobs, n_periods), why="no companion run: cof_error holds settling only")
+        else:
+            run = within(case, v_0, knobs, free=(n_springs is None, steps_per_period is None))[0]
+    return run.mirrored if back else run
+
+
+def _velocity(case: SlidingContact, v_0: Any) -> float:
+    if case.is_shaken:
+        return finite("v_0", v_0)
+    what = "pulling velocity in m/s; the limit of zero velocity is static_cof(case)"
+    return positive("v_0", v_0, f"{what}, and the other way is the same where nothing shakes in the plane")
 
 
 def slides(

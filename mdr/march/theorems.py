@@ -17,9 +17,11 @@ from mdr.tools.arrays import Array
 def outside(cof: float, least: float, slack: float) -> str:
     """Why a COF over mu_0 cannot be that of a steady motion; nothing if it can.
 
-    least: the static limit over mu_0. slack: error of cof and least together.
+    least: the static limit over mu_0, or -1 where a shake may drive. slack: error of cof and least together.
     """
     if cof < least - slack:
+        if least == -1:
+            return f"cof = {cof:.6g} mu_0 is more than the springs can push"
         return f"cof = {cof:.6g} mu_0 lies below the static limit {least:.6g} mu_0, which no steady motion does"
     if cof > 1 + slack:
         return f"cof = {cof:.6g} mu_0 is more than the springs can hold"

@@ -149,4 +149,4 @@ def way_from_rest(scaled: ScaledContact, v: float) -> float:
     """Periods until a run from rest can have stretched springs and system."""
     load = float(scaled.w @ np.maximum(scaled.z.max() - scaled.gap, 0))
     distance = float(scaled.z.max()) - float(scaled.gap.min()) + load / scaled.K
-    return distance / (2 * np.pi * v)
+    return distance / (2 * np.pi * v) if v else 0.0  # at rest the start tells where it ends

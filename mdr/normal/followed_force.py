@@ -42,7 +42,7 @@ def normal_cycle(
     """Normal contact through a cycle of depth."""
     kept = cycle.kept_gap(rheology.response)
     x, gap, width, n_core = cells(shape, cycle, kept, n_edge)
-    gap = gap / cycle.du_z
+    gap = gap / cycle.unit
     F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
     if n_core:
         response, depth = rheology.response(np.arange(1.0, cycle.cos.size + 1)), float(width[:n_core] @ gap[:n_core])
@@ -53,7 +53,7 @@ def normal_cycle(
         F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, S, radius, rheology, cycle)
         if not n_core:
             in_contact, touches = _tip(rheology, cycle, n_t)
-    return NormalCycle(F * cycle.du_z, S * cycle.du_z, radius, in_contact, touches)
+    return NormalCycle(F * cycle.unit, S * cycle.unit, radius, in_contact, touches)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +98,7 @@ def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_],
     force, shares, path = np.empty((3, n_t))
     table = rheology.over_step(2 * np.pi / n_t)
     state, guess = np.zeros((2, table.shape[1]))
-    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.du_z, z, rate, table, force, shares, path)
+    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.unit, z, rate, table, force, shares, path)
     begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) <= 0))
     return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
 

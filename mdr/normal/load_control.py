@@ -134,7 +134,7 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
     def missing(u: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Force balance that is missing, harmonics 0 ... N of exp(i n phase)."""
         cycle = _cycle_of(u, omega)
-        if cycle.u_z0 + cycle.du_z * cycle.greatest <= 0:
+        if cycle.u_z0 + cycle.unit * cycle.greatest <= 0:
             return load
         known = normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, 256)
         if known.in_contact.all():

@@ -1,6 +1,6 @@
-"""The case whose depth is known: `resolved` solves for the depth under an oscillating load, once.
+"""The case whose depth is known: `resolved` solves for the depth under a load, once.
 
-A SlidingContact computes its properties from its fields. Under a LoadOscillation the depth is no field: it follows from
+A SlidingContact computes its properties from its fields. Under a load the depth is no field: it follows from
 shape, material and load (load_control.py). `resolved` puts it there, as a `DepthUnderLoad`; every function that needs
 the depth does this first, so that it takes either case.
 """
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import Cycle
-from mdr.case.motion import LoadOscillation, Motion
+from mdr.case.motion import ConstantLoad, LoadOscillation, Motion
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.normal.load_control import depth_under_load, static_depth
@@ -20,9 +20,9 @@ from mdr.tools.memoise import remembered
 
 @dataclass(frozen=True)
 class DepthUnderLoad(Motion):
-    """The depth that an oscillating load brings about, for one shape on one material."""
+    """The depth that a load brings about, for one shape on one material."""
 
-    load: LoadOscillation = field()  #: what imposes it
+    load: LoadOscillation | ConstantLoad = field()  #: what imposes it
     indenter: Indenter = field(repr=False)  #: shape that it was solved for
     material: Material = field(repr=False)  #: half-space that it was solved for
     u_z_rest: float  #: depth at which the mean load rests [m]
@@ -30,7 +30,7 @@ class DepthUnderLoad(Motion):
 
     @property
     def omega(self) -> float:
-        """Angular frequency of the load [rad/s]."""
+        """Angular frequency of the load [rad/s], zero of a constant one."""
         return self.load.omega
 
     @property
@@ -64,8 +64,8 @@ def resolved(case: SlidingContact) -> SlidingContact:
     Returns
     -------
     SlidingContact
-        The contact itself if its depth is prescribed, or resolved already. Under a LoadOscillation its oscillation is
-        the depth that the load brings about. `dataclasses.replace` with another shape or material puts the load back.
+        The contact itself if its depth is prescribed, or resolved already. Under a load its oscillation is the depth
+        that the load brings about. `dataclasses.replace` with another shape or material puts the load back.
 
     Raises
     ------
@@ -87,7 +87,10 @@ def resolved(case: SlidingContact) -> SlidingContact:
     if load is None:
         return case
     rest = _rests_at(case.indenter, case.material, load.F_z0)
-    depth = _under_load(case.indenter, case.material, load)
+    if isinstance(load, ConstantLoad):
+        depth = Cycle.constant(rest, load.omega)
+    else:
+        depth = _under_load(case.indenter, case.material, load)
     return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, depth))
 
 
@@ -104,15 +107,16 @@ def at_rest(case: SlidingContact) -> SlidingContact:
     return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, None))
 
 
-def _load_of(case: SlidingContact) -> LoadOscillation | None:
+def _load_of(case: SlidingContact) -> LoadOscillation | ConstantLoad | None:
     """The load whose depth is still to be found; None where the depth is known."""
     motion = require_case(case).oscillation
     if motion.knows_depth:
         return None
     load = motion.load or motion
-    if not isinstance(load, LoadOscillation):
+    if not isinstance(load, LoadOscillation | ConstantLoad):
         raise TypeError(
-            f"the depth under {motion!r} cannot be found: give a LoadOscillation, or a motion of known depth"
+            f"the depth under {motion!r} cannot be found: give a LoadOscillation, a ConstantLoad, or a motion of known "
+            "depth"
         )
     return load
 

@@ -25,12 +25,18 @@ from mdr.tools.arrays import EPS, Array
 _NODES, _WEIGHTS = (0.5 * (leggauss(4)[0] + 1), 0.5 * leggauss(4)[1])
 
 
-def cells(shape: Indenter, cycle: Cycle, kept_gap: float, n_springs: int) -> tuple[Array, Array, Array, int]:
+AS_ONE = 1 / 8  #: share of the springs that the core gets where its springs move alike
+EACH_ITS_OWN = 1 / 2  #: the same where every spring of it has modes of its own, as under a shake in the plane
+
+
+def cells(
+    shape: Indenter, cycle: Cycle, kept_gap: float, n_springs: int, core_share: float = AS_ONE
+) -> tuple[Array, Array, Array, int]:
     """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact."""
     if shape.least_depth > 0:
         return _complete(shape, cycle.u_z0, n_springs)
     stretches = _stretches(shape, cycle, kept_gap)
-    counts = _share_out(stretches, n_springs)
+    counts = _share_out(stretches, n_springs, core_share)
     parts = [_springs_of(shape, cycle.u_z0, stretch, n) for stretch, n in zip(stretches, counts, strict=True)]
     x, gap, width = (np.concatenate(part) for part in zip(*parts, strict=True))
     return x, gap, width, sum(n for stretch, n in zip(stretches, counts, strict=True) if stretch.permanent)
@@ -56,7 +62,7 @@ class _Stretch:
 
 def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]:
     """The row, cut at the depths where a spring begins to lose or to gain contact, and at the kinks of the shape."""
-    u_z0, du_z = cycle.u_z0, cycle.du_z
+    u_z0, du_z = cycle.u_z0, cycle.unit
     kept = du_z * kept_gap
     gaps = [gap for gap in (kept, du_z * cycle.least, 0.0, du_z * cycle.greatest) if u_z0 + gap > 0]
     marks = [(0.0, -u_z0)] + [(float(shape.contact_radius(u_z0 + gap)), gap) for gap in gaps]
@@ -69,15 +75,15 @@ def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]
     ]
 
 
-def _share_out(stretches: list[_Stretch], n_springs: int) -> list[int]:
-    """Number of springs of each stretch: an eighth of all for the core, the rest equally for the band."""
+def _share_out(stretches: list[_Stretch], n_springs: int, core_share: float) -> list[int]:
+    """Number of springs of each stretch: a share of all for the core, the rest equally for the band."""
     n_permanent = sum(stretch.permanent for stretch in stretches)
     n_band = len(stretches) - n_permanent
     if n_springs < 2 * len(stretches):
         raise ValueError(
             f"n_springs must be at least {2 * len(stretches)} for this shape with its kinks, got {n_springs}"
         )
-    core = n_springs if n_band == 0 else max(2, n_springs // (8 * max(n_permanent, 1))) * n_permanent
+    core = n_springs if n_band == 0 else max(2, int(n_springs * core_share / max(n_permanent, 1))) * n_permanent
     counts = []
     for group, total in ((True, core), (False, n_springs - core)):
         n = n_permanent if group else n_band

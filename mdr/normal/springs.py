@@ -17,7 +17,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.resolved import resolved
-from mdr.normal.spring_grid import cells
+from mdr.normal.spring_grid import AS_ONE, EACH_ITS_OWN, cells
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.records import ArrayRecord
@@ -58,7 +58,8 @@ class SpringArray(ArrayRecord):
             For fewer than 16 springs.
         """
         case, n_springs = resolved(case), count("n_springs", n_springs, MIN_SPRINGS)
-        x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs)
+        share = EACH_ITS_OWN if case.is_shaken else AS_ONE
+        x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs, share)
         return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
 
     @property

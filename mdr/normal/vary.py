@@ -1,7 +1,8 @@
 """A case with other values at some of its paths: fields first, then the dimensionless groups in their order.
 
-A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, T = omega
-tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m.
+A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, chi =
+du_x/(mu_0 kappa u_z0) shake.du_x, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega
+pull.m.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
 refers to is solved for under a load, which is why this stands beside the normal problem.
@@ -13,11 +14,18 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
-from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.contact import KINDS, SlidingContact, common_frequency
 from mdr.normal.resolved import at_rest
 from mdr.tools.checks import positive
 
-GROUPS = {"alpha": "oscillation.du_z", "T": "material.tau", "k_x/k_xc": "pull.k_x", "omega_0/omega": "pull.m"}
+GROUPS = {
+    "alpha": "oscillation.du_z",
+    "chi": "shake.du_x",
+    "T": "material.tau",
+    "k_x/k_xc": "pull.k_x",
+    "omega_0/omega": "pull.m",
+}
+MOVING = ("oscillation", "shake")
 
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
@@ -35,15 +43,22 @@ def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
     if "T" in settings:
         _require_field("T", parts["material"], "tau")
-        omega = changes["oscillation"].get("omega", parts["oscillation"].omega)
-        changes["material"]["tau"] = settings["T"] / omega
+        moving = (replace(parts[slot], **changes[slot]) if changes[slot] else parts[slot] for slot in MOVING)
+        changes["material"]["tau"] = settings["T"] / common_frequency(*moving)
+    if "chi" in settings:
+        _require_field("chi", parts["shake"], "du_x")
+        changes["shake"]["du_x"] = 1.0  # until the depth is known that it refers to
     changed = {slot: replace(part, **changes[slot]) if changes[slot] else part for slot, part in parts.items()}
     contact = SlidingContact(mu_0=settings.get("mu_0", case.mu_0), **changed)
+    if "chi" in settings:
+        kept: Any = contact.shake
+        shake = replace(kept, du_x=settings["chi"] / at_rest(contact).chi)
+        contact = replace(contact, shake=shake)
     if "k_x/k_xc" in settings:
         contact = _with_pull(contact, "k_x/k_xc", "k_x", settings["k_x/k_xc"] * _stiffness(contact))
     if "omega_0/omega" in settings:
         _require_field("omega_0/omega", contact.pull, "k_x")
-        omega_0 = positive("omega_0/omega", settings["omega_0/omega"]) * contact.oscillation.omega
+        omega_0 = positive("omega_0/omega", settings["omega_0/omega"]) * contact.omega
         pull: Any = contact.pull
         contact = _with_pull(contact, "omega_0/omega", "m", pull.k_x / omega_0**2)
     return contact
@@ -55,6 +70,8 @@ def fields_of(record: Any) -> tuple[str, ...]:
 
 
 def _require_field(path: str, record: Any, field: str) -> None:
+    if record is None:
+        raise ValueError(f"{path}: nothing shakes in the plane; give the case a shake")
     if field not in fields_of(record):
         raise ValueError(f"{path}: {type(record).__name__} has no {field}")
 

@@ -74,13 +74,21 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
         for i, (curve, colour) in enumerate(zip(curves, colours(len(curves)), strict=True)):
             _draw_curve(ax, curve, curve.v_c if scaled else 1.0, colour, labels[i] if labels else None)
         ax.axhline(1.0, color="0.75", linewidth=0.8, zorder=0)
-        if scaled:
-            ax.axvline(1.0, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
-            ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
+        backs = [curve.v_c_back / curve.v_c for curve in curves if scaled and _is_scale(curve.v_c_back)]
+        marks = {1.0: "$v_c$"} if scaled else {}
+        if both := any(np.min(curve.v_0) < 0 for curve in curves):
+            for value in (0.0, -1.0):
+                ax.axhline(value, color="0.75", linewidth=0.8, zorder=0)
+            ax.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
+            marks |= {-backs[0]: "$v_c$, other way"} if len(set(np.round(backs, 6))) == 1 else {}
+        for at, name in marks.items():
+            ax.axvline(at, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
+            ax.annotate(name, (at, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
         ax.set_xlabel(r"pulling velocity $v_0/v_c$" if scaled else r"pulling velocity $v_0$ [m/s]")
         ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$")
-        ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
-        _curve_legend(ax, all(np.all(curve.settled) for curve in curves))
+        if not both:
+            ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
+        _curve_legend(ax, all(np.all(curve.settled) for curve in curves), both)
     return ax
 
 
@@ -280,20 +288,22 @@ def _draw_curve(ax: "Axes", curve: Any, scale: float, colour: Any, label: str | 
     seen = error > 0.005
     if np.any(seen):
         ax.errorbar(v[seen], mu[seen], error[seen], fmt="none", ecolor=colour, capsize=2, zorder=1)
-    if np.isfinite(static):
+    if np.isfinite(static) and np.min(curve.v_0) >= 0:
         reach = 0.15 * float(np.max(v, initial=0.0))
         ax.plot([0.0, reach], [static, static], color=colour, linewidth=1.2, linestyle="--", zorder=1)
 
 
-def _curve_legend(ax: "Axes", settled: bool) -> None:
+def _curve_legend(ax: "Axes", settled: bool, both: bool) -> None:
     """Explain the labels given, the static limit, and what a hollow point means where there is one."""
     from matplotlib.lines import Line2D
 
     handles, _ = ax.get_legend_handles_labels()
-    handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
+    if not both:
+        handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
     if not settled:
         handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
-    ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
+    if handles:
+        ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
 
 
 def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> None:

@@ -3,6 +3,7 @@
 A path is a field of the contact ("mu_0", "indenter", "material.tau"), a dimensionless group, or the velocity:
 
     alpha           du_z/u_z0                sets oscillation.du_z
+    chi             du_x/(mu_0 kappa u_z0)   sets shake.du_x
     T               omega tau                sets material.tau
     k_x/k_xc        over the contact's       sets pull.k_x
     omega_0/omega   sqrt(k_x/m)/omega        sets pull.m
@@ -125,10 +126,16 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
         if not isinstance(path, str):
             raise TypeError(f"axes must have paths in quotes for keys, got {path!r}")
     _refuse_two_for_one(axes)
-    parts = {slot: _records(slot, axes[slot]) if slot in axes else (getattr(case, slot),) for slot in KINDS}
+    parts = {slot: _records(slot, axes[slot]) if slot in axes else _own(case, slot) for slot in KINDS}
     for path in axes:
         _require_path(path, parts)
     return tuple(_axis(path, values, parts) for path, values in axes.items())
+
+
+def _own(case: SlidingContact, slot: str) -> tuple[Any, ...]:
+    """The part of the case, none where it has none."""
+    part = getattr(case, slot)
+    return () if part is None else (part,)
 
 
 def label_of(value: Any) -> str:
@@ -149,10 +156,10 @@ def _axis(path: str, values: Any, parts: Mapping[str, tuple[Any, ...]]) -> Axis:
     if any(not isinstance(value, int | float | None) for value in having):
         others = tuple(_frozen(one) for one in _listed(path, values))
         return Axis(path, others, _distinct(path, others))
-    return Axis(path, _numbers(path, values))
+    return Axis(path, _numbers(path, values, signed=bool(parts["shake"])))
 
 
-def _numbers(path: str, values: Any) -> Array:
+def _numbers(path: str, values: Any, signed: bool) -> Array:
     unit = facts_at(path).unit
     listed = values if isinstance(values, np.ndarray) else _listed(path, values)
     if not isinstance(listed, np.ndarray) and any(isinstance(one, bool) for one in listed):
@@ -168,7 +175,7 @@ def _numbers(path: str, values: Any) -> Array:
     ordered = np.sort(numbers)
     if twice := ordered[1:][ordered[1:] == ordered[:-1]].tolist():
         raise ValueError(f"{path} has the value {twice[0]!r} twice; give each once")
-    if path in VELOCITIES and ordered[0] < 0:
+    if path in VELOCITIES and ordered[0] < 0 and not signed:
         raise ValueError(f"{path} must not be negative, got {float(ordered[0])!r}; 0 is the static limit")
     return numbers
 

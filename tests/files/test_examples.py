@@ -7,7 +7,7 @@ import pytest
 
 import mdr
 from mdr.files.case_files import nameable
-from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example, example_file
+from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAKES, SHAPES, STILL, example, example_file
 from mdr.files.own_records import own_records
 
 
@@ -17,10 +17,12 @@ def test_there_is_an_example_of_every_record_that_a_file_can_name():
     assert set(SHAPES) == known["indenter"]
     assert set(MATERIALS) == known["material"]
     assert set(MOTIONS) == known["oscillation"]
+    assert set(SHAKES) == known["shake"]
 
 
 def test_every_example_reads_back():
-    others = zip(itertools.cycle(MOTIONS), itertools.cycle(PULLS), strict=False)  # tables are read one by one
+    cycles = (itertools.cycle(each) for each in (MOTIONS, PULLS, (*SHAKES, STILL)))
+    others = zip(*cycles, strict=False)  # tables are read one by one
     for pair in itertools.product(SHAPES, MATERIALS):
         names = (*pair, *next(others))
         case = example(*names)

@@ -33,11 +33,12 @@ class Step:
     gap: np.ndarray
     s: np.ndarray
     e: np.ndarray
+    shaken: bool = False
 
     @classmethod
-    def draw(cls, rng, h, T, n=N):
+    def draw(cls, rng, h, T, n=N, shaken=False):
         t_0, u_dot, u_ddot = rng.uniform(0, 2 * np.pi), rng.uniform(-1.5, 1.5), rng.uniform(-1, 1)
-        step = cls(t_0, u_dot, u_ddot, h, T, *np.empty((3, n)))
+        step = cls(t_0, u_dot, u_ddot, h, T, *np.empty((3, n)), shaken)
         near = step.z(0) + rng.uniform(-2, 2, n) * h  # about to touch or to leave
         step.gap = np.where(rng.uniform(size=n) < 0.3, near, rng.uniform(-1.5, 1, n))
         pressed = step.z(0) - step.gap
@@ -88,7 +89,11 @@ class Step:
 
     def move(self):
         """What the body does in it."""
-        return moved(self.u(self.h), self.rate(0), self.rate(self.h), self.h)
+        return moved(self.u(self.h), self.rate(0), self.rate(self.h), self.h, self.shaken)
+
+    def mirrored(self):
+        """The same the other way round."""
+        return replace(self, u_dot=-self.u_dot, u_ddot=-self.u_ddot, e=-self.e)
 
     def by_tiny_steps(self, n=2000):
         """The law itself in n steps within this one: e' = (clip(e + T u', -N, N) - e)/T; for T = 0 e = clip(e, -s, s).
@@ -120,19 +125,20 @@ class Step:
         return e, s, same, first
 
 
-def moved(du, ud_0, ud_1, h):
+def moved(du, ud_0, ud_1, h, shaken=False):
     """What a body does in a step whose velocity changes steadily."""
-    return kernels.Move(du, ud_0, ud_1, kernels.surge_of.py_func(du, ud_0, ud_1, h), 0.0, False)
+    return kernels.Move(du, ud_0, ud_1, kernels.surge_of.py_func(du, ud_0, ud_1, h), 0.0, False, shaken)
 
 
 # --- one step ---
 
 
+@pytest.mark.parametrize("shaken", [False, True])
 @pytest.mark.parametrize("T", [0.0, *RELAXATION])
-def test_python_and_compiled_step_agree(T):
+def test_python_and_compiled_step_agree(T, shaken):
     rng = np.random.default_rng(2)
     for _ in range(2):
-        step = Step.draw(rng, 0.05, T)
+        step = Step.draw(rng, 0.05, T, shaken=shaken)
         compiled, plain = step.kernel(), step.kernel(python=True)
         for got, expected in zip(compiled, plain, strict=True):
             # the compiler may contract and reorder: a few roundings
@@ -152,12 +158,25 @@ def test_a_rigid_pull_moves_elastic_springs_alike():
         assert_allclose(total, sum_expected, rtol=1e-14)
 
 
+@pytest.mark.parametrize("h", [0.05, 0.01])
+@pytest.mark.parametrize("T", [0.0, *RELAXATION])
+def test_a_shaken_step_knows_no_forward(T, h):
+    rng = np.random.default_rng(6)
+    for _ in range(20):
+        step = Step.draw(rng, h, T, shaken=True)
+        one, other = step.kernel(), step.mirrored().kernel()
+        assert_allclose(other[0], -one[0], rtol=0, atol=2e-15)
+        assert_allclose(other[1], one[1], rtol=0, atol=0)
+        assert_allclose(other[3], one[3], rtol=0, atol=1e-12)  # the stiffness that stuck
+
+
+@pytest.mark.parametrize("shaken", [False, True])
 @pytest.mark.parametrize("h", [0.1, 0.025, 0.00625])
 @pytest.mark.parametrize("T", [0.0, *RELAXATION])
-def test_one_step_against_tiny_ones(T, h):
+def test_one_step_against_tiny_ones(T, h, shaken):
     rng, worst = np.random.default_rng(1), 0.0
     for _ in range(6):
-        step = Step.draw(rng, h, T)
+        step = Step.draw(rng, h, T, shaken=shaken)
         e, s, *_ = step.kernel()
         e_fine, s_fine, *_ = step.by_tiny_steps()
         # an event within the step costs h**2 of the change of its rates; a share of the step counted wrongly would cost
@@ -170,8 +189,9 @@ def test_one_step_against_tiny_ones(T, h):
     assert worst > 0  # the draw has events in it
 
 
+@pytest.mark.parametrize("side", ["forward", "forward shaken", "backward shaken"])
 @pytest.mark.parametrize("T", [0.0, *RELAXATION])
-def test_slip_and_stick_may_change_within_a_step(T):
+def test_slip_and_stick_may_change_within_a_step(T, side):
     # springs that stay in contact, in forward slip or a little behind it: the instant of the change is known
     rng, h, worst, changes = np.random.default_rng(5), 0.05, 0.0, 0
     for _ in range(20):
@@ -182,6 +202,8 @@ def test_slip_and_stick_may_change_within_a_step(T):
         step.gap = -math.hypot(1, T) - rng.uniform(0.5, 3, 40)
         step.s = step.z(0) - step.gap
         step.e = step.s - rng.uniform(0, 1, 40) * rng.integers(0, 2, 40) * min(T, 1) * h
+        step.shaken = side != "forward"
+        step = step.mirrored() if side == "backward shaken" else step
         e_fine, _, same, _ = step.by_tiny_steps()
         worst, changes = max(worst, np.abs(step.kernel()[0] - e_fine).max()), changes + np.sum(~same)
     assert changes > 50
@@ -266,7 +288,9 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, keep=True, par
     trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), np.empty(shape), np.empty(shape))
     springs = kernels.Springs(scaled.gap, scaled.w, -np.inf)
     spans = all_rules(scaled, z.size) if spans is None else spans
-    motion = kernels.Motion(z, zd, np.full(n_z, v * 2 * np.pi / n_z), np.full(n_z + 1, v), spans)
+    motion = scaled.motion(v)._replace(z=z, z_dot=zd, spans=spans)
+    if z.size != scaled.z.size:
+        motion = motion._replace(dx=np.full(n_z, v * 2 * np.pi / n_z), x_dot=np.full(n_z + 1, v))
     for low, high in pairwise(np.linspace(0, n_steps, parts + 1).astype(int)):
         part = kernels.Trace(*(values[low:high] for values in trace))
         kernels.march(e, s, held, scaled.body, springs, motion, scaled.table, low % n_z, part)
@@ -279,9 +303,10 @@ def march(scaled, v, n_steps, *, s=None, e=None, z=None, zd=None, keep=True, par
 @pytest.mark.parametrize("depth_ratio", [3.0, 0.6])
 @pytest.mark.parametrize("shape", ["flat", "cone", "paraboloid"])
 @pytest.mark.parametrize("T", [0.0, 0.3, 3.0])
-def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body):
+@pytest.mark.parametrize("shake", [None, mdr.InPlaneOscillation(300.0, 3e-6, 0.7)], ids=["still", "shaken"])
+def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body, shake):
     """With the springs sorted by what they do in a step, and with all of them taken through all rules."""
-    scaled = scaled_of(shape, depth_ratio, T, steps=128, n_springs=77, **body)
+    scaled = scaled_of(shape, depth_ratio, T, steps=128, n_springs=77, shake=shake, **body)
     s, spans = scaled.normal.s, scaled.normal.spans
     above = np.array([np.count_nonzero(scaled.gap < z) for z in scaled.z])
     assert np.all(spans[0] <= np.minimum(above[1:], above[:-1]))
@@ -327,8 +352,8 @@ def settled(scaled):
     return scaled.normal.s[0].copy()
 
 
-def scaled_of(*groups, steps=256, n_springs=32, lump=False, **knobs):
-    case = contact(*groups, **knobs)
+def scaled_of(*groups, steps=256, n_springs=32, lump=False, shake=None, **knobs):
+    case = replace(contact(*groups, **knobs), shake=shake)
     return ScaledContact.of(case, mdr.SpringArray.of(case, n_springs), steps, lump)
 
 

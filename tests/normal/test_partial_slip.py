@@ -125,7 +125,7 @@ def test_depth_alone_moves_no_tangential_force_of_a_spring_in_stick():
         new, s = np.empty(3), np.empty(3)
         step, still = (
             kernels.Step(0, 3, z_0, z_1, z_1 - z_0, z_1 - z_0, 1.0),
-            kernels.Move(0.0, 0.0, 0.0, 0.0, 0.0, False),
+            kernels.Move(0.0, 0.0, 0.0, 0.0, 0.0, False, False),
         )
         springs = kernels.Springs(gap, w, -np.inf)
         kernels.elastic_step(e[None], new[None], springs, step, still)

@@ -1,0 +1,158 @@
+"""The imposed motion in the plane, besides the pull: u_x(t) = v_0 t + x(t), x periodic with zero mean.
+
+Where it acts matters once a body hangs on a spring. At the tool, between body and indenter (a piezo; to shake the
+half-space is the same with the sign turned), the indenter stands at the body's place plus x. At the pull, the far end
+of the pulling spring is shaken, and without friction the body answers harmonic n by (k_x + i n omega c_x) H(n omega)
+X_n.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.motion import amplitudes
+from mdr.tools.checks import FieldError, FieldTypeError, finite, not_negative
+from mdr.tools.fields import Record, facts
+
+__all__ = ["InPlaneMotion", "InPlaneOscillation", "Shake"]
+
+PLACES = ("tool", "pull")  #: where the motion may act
+MOST = 16  #: p and q, at most, of the ratio p/q of two frequencies
+SAME_RATIO = 1e-9  #: off a ratio of whole numbers by less, of it, two frequencies have this ratio
+
+
+def _place(name: str, value: Any, note: str = "") -> str:
+    if not isinstance(value, str):
+        raise FieldTypeError(f"{name} must be a word in quotes, got {value!r}", name)
+    if value not in PLACES:
+        raise FieldError(f'{name} must be "tool" (between body and indenter) or "pull", got {value!r}', name)
+    return value
+
+
+def _not_across(name: str, value: Any, note: str = "") -> Any:
+    """A motion across the pull, which the march does not know."""
+    number = amplitudes(name, value) if isinstance(value, Sequence | np.ndarray) else finite(name, value)
+    if np.any(np.asarray(number) != 0):
+        raise FieldError(f"{name} must be zero: motion across the pull (transverse) is not supported", name)
+    return number
+
+
+FREQUENCY = facts("rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$")
+PLACE = facts("", "where the motion acts", _place)
+
+
+class Shake(Record, ABC):
+    """A periodic motion in the plane: what each must answer is `omega`, `at` and `along`."""
+
+    omega: float
+    at: str
+
+    @property
+    @abstractmethod
+    def along(self) -> NDArray[np.complex128]:
+        """X_n [m], shape (N,), of x(t) = Re of sum X_n exp(i n omega t), n = 1 ... N, along the pull."""
+
+    @property
+    @abstractmethod
+    def mirrored(self) -> Shake:
+        """The motion -x(t)."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether nothing moves."""
+        return not self.along.any()
+
+
+@dataclass(frozen=True)
+class InPlaneOscillation(Shake):
+    """A harmonic motion in the plane, besides the pull: x(t) = du_x cos(omega t + phi_x).
+
+    The instant t = 0 is that of the normal oscillation u_z0 + du_z cos(omega t), so that phi_x is a phase between the
+    two.
+    """
+
+    omega: float = field(metadata=FREQUENCY)
+    du_x: float = field(
+        default=0.0,
+        metadata=facts("m", "amplitude along the pull", not_negative, label=r"longitudinal amplitude $\Delta u_x$"),
+    )
+    phi_x: float = field(default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$"))
+    du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull, zero", _not_across))
+    phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite))
+    at: str = field(default="tool", metadata=PLACE)
+
+    @property
+    def along(self) -> NDArray[np.complex128]:
+        """The one harmonic [m]."""
+        return np.array([self.du_x * np.exp(1j * self.phi_x)])
+
+    @property
+    def mirrored(self) -> InPlaneOscillation:
+        """The motion -x(t): half a period later."""
+        return replace(self, phi_x=self.phi_x + np.pi)
+
+
+@dataclass(frozen=True)
+class InPlaneMotion(Shake):
+    """A periodic motion in the plane, besides the pull, as a Fourier series: a sawtooth drive, for one ::
+
+        x(t) = sum over n >= 1 of x_cos[n-1] cos(n omega t) + x_sin[n-1] sin(n omega t)
+
+    Amplitudes in m; a list left out, or shorter than the other, is filled with zeros.
+    """
+
+    omega: float = field(metadata=FREQUENCY)
+    x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
+    x_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes))
+    y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _not_across))
+    y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _not_across))
+    at: str = field(default="tool", metadata=PLACE)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lists = {"x_cos": self.x_cos, "x_sin": self.x_sin}
+        length = max((n for values in lists.values() for n, value in enumerate(values, start=1) if value), default=0)
+        for name, values in lists.items():
+            object.__setattr__(self, name, (values + (0.0,) * length)[:length])
+
+    @property
+    def along(self) -> NDArray[np.complex128]:
+        """The harmonics [m]."""
+        return np.array(self.x_cos) - 1j * np.array(self.x_sin)
+
+    @property
+    def mirrored(self) -> InPlaneMotion:
+        """The motion -x(t)."""
+        return replace(self, x_cos=tuple(-x for x in self.x_cos), x_sin=tuple(-x for x in self.x_sin))
+
+
+def whole_ratio(one: float, other: float) -> tuple[int, int]:
+    """p, q of one/other = p/q, two frequencies whose sum is periodic. FieldError where p or q exceeds `MOST`."""
+    ratio = Fraction(one / other).limit_denominator(MOST)
+    p, q = ratio.numerator, ratio.denominator
+    if not (1 <= p <= MOST and abs(p / q * other / one - 1) <= SAME_RATIO):
+        raise FieldError(
+            f"omega of the shake, {other:.9g} rad/s, and of the oscillation, {one:.9g} rad/s, must be in the ratio of "
+            f"whole numbers up to {MOST}: else the motion is not periodic, and has no average over a period",
+            "omega",
+        )
+    return p, q
+
+
+def way_of(direction: int) -> int:
+    """1 forward or -1 the other way; ValueError for anything else."""
+    if isinstance(direction, bool) or direction not in (1, -1):
+        raise ValueError(f"direction must be 1 (forward) or -1 (the pull the other way), got {direction!r}")
+    return int(direction)
+
+
+#: A table [shake] that does not name its motion is the first of these that has one of its keys while the last, the
+#: usual one, has not.
+UNNAMED: tuple[type[Shake], ...] = (InPlaneMotion, InPlaneOscillation)

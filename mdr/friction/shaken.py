@@ -1,0 +1,190 @@
+"""What a contact does at rest, or unloaded, that is shaken in the plane: which loads it holds, how fast it runs.
+
+Friction of a contact that is pulled ever slower forward tends to one end of a band, pulled ever slower the other way to
+the other end. A mean force between them is held for ever: springs that never slip keep what they were stretched by. A
+force beyond makes the contact creep. Where every spring slips in every period the two ends meet: the force at rest is
+one number, of either sign, and a contact without load drives by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact
+from mdr.case.pull import RigidPull
+from mdr.friction.cof_curve import cof_curve
+from mdr.normal.resolved import resolved
+from mdr.tools.checks import finite
+
+ROOT = 1e-9  #: of the velocity scale of a case, to which the velocity without load is found
+MOST_DOUBLINGS = 60  #: of a velocity, in search of one that the contact does not reach by itself
+
+
+@dataclass(frozen=True)
+class HoldingBand:
+    """The mean F_x over mean F_z [-] that a contact holds: between low and high it neither creeps nor drives."""
+
+    low: float  #: limit of the friction pulled ever slower the other way, v_0 -> -0 [-]
+    high: float  #: the same pulled forward, v_0 -> +0 [-]
+    error: float  #: bound on the numerical error of either [-]
+
+    @property
+    def is_one_number(self) -> bool:
+        """Whether the two ends are the same within their error: at rest nothing is held but this one force."""
+        return self.high - self.low <= 2 * self.error
+
+    def contains(self, load: float) -> bool:
+        """Whether a load is held for ever.
+
+        Parameters
+        ----------
+        load : float
+            Mean tangential force over mean normal force [-].
+
+        Returns
+        -------
+        bool
+            True between the two ends.
+        """
+        return self.low <= finite("load", load) <= self.high
+
+
+def holding_band(case: SlidingContact) -> HoldingBand:
+    """Loads [-], mean F_x over mean F_z, that a contact holds at rest, neither creeping nor driving.
+
+    The contact is held rigidly: a spring pull yields nothing here, and a shake acts on the indenter as it is given.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    HoldingBand
+        `low` and `high` [-]. Without a shake in the plane, minus and plus the static coefficient of friction.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+
+    See Also
+    --------
+    blocked_cof : where the band is one number.
+    no_load_velocity : how fast it runs where it holds nothing.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> depth, shake = mdr.ConstantDepth(u_z0=20e-6), mdr.InPlaneOscillation(omega=300.0, du_x=5e-6)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=depth, shake=shake)
+    >>> band = mdr.holding_band(case)
+    >>> print(f"{band.low:.4f} to {band.high:.4f}")  # springs slip at 12e-6 m, of which the shake takes 5e-6
+    -0.2333 to 0.2333
+    """
+    return _band(replace(resolved(case), pull=RigidPull()))
+
+
+def _band(case: SlidingContact) -> HoldingBand:
+    """The ends of friction at rest, under the pull of the case."""
+    forward, back = (cof_curve(one, [0.0]) for one in (case, case.mirrored))
+    if not (forward.settled.all() and back.settled.all()):
+        why = forward.why[0] or back.why[0]
+        raise ValueError(f"friction at rest is not known, as its run does not settle: {why}")
+    error = float(max(forward.cof_error[0], back.cof_error[0]))
+    return HoldingBand(low=0.0 - float(back.cof[0]), high=float(forward.cof[0]), error=error)
+
+
+def blocked_cof(case: SlidingContact) -> float:
+    """Mean F_x over mean F_z [-] of a contact whose pull does not move, where it is one number.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact, with its pull.
+
+    Returns
+    -------
+    float
+        Negative where the contact pushes forward: the blocked force of a drive, over the load.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+    ValueError
+        Where the contact holds a band of forces, which is named.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> depth = mdr.NormalOscillation(u_z0=20e-6, du_z=15e-6, omega=300.0)
+    >>> shake = mdr.InPlaneOscillation(omega=300.0, du_x=60e-6, phi_x=0.5 * 3.141592653589793)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(3e6, 0.5), 0.4, depth, shake=shake)
+    >>> print(f"{mdr.blocked_cof(case):.3f}")
+    -0.221
+    """
+    band = _band(resolved(case))
+    if not band.is_one_number:
+        raise ValueError(
+            f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
+            "rest is no single number, and depends on how it came to rest; see holding_band"
+        )
+    return 0.5 * (band.low + band.high)
+
+
+def no_load_velocity(case: SlidingContact) -> float:
+    """Velocity [m/s] at which a shaken contact runs that nothing holds back: where the mean F_x is zero.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    float
+        Of either sign; 0 where the contact holds zero load.
+
+    Raises
+    ------
+    TypeError
+        For what is no SlidingContact.
+    ValueError
+        Where a run that would tell does not settle.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> depth = mdr.NormalOscillation(u_z0=20e-6, du_z=15e-6, omega=300.0)
+    >>> shake = mdr.InPlaneOscillation(omega=300.0, du_x=60e-6, phi_x=0.5 * 3.141592653589793)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(3e6, 0.5), 0.4, depth, shake=shake)
+    >>> print(f"{mdr.no_load_velocity(case):.3g} m/s")
+    0.00966 m/s
+    """
+    case = resolved(case)
+    band = _band(case)
+    if band.low <= 0 <= band.high:
+        return 0.0
+    side = 1 if band.high < 0 else -1
+    ahead = case if side == 1 else case.mirrored
+    low, high = 0.0, case.pace
+    for _ in range(MOST_DOUBLINGS):
+        if _cof(ahead, high) > 0:
+            break
+        low, high = high, 2 * high
+    from scipy.optimize import brentq
+
+    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=ROOT * case.pace, rtol=1e-10))
+
+
+def _cof(case: SlidingContact, v_0: float) -> float:
+    """Friction at one velocity, that of a settled run."""
+    point = cof_curve(case, np.array([v_0]))
+    if not point.settled[0]:
+        raise ValueError(f"friction at {v_0:.6g} m/s is not known, as its run does not settle: {point.why[0]}")
+    return float(point.cof[0])

@@ -1,0 +1,158 @@
+"""Motion in the plane as a record: what it answers, what it refuses, and the period that it shares with the depth."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.case.in_plane import whole_ratio
+from mdr.normal.vary import case_at
+
+OMEGA = 300.0
+PUNCH, RUBBER = mdr.FlatPunch(a=1e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+DEPTH = mdr.ConstantDepth(u_z0=20e-6)
+TAPPING = mdr.NormalOscillation(u_z0=20e-6, du_z=5e-6, omega=OMEGA)
+SHAKE = mdr.InPlaneOscillation(omega=OMEGA, du_x=3e-6, phi_x=0.7)
+RIGID = mdr.RigidPull()
+BODY = mdr.SpringPull(k_x=2e4, m=0.05, c_x=3.0)
+
+
+def contact(oscillation=TAPPING, shake=SHAKE, pull=RIGID):
+    return mdr.SlidingContact(PUNCH, RUBBER, 0.4, oscillation, pull, shake)
+
+
+def test_a_harmonic_shake_is_a_series_of_one():
+    series = mdr.InPlaneMotion(OMEGA, x_cos=[3e-6 * np.cos(0.7)], x_sin=[-3e-6 * np.sin(0.7)])
+    assert_allclose(series.along, SHAKE.along, rtol=1e-15)
+    assert isinstance(series.x_cos, tuple)
+    assert hash(series) == hash(replace(series))
+
+
+def test_a_mirror_turns_the_shake_and_nothing_else():
+    case = contact()
+    assert_allclose(case.mirrored.drive, -case.drive, rtol=1e-15)
+    assert replace(case.mirrored, shake=SHAKE) == case
+    assert contact(shake=None).mirrored == contact(shake=None)
+    saw = mdr.InPlaneMotion(OMEGA, x_cos=(1e-6,), x_sin=(2e-6, -1e-6))
+    assert saw.mirrored.mirrored == saw
+
+
+@pytest.mark.parametrize(("p", "q"), [(1, 1), (2, 1), (1, 3), (16, 15), (5, 16)])
+def test_frequencies_in_whole_ratios_share_a_period(p, q):
+    case = contact(replace(TAPPING, omega=p * OMEGA), replace(SHAKE, omega=q * OMEGA))
+    assert case.repeats == (p, q)
+    assert case.omega == pytest.approx(OMEGA, rel=1e-15)
+    assert case.period == 2 * np.pi / case.omega
+    t = np.linspace(0, case.period, 50)
+    phase = case.omega * t
+    assert_allclose(case.cycle.u_z0 + case.cycle.unit * case.cycle.z(phase), case.oscillation.u_z(t), rtol=1e-12)
+    x = (case.drive * np.exp(1j * np.outer(phase, np.arange(1, case.drive.size + 1)))).real.sum(axis=1)
+    assert_allclose(x, 3e-6 * np.cos(q * OMEGA * t + 0.7), rtol=0, atol=1e-18)
+
+
+def test_frequencies_in_no_whole_ratio_are_refused_with_the_reason():
+    with pytest.raises(ValueError, match=r"whole numbers up to 16.*not periodic"):
+        contact(shake=replace(SHAKE, omega=OMEGA * np.sqrt(2)))
+    with pytest.raises(ValueError, match="whole numbers"):
+        whole_ratio(17.0, 1.0)
+
+
+def test_something_has_to_move():
+    for still in (None, replace(SHAKE, du_x=0.0)):
+        with pytest.raises(ValueError, match="nothing oscillates"):
+            contact(DEPTH, still)
+    assert contact(TAPPING, replace(SHAKE, du_x=0.0)).is_shaken is False
+
+
+@pytest.mark.parametrize(
+    ("record", "fields", "field"),
+    [
+        (mdr.InPlaneOscillation, {"omega": OMEGA, "du_y": 1e-6}, "du_y"),
+        (mdr.InPlaneMotion, {"omega": OMEGA, "y_sin": (0.0, 1e-6)}, "y_sin"),
+        (mdr.InPlaneOscillation, {"omega": OMEGA, "du_x": -1e-6}, "du_x"),
+        (mdr.InPlaneOscillation, {"omega": 0.0, "du_x": 1e-6}, "omega"),
+        (mdr.InPlaneOscillation, {"omega": OMEGA, "phi_x": np.nan}, "phi_x"),
+        (mdr.InPlaneOscillation, {"omega": OMEGA, "at": "table"}, "at"),
+        (mdr.InPlaneOscillation, {"omega": OMEGA, "at": 1}, "at"),
+        (mdr.InPlaneMotion, {"omega": OMEGA, "x_cos": 1e-6}, "x_cos"),
+        (mdr.ConstantDepth, {"u_z0": 0.0}, "u_z0"),
+        (mdr.ConstantLoad, {"F_z0": -1.0}, "F_z0"),
+    ],
+)
+def test_what_is_wrong_is_refused_by_its_name(record, fields, field):
+    with pytest.raises((ValueError, TypeError)) as refusal:
+        record(**fields)
+    assert refusal.value.field == field
+    assert field in str(refusal.value)
+
+
+def test_a_contact_takes_no_class_for_a_shake():
+    with pytest.raises(TypeError, match=r"shake must be of kind Shake.*write InPlaneOscillation"):
+        contact(shake=mdr.InPlaneOscillation)
+
+
+def test_the_tool_is_shaken_whole_and_the_pull_through_spring_and_damper():
+    tool, far = (contact(pull=BODY, shake=replace(SHAKE, at=at)) for at in ("tool", "pull"))
+    assert_allclose(tool.way, SHAKE.along)
+    passed = (2e4 + 3j * OMEGA) / (2e4 + 3j * OMEGA - 0.05 * OMEGA**2)  # of the force of spring and damper
+    assert_allclose(far.way, SHAKE.along * passed, rtol=1e-14)
+    assert_allclose(contact(shake=replace(SHAKE, at="pull")).way, SHAKE.along)
+    resonant = mdr.SpringPull(k_x=0.05 * OMEGA**2, m=0.05)
+    assert np.isinf(contact(pull=resonant, shake=replace(SHAKE, at="pull")).way).all()
+
+
+def test_groups_of_a_shaken_contact():
+    constant = contact(DEPTH)
+    assert constant.alpha == 0
+    assert constant.chi == pytest.approx(3e-6 / (0.4 * 1.5 * 20e-6), rel=1e-14)
+    assert constant.unit_velocity == pytest.approx(0.4 * 1.5 * OMEGA * 20e-6, rel=1e-14)
+    assert constant.pace == pytest.approx(OMEGA * 3e-6, rel=1e-14)
+    assert contact(shake=None).chi == 0
+    assert contact(shake=None).pace == contact(shake=None).unit_velocity
+
+
+def test_a_constant_load_rests_where_the_material_carries_it():
+    ball = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, mdr.ConstantLoad(F_z0=0.05), shake=SHAKE)
+    with pytest.raises(ValueError, match="follow from shape and material"):
+        _ = ball.cycle
+    known = mdr.resolved(ball)
+    assert float(ball.indenter.force(known.working_depth, RUBBER.E_star)) == pytest.approx(0.05, rel=1e-12)
+    assert known.cycle.u_z0 == known.working_depth
+    run = mdr.slide(ball, 3e-4, n_springs=64, steps_per_period=128)
+    assert run.mean_F_z == pytest.approx(0.05, rel=1e-6)
+
+
+@pytest.mark.parametrize("path", ["chi", "T", "shake.du_x", "shake.phi_x", "oscillation.u_z0"])
+def test_a_shaken_case_is_varied_at_its_paths(path):
+    case = contact(DEPTH)
+    varied = case_at(case, {path: 0.6 if path != "oscillation.u_z0" else 3e-5})
+    got = {"chi": varied.chi, "T": varied.T, "shake.du_x": varied.shake.du_x, "shake.phi_x": varied.shake.phi_x}
+    assert got.get(path, 0.6) == pytest.approx(0.6, rel=1e-12)
+    assert varied != case
+
+
+def test_a_path_of_a_shake_asks_for_one():
+    with pytest.raises(ValueError, match="nothing shakes in the plane"):
+        case_at(contact(shake=None), {"chi": 0.3})
+
+
+@pytest.mark.parametrize("oscillation", [TAPPING, DEPTH, mdr.ConstantLoad(F_z0=0.05)])
+@pytest.mark.parametrize(
+    "shake", [replace(SHAKE, at="pull"), mdr.InPlaneMotion(OMEGA, x_sin=(1e-6, 0.5e-6)), SHAKE], ids=str
+)
+def test_a_case_file_carries_a_shake(oscillation, shake):
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, oscillation, BODY, shake)
+    text = mdr.write_case(case)
+    assert "[shake]" in text
+    assert mdr.parse_case(text) == case
+
+
+def test_faults_of_a_shake_are_all_told():
+    text = mdr.write_case(contact()).replace("du_x = 3e-06", "du_x = -3e-06\ndux = 1")
+    with pytest.raises(mdr.CaseFileError) as refusal:
+        mdr.parse_case(text)
+    told = "\n".join(refusal.value.faults)
+    assert "[shake] du_x must not be negative" in told
+    assert "dux is no key of InPlaneOscillation; did you mean du_x" in told

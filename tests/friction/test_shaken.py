@@ -1,0 +1,241 @@
+"""What a contact does that is shaken along its way: critical velocities by direction, at rest, without load."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import SHAPES
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.friction.cof_curve import friction_without_bound
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.stepper import Stepper
+
+OMEGA, MU_0, DEPTH = 300.0, 0.4, 20e-6
+RUBBER = mdr.Elastic(E=3e6, nu=0.5)
+RIGID = mdr.RigidPull()
+REACH = MU_0 * RUBBER.mindlin_ratio * DEPTH
+
+
+def contact(shape="paraboloid", alpha=0.0, chi=1.0, phi=0.7, material=RUBBER, pull=RIGID, at="tool"):
+    motion = mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA) if alpha else mdr.ConstantDepth(DEPTH)
+    shake = mdr.InPlaneOscillation(OMEGA, chi * REACH, phi, at=at)
+    return mdr.SlidingContact(SHAPES[shape][0], material, MU_0, motion, pull, shake)
+
+
+def body(case, k=1.0, ratio=0.7, zeta=0.3):
+    k_x = k * mdr.resolved(case).k_xc
+    m = k_x / (ratio * OMEGA) ** 2
+    return replace(case, pull=mdr.SpringPull(k_x, m, 2 * zeta * math.sqrt(k_x * m)))
+
+
+# --- critical velocities ---
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("phi", [0.0, np.pi / 2, np.pi, 0.7])
+def test_the_critical_velocity_is_that_of_depth_and_shake_together(phi, way):
+    """|mu_0 kappa du_z -+ du_x exp(i phi)| omega, by the law of cosines."""
+    case = contact(alpha=0.4, chi=0.3, phi=phi)
+    a, b = 0.4 * REACH, 0.3 * REACH
+    expected = OMEGA * math.sqrt(a**2 + b**2 - way * 2 * a * b * math.cos(phi))
+    assert mdr.critical_velocity(case, way) == pytest.approx(expected, rel=1e-13)
+    assert mdr.full_slip_critical_velocity(case, way) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(
+    "case",
+    [
+        contact("cone", alpha=0.4, chi=1.5, phi=2.0),
+        contact("r4", chi=0.4),
+        contact("flat", alpha=0.6, chi=1.0, material=mdr.KelvinVoigt(3e6, 0.5, 2e-3)),
+        body(contact(alpha=0.5, chi=0.7, material=mdr.KelvinVoigt(3e6, 0.5, 1e-3))),
+        body(contact("cone", alpha=0.3, chi=2.0, at="pull", phi=4.0)),
+        body(contact("cone", chi=0.5, material=mdr.StandardLinearSolid(3e6, 2e6, 2e-3, 0.5), at="pull")),
+    ],
+    ids=["rigid", "alone", "kelvin", "body", "pull", "arms"],
+)
+def test_measured_velocities_are_those_of_full_slip(case, way):
+    found = mdr.measure_critical_velocity(case, way)
+    full = mdr.full_slip_critical_velocity(case, way)
+    assert found.kind == "end of stick"
+    assert found.v_c == pytest.approx(full, rel=1e-4)
+    assert found.low <= full <= found.high
+
+
+def test_a_shake_alone_knows_neither_shape_nor_depth_nor_material():
+    for shape in SHAPES:
+        for material in (RUBBER, mdr.KelvinVoigt(1e5, 0.3, 1e-2)):
+            case = contact(shape, chi=0.8, material=material)
+            for one in (case, body(case)):
+                assert mdr.critical_velocity(one) == pytest.approx(OMEGA * case.shake.du_x, rel=1e-13)
+                assert mdr.full_slip_critical_velocity(one, -1) == pytest.approx(OMEGA * case.shake.du_x, rel=1e-8)
+
+
+def test_contact_that_is_lost_may_drive_at_full_friction():
+    """The tool runs on while it presses and comes back in flight: springs slip forward at rest, v_c is below zero."""
+    case = contact("flat", alpha=3.0, chi=20.0, phi=-np.pi / 2)
+    case = replace(case, oscillation=replace(case.oscillation, u_z0=-DEPTH))
+    least = mdr.full_slip_critical_velocity(case)
+    assert least < 0
+    assert mdr.slide(case, 0.9 * least).cof == pytest.approx(MU_0, rel=1e-9)
+    assert mdr.slide(case, 1.2 * least).cof < MU_0 * (1 - 1e-4)
+
+
+def test_directions_are_1_and_minus_1():
+    for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity):
+        for wrong in (0, 2, True, "forward"):
+            with pytest.raises((ValueError, TypeError), match="direction must be 1"):
+                ask(contact(), wrong)
+
+
+@pytest.mark.parametrize("ask", [mdr.critical_velocity, mdr.full_slip_critical_velocity])
+def test_without_a_shake_both_ways_are_one(ask):
+    still = replace(body(contact(alpha=0.5)), shake=None)
+    assert ask(still, -1) == ask(still)
+
+
+# --- curves ---
+
+
+@pytest.mark.parametrize("pull", ["rigid", "body"])
+def test_the_curve_of_both_ways_is_that_of_single_runs(pull):
+    case = contact(alpha=0.5, chi=1.5, phi=1.0)
+    case = body(case) if pull == "body" else case
+    v_0 = np.array([2e-3, -4e-3, 0.0, -1e-4, 1e-2])
+    curve = mdr.cof_curve(case, v_0, method="march")
+    runs = [mdr.slide(case, v) for v in v_0]
+    assert_allclose(curve.cof, [run.cof for run in runs], rtol=0, atol=1e-5 * MU_0)
+    assert curve.settled.all()
+    assert np.all(np.diff(curve.cof[np.argsort(v_0)]) > 0)
+    assert curve.static_cof == curve.cof[2]
+    assert (curve.v_c, curve.v_c_back) == (mdr.critical_velocity(case), mdr.critical_velocity(case, -1))
+    quick = friction_without_bound(case, v_0, 192, 512)
+    assert_allclose(quick, curve.cof, rtol=0, atol=5e-5 * MU_0)
+
+
+def test_a_curve_of_both_ways_is_drawn_whole():
+    curve = mdr.cof_curve(contact(alpha=0.5, chi=1.5), np.linspace(-0.03, 0.03, 7))
+    ax = curve.plot()
+    low, high = ax.get_ylim()
+    assert low < -1
+    assert high > 1
+    assert ax.get_xlim()[0] < -0.03 / curve.v_c
+    assert "other way" in "".join(text.get_text() for text in ax.texts)
+
+
+# --- at rest ---
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_shake_alone_leaves_the_band_that_its_amplitude_does_not_take(shape):
+    """mu_0 F_N(d - du_x/(mu_0 kappa))/F_N(d): each spring holds what is left of its reach."""
+    for chi in (0.3, 0.8):
+        case = contact(shape, chi=chi)
+        force = case.indenter.force(np.array([DEPTH, (1 - chi) * DEPTH]), RUBBER.E_star)
+        band = mdr.holding_band(case)
+        assert band.high == pytest.approx(MU_0 * force[1] / force[0], abs=2e-5 * MU_0)
+        assert band.low == pytest.approx(-band.high, abs=1e-5 * MU_0)
+        assert mdr.no_load_velocity(case) == 0
+        with pytest.raises(ValueError, match="holds any mean F_x over mean F_z between"):
+            mdr.blocked_cof(case)
+    gone = contact(shape, chi=1.01)
+    assert mdr.holding_band(gone).is_one_number
+    assert mdr.blocked_cof(gone) == pytest.approx(0, abs=1e-5)
+
+
+def test_the_band_without_a_shake_is_that_of_static_friction():
+    still = replace(contact(alpha=0.4), shake=None)
+    band = mdr.holding_band(still)
+    assert (band.low, band.high) == (-mdr.static_cof(still), mdr.static_cof(still))
+    assert band.contains(0.0)
+    assert not band.contains(1.1 * band.high)
+    assert not band.is_one_number
+
+
+@pytest.mark.parametrize("pull", ["rigid", "body"])
+def test_a_drive_pushes_when_held_and_runs_free_at_no_load(pull):
+    case = contact(alpha=0.75, chi=5.0, phi=np.pi / 2)
+    case = body(case) if pull == "body" else case
+    blocked, free = mdr.blocked_cof(case), mdr.no_load_velocity(case)
+    assert blocked < -0.1
+    assert free > 0
+    assert abs(mdr.slide(case, free).cof) < 2e-5
+    mirror = case.mirrored
+    assert mdr.blocked_cof(mirror) == pytest.approx(-blocked, abs=1e-5)
+    assert mdr.no_load_velocity(mirror) == pytest.approx(-free, rel=1e-6)
+
+
+MASS, DAMPING = 1000.0, 63.0  # of the contact's stiffness over omega**2 and over omega
+
+
+def creeping(case, load, e_share, n_periods):
+    """Mean velocity, over that of the shake, of a contact under a constant load over its mean normal force, begun with
+    its springs at a share of their reach: a body so heavy that it hardly moves within a period, without spring.
+    """
+    springs = mdr.SpringArray.of(case, 64)
+    scaled = ScaledContact.of(case, springs, 512, lump=False)
+    spring = 1e-7  # of the contact's stiffness; the load is what the spring pulls with
+    unit = scaled.stiffness_x / scaled.omega
+    held = replace(case, pull=mdr.SpringPull(spring * scaled.stiffness_x, MASS * unit / scaled.omega, DAMPING * unit))
+    scaled = ScaledContact.of(held, springs, 512, lump=False)
+    stepper = Stepper(scaled, 0.0)
+    state = stepper.full_slip()
+    state.e[:] = e_share * scaled.normal.s
+    start = -load / MU_0 * scaled.normal.mean / spring  # y of a spring that pulls with the load
+    state.body.y[:] = start
+    stepper.within_friction(state)
+    state, _ = stepper.advance(state, 5 * n_periods)  # until it rests, but for a swing within the period
+    before = state.body.y[0]
+    state, _ = stepper.advance(state, n_periods)
+    return (state.body.y[0] - before) / (2 * np.pi * n_periods) / np.abs(scaled.x_dot).max()
+
+
+@pytest.mark.parametrize("side", ["low", "high"])
+@pytest.mark.parametrize(
+    "case", [contact(chi=0.5), contact("cone", alpha=0.3, chi=0.4, phi=1.2)], ids=["alone", "both"]
+)
+def test_inside_the_band_nothing_creeps_and_outside_it_does(case, side):
+    band = mdr.holding_band(case)
+    width, end = band.high - band.low, getattr(band, side)
+    inward = -1 if side == "high" else 1
+    inside, outside = end + 0.05 * inward * width, end - 0.05 * inward * width
+    for start in (-0.9, 0.0, 0.9):
+        assert abs(creeping(case, inside, start, 200)) < 1e-5
+    drift = -inward * creeping(case, outside, 0.0, 200)
+    assert drift > 1e-4
+    # friction at this velocity and the damper together carry the load
+    scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 512, lump=False)
+    velocity = -inward * drift * np.abs(scaled.x_dot).max()
+    carried = mdr.slide(case, velocity * scaled.speed).cof + MU_0 * DAMPING * velocity / scaled.normal.mean
+    assert carried == pytest.approx(outside, abs=0.03 * width)
+
+
+# --- the verdict ---
+
+
+def test_a_verdict_says_what_the_shake_does_forward_the_other_way_and_at_rest():
+    found = mdr.verdict(contact("flat", alpha=0.4, chi=0.4, phi=0.0))
+    assert found.other_way is not None
+    assert found.other_way.other_way is None
+    assert found.other_way.eq_15 == pytest.approx(0.8 * REACH * OMEGA)
+    text = str(found)
+    for part in ("Forward: Eq. (15) with the shake", "The other way: Eq. (15)", "At rest it"):
+        assert part in text
+    assert replace(found, within=0.5).other_way.within == 0.5
+
+
+@pytest.mark.parametrize(
+    ("case", "said"),
+    [
+        (contact("flat", chi=0.4), "At rest it holds up to 0.24 of the load pulled forward and 0.24 the other way"),
+        (contact(alpha=0.75, chi=5.0, phi=np.pi / 2), "At rest it drives itself forward: held, it pushes with 0.22"),
+        (contact(alpha=0.75, chi=5.0, phi=-np.pi / 2), "At rest it drives itself backward: held, it pushes with 0.22"),
+        (contact(chi=3.0), "At rest it holds nothing, as every spring slips in every period, and drives nothing"),
+    ],
+)
+def test_what_a_verdict_says_of_rest(case, said):
+    assert mdr.verdict(case, accuracy=1e-3).at_rest.startswith(said)

@@ -1,0 +1,294 @@
+"""Runs of contacts that are shaken along their way: against a twin, closed limits, and what must not matter."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import reference_shaken
+from conftest import SHAPES
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.march.dimensionless import ScaledContact
+from mdr.march.slide import slide_without_bound
+
+OMEGA, MU_0, NU, DEPTH = 300.0, 0.4, 0.4, 20e-6
+KAPPA = (2 - NU) / (2 * (1 - NU))
+REACH = MU_0 * KAPPA * DEPTH  # deflection at which the deepest spring slips
+KNOBS = {"n_springs": 64, "steps_per_period": 256}
+
+
+def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, at="tool", **others):
+    """alpha = du_z/u_z0, chi = du_x/REACH; body: k_x/k_xc, omega_0/omega, damping ratio."""
+    indenter = SHAPES[shape][0]
+    material = mdr.KelvinVoigt(E=3e6, nu=NU, tau=T / OMEGA) if T else mdr.Elastic(E=3e6, nu=NU)
+    motion = mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA) if alpha else mdr.ConstantDepth(DEPTH)
+    pull = mdr.RigidPull()
+    if body is not None:
+        k, ratio, zeta = body
+        k_x = k * float(indenter.stiffness(DEPTH, material.G_star))
+        m = k_x / (ratio * OMEGA) ** 2 if ratio < np.inf else 0.0
+        pull = mdr.SpringPull(k_x, m, 2 * zeta * math.sqrt(k_x * m))
+    shake = mdr.InPlaneOscillation(OMEGA, chi * REACH, phi, at=at)
+    return replace(mdr.SlidingContact(indenter, material, MU_0, motion, pull, shake), **others)
+
+
+def by_twin(case, v_0, shape, steps, count, n_periods):
+    """COF of the twin, and how far it may be off."""
+    side, unit = math.copysign(1, v_0), case.cycle.unit
+    length, depth = MU_0 * KAPPA * unit, DEPTH / unit
+    k_xc = float(case.indenter.stiffness(DEPTH, case.material.G_star))
+    m, c_x, k_x = case.pull.coefficients
+    body = None if case.pull.is_rigid else (m * OMEGA**2 / k_xc, c_x * OMEGA / k_xc, k_x / k_xc)
+    z_n = [1.0] if case.oscillation.omega else [0.0]
+    knobs = {"steps": steps, "count": count, "n_periods": n_periods}
+    x_n, v = [side * x / length for x in case.way], abs(v_0) / (length * OMEGA)
+    cof, error = reference_shaken.friction(SHAPES[shape][1], depth, z_n, x_n, case.T, v, body, **knobs)
+    return side * MU_0 * cof, MU_0 * error
+
+
+@pytest.mark.parametrize(
+    ("shape", "alpha", "T", "chi", "phi", "v"),
+    [
+        ("flat", 0.0, 0.0, 0.3, 0.7, 0.4),
+        ("cone", 0.0, 0.0, 3.0, 0.7, -0.1),
+        ("paraboloid", 0.5, 0.0, 1.0, np.pi / 2, 0.3),
+        ("r4", 0.5, 0.3, 3.0, np.pi, -0.5),
+        ("cone", 1.4, 0.0, 1.0, np.pi / 2, -0.3),
+        ("flat", 0.6, 1.0, 5.0, 0.7, 0.6),
+        ("paraboloid", 1.3, 0.3, 10.0, 0.0, -0.2),
+    ],
+)
+def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi, v):
+    case = contact(shape, alpha, T, chi, phi)
+    v_0 = v * max(mdr.critical_velocity(case, way) for way in (1, -1))
+    run = mdr.slide(case, v_0)
+    expected, doubt = by_twin(case, v_0, shape, 4096, 500, 12 if T else 3)
+    assert run.settled
+    assert run.cof_error <= 1e-5 * MU_0
+    assert doubt < 2e-5 * MU_0
+    assert abs(run.cof - expected) <= run.cof_error + doubt + 1e-6 * MU_0  # the springs of the twin
+
+
+@pytest.mark.parametrize(
+    ("shape", "alpha", "T", "chi", "at"),
+    [("flat", 0.4, 0.0, 1.0, "tool"), ("paraboloid", 0.0, 0.3, 2.0, "pull"), ("cone", 0.6, 0.0, 1.0, "pull")],
+)
+def test_a_body_is_within_its_error_of_the_twin(shape, alpha, T, chi, at):
+    case = contact(shape, alpha, T, chi, body=(1.0, 0.7, 0.4), at=at)
+    v_0 = -0.4 * mdr.critical_velocity(case, -1)
+    run = mdr.slide(case, v_0)
+    expected, doubt = by_twin(case, v_0, shape, 4096, 120, 30)
+    assert run.settled
+    assert doubt < 2e-4 * MU_0
+    assert abs(run.cof - expected) <= run.cof_error + doubt + 1e-5 * MU_0  # the springs of the twin
+
+
+# --- limits ---
+
+
+@pytest.mark.parametrize("r", [0.1, 0.5, 0.9])
+def test_a_stiff_contact_is_the_rigid_one(r):
+    """Amplitude far beyond the reach of the springs: (2/pi) arcsin of v_0 over that of the shake."""
+    off = []
+    for chi in (30.0, 300.0):
+        case = contact("flat", chi=chi)
+        off.append(mdr.slide(case, r * OMEGA * chi * REACH).cof / MU_0 - 2 / np.pi * math.asin(r))
+    assert abs(off[1]) < 4e-3
+    assert abs(off[1]) < abs(off[0]) / 8
+
+
+@pytest.mark.parametrize("v", [0.2, 0.7])
+@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
+def test_at_small_amplitude_the_shake_does_what_the_normal_oscillation_does(shape, v):
+    """Only w = s - u_x/(mu_0 kappa) counts while no spring slips back: the lost friction is the same."""
+    lost = []
+    for case in (contact(shape, chi=1e-3), contact(shape, alpha=1e-3, shake=None)):
+        cof = mdr.slide(case, v * mdr.critical_velocity(case), accuracy=1e-8).cof
+        lost.append(1 - cof / MU_0)
+    assert lost[0] == pytest.approx(lost[1], rel=2e-3)
+
+
+def test_in_phase_with_the_depth_a_shake_leaves_friction_full_forward():
+    """x = mu_0 kappa u_z: every spring slips at the velocity of the pull, whatever the instant."""
+    case = contact("paraboloid", alpha=0.5, chi=0.5, phi=0.0)
+    assert mdr.critical_velocity(case) < 1e-12 * mdr.critical_velocity(case, -1)
+    assert mdr.critical_velocity(case, -1) == pytest.approx(2 * case.unit_velocity, rel=1e-14)
+    slow = 1e-3 * case.unit_velocity
+    assert mdr.slide(case, slow).cof == pytest.approx(MU_0, rel=1e-12)
+    assert mdr.slide(case, -slow).cof > -0.9 * MU_0
+
+
+# --- what must not matter ---
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)])
+def test_half_a_period_later_is_the_other_way(T, body):
+    """A harmonic shake alone is its own mirror half a period on, and the march knows nothing of that."""
+    case = contact("cone", T=T, chi=1.3, body=body)
+    later = replace(case, shake=replace(case.shake, phi_x=case.shake.phi_x + np.pi))
+    v_0 = 0.4 * mdr.critical_velocity(case)
+    assert mdr.slide(case, v_0, **KNOBS).cof == pytest.approx(mdr.slide(later, v_0, **KNOBS).cof, rel=1e-8)
+    assert mdr.slide(case, -v_0, **KNOBS).cof == pytest.approx(-mdr.slide(case, v_0, **KNOBS).cof, rel=1e-8)
+
+
+def test_the_other_way_is_the_mirror_image():
+    case = contact(alpha=0.5, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4))
+    one, other = mdr.slide(case, -1e-3, record=1, **KNOBS), mdr.slide(case.mirrored, 1e-3, record=1, **KNOBS)
+    assert (one.cof, one.v_0, one.mean_F_x) == (-other.cof, -1e-3, -other.mean_F_x)
+    for name in ("u_x", "F_x", "e", "f_x"):
+        assert_allclose(getattr(one, name), -getattr(other, name), rtol=0, atol=0)
+    for name in ("F_z", "s", "f_z", "u_z", "t"):
+        assert_allclose(getattr(one, name), getattr(other, name), rtol=0, atol=0)
+    swapped = {mdr.State.SLIP: mdr.State.SLIP_BACK, mdr.State.SLIP_BACK: mdr.State.SLIP}
+    for mode in mdr.State:
+        assert np.array_equal(one.state == mode, other.state == swapped.get(mode, mode))
+    assert one.energy_balance == other.energy_balance
+
+
+@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)])
+def test_units_and_mu_0_and_moduli_drop_out(body):
+    one = contact(alpha=0.4, T=0.3, chi=1.2, body=body)
+    material = mdr.KelvinVoigt(E=7e9, nu=0.2, tau=0.3 / 5e4)
+    ratio = material.mindlin_ratio * 0.7 / (KAPPA * MU_0)
+    two = replace(
+        one,
+        mu_0=0.7,
+        material=material,
+        oscillation=replace(one.oscillation, omega=5e4),
+        shake=replace(one.shake, omega=5e4, du_x=one.shake.du_x * ratio),
+    )
+    if body is not None:
+        scale = material.G_star / one.material.G_star
+        m, c_x, k_x = one.pull.coefficients
+        slower = OMEGA / 5e4
+        two = replace(two, pull=mdr.SpringPull(k_x * scale, m * scale * slower**2, c_x * scale * slower))
+    for v in (0.3, -0.6):
+        v_0 = v * mdr.critical_velocity(one, -1)
+        first, second = mdr.slide(one, v_0, **KNOBS), mdr.slide(two, v_0 * ratio / slower_of(one, two), **KNOBS)
+        assert second.cof / 0.7 == pytest.approx(first.cof / MU_0, rel=1e-7)
+
+
+def slower_of(one, two):
+    return one.omega / two.omega
+
+
+def test_a_signal_added_to_depth_and_shake_alike_changes_nothing_forward():
+    """mu_0 kappa q(t) added to x, q(t) to the depth of a kept punch: w = s - u_x/(mu_0 kappa) stays as it is."""
+    q = 0.2 * DEPTH
+    plain = contact("flat", alpha=0.3, chi=0.0, shake=None)
+    both = mdr.PeriodicMotion(OMEGA, DEPTH, cos=(0.3 * DEPTH,), sin=(0.0, q))
+    shake = mdr.InPlaneMotion(OMEGA, x_sin=(0.0, MU_0 * KAPPA * q))
+    added = replace(plain, oscillation=both, shake=shake)
+    for v in (0.3, 0.8):
+        v_0 = v * mdr.critical_velocity(plain)
+        one, other = (mdr.slide(case, v_0, accuracy=1e-7).cof for case in (plain, added))
+        assert other == pytest.approx(one, abs=2e-7 * MU_0)
+
+
+def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
+    far = contact(alpha=0.4, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4), at="pull")
+    X = complex(far.way[0])
+    near = replace(far, shake=mdr.InPlaneOscillation(OMEGA, abs(X), float(np.angle(X))))
+    for v_0 in (1e-3, -2e-3):
+        one, other = (mdr.slide(case, v_0, record=1, **KNOBS) for case in (far, near))
+        assert one.cof == pytest.approx(other.cof, rel=1e-10)
+        assert_allclose(one.u_x, other.u_x, rtol=0, atol=1e-9 * REACH)
+        # the drive does not do the same work there
+        assert one.energy_balance.shake_work != pytest.approx(other.energy_balance.shake_work, rel=0.1)
+
+
+def test_different_frequencies_are_marched_over_their_common_period():
+    case = contact("cone", alpha=0.4, chi=0.7)
+    case = replace(
+        case, oscillation=replace(case.oscillation, omega=3 * OMEGA), shake=replace(case.shake, omega=2 * OMEGA)
+    )
+    assert case.omega == pytest.approx(OMEGA)
+    series = replace(
+        case,
+        oscillation=mdr.PeriodicMotion(OMEGA, DEPTH, cos=(0.0, 0.0, 0.4 * DEPTH)),
+        shake=mdr.InPlaneMotion(OMEGA, (0.0, 0.7 * REACH * math.cos(0.7)), (0.0, -0.7 * REACH * math.sin(0.7))),
+    )
+    for v_0 in (1e-3, -2e-3):
+        one, other = (mdr.slide(each, v_0, **KNOBS).cof for each in (case, series))
+        assert one == pytest.approx(other, rel=1e-9)
+
+
+# --- accuracy, energy, the ends ---
+
+
+@pytest.mark.parametrize("T", [0.0, 0.4])
+@pytest.mark.parametrize(("alpha", "chi"), [(0.0, 2.0), (0.4, 1.0), (1.4, 2.0)])
+@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)], ids=["rigid", "body"])
+def test_the_scheme_is_of_second_order(T, alpha, chi, body):
+    """In steps, and in springs, by a line through errors over a factor of 16, each of several: one is erratic."""
+    sizes, of_steps, of_springs = 2 ** np.arange(5), np.zeros(5), np.zeros(5)
+    for phi in (0.3, 0.7, 1.9, 2.5):
+        case = contact("paraboloid", alpha, T, chi, phi, body=body)
+        v_c = mdr.critical_velocity(case)
+
+        def cof(steps, springs, case=case, v_c=v_c):
+            knobs = {"n_springs": springs, "steps_per_period": steps, "start": "full_slip"}
+            return [slide_without_bound(case, v * v_c, **knobs).cof for v in (0.17, 0.37, 0.55)]
+
+        fine, many = np.array(cof(16384, 48)), np.array(cof(128, 6144))
+        of_steps += [np.sum((cof(128 * size, 48) - fine) ** 2) for size in sizes]
+        of_springs += [np.sum((cof(128, 48 * size) - many) ** 2) for size in sizes]
+    # ends of slip cross springs one by one, so that a line through errors of springs scatters, by 0.1 about 2
+    for squares, least in ((of_steps, 1.95), (of_springs, 1.8)):
+        order = -0.5 * np.polynomial.polynomial.polyfit(np.log(sizes), np.log(squares), 1)[1]
+        assert order > least, np.sqrt(squares)
+
+
+@pytest.mark.parametrize("at", ["tool", "pull"])
+@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)], ids=["rigid", "body"])
+@pytest.mark.parametrize("T", [0.0, 0.4])
+def test_energy_has_three_drives(T, body, at):
+    case = contact("paraboloid", alpha=0.4, T=T, chi=1.5, body=body, at=at)
+    residuals = []
+    for steps in (256, 1024):
+        account = mdr.slide(case, 1e-3, n_springs=64, steps_per_period=steps).energy_balance
+        residuals.append(abs(account.relative))
+        assert account.shake_work > 0.1 * account.friction_loss
+    assert residuals[1] < 1e-4
+    assert residuals[1] < residuals[0] / 8
+
+
+def test_from_either_start_friction_is_one():
+    case = contact("cone", alpha=0.5, T=0.3, chi=1.5)
+    one, other = (mdr.slide(case, 1e-3, start=start) for start in ("full_slip", "rest"))
+    assert one.settled
+    assert other.settled
+    assert abs(one.cof - other.cof) <= one.cof_error + other.cof_error
+
+
+def test_at_rest_the_start_decides_where_a_contact_can_hold():
+    case = contact("flat", chi=0.5)
+    forward, rest = (mdr.slide(case, 0.0, start=start).cof for start in ("full_slip", "rest"))
+    assert forward == pytest.approx(0.5 * MU_0, rel=1e-8)
+    assert abs(rest) < 0.5 * MU_0 - 1e-6
+
+
+def test_without_a_shake_a_velocity_is_positive():
+    still = contact(alpha=0.5, shake=None)
+    for v_0 in (0.0, -1e-3):
+        with pytest.raises(ValueError, match=r"v_0 must be positive.*nothing shakes in the plane"):
+            mdr.slide(still, v_0)
+
+
+def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():
+    case = contact(at="pull", pull=mdr.SpringPull(k_x=0.05 * OMEGA**2, m=0.05))
+    assert math.isinf(mdr.critical_velocity(case))
+    assert math.isinf(mdr.full_slip_critical_velocity(case, -1))
+    with pytest.raises(ValueError, match=r"undamped natural frequency.*damper"):
+        mdr.slide(case, 1e-3)
+
+
+def test_a_core_of_one_height_is_one_spring():
+    """Of a flat punch, also under a shake; a round one slips back at its edge first, so that each spring is its own."""
+    for shape, lumped in (("flat", True), ("paraboloid", False)):
+        case = contact(shape, chi=0.5)
+        scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 64, lump=True)
+        assert (scaled.gap.size == 1) == lumped
