@@ -8,6 +8,7 @@ contact stiffness at u_z0, omega_0² = k_x/m.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -90,6 +91,24 @@ def contact(
     if k_ratio is not None:
         pull = body(SHAPES[shape], material, u_z0, k_ratio, omega_0_ratio, damping_ratio)
     return mdr.SlidingContact(SHAPES[shape], material, mu_0, oscillation, pull)
+
+
+def shaken(
+    shape: str,
+    alpha: float,
+    chi: float,
+    phi: float = 0.0,
+    T: float = 0.0,
+    *,
+    at: str = "tool",
+    u_z0: float = DEPTH,
+    **body_of: float,
+) -> mdr.SlidingContact:
+    """As `contact`, and shaken along its way by chi mu_0 kappa u_z0 at the phase phi; alpha = 0 is a constant depth."""
+    case = contact(shape, alpha or 0.1, T, u_z0=u_z0, **body_of)
+    oscillation = case.oscillation if alpha else mdr.ConstantDepth(u_z0)
+    du_x = chi * case.mu_0 * case.material.mindlin_ratio * u_z0
+    return replace(case, oscillation=oscillation, shake=mdr.InPlaneOscillation(OMEGA, du_x, phi, at=at))
 
 
 def driven(shape: str, alpha: float, T: float, ratio: float, damping_ratio: float = DAMPING) -> mdr.SlidingContact:

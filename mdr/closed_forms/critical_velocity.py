@@ -69,7 +69,7 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
 
         v_c = omega |mu_0 (kappa + K_z H) du_z -+ X|
 
-    Alone, v_c = omega |X|: it knows neither shape nor depth nor material.
+    Alone it has v_c = omega abs(X), which knows neither shape nor depth nor material.
 
     Examples
     --------
@@ -126,10 +126,11 @@ def _depth_harmonics(case: SlidingContact) -> NDArray[np.complex128]:
 def formula_of(case: SlidingContact) -> str:
     """Which closed form critical_velocity(case) is, in words; without stiffness at the mean depth Eq. (1) is left."""
     case = at_rest(case)
+    plain = case.pull.is_rigid or case.k_zc == 0
     if case.is_shaken:
-        return "Eq. (15) with the shake" if case.oscillation.omega else "The velocity of the shake alone"
+        return f"Eq. ({1 if plain else 15}) with the shake"
     if case.oscillation.load is not None:
         return "Eq. (15) at the depth that the load brings about"
-    if case.pull.is_rigid or case.k_zc == 0:
+    if plain:
         return "Eq. (1)"
     return "Eq. (15)" + (" with the dynamic stiffness of the material" if case.material.contact_arms else "")

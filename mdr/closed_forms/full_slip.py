@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import LoadOscillation
+from mdr.closed_forms.shaken_pull import ShakenPull, band, has_shaken_form
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle, of_harmonics
 from mdr.normal.kelvin_edges import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
@@ -152,12 +153,16 @@ def static_cof(case: SlidingContact) -> float:
     Returns
     -------
     float
-        The static limit [-]; 0 where contact is lost in part of the period.
+        The static limit [-]; 0 where contact is lost in part of the period. Of a contact that is shaken in the plane
+        the limit of a pull forward, v_0 -> +0, which may be negative.
 
     Raises
     ------
     TypeError
         For what is no SlidingContact.
+    ValueError
+        For a contact that is shaken in the plane under a spring pull or on a material with arms, where no closed form
+        is known: `holding_band` and `cof_curve` march it.
 
     Notes
     -----
@@ -176,6 +181,13 @@ def static_cof(case: SlidingContact) -> float:
     0.322
     """
     case = resolved(case)
+    if case.is_shaken:
+        if not has_shaken_form(case):
+            raise ValueError(
+                "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull "
+                "on an elastic or Kelvin material: ask holding_band(case), or cof_curve(case, [0])"
+            )
+        return case.mu_0 * band(ShakenPull.of(case))[1]
     if not case.is_of_the_paper:
         F_N = force_of(case, followed(case, N_STEPS))
         return case.mu_0 * max(_least(F_N), 0.0) / float(F_N.mean())

@@ -1,4 +1,4 @@
-"""`mdr velocity`: critical velocity and static friction in closed form."""
+"""`mdr velocity`: critical velocity and friction at rest in closed form; of a shaken contact both ways and unloaded."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
         }  # fmt: skip
         return print_json(args, values, case)
     print_rows([
-        ("forward", velocity_text(v_c[0]), f"critical velocity by {equation}{', ' if how else ''}{how}"),
+        ("forward", velocity_text(v_c[0]), f"critical velocity by {equation} {how}"),
         ("other way", velocity_text(v_c[1]), "the same, pulled the other way"),
         ("full slip", velocity_text(full[0]), "critical velocity forward, any amplitude, all harmonics of the force"),
         ("other way", velocity_text(full[1]), "the same, pulled the other way"),
@@ -86,8 +86,9 @@ def at_rest(case: SlidingContact) -> tuple[HoldingBand, float | None, float]:
 def rows_at_rest(band: HoldingBand, blocked: float | None, free: float) -> list[tuple[str, str, str]]:
     """The same in words."""
     one = "a band" if blocked is None else f"{blocked:.6g}"
+    held = f"{band.high:.6g} alone" if band.is_one_number else f"{band.low:.6g} to {band.high:.6g}"
     return [
-        ("band", f"{band.low:.6g} to {band.high:.6g}", "mean F_x over mean F_z that it holds at rest, held rigidly"),
+        ("band", held, "mean F_x over mean F_z that it holds at rest, held rigidly"),
         ("blocked", one, "mean F_x over mean F_z where the pull stands still"),
         ("no load", f"{free:.6g} m/s", "velocity at which nothing holds it back"),
     ]

@@ -80,7 +80,7 @@ PULLS: dict[str, RigidPull | SpringPull] = {
 MOTIONS = ("NormalOscillation", "PeriodicMotion", "LoadOscillation", "ConstantDepth", "ConstantLoad")
 SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  # m
 SHAKES: dict[str, Shake] = {
-    "InPlaneOscillation": InPlaneOscillation(omega=OMEGA, du_x=1e-5, phi_x=1.5708),
+    "InPlaneOscillation": InPlaneOscillation(omega=OMEGA, du_x=1e-5, phi_x=1.5707963),
     "InPlaneMotion": InPlaneMotion(omega=OMEGA, x_sin=SAWTOOTH),
 }
 STILL = "none"  #: the name of no shake

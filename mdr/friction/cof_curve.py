@@ -16,6 +16,8 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
+from mdr.closed_forms.shaken_pull import ShakenPull, has_shaken_form
+from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.slide import cofs_without_bound, slides
 from mdr.march.theorems import disordered
@@ -107,8 +109,8 @@ def cof_curve(
         Pulling velocities [m/s], zero or above. Zero is the static limit. Where something shakes in the plane they may
         be of either sign, friction too, and zero is the limit of a pull ever slower forward.
     method : {None, "march"}
-        None takes the closed form where there is one (a rigid pull, a harmonic depth, an elastic or Kelvin material)
-        and one run for each velocity elsewhere. "march" takes runs for every case.
+        None takes the closed form where there is one (a rigid pull, an elastic or Kelvin material, and a harmonic depth
+        or a shake in the plane) and one run for each velocity elsewhere. "march" takes runs for every case.
     n_springs, steps_per_period : int, optional
         Springs and time steps of every run, as in `slide`. None chooses them. The closed form has neither.
     accuracy : float
@@ -122,7 +124,7 @@ def cof_curve(
     Raises
     ------
     ValueError
-        For velocities that are negative, infinite or NaN.
+        For velocities that are infinite or NaN, and for negative ones where nothing shakes in the plane.
     TypeError
         For a case that is no SlidingContact.
 
@@ -188,6 +190,8 @@ Given = tuple[int | None, int | None, float]  #: springs, steps and accuracy
 def _shaken_curve(case: SlidingContact, v_0: Array, method: str | None, knobs: Given) -> CofCurve:
     """The curve of a contact that is shaken in the plane: that of its mirror image, turned, for the other way."""
     velocities = np.append(v_0, 0.0) if not np.any(v_0 == 0) else v_0
+    if method is None and has_shaken_form(case):
+        return _with_ends(case, v_0, velocities, _closed_shaken_form(case, velocities))
     columns: list[NDArray[Any]] = [
         np.empty(velocities.size, dtype=kind) for kind in (float, float, bool, float, object)
     ]
@@ -196,8 +200,18 @@ def _shaken_curve(case: SlidingContact, v_0: Array, method: str | None, knobs: G
             parts = _runs(one, np.abs(velocities[where]), *knobs)
             for column, part in zip(columns, (side * parts[0] + 0.0, *parts[1:]), strict=True):
                 column[where] = part
-    cof, error, settled, sticks, why = _ordered(velocities, tuple(columns))  # type: ignore[arg-type]
-    n = v_0.size
+    return _with_ends(case, v_0, velocities, _ordered(velocities, tuple(columns)))  # type: ignore[arg-type]
+
+
+def _closed_shaken_form(case: SlidingContact, v_0: Array) -> Columns:
+    cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)
+    nothing = np.full(v_0.shape, "", dtype=object)
+    return case.mu_0 * cof, case.mu_0 * error, np.ones(v_0.shape, dtype=bool), sticks, nothing
+
+
+def _with_ends(case: SlidingContact, v_0: Array, velocities: Array, columns: Columns) -> CofCurve:
+    """The curve at v_0, the first of the velocities of the columns, among which zero is."""
+    (cof, error, settled, sticks, why), n = columns, v_0.size
     return CofCurve(
         v_0=v_0,
         cof=cof[:n],
@@ -214,7 +228,9 @@ def _shaken_curve(case: SlidingContact, v_0: Array, method: str | None, knobs: G
 
 def has_closed_form(case: SlidingContact) -> bool:
     """Whether the curve of a case is known in closed form."""
-    return case.pull.is_rigid and case.is_of_the_paper and not case.is_shaken
+    if case.is_shaken:
+        return has_shaken_form(case)
+    return case.pull.is_rigid and case.is_of_the_paper
 
 
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
@@ -233,6 +249,8 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
 
 
 def _shaken_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
+    if has_shaken_form(case):
+        return _closed_shaken_form(case, v_0)[0]
     out = np.empty(v_0.shape)
     for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
         order = np.flatnonzero(where)[np.argsort(np.abs(v_0[where]), kind="stable")]

@@ -10,15 +10,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.friction.cof_curve import cof_curve
+from mdr.friction.cof_curve import cof_curve, has_closed_form
+from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import finite
 
-ROOT = 1e-9  #: of the velocity scale of a case, to which the velocity without load is found
+ONE = 1e-8  #: of the load, up to which two ends of a band are one
+ROOT, ROOT_OF_RUNS = 1e-12, 1e-7  #: of the velocity scale of a case, to which the velocity without load is found
+SLOW = 1e-3  #: of that scale: velocities beyond which a contact that drives is looked for first
 MOST_DOUBLINGS = 60  #: of a velocity, in search of one that the contact does not reach by itself
 
 
@@ -33,7 +34,7 @@ class HoldingBand:
     @property
     def is_one_number(self) -> bool:
         """Whether the two ends are the same within their error: at rest nothing is held but this one force."""
-        return self.high - self.low <= 2 * self.error
+        return self.high - self.low <= 2 * self.error + ONE
 
     def contains(self, load: float) -> bool:
         """Whether a load is held for ever.
@@ -167,24 +168,29 @@ def no_load_velocity(case: SlidingContact) -> float:
     0.00966 m/s
     """
     case = resolved(case)
-    band = _band(case)
-    if band.low <= 0 <= band.high:
-        return 0.0
-    side = 1 if band.high < 0 else -1
-    ahead = case if side == 1 else case.mirrored
-    low, high = 0.0, case.pace
+    low = SLOW * case.pace
+    side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
+    if side == 0:  # zero load lies between the two: is it held?
+        band = _band(case)
+        if band.low - band.error <= 0 <= band.high + band.error:
+            return 0.0
+        side, low = (1 if band.high < 0 else -1), 0.0
+    ahead, high = case if side == 1 else case.mirrored, case.pace
     for _ in range(MOST_DOUBLINGS):
         if _cof(ahead, high) > 0:
             break
         low, high = high, 2 * high
     from scipy.optimize import brentq
 
-    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=ROOT * case.pace, rtol=1e-10))
+    root = ROOT if has_closed_form(case) else ROOT_OF_RUNS
+    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=root * case.pace, rtol=1e-10))
 
 
 def _cof(case: SlidingContact, v_0: float) -> float:
     """Friction at one velocity, that of a settled run."""
-    point = cof_curve(case, np.array([v_0]))
-    if not point.settled[0]:
-        raise ValueError(f"friction at {v_0:.6g} m/s is not known, as its run does not settle: {point.why[0]}")
-    return float(point.cof[0])
+    if has_closed_form(case):
+        return float(cof_curve(case, [v_0]).cof[0])
+    run = slide(case, v_0)
+    if not run.settled:
+        raise ValueError(f"friction at {v_0:.6g} m/s is not known, as its run does not settle: {run.why}")
+    return run.cof

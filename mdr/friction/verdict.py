@@ -23,6 +23,7 @@ from mdr.tools.progress import time_limit
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
+NOTHING = 1e-8  #: a push over the load that is called none
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
 WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the strict answer
 
@@ -159,9 +160,12 @@ def _at_rest(case: SlidingContact) -> str:
         held = f"up to {band.high:.3g} of the load pulled forward and {-band.low:.3g} the other way"
         return f"At rest it holds {held}, of mu_0 = {case.mu_0:.6g}"
     push = 0.5 * (band.low + band.high)
-    if abs(push) <= 2 * band.error:
-        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
     way = "forward" if push < 0 else "backward"
+    if not band.is_one_number:
+        held = f"held, it pushes with {abs(band.low):.3g} to {abs(band.high):.3g} of the load, by how it came to rest"
+        return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
+    if abs(push) <= 2 * band.error + NOTHING:
+        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
     held = f"held, it pushes with {abs(push):.3g} of the load"
     return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
 
@@ -253,7 +257,10 @@ def _left_out(case: SlidingContact) -> Iterator[str]:
     """The part of the sentence about normal-tangential coupling, where it matters."""
     beta, rub = case.material.dundurs_beta, radial_rub(case)
     left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
-    if unlike(case):
+    if case.is_shaken:
+        if abs(beta) > STRONG and case.oscillation.omega:
+            yield f"{left_out} friction is lower than here, by how much under a shake was not computed"
+    elif unlike(case):
         if abs(beta) > STRONG:
             yield f"{left_out} friction is lower than here, and part of the contact may still stick above this velocity"
     elif rub > STRONG:

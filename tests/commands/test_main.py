@@ -153,7 +153,7 @@ NOTHING = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced
 
 class MadeUpVerdict:
     eq_15, full_slip, measured, deviation, holds, why = 0.1, 0.1, 0.1, 0.0, True, "one element"
-    within, good, least = 0.01, True, 1e-5
+    within, good, least, other_way = 0.01, True, 1e-5, None
 
     def __str__(self):
         return "Eq. (15) is good: one element"
@@ -168,7 +168,9 @@ def test_the_names_of_the_records():
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
-    monkeypatch.setattr("mdr.friction.measured_velocity.measure_critical_velocity", lambda case, accuracy: found)
+    monkeypatch.setattr(
+        "mdr.friction.measured_velocity.measure_critical_velocity", lambda case, direction, accuracy: found
+    )
     assert main(["measure", EXAMPLE]) == status
     assert found.why in capsys.readouterr().out
     assert main(["measure", EXAMPLE, "--json"]) == status

@@ -539,3 +539,85 @@ def test_rubber_slider_has_half_its_friction_where_the_table_says():
         run = mdr.slide(replace(s.foot, oscillation=motion), s.fastest[i, j])
         assert run.cof == pytest.approx(0.4, abs=0.05)  # linear between velocities that differ by a factor of 2.7
     assert np.max(s.share_of_v_c) < 0.3
+
+
+# --- ultrasonic sliding ---
+
+
+def test_ultrasonic_sliding_leaves_at_rest_what_hertz_says():
+    s, E_star, kappa = script("ultrasonic_sliding"), 210e9 / (2 * (1 - 0.3**2)), (2 - 0.3) / (2 * (1 - 0.3))
+    assert_allclose(s.v_c, 2 * np.pi * 20e3 * s.amplitudes, rtol=1e-12)
+    for load in s.loads:
+        d = (3 * load / (4 * E_star * np.sqrt(20e-3))) ** (2 / 3)
+        assert_allclose(s.deflection[load], 0.2 * kappa * d, rtol=1e-10)
+        assert_allclose(s.held[load] / 0.2, np.maximum(1 - s.some_chi, 0) ** 1.5, atol=1e-5)  # BUDGET of a run
+
+
+def test_ultrasonic_sliding_is_near_the_rigid_law_up_to_the_knee():
+    s = script("ultrasonic_sliding")
+    assert np.all(np.diff(s.knees) < 0)
+    assert s.knees[-1] == 0  # chi < 1
+    for curve, knee, chi in zip(s.curves, s.knees, s.chi, strict=True):
+        assert curve.settled.all()
+        assert_allclose(curve.cof[s.shares >= 1], 0.2, rtol=1e-5)
+        more = curve.cof / 0.2 - s.rigid_law(s.shares)
+        assert np.all(more > -1e-5)
+        if chi > 4:
+            assert more[s.shares <= knee].max() < 0.06
+    assert_allclose(s.halved_up_to[0] / s.v_c[0], np.sqrt(0.5), rtol=0.02)
+    assert np.all(np.diff(list(s.halved_from.values())) > 0)
+    energy = s.run.energy_balance
+    assert energy.pull_work + energy.shake_work > 2 * np.pi / s.omega * 0.2 * 20 * 0.1  # nothing is saved
+
+
+# --- piezo drive ---
+
+
+def brute_thrust(x, s, w, v_0, period, travel):
+    """Mean thrust over mu_0 F_N, spring by spring: extensions over mu_0 kappa, clipped to the compression s."""
+    dx = (np.diff(np.r_[x, x[0]]) + v_0 * period / x.size) / travel
+    e, total = np.zeros_like(s), 0.0
+    for n in range(3 * x.size):
+        e = np.clip(e + dx[n % x.size], -s, s)
+        if n >= 2 * x.size:
+            total -= w @ e / x.size
+    return total / (w @ s)
+
+
+def test_piezo_sawtooth_pushes_by_time_shares_less_the_deflection():
+    s = script("piezo_drive")
+    pair = mdr.ElasticPair(380e9, 0.22, 210e9, 0.3)
+    d = (3 * 3.0 / (4 * pair.E_star * np.sqrt(3e-3))) ** (2 / 3)
+    travel = 0.2 * pair.E_star / pair.G_star
+    assert_allclose(s.deflection, travel * d, rtol=1e-10)
+    xi = (np.arange(400) + 0.5) / 400
+    springs, weight = d * (1 - xi**2), np.ones(400)
+    n, turn = np.arange(1, 25), 2 * np.pi * np.arange(4096) / 4096
+    for S, drive in zip(s.strokes, s.sawtooths, strict=True):
+        b = -S * np.sin(0.9 * np.pi * n) / (np.pi**2 * n**2 * 0.09) * np.sinc(n / 25)
+        x = np.sin(np.outer(turn, n)) @ b
+        for k in (0, 7):
+            brute = brute_thrust(x, springs, weight, drive.v_0[k], 1 / 5e3, travel)
+            assert_allclose(drive.thrust[k], brute, atol=2e-3)  # steps of 1/4096 of the period
+        assert drive.thrust[0] < s.stiff.thrust[0] < 1 - 2 * 0.1
+        assert drive.efficiency.max() < s.stiff.efficiency.max() < 0.8 / 1.8
+    assert_allclose([s.even.low, s.even.high], 0, atol=1e-6)
+    assert 1.5 * s.deflection < s.least_stroke < 2.1 * s.deflection
+
+
+def test_piezo_heavy_slider_is_a_rigid_pull_and_a_light_one_is_not():
+    rigid, heavy, _, light = script("piezo_drive").of_mass
+    assert_allclose(heavy, rigid, rtol=0.01)
+    assert light < 0.5 * rigid
+
+
+def test_piezo_ellipse_gives_more_the_more_it_taps():
+    s = script("piezo_drive")
+    assert_allclose([mdr.slide(s.ellipse(h), 0.0).mean_F_z for h in s.heights], 3.0, rtol=1e-3)
+    for values in zip(*((d.thrust[0], d.no_load, d.efficiency.max()) for d in s.ellipses), strict=True):
+        assert np.all(np.diff(values) < 0)
+    assert s.ellipses[0].no_load < 2 * np.pi * 40e3 * 1e-6
+    assert s.ellipses[0].efficiency.max() > 0.75
+    for drive in (*s.sawtooths, *s.ellipses):
+        assert_allclose(drive.thrust[-1], 0, atol=2e-4)  # runs good to 1e-4
+        assert np.all(np.diff(drive.thrust) < 0)

@@ -80,7 +80,8 @@ def of_springs(case: mdr.SlidingContact, v_0: float, knobs: Knobs) -> Friction:
     """Friction of independent springs in the very steps of `in_three_dimensions`, over all periods."""
     depth, way, dt = path(case, v_0, knobs)
     depth = np.append(np.tile(depth[:-1], knobs.cycles), depth[-1])
-    way = way[1] * np.arange(depth.size)
+    moved = np.cumsum(np.tile(np.diff(way), knobs.cycles))
+    way = np.append(0.0, moved)
     material = case.material
     F_x, F_z = springs.forces(
         case.indenter.profile_1d, float(case.indenter.contact_radius(depth.max())), depth, way, dt,
@@ -111,11 +112,13 @@ def contact_of(case: mdr.SlidingContact, knobs: Knobs) -> Contact:
 
 def path(case: mdr.SlidingContact, v_0: float, knobs: Knobs) -> tuple[Array, Array, float]:
     """Depth and way at the instants of a period, (steps + 1,), from the least depth on, and the step [s]."""
-    motion = case.oscillation
-    dt = motion.period / knobs.steps
+    dt = case.period / knobs.steps
     i = np.arange(knobs.steps + 1)
-    one = motion.u_z(dt * i[:-1])
-    return one[(int(np.argmin(one)) + i) % knobs.steps], v_0 * dt * i, dt
+    phase, harmonics = 2 * np.pi * i[:-1] / knobs.steps, np.arange(1, case.way.size + 1)
+    one = case.cycle.u_z0 + case.cycle.unit * case.cycle.z(phase)
+    shake = (case.way * np.exp(1j * np.outer(phase, harmonics))).real.sum(axis=1)
+    at = (int(np.argmin(one)) + i) % knobs.steps
+    return one[at], v_0 * dt * i + shake[at], dt
 
 
 def _friction(F_x: Array, F_z: Array, ratios: list[float]) -> Friction:

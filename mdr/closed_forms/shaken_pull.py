@@ -1,0 +1,242 @@
+"""The periodic state under a pull that is shaken in the plane, spring by spring in closed form: no march.
+
+shaken_spring.py has the compiled half, one spring. The indenter moves rigidly: its depth is u_z0 + unit z(phase), its
+place in the plane v_0 t + x(phase), phase = omega t, z and x sums of harmonics. Tangential lengths are in mu_0 kappa
+unit, v = v_0/(mu_0 kappa omega unit), T = omega tau, the gap of a spring c = (g - u_z0)/unit. Its compression s and its
+extension e obey, with X = v phase + x,
+
+    s = z - c in contact; it leaves where s + T s' falls to 0 and is free, s' = -s/T, until z - c meets s again;
+    e' = X', or less where it slips forward, (s - e)' = -(s - e)/T, or more where it slips backward,
+    (s + e)' = -(s + e)/T; free, e' = -e/T; |e + T e'| <= s + T s'.
+
+T = 0 is the elastic contact: |e| <= s. The mean friction is mu_0 kappa times the sum of the mean e, as the mean of
+e + T e' is that of e. Three facts make every mean a short sum.
+
+1. In contact let y = e - X, which is constant in stick. With w^T = w + T w', A = z - X and B = z + X, a spring
+
+       slips forward while y > A^T - c,   y' = (A^T - c - y)/T,
+       and backward while  y < c - B^T,   y' = (c - B^T - y)/T;   for T = 0: y = A - c, or c - B.
+
+   It is in contact until z^T = (A^T + B^T)/2 falls to c. Between two neighbouring extremes of A^T, B^T and z^T it
+   therefore leaves or touches once at most, each slip ends once at most (its barrier recedes: it lags by an
+   exponential) and begins once at most (its barrier comes nearer). Each of these instants is the only root of a
+   harmonic sum with a drift and one exponential. All integrals between them are known functions.
+2. The period maps e(0) to e(2 pi) = P(e(0)) with 0 <= dP/de = exp(-(slip + flight)/T) <= 1, so that P(e) - e falls and
+   Newton's method, kept within a bracket, solves it. For T = 0 the map is a clip of e + 2 pi v: for v > 0 one period
+   from e = s is exact, and for v = 0 it gives the limit v -> +0. The period begins where z is greatest, as every spring
+   that ever touches is in contact there.
+3. The mean of e is an analytic function of c but where the sequence of touches, leaves and slips changes. Such a c is
+   bisected. Next to it the mean goes with powers of its square root. Between two of them, and kinks of the shape,
+   x = x_1 + (x_2 - x_1) sin²(theta/2) makes it analytic in theta, and the Chebyshev series in theta through 17 springs
+   is integrated. Its last coefficients bound the error. Where they are too large the interval is halved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.shaken_spring import Complex, Motion, all_changes, all_springs, root
+from mdr.indenters.base import Indenter
+from mdr.tools.arrays import Array
+from mdr.tools.records import ArrayRecord
+
+TOLERANCE = 2e-10  #: of the sum over an interval of springs, relative to that of the compression of all
+SAFETY = 0.3  #: error of the rule over its last two coefficients, mostly much less
+FLOOR = 1e-10  #: of the error: changes that are bisected to NEAR or overlooked
+HALVINGS = 16  #: of an interval of the array, at most
+MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
+DENSE = 32  #: instants per period of the highest harmonic, between which zeros are bracketed
+MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
+_ORDER = 16
+
+
+@dataclass(frozen=True, eq=False)
+class ShakenPull(ArrayRecord):
+    """A rigid indenter of which depth and place in the plane are given: numbers only, scaled as above."""
+
+    shape: Indenter
+    u_z0: float  #: mean depth [m]
+    unit: float  #: of the depth [m]
+    Z: Complex  #: z = Re of sum Z_n exp(i n phase), n = 1 ... N; may be empty
+    X: Complex  #: x likewise, in mu_0 kappa unit
+    T: float = 0.0  #: omega tau
+
+    @classmethod
+    def of(cls, case: SlidingContact) -> ShakenPull:
+        """The numbers of a case that `has_shaken_form`, of known depth."""
+        cycle = case.cycle
+        way = case.way / (case.mu_0 * case.material.mindlin_ratio * cycle.unit)
+        return cls(case.indenter, cycle.u_z0, cycle.unit, cycle.harmonics, way, case.T)
+
+    @cached_property
+    def _start(self) -> tuple[float, float]:
+        """Phase at which z is greatest, and its value there."""
+        turns = _turns(np.asarray(self.Z, dtype=complex))
+        phase, z = max(turns, key=lambda turn: turn[1], default=(0.0, 0.0))
+        return float(phase), float(z)
+
+    def _motion(self, side: int) -> Motion:
+        """The motion from the greatest z on; mirrored in the plane for side = -1."""
+        N = max(len(self.Z), len(self.X))
+        n = np.arange(1, N + 1)
+        turn = np.exp(1j * n * self._start[0])
+        Z, X = (turn * np.pad(np.asarray(row, dtype=complex), (0, N - len(row))) for row in (self.Z, self.X))
+        A, B = Z - side * X, Z + side * X
+        T, rate = float(self.T), 1j * n
+        lag = 1 + T * rate
+        rows = np.array([Z, side * X, lag * Z, lag * A, lag * B, T * rate * A, T * rate * B])
+        rates = np.array([rate * lag * A, rate * lag * B])
+        return Motion(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
+
+
+def has_shaken_form(case: SlidingContact) -> bool:
+    """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
+    known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
+    return bool(known and max(case.cycle.cos.size, case.way.size) <= MOST_HARMONICS)
+
+
+def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Array]:
+    """Mean friction over mu_0 times mean force, bound of its error, and share of stick, at velocities v (n_v,).
+
+    The share of stick is that of the contact time, weighted by force. A v = 0 counts as the limit v -> +0.
+    """
+    v = np.asarray(v, dtype=float)
+    answer = np.empty((3, v.size))
+    for side, some in ((1, v >= 0), (-1, v < 0)):
+        if some.any():
+            answer[:, some] = _friction(pull, np.abs(v[some]), side)
+            answer[0, some] *= side
+    return answer[0], answer[1], answer[2]
+
+
+def band(pull: ShakenPull) -> tuple[float, float]:
+    """Mean friction over mu_0 times mean force in the limits v -> -0 and v -> +0."""
+    low, high = (side * float(_friction(pull, np.zeros(1), side)[0, 0]) for side in (-1, 1))
+    return low, high
+
+
+# --- the array: intervals of x, and the rule within -----------------------------------------------------------------
+
+
+def _friction(pull: ShakenPull, v: Array, side: int) -> Array:
+    """Friction, error and share of stick (3, n_v) for v >= 0."""
+    motion = pull._motion(side)
+    marks = _marks(pull)
+    gaps = _gaps(pull, marks)
+    changes = all_changes(motion, v, gaps.min(), gaps.max(), _SCAN)
+    owner, low, high = _intervals(pull, marks, gaps, changes)
+    total, error = np.zeros((3, v.size)), np.zeros(v.size)
+    scale = np.zeros(v.size)
+    for halving in range(HALVINGS + 1):
+        sums, missed = _integrals(pull, motion, v, owner, low, high)
+        if halving == 0:
+            scale = np.maximum(np.bincount(owner, sums[1], v.size), 1e-300)
+        done = missed <= TOLERANCE * scale[owner]
+        done |= halving == HALVINGS or np.sum(~done) > MOST_INTERVALS + 20 * v.size
+        for row, found in zip(total, sums, strict=True):
+            row += np.bincount(owner[done], found[done], v.size)
+        error += np.bincount(owner[done], missed[done], v.size)
+        if done.all():
+            break
+        owner, low, high = owner[~done], low[~done], high[~done]
+        middle = 0.5 * (low + high)
+        owner = np.repeat(owner, 2)
+        low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
+    return np.array([total[0] / total[1], error / total[1] + FLOOR, np.clip(total[2] / total[1], 0, 1)])
+
+
+def _marks(pull: ShakenPull) -> Array:
+    """Ends of the pieces in which g is smooth and the springs touch [m], from 0 to the greatest radius of contact."""
+    shape, deepest = pull.shape, pull.u_z0 + pull.unit * pull._start[1]
+    a = float(shape.contact_radius(deepest))
+    if not a > 0:
+        raise ValueError(f"u_z0 + unit max z = {deepest:.6g} m: the indenter never touches; raise u_z0")
+    return np.array([0.0, *sorted({x for x in shape.joints if 0 < x < a}), a])
+
+
+def _gaps(pull: ShakenPull, x: Array) -> Array:
+    return np.minimum((np.asarray(pull.shape.profile_1d(x)) - pull.u_z0) / pull.unit, pull._start[1])
+
+
+def _intervals(pull: ShakenPull, marks: Array, gaps: Array, changes: Array) -> tuple[NDArray[np.intp], Array, Array]:
+    """Pieces of the array between marks and changes: the velocity they belong to, and their ends [m]."""
+    changes = changes[:, : max(int(np.isfinite(changes).sum(axis=1).max(initial=0)), 1)]
+    x = np.full(changes.shape, marks[-1])
+    inside = (changes > gaps.min()) & (changes < gaps.max())
+    x[inside] = _radius(pull, marks, gaps, changes[inside])
+    ends = np.sort(np.concatenate([x, np.broadcast_to(marks, (len(x), marks.size))], axis=1), axis=1)
+    low, high = ends[:, :-1], ends[:, 1:]
+    real = high - low > 1e-14 * marks[-1]
+    return np.nonzero(real)[0], low[real], high[real]
+
+
+def _radius(pull: ShakenPull, marks: Array, gaps: Array, c: Array) -> Array:
+    """Where the gap is c."""
+    if pull.shape.least_depth == 0:
+        return np.asarray(pull.shape.contact_radius(np.maximum(pull.u_z0 + pull.unit * c, 0)))
+    low, high = np.zeros_like(c), np.full_like(c, marks[-1])  # a hollow face: g falls
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        before = _gaps(pull, middle) > c
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return low
+
+
+def _integrals(
+    pull: ShakenPull, motion: Motion, v: Array, owner: NDArray[np.intp], low: Array, high: Array
+) -> tuple[Array, Array]:
+    """Integrals of e, s and the force in stick over the intervals (3, n), and a bound of the error of the first."""
+    x = np.minimum(low[:, None] + (high - low)[:, None] * _SHARE, high[:, None])
+    gap = _gaps(pull, x.ravel())
+    found = all_springs(motion, v, np.repeat(owner, _SHARE.size), gap).reshape(3, *x.shape)
+    # a rule for coefficients up to the 16th misses those near the 32nd; of a kink they are a fourth of the last ones
+    tail = np.abs(found[:2] @ _TAIL).max(axis=2).sum(axis=0)
+    return (found @ _WEIGHT) * (high - low), SAFETY * tail * (high - low)
+
+
+def _rule() -> tuple[Array, Array, Array]:
+    """Nodes sin²(theta/2), with theta at Chebyshev points of [0, pi]; weights; the last coefficients in theta."""
+    j = np.arange(_ORDER + 1)
+    half = np.where((j == 0) | (j == _ORDER), 0.5, 1.0)
+    coefficients = 2 / _ORDER * np.cos(np.pi * np.outer(j, j) / _ORDER) * half * half[:, None]
+    u, w = leggauss(4 * _ORDER)
+    moments = np.cos(np.outer(j, np.arccos(u))) @ (w * np.pi / 4 * np.cos(np.pi / 2 * u))
+    share = np.sin(0.25 * np.pi * (1 - np.cos(np.pi * j / _ORDER))) ** 2
+    return share, moments @ coefficients, np.ascontiguousarray(coefficients[-2:].T)
+
+
+_SHARE, _WEIGHT, _TAIL = _rule()
+_SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 26)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
+
+
+def _turns(C: Complex) -> Array:
+    """Phases in [0, 2 pi] at which Re of sum C_n exp(i n phase) is extreme, and its values there (n, 2)."""
+    slope = 1j * np.arange(1, C.size + 1) * C
+    bend = 1j * np.arange(1, C.size + 1) * slope
+    phase = _zeros(slope, _zeros(bend, np.zeros(0)))
+    return np.column_stack([phase, _series(C, phase)])
+
+
+def _series(C: Complex, phase: Array) -> Array:
+    return np.asarray((C * np.exp(1j * np.outer(phase, np.arange(1, C.size + 1)))).real.sum(axis=1))
+
+
+def _zeros(C: Complex, marks: Array) -> Array:
+    """Phases at which Re of sum C_n exp(i n phase) changes sign, one at most between two marks or dense instants."""
+    if not np.any(C):
+        return np.zeros(0)
+    count = max(DENSE * C.size, 64)
+    values = count / 2 * np.fft.irfft(np.r_[0, C, np.zeros(count // 2 - C.size)], count)
+    phase = np.r_[2 * np.pi * np.arange(count + 1) / count, marks]
+    f = np.r_[values, values[0], _series(C, marks)]
+    order = np.argsort(phase, kind="stable")
+    phase, f = phase[order], f[order]
+    k = np.flatnonzero((f[:-1] >= 0) != (f[1:] >= 0))
+    found = [root(C[None], 0, 0.0, 0.0, 0.0, 0.0, 0.0, phase[i], phase[i + 1], f[i], f[i + 1]) for i in k]
+    return np.array(found, dtype=float)

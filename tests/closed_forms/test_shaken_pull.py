@@ -1,0 +1,239 @@
+"""The closed form of a shaken pull against a march written from the law of a spring, its limits and invariances."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import reference
+from conftest import SHAPES, contact, unit_of_velocity
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.closed_forms import rigid_pull, shaken_pull
+from mdr.closed_forms.full_slip import static_cof
+from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, band
+
+UNIT, ERROR = 2e-6, 1e-9
+NONE, COS = np.zeros(0, complex), np.ones(1, complex)
+TWO = np.array([0.7 * np.exp(1j), 0.3 * np.exp(2j)])  # of z with two harmonics
+DIRECTIONS = (0, np.pi / 2, np.pi, 0.7)  # phase of x against z
+
+
+def pull_of(shape, depth_ratio, Z, X, T=0.0):
+    indenter = SHAPES[shape][0] if isinstance(shape, str) else shape
+    return ShakenPull(indenter, depth_ratio * UNIT, UNIT, np.asarray(Z, complex), np.asarray(X, complex), T)
+
+
+def shaken(amplitude, phase=0.0):
+    return np.array([amplitude * np.exp(1j * phase)])
+
+
+def cof(pull, v):
+    return average_friction(pull, np.atleast_1d(v))[0]
+
+
+# --- the twin: small steps through many periods, the springs of all cases at once -------------------------------
+
+
+def over_a_period(harmonics, steps):
+    n, phase = np.arange(1, len(harmonics) + 1), 2 * np.pi * np.arange(steps + 1) / steps
+    return (np.asarray(harmonics)[:, None] * np.exp(1j * n[:, None] * phase)).real.sum(axis=0)
+
+
+def springs_of(pull, n_panels):
+    """Gaps and weights of an array, cut at kinks and where springs begin to leave; a punch is one spring."""
+    if isinstance(pull.shape, mdr.FlatPunch):
+        return -np.ones(1) * pull.u_z0 / pull.unit, np.ones(1)
+    z = over_a_period(pull.Z, 1000)
+    depths = [z.max()] if pull.shape.least_depth > 0 else [z.min(), z.max()]
+    edges = [float(pull.shape.contact_radius(max(pull.u_z0 + pull.unit * c, 0))) for c in depths]
+    breaks = np.unique([0.0, *edges, *(x for x in pull.shape.kinks if x < edges[-1])])
+    fine = [np.linspace(a, b, n_panels + 1) for a, b in pairwise(breaks)]
+    x, w = reference.gauss_panels(np.unique(np.concatenate(fine)), 6)
+    return (np.asarray(pull.shape.profile_1d(x)) - pull.u_z0) / pull.unit, w
+
+
+def marched(cases, steps, periods, n_panels=12):
+    """Mean friction over mu_0 times mean force by steps that are exact in stick and in slip, of second order else.
+
+    s never decays faster than exp(-dt/T), nor do s - e and s + e; a spring that touches sticks for a share of a step.
+    """
+    springs = [springs_of(pull, n_panels) for pull, _ in cases]
+    owner = np.repeat(np.arange(len(cases)), [c.size for c, _ in springs])
+    T, v = np.array([pull.T for pull, _ in cases]), np.array([v for _, v in cases])
+    z, x = (
+        np.array([over_a_period(row, steps) for row in rows])
+        for rows in ([p.Z for p, _ in cases], [p.X for p, _ in cases])
+    )
+    z, dX = (
+        z.T[:, owner] - np.concatenate([c for c, _ in springs]),
+        (np.diff(x, axis=1).T + 2 * np.pi / steps * v)[:, owner],
+    )
+    with np.errstate(divide="ignore"):
+        rate = np.minimum(2 * np.pi / steps / T, 1e6)[owner]
+    left = np.exp(-rate)
+    s = np.maximum(z[0], 0)
+    e, total = np.sign(v)[owner] * s, np.zeros((2, owner.size))
+    for k in range(periods * steps):
+        i, weight = k % steps, 0.5 if k >= (periods - 1) * steps else 0.0
+        total += weight * np.array([e, s])
+        before, now, new = z[i] - s, z[i + 1] - s * left, np.maximum(z[i + 1], s * left)
+        touches = (before < -1e-12) & (now > 0)
+        share = np.where(touches, now / np.where(touches, now - before, 1), 1)
+        start = np.where(touches, e * np.exp((share - 1) * rate), e)
+        e = np.clip(start + share * dX[i], (s + e) * left - new, new - (s - e) * left)
+        s = new
+        total += weight * np.array([e, s])
+    e, s = (np.bincount(owner, row * np.concatenate([w for _, w in springs])) for row in total)
+    return e / s
+
+
+def assert_agree(cases, twin, atol):
+    found = np.array([[row[0] for row in average_friction(pull, [v])] for pull, v in cases])
+    assert np.all(found[:, 1] < ERROR)
+    assert_allclose(found[:, 0], twin, rtol=0, atol=atol)
+    assert np.mean(np.abs(twin) < 0.97) > 0.6  # most of them stick for a while
+
+
+def some_motion(rng, Z):
+    """x and a velocity up to that above which all slips, and beyond it."""
+    X = shaken(10 ** rng.uniform(-0.5, 1), rng.choice(DIRECTIONS))
+    if rng.random() < 0.3:
+        X = np.r_[X, 0.4 * np.exp(1j * rng.uniform(0, 6))]
+    greatest = (
+        np.max(np.diff(over_a_period(np.pad(Z, (0, 2 - len(Z))) - np.pad(X, (0, 2 - len(X))), 1000))) * 1000 / 6.28
+    )
+    return X, rng.choice([-1, 1]) * rng.choice([rng.uniform(0, 0.2), rng.uniform(0.2, 1.1)]) * greatest
+
+
+@pytest.mark.parametrize(("T", "steps", "periods"), [((0.0,), 3000, 2), ((0.05, 0.3, 0.8), 1500, 20)])
+def test_sixty_springs_against_the_twin(T, steps, periods):
+    rng, cases = np.random.default_rng(3), []
+    for i in range(60):
+        Z = (NONE, COS, COS, TWO)[i % 4]
+        depth_ratio = rng.uniform(0.1, 3) if len(Z) == 0 or rng.random() < 0.5 else rng.uniform(-0.5, 1)
+        X, v = some_motion(rng, Z)
+        cases.append((pull_of("flat", depth_ratio, Z, X, rng.choice(T)), v))
+    # the march misses up to dt² over the mean of s; it misses a fourth of this in twice the steps
+    assert_agree(cases, marched(cases, steps, periods), 5e-6)
+
+
+@pytest.mark.parametrize(("T", "steps", "periods"), [(0.0, 1200, 2), (0.5, 900, 10)])
+def test_arrays_against_the_twin(T, steps, periods):
+    rng, cases = np.random.default_rng(4), []
+    for shape in ("cone", "paraboloid", "r4", mdr.TruncatedCone(b=2e-5, theta=0.02)):
+        for Z, depth_ratio in ((NONE, 1.0), (COS, 2.5), (COS, 0.5), (TWO, 0.3)):
+            X, v = some_motion(rng, Z)
+            cases.append((pull_of(shape, depth_ratio, Z, X, T), v))
+    assert_agree(cases, marched(cases, steps, periods, n_panels=25), 4e-5)  # a kink within a panel of the twin
+
+
+def test_a_hollow_face_against_the_twin():
+    shape = mdr.ConcavePunch(a=1e-3, R=1.0)  # in complete contact from 1e-6 m on
+    cases = [(pull_of(shape, 2.0, COS, shaken(amplitude, 0.7)), v) for amplitude, v in ((1.0, 0.3), (4.0, -0.7))]
+    assert_agree(cases, marched(cases, 2000, 2), 3e-6)
+
+
+# --- known cases ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("T", [0.0, 0.4, 3.0])
+@pytest.mark.parametrize(("shape", "depth_ratio"), [("flat", 3.0), ("paraboloid", 1.2), ("cone", 0.4), ("r4", -0.5)])
+def test_without_shaking_it_is_the_rigid_pull(shape, depth_ratio, T):
+    case = contact(shape, depth_ratio, T)
+    v = np.array([1e-3, 0.04, 0.3, 0.8, 0.99, 1.3])
+    known = rigid_pull.average_friction(case, v * unit_of_velocity(case))
+    found, error, sticks = average_friction(pull_of(shape, depth_ratio, COS, NONE, T), v)
+    assert np.all(np.abs(found - known.cof / case.mu_0) < error + known.cof_error / case.mu_0)
+    assert np.all(error < ERROR)
+    assert_allclose(sticks, known.stick_share, rtol=0, atol=1e-7)  # its instants are not squared
+    limit = static_cof(case) / case.mu_0
+    assert_allclose(band(pull_of(shape, depth_ratio, COS, NONE, T)), [-limit, limit], rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("v", [0.1, 0.5, 0.9])
+def test_a_light_contact_follows_the_sign_of_its_velocity(v):
+    """s much less than the amplitude: e = s sign(v + x')."""
+    stiff = pull_of("flat", 1e-7, NONE, shaken(1.0))
+    assert_allclose(cof(stiff, v), 2 / np.pi * np.arcsin(v), rtol=0, atol=1e-6)
+
+
+def test_the_punch_at_constant_depth():
+    """Up to an amplitude s it sticks where the drift left it, at s where x is greatest; beyond, nothing is left."""
+    for amplitude, high in ((0.0, 1.0), (0.3, 0.7), (0.99, 0.01), (1.0, 0.0), (2.5, 0.0)):
+        assert_allclose(band(pull_of("flat", 1.0, NONE, shaken(amplitude))), [-high, high], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+@pytest.mark.parametrize(("shape", "Z"), [("paraboloid", COS), ("cone", TWO)])
+def test_all_slips_above_the_greatest_closing_speed(shape, Z, T):
+    X = shaken(2.0, 0.7)
+    closing = over_a_period(Z, 100_000) - over_a_period(np.pad(X, (0, len(Z) - 1)), 100_000)
+    v_c = np.diff(closing).max() * 100_000 / (2 * np.pi)
+    found, _, sticks = average_friction(pull_of(shape, 4.0, Z, X, T), v_c * np.array([1.0001, 5.0, 0.97]))
+    assert np.all(found[:2] == 1)
+    assert np.all(sticks[:2] < 1e-12)  # a touch takes a moment, by rounding
+    assert found[2] < 1 - 1e-6
+    assert sticks[2] > 0.03
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_what_moves_depth_and_place_alike_takes_no_friction(T):
+    """The lag s - e depends on z - x alone, as long as no spring slips back and contact is kept."""
+    more, v = shaken(0.2, 2.0), np.array([0.2, 0.6])
+    one, other = (1 - cof(pull_of("flat", 4.0, Z, X, T), v) for Z, X in ((COS, NONE), (COS + more, more)))
+    assert_allclose(one, other, rtol=0, atol=ERROR)
+
+
+def test_the_mirror_of_the_motion():
+    Z, X, v = TWO, np.array([1.5 + 0.3j, 0.2j]), np.array([0.1, 0.7, 2.0])
+    there, back = (average_friction(pull_of("cone", 0.8, Z, side * X), side * v) for side in (1, -1))
+    assert np.array_equal(there[0], -back[0])
+    assert np.array_equal(there[2], back[2])
+    # an x that is its own mirror half a period later
+    odd = cof(pull_of("paraboloid", 1.0, NONE, shaken(0.8, 0.3)), [0.3, -0.3])
+    assert_allclose(odd[0], -odd[1], rtol=0, atol=ERROR)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.6])
+def test_the_band_is_the_limit_of_slow_pulls(T):
+    pull = pull_of("paraboloid", 2.0, COS, shaken(0.7, 0.7), T)
+    low, high = band(pull)
+    slow = cof(pull, [-1e-7, 1e-7])
+    assert low < high
+    # |v|^(2/3) for a Kelvin contact, |v| for an elastic one
+    assert_allclose([low, high], slow, rtol=0, atol=1e-6 if T == 0 else 1e-4)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.6])
+def test_the_origin_of_time_does_not_count(T):
+    n, v = np.arange(1, 3), np.array([0.3, -1.0])
+    X = np.array([1.0, 0.5j])
+    one, other = (cof(pull_of("cone", 1.5, TWO * np.exp(1j * n * t), X * np.exp(1j * n * t), T), v) for t in (0, 1.7))
+    assert_allclose(one, other, rtol=0, atol=ERROR)
+
+
+def test_a_sawtooth_of_many_harmonics():
+    """Twenty harmonics at constant depth; the error that it states is that against finer intervals."""
+    saw = -1j / np.arange(1, 21)
+    found, error, _ = average_friction(pull_of("paraboloid", 1.0, NONE, saw), np.array([-0.6, 0.4, 3.0]))
+    assert np.all(error < ERROR)
+    twin = marched([(pull_of("paraboloid", 1.0, NONE, saw), v) for v in (-0.6, 0.4, 3.0)], 8000, 2)
+    assert_allclose(found, twin, rtol=0, atol=2e-5)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_the_stated_error_holds(T, monkeypatch):
+    pulls = [pull_of(shape, 0.9, COS, shaken(1.2, 0.7), T) for shape in ("cone", "paraboloid")]
+    v = np.geomspace(1e-3, 1, 12)
+    found = [average_friction(pull, v) for pull in pulls]
+    monkeypatch.setattr(shaken_pull, "TOLERANCE", 1e-13)
+    for pull, (value, error, _) in zip(pulls, found, strict=True):
+        assert np.all(np.abs(cof(pull, v) - value) < error)
+
+
+def test_it_never_touches():
+    with pytest.raises(ValueError, match="the indenter never touches"):
+        average_friction(pull_of("cone", -1.5, COS, NONE), np.ones(1))
+    assert math.isfinite(band(pull_of("cone", -0.999, COS, NONE))[1])
