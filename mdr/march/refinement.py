@@ -5,7 +5,7 @@ agree by chance), and two of few steps with all springs and with half of them. T
 difference to half the steps is three times the error, that to three quarters 7/9 of it and that to two thirds 5/4. The
 first, or 14/9 of the error by the other if that is more, bounds the error of the COF, together with springs and spread
 of the windows. Where the three numbers of steps confirm the order, the COF is extrapolated, and what the two estimates
-differ by bounds what is left.
+differ by bounds what is left; not under a shake in the plane, where kinks are so many that three may agree by chance.
 
 Refined steps grow by a half and by a third in turn, 256, 384, 512, 768 ..., so that the two runs before are companions
 of the next. Where dashpots touch a body that no mass holds, its velocity jumps, and the error falls at first order and
@@ -233,7 +233,7 @@ def _of_steps(
     plain = (max(_missed(main, half), 14 / 9 * _missed(main, most) / lost) + hidden) * margin
     others = [runs.beside(main, main.knobs.coarser(int(share * steps))) for share in uneven]
     plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others)) if others else plain
-    regular = not main.scaled.light and margin == 1
+    regular = not main.scaled.light and margin == 1 and not main.scaled.is_shaken  # whose kinks agree by chance
     if extrapolate and regular and half.settling.settled and most.settling.settled:
         missing, bound = extrapolated(main.cof, half.cof, most.cof, steps / most.knobs.steps)
         bound += 2 * hidden + main.settling.spread + half.settling.spread + most.settling.spread

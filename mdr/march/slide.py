@@ -82,7 +82,7 @@ def slide(
     The scheme is of second order in time. Two companion runs with coarser steps, and two with coarse steps and all or
     half of the springs, bound the error of the friction. Where the three numbers of steps confirm the order, `cof` is
     extrapolated to steps of no length, and the bound is that of the extrapolation. Steps that are given are not
-    extrapolated.
+    extrapolated, and contacts that are shaken in the plane are not.
 
     Examples
     --------

@@ -74,13 +74,13 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
         for i, (curve, colour) in enumerate(zip(curves, colours(len(curves)), strict=True)):
             _draw_curve(ax, curve, curve.v_c if scaled else 1.0, colour, labels[i] if labels else None)
         ax.axhline(1.0, color="0.75", linewidth=0.8, zorder=0)
-        backs = [curve.v_c_back / curve.v_c for curve in curves if scaled and _is_scale(curve.v_c_back)]
         marks = {1.0: "$v_c$"} if scaled else {}
         if both := any(np.min(curve.v_0) < 0 for curve in curves):
             for value in (0.0, -1.0):
                 ax.axhline(value, color="0.75", linewidth=0.8, zorder=0)
             ax.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
-            marks |= {-backs[0]: "$v_c$, other way"} if len(set(np.round(backs, 6))) == 1 else {}
+            backs = {round(curve.v_c_back / curve.v_c, 6) for curve in curves if scaled and _is_scale(curve.v_c_back)}
+            marks |= {-back: "$v_c$, other way" for back in backs if len(backs) == 1}
         for at, name in marks.items():
             ax.axvline(at, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
             ax.annotate(name, (at, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
