@@ -135,19 +135,21 @@ class SlidingContact:
     @property
     def is_shaken(self) -> bool:
         """Whether it moves in the plane besides the pull."""
-        return self.repeats[1] > 0
+        return self.shake is not None and not self.shake.is_still
 
     @property
     def cycle(self) -> Cycle:
         """The depth over one period."""
+        if self.shake is None:
+            return self.oscillation.cycle
         return self.oscillation.cycle.repeated(max(self.repeats[0], 1), self.omega)
 
     @property
     def drive(self) -> NDArray[np.complex128]:
         """X_n [m], shape (N,), of the shake x(t) = Re of sum X_n exp(i n omega t), n = 1 ... N; empty without one."""
-        n_x = self.repeats[1]
-        if self.shake is None or not n_x:
+        if self.shake is None or self.shake.is_still:
             return np.zeros(0, dtype=complex)
+        n_x = self.repeats[1]
         out = np.zeros(n_x * self.shake.along.size, dtype=complex)
         out[n_x - 1 :: n_x] = self.shake.along
         return out
@@ -256,6 +258,8 @@ class SlidingContact:
     @property
     def pace(self) -> float:
         """Sum of the velocities [m/s] that oscillation and shake bring about: a scale, no less than any of them."""
+        if not self.is_shaken:
+            return self.unit_velocity
         way = self.way
         fastest = float(np.sum(self.omega * np.arange(1, way.size + 1) * np.abs(way)))
         return self.unit_velocity * (self.cycle.du_z > 0) + fastest
@@ -287,10 +291,10 @@ def repeats(oscillation: Motion, shake: Shake | None) -> tuple[int, int]:
 
 def common_frequency(oscillation: Motion, shake: Shake | None) -> float:
     """Angular frequency [rad/s] of that period."""
+    if shake is None:
+        return oscillation.omega
     n_z, n_x = repeats(oscillation, shake)
-    if shake is None or n_z:
-        return oscillation.omega / max(n_z, 1)
-    return shake.omega / n_x
+    return oscillation.omega / n_z if n_z else shake.omega / n_x
 
 
 def require_case(case: object) -> SlidingContact:

@@ -133,12 +133,13 @@ class ScaledContact:
             gap, w, margin, n_lumped = _lumped(gap, w, springs.n_core)
         length_x = case.mu_0 * kappa * cycle.unit
         z, z_dot = cycle.over_a_period(steps)
-        if not np.isfinite(case.way).all():
+        way = case.way
+        if not np.isfinite(way).all():
             raise ValueError(
                 "the pulling point is shaken at the undamped natural frequency of the body: in full slip there is no "
                 "periodic motion to begin with; give the pull a damper c_x, or move omega or m"
             )
-        x, x_dot = series_over_a_period(case.way / length_x, steps)
+        x, x_dot = series_over_a_period(way / length_x, steps)
         at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
         drive = series_over_a_period(case.drive / length_x, steps)[0] if at_pull else np.zeros(steps + 1)
         M, C, K = _body_groups(case, springs.G_star * width)
@@ -329,8 +330,10 @@ class ScaledContact:
 
 def series_over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:
     """Re of sum X_n exp(i n phase) and its rate at equidistant phases, both ends included: (steps + 1,)."""
-    phase = 2 * np.pi * np.arange(steps + 1) / steps
     x, rate = np.zeros((2, steps + 1))
+    if not harmonics.size:
+        return x, rate
+    phase = 2 * np.pi * np.arange(steps + 1) / steps
     for n in np.flatnonzero(harmonics) + 1:
         turning = harmonics[n - 1] * np.exp(1j * n * phase)
         x, rate = x + turning.real, rate - n * turning.imag

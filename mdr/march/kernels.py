@@ -254,10 +254,10 @@ def moved(du, ud_0, ud_1, h, jumps, shaken):
 
 
 @_inline
-def latenesses(step, move):
+def latenesses(step, move, shaken):
     """What elastic springs that turned from slip to stick within the step fall behind, forward and backward."""
     late = after_change(step.zd_0 - move.ud_0, step.zd_1 - move.ud_1, step.h, 0.0) if step.zd_0 < move.ud_0 else 0.0
-    back = move.shaken and step.zd_0 < -move.ud_0
+    back = shaken and step.zd_0 < -move.ud_0
     return late, after_change(step.zd_0 + move.ud_0, step.zd_1 + move.ud_1, step.h, 0.0) if back else 0.0
 
 
@@ -352,7 +352,7 @@ def elastic_step_in_place(e, springs, step, move, n_at_rest):
     gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
     inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
     bend = bend_of(step.zd_0, step.zd_1)
-    late, late_back = latenesses(step, move)
+    late, late_back = latenesses(step, move, move.shaken)
     total = 0.0
     for i in indices(0, step.n_in):
         s = z_1 - gap[i]
@@ -369,10 +369,22 @@ def elastic_step_in_place(e, springs, step, move, n_at_rest):
 @_jit
 def elastic_step(e_0, e_1, springs, step, move):
     """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
+    return elastic_springs(e_0, e_1, springs, step, move, False)
+
+
+@_jit
+def shaken_elastic_step(e_0, e_1, springs, step, move):
+    """The same under a shake; a function of its own, as the march is faster where it can take one of them in."""
+    return elastic_springs(e_0, e_1, springs, step, move, True)
+
+
+@_inline
+def elastic_springs(e_0, e_1, springs, step, move, shaken):
+    """As `elastic_step`; whether they are shaken is known when this is compiled."""
     gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
     inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
     bend = bend_of(step.zd_0, step.zd_1)
-    late, late_back = latenesses(step, move)
+    late, late_back = latenesses(step, move, shaken)
     total = 0.0
     stuck = 0.0
     for i in indices(0, step.n_in):
@@ -380,13 +392,13 @@ def elastic_step(e_0, e_1, springs, step, move):
         e = max(min(e_0[0, i] + du, s - late), late_back - s)
         e_1[0, i] = e
         total += w[i] * e
-        turned = (late > 0.0 and e > 0.0) or (late_back > 0.0 and e < 0.0)
+        turned = (late > 0.0 and e > 0.0) or (shaken and late_back > 0.0 and e < 0.0)
         stuck += w[i] if (e == e_0[0, i] + du or turned) else 0.0
     for i in indices(step.n_in, step.n_out):
         e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)
         e_1[0, i] = e
         total += w[i] * e
-        turned = (late > 0.0 and e > 0.0) or (late_back > 0.0 and e < 0.0)
+        turned = (late > 0.0 and e > 0.0) or (shaken and late_back > 0.0 and e < 0.0)
         stuck += w[i] * (1.0 if move.jumps else travelled) if (e == trial or turned) else 0.0
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = 0.0
@@ -396,14 +408,18 @@ def elastic_step(e_0, e_1, springs, step, move):
 @_jit
 def kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay):
     """All Kelvin springs over one step: fills e_1 and s_1, returns sum(w e) and the stiffness that stuck."""
-    if move.shaken:
-        return kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, True)
     return kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, False)
+
+
+@_jit
+def shaken_kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay):
+    """The same under a shake."""
+    return kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, True)
 
 
 @_inline
 def kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, shaken):
-    """As `kelvin_step`; shaken is known when this is compiled."""
+    """As `kelvin_step`; whether they are shaken is known when this is compiled."""
     gap, w, du, law = springs.gap, springs.w, move.du, Law(True, rate, rate)
     total = 0.0
     stuck = 0.0
@@ -467,14 +483,18 @@ def arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
 
     look (8, n): of `free_response`.
     """
-    if move.shaken:
-        return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True)
     return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, False)
+
+
+@_jit
+def shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
+    """The same under a shake."""
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True)
 
 
 @_inline
 def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
-    """As `arms_step`; shaken is known when this is compiled."""
+    """As `arms_step`; whether they are shaken is known when this is compiled."""
     gap, w, du = springs.gap, springs.w, move.du
     total = 0.0
     stuck = 0.0
@@ -792,12 +812,18 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         for turn in range(80):
             ud_1 = v_1 + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             move = moved(motion.dx[k] + (y_1 - y_0), ud_0, ud_1, h, jumps, motion.shaken)
-            if elastic:
+            if elastic and not motion.shaken:
                 S_1, stuck = elastic_step(e_0, e_1, springs, step, move)
-            elif n_arms == 0:
+            elif elastic:
+                S_1, stuck = shaken_elastic_step(e_0, e_1, springs, step, move)
+            elif n_arms == 0 and not motion.shaken:
                 S_1, stuck = kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
-            else:
+            elif n_arms == 0:
+                S_1, stuck = shaken_kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
+            elif not motion.shaken:
                 S_1, stuck = arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
+            else:
+                S_1, stuck = shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
             if abs(excess) <= rounding:

@@ -74,11 +74,13 @@ class Step:
         e_1, s_1, w, h = np.empty_like(self.e), np.empty_like(self.e), np.full(self.e.size, 1 / self.e.size), self.h
         springs, step, move = kernels.Springs(self.gap, w, -np.inf), self.step(), self.move()
         if self.T:
-            advance = kernels.kelvin_step.py_func if python else kernels.kelvin_step
+            compiled = kernels.shaken_kelvin_step if self.shaken else kernels.kelvin_step
+            advance = compiled.py_func if python else compiled
             state = self.e[None], self.s[None], e_1[None], s_1[None]
             sums = advance(*state, springs, step, move, 1 / self.T, math.exp(-h / self.T))
         else:
-            advance = kernels.elastic_step.py_func if python else kernels.elastic_step
+            compiled = kernels.shaken_elastic_step if self.shaken else kernels.elastic_step
+            advance = compiled.py_func if python else compiled
             sums = advance(self.e[None], e_1[None], springs, step, move)
             s_1 = np.maximum(self.z(h) - self.gap, 0)
         return e_1, s_1, *sums
