@@ -167,16 +167,24 @@ def plot_spring_maps(runs: Sequence[Any], labels: Sequence[str]) -> "Figure":
 def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
     """Tangential force and its limit mu_0 F_z against time; the shaded gap is the friction that is missing.
 
-    Its share of the area under the limit, named in the legend, is 1 − mean F_x/(mu_0 mean F_z).
+    Its share of the area under the limit, named in the legend, is 1 − mean F_x/(mu_0 mean F_z). Where the force turns,
+    as under a shake in the plane, both limits are drawn and the mean is named instead.
     """
     t = periods_of(_recorded(run))
     limit, F_x = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x)
     factor, unit = prefix(np.concatenate([F_x, limit]), "N")
     missing = max(0.0, 1 - float(F_x.mean() / limit.mean()))
+    turns = float(F_x.min()) < -1e-9 * float(limit.max())
     with style():
         ax = axes_of(ax)
-        gap = f"{100 * missing:.3g} % missing" if missing > 1e-6 else "nothing missing"
-        ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
+        if turns:
+            mean = float(F_x.mean() / limit.mean())
+            ax.fill_between(t, -limit * factor, limit * factor, color="0.9", linewidth=0)
+            ax.axhline(float(F_x.mean()) * factor, color="0.4", lw=1, ls="--", label=rf"mean, {mean:.3g} $\mu_0F_z$")
+            ax.plot(t, -limit * factor, color="0.6")
+        else:
+            gap = f"{100 * missing:.3g} % missing" if missing > 1e-6 else "nothing missing"
+            ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
         ax.plot(t, limit * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
         ax.plot(t, F_x * factor, color="k", label="$F_x$")
         ax.set(xlabel="time [periods]", ylabel=f"force [{unit}]", xlim=_span(t))

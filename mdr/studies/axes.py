@@ -224,7 +224,7 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     slot, _, field = GROUPS.get(path, path).partition(".")
     if any(field in fields_of(part) for part in parts.get(slot, ())):
         return
-    names = sorted({type(part).__name__ for part in parts.get(slot, ())})
+    names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
     known = _known_paths(parts)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+import mdr
 from mdr import plots
 
 matplotlib.use("Agg")
@@ -235,3 +236,16 @@ def test_prefix(largest, expected):
 def test_importing_plots_leaves_matplotlib_alone():
     code = "import sys, mdr.plots; assert 'matplotlib' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_force_that_turns_is_drawn_between_both_limits():
+    shake = mdr.InPlaneOscillation(omega=300.0, du_x=3e-5, phi_x=1.5)
+    depth = mdr.NormalOscillation(u_z0=20e-6, du_z=10e-6, omega=300.0)
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
+    run = mdr.slide(case, -2e-3, record=1, n_springs=32, steps_per_period=64)
+    ax = plots.plot_forces(run)
+    assert f"mean, {run.mean_F_x / (0.4 * run.mean_F_z):.3g} " in legend_texts(ax)[0]
+    low, high = ax.get_ylim()
+    assert low < 0 < high
+    limits = [line.get_ydata() for line in ax.lines if len(line.get_ydata()) == 64]
+    assert any(np.all(y <= 0) for y in limits)

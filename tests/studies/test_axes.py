@@ -141,3 +141,21 @@ def test_axes_are_equal_by_path_and_values_records_by_label():
     assert one != "indenter"
     assert Axis("v_0", np.array([1.0])) != Axis("v_0", np.array([2.0]))
     assert Axis("v_0", np.array([1.0])) == Axis("v_0", np.array([1.0]))
+
+
+def test_a_shaken_case_varies_its_shake_and_is_pulled_both_ways():
+    shake = mdr.InPlaneOscillation(omega=300.0, du_x=3e-5, phi_x=1.5)
+    depth = mdr.ConstantDepth(u_z0=20e-6)
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
+    saw = mdr.InPlaneMotion(omega=300.0, x_sin=(1e-5, 5e-6))
+    study = mdr.sweep(case, {"chi": [0.5, 2.0], "shake.phi_x": [0.0, 1.5], "v_0/v_c": [-1.2, 0.3]})
+    assert study["cof"].shape == (2, 2, 2)
+    assert np.allclose(study["cof"][..., 0], -0.4, rtol=1e-9)
+    assert np.allclose(study["cof"][:, 0], study["cof"][:, 1], rtol=1e-7)  # of a shake alone the phase says nothing
+    other = mdr.sweep(case, {"shake": [shake, saw], "v_0": [-1e-3, 1e-3]})
+    assert np.all(np.diff(other["cof"]) > 0)
+    still = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RIGID.material, 0.4, RIGID.oscillation)
+    with pytest.raises(ValueError, match="chi sets shake.du_x, which a case without shake has not"):
+        read_axes(still, {"chi": [0.5]})
+    with pytest.raises(ValueError, match=r"chi and shake\.du_x set the same"):
+        read_axes(case, {"chi": [0.5], "shake.du_x": [1e-6]})
