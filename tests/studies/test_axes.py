@@ -155,7 +155,7 @@ def test_a_shaken_case_varies_its_shake_and_is_pulled_both_ways():
     other = mdr.sweep(case, {"shake": [shake, saw], "v_0": [-1e-3, 1e-3]})
     assert np.all(np.diff(other["cof"]) > 0)
     still = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RIGID.material, 0.4, RIGID.oscillation)
-    with pytest.raises(ValueError, match="chi sets shake.du_x, which a case without shake has not"):
+    with pytest.raises(ValueError, match=r"chi sets shake\.du_x, which a case without shake has not"):
         read_axes(still, {"chi": [0.5]})
     with pytest.raises(ValueError, match=r"chi and shake\.du_x set the same"):
         read_axes(case, {"chi": [0.5], "shake.du_x": [1e-6]})
