@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.motion import amplitudes
+from mdr.case.motion import amplitudes, fill_up
 from mdr.tools.checks import FieldError, FieldTypeError, finite, not_negative
 from mdr.tools.fields import Record, facts
 
@@ -117,10 +117,7 @@ class InPlaneMotion(Shake):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        lists = {"x_cos": self.x_cos, "x_sin": self.x_sin}
-        length = max((n for values in lists.values() for n, value in enumerate(values, start=1) if value), default=0)
-        for name, values in lists.items():
-            object.__setattr__(self, name, (values + (0.0,) * length)[:length])
+        fill_up(self, "x_cos", "x_sin")
 
     @property
     def along(self) -> NDArray[np.complex128]:

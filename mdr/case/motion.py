@@ -32,6 +32,17 @@ def amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
     return tuple(finite(f"{name}[{n}]", value) for n, value in enumerate(values))
 
 
+def fill_up(record: Any, *names: str) -> int:
+    """Bring lists of amplitudes of a record that is being made to one length, with zeros, and drop those at the end of
+    all; returns the length.
+    """
+    lists = {name: getattr(record, name) for name in names}
+    length = max((n for values in lists.values() for n, value in enumerate(values, start=1) if value), default=0)
+    for name, values in lists.items():
+        object.__setattr__(record, name, (values + (0.0,) * length)[:length])
+    return length
+
+
 FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$")
 MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$")
 
@@ -179,11 +190,7 @@ class PeriodicMotion(Motion):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        lists = {"cos": self.cos, "sin": self.sin}
-        length = max((n for values in lists.values() for n, value in enumerate(values, start=1) if value), default=0)
-        for name, values in lists.items():
-            object.__setattr__(self, name, (values + (0.0,) * length)[:length])
-        if not length:
+        if not fill_up(self, "cos", "sin"):
             raise FieldError("cos and sin are all zero: nothing oscillates; give an amplitude in m", "cos")
         deepest = self.u_z0 + self.cycle.unit * self.cycle.greatest
         if deepest <= 0:
