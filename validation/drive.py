@@ -56,7 +56,7 @@ def claim(effort: str) -> Claim:
         sentence=(
             "A contact drives by itself once the loads that it holds at rest leave out zero: a quarter of a period"
             " apart"
-            " it pushes with up to (2/π)(Δu_z/u_z0) μ_0 F_N and runs at a share of ωΔu_x that Δu_z/u_z0 alone tells."
+            " it pushes with up to (2/π)(Δu_z/u_z0) μ_0 F_N and runs at a share of ω Δu_x that Δu_z/u_z0 alone tells."
         ),
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
         figures=(_figure(quick),),
@@ -77,7 +77,7 @@ def _stiff_checks() -> list[Check]:
         why = "springs yield by μ_0 κ u_z0 (1 + Δu_z/u_z0) at most, over the amplitude"
         where = f"Δu_z/u_z0 = {alpha:g}, Δu_x = {sizes[1]:g} μ_0 κ u_z0"
         checks.append(Check(f"blocked push over μ_0 F_N, less (2/π) α: {where}", pushes[1], 0.0, 2 / sizes[1], why))
-        checks.append(Check(f"velocity without load over ωΔu_x, less r: {where}", frees[1], 0.0, 2 / sizes[1], why))
+        checks.append(Check(f"velocity without load over ω Δu_x, less r: {where}", frees[1], 0.0, 2 / sizes[1], why))
         for name, off in (("push", pushes), ("velocity", frees)):
             power = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
             name = f"power of the amplitude with which that of the {name} vanishes: Δu_z/u_z0 = {alpha:g}"

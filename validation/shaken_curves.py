@@ -46,14 +46,14 @@ def claim(effort: str) -> Claim:
             "As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x"
             " e^{iφ}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a"
             " flat punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0"
-            " leaves (2/π) arcsin(v_0/(ωΔu_x)), the law of a rigid contact, and comes to it like one over the"
+            " leaves (2/π) arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the"
             " amplitude. Between the two there is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At"
             " rest a contact of constant depth holds μ_0 F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone"
             " from Δu_x = μ_0 κ u_z0 on, for every shape. Over both directions of the pull friction never falls with"
             " velocity. A half-space of ν = 0 in three dimensions, whose cells feel each other, has the friction of the"
             " springs under a longitudinal oscillation as closely as under a normal one."
         ),
-        verdict="holds if …",
+        verdict="holds if the amplitude is small, or great, beside μ_0 κ u_z0",
         sentence=(
             "The curves of all phases and both directions fall on one, that of the normal oscillation, as long as the"
             " amplitude is small beside μ_0 κ u_z0; where it is great they fall on that of a rigid contact."
