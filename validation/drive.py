@@ -54,9 +54,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "A contact drives by itself once the loads that it holds at rest leave out zero: a quarter of a period"
-            " apart"
-            " it pushes with up to (2/π)(Δu_z/u_z0) μ_0 F_N and runs at a share of ω Δu_x that Δu_z/u_z0 alone tells."
+            "A contact drives by itself once the loads it holds at rest leave out zero: a quarter of a period "
+            "apart with up to (2/π)(Δu_z/u_z0) μ_0 F_N, at a share of ω Δu_x that Δu_z/u_z0 tells."
         ),
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
         figures=(_figure(quick),),

@@ -55,8 +55,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds if the amplitude is small, or great, beside μ_0 κ u_z0",
         sentence=(
-            "The curves of all phases and both directions fall on one, that of the normal oscillation, as long as the"
-            " amplitude is small beside μ_0 κ u_z0; where it is great they fall on that of a rigid contact."
+            "Curves of all phases and both directions are that of the normal oscillation while the amplitude is "
+            "small beside μ_0 κ u_z0, and that of a rigid contact where it is great."
         ),
         checks=(
             *_small_checks(quick),

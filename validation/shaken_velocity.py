@@ -52,8 +52,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "One formula serves normal and longitudinal oscillation together, for any contact under a rigid pull and,"
-            " where Eq. (15) holds, for a body: v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
+            "One formula serves normal and longitudinal oscillation together, under a body where Eq. (15) holds: "
+            "v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
         ),
         checks=(
             *_rigid_checks(phases),
