@@ -235,25 +235,29 @@ class SlidingContact:
 
     @property
     def T(self) -> float:
-        """omega tau [-] of the long-time branch, the loss tangent of a Kelvin material at the frequency omega."""
+        """omega tau [-] of the long-time branch, the loss tangent of a Kelvin material at the frequency omega, which is
+        the common one where depth and shake have two.
+        """
         return self.rheology.T
 
     @property
     def unit_velocity(self) -> float:
         """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities.
 
-        At a constant depth u_z0 stands for du_z.
+        At a constant depth u_z0 stands for du_z; where depth and shake have two frequencies, omega is the common one.
         """
         return stick_limit(self.mu_0, self.cycle.unit, self.omega, self.material.mindlin_ratio)
 
     @property
     def chi(self) -> float:
-        """du_x/(mu_0 kappa u_z0) [-], half the way of the shake over the deflection at which springs slip."""
-        reach = self.mu_0 * self.material.mindlin_ratio * self.cycle.u_z0
+        """du_x/(mu_0 kappa u_z0) [-], half the way of the shake over the deflection at which springs slip; infinite for
+        u_z0 <= 0.
+        """
+        reach = self.mu_0 * self.material.mindlin_ratio * self.working_depth
         way = self.drive
         if not way.size:
             return 0.0
-        return 0.5 * (peak(way) + peak(-way)) / reach if reach else np.inf
+        return 0.5 * (peak(way) + peak(-way)) / reach if reach > 0 else np.inf
 
     @property
     def pace(self) -> float:
@@ -262,7 +266,8 @@ class SlidingContact:
             return self.unit_velocity
         way = self.way
         fastest = float(np.sum(self.omega * np.arange(1, way.size + 1) * np.abs(way)))
-        return self.unit_velocity * (self.cycle.du_z > 0) + fastest
+        n_C = np.arange(1, self.cycle.cos.size + 1) * np.abs(self.cycle.harmonics)
+        return self.unit_velocity * float(np.sum(n_C)) + fastest
 
     @property
     def kept_gap(self) -> float:

@@ -9,7 +9,6 @@ X_n.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
@@ -36,12 +35,21 @@ def _place(name: str, value: Any, note: str = "") -> str:
     return value
 
 
-def _not_across(name: str, value: Any, note: str = "") -> Any:
-    """A motion across the pull, which the march does not know."""
-    number = amplitudes(name, value) if isinstance(value, Sequence | np.ndarray) else finite(name, value)
-    if np.any(np.asarray(number) != 0):
-        raise FieldError(f"{name} must be zero: motion across the pull (transverse) is not supported", name)
-    return number
+ACROSS = "must be zero: motion across the pull (transverse) is not supported"
+
+
+def _no_amplitude(name: str, value: Any, note: str = "") -> float:
+    """An amplitude across the pull, which the march does not know."""
+    if finite(name, value) != 0:
+        raise FieldError(f"{name} {ACROSS}", name)
+    return 0.0
+
+
+def _no_amplitudes(name: str, value: Any, note: str = "") -> tuple[float, ...]:
+    """A list of such."""
+    if any(amplitudes(name, value)):
+        raise FieldError(f"{name} {ACROSS}", name)
+    return ()
 
 
 FREQUENCY = facts("rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$")
@@ -84,7 +92,7 @@ class InPlaneOscillation(Shake):
         metadata=facts("m", "amplitude along the pull", not_negative, label=r"longitudinal amplitude $\Delta u_x$"),
     )
     phi_x: float = field(default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$"))
-    du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull, zero", _not_across))
+    du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull, zero", _no_amplitude))
     phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite))
     at: str = field(default="tool", metadata=PLACE)
 
@@ -111,8 +119,8 @@ class InPlaneMotion(Shake):
     omega: float = field(metadata=FREQUENCY)
     x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
     x_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes))
-    y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _not_across))
-    y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _not_across))
+    y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
+    y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
     at: str = field(default="tool", metadata=PLACE)
 
     def __post_init__(self) -> None:

@@ -313,7 +313,7 @@ class ConstantLoad(Motion):
 def _follows(load: Motion) -> ValueError:
     return ValueError(
         f"the depth under {load!r}, and with it cycle, working_depth, u_z_max, k_zc, k_xc, gamma_zc, gamma_xc, "
-        "alpha, kept_gap, unit_velocity and keeps_contact, follow from shape and material too: "
+        "alpha, chi, kept_gap, unit_velocity, pace and keeps_contact, follow from shape and material too: "
         "ask mdr.resolved(case)"
     )
 

@@ -141,6 +141,8 @@ def coupling_loss(case: SlidingContact) -> float:
 def unlike(case: SlidingContact) -> str:
     """What sets a case apart from those that were computed in three dimensions; empty for none."""
     case = as_given(case)
+    if case.is_shaken:
+        return "a shake in the plane"
     if not case.pull.is_rigid:
         return f"a {type(case.pull).__name__}, not a rigid pull"
     if not isinstance(case.oscillation, NormalOscillation):

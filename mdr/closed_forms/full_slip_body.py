@@ -96,10 +96,14 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     if not np.isfinite(X_n).all():
         return np.inf
     case, X_n = resolved(case), direction * X_n
-    if not case.is_of_the_paper or (case.is_shaken and case.pull.is_rigid):
+    if not case.is_of_the_paper:
         return _by_harmonics(case, X_n)
     omega, unit = case.omega, case.unit_velocity
     on, off = contact_span(case)
+    if case.pull.is_rigid and case.is_shaken:
+        rates = -1j * omega * np.arange(1, X_n.size + 1) * X_n
+        rates[0] += 1j * unit
+        return _greatest(rates, on, off + 2 * np.pi if off < on else off)
     if case.pull.is_rigid:
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
     panels = _time_panels(case, SMALLEST_RATE if case.pull.coefficients[:2] == (0, 0) else SMALLEST)
@@ -142,6 +146,23 @@ def _by_harmonics(case: SlidingContact, X_n: NDArray[np.complex128]) -> float:
         rates += 2 * case.mu_0 * 1j * n * omega * H * F_n
     at_touch = (rates * np.exp(1j * np.outer(known.touches, n))).real.sum(axis=1)
     return float(max(peaks(rates, within=known.in_contact).max(), at_touch.max(initial=-np.inf)))
+
+
+def _greatest(rates: NDArray[np.complex128], low: float, high: float) -> float:
+    """Greatest value of Re of sum rates_n exp(i n phase), n = 1 ... N, between two phases, both included."""
+    from scipy.optimize import minimize_scalar
+
+    n = np.arange(1, rates.size + 1)
+
+    def value(phase: Array | float) -> Array:
+        return np.asarray((rates * np.exp(1j * np.multiply.outer(np.asarray(phase), n))).real.sum(axis=-1))
+
+    phase = np.linspace(low, high, 64 * rates.size + 1)
+    values = value(phase)
+    k = int(np.argmax(values))
+    ends = phase[max(k - 1, 0)], phase[min(k + 1, phase.size - 1)]
+    refined = minimize_scalar(lambda at: -float(value(at)), bounds=ends, method="bounded", options={"xatol": 1e-12})
+    return max(float(values[k]), -float(refined.fun))
 
 
 def contact_span(case: SlidingContact) -> tuple[float, float]:

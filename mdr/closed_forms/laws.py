@@ -50,7 +50,7 @@ from mdr.indenters.base import Indenter
 from mdr.normal.kelvin_edges import contact_edge, turning_phase
 from mdr.normal.resolved import resolved
 from mdr.normal.springs import SpringArray
-from mdr.tools.checks import between, count, finite, not_negative, positive
+from mdr.tools.checks import between, count, finite, instance, not_negative, positive
 
 Array = NDArray[np.float64]
 
@@ -799,6 +799,7 @@ def held_under_shake(indenter: Indenter, d: float, reach: float) -> float:
     >>> round(mdr.laws.held_under_shake(mdr.Paraboloid(R=5e-3), 20e-6, 10e-6), 4)
     0.3536
     """
+    instance("indenter", indenter, Indenter)
     d, reach = positive("d", d, "depth in m"), not_negative("reach", reach, "du_x/(mu_0 kappa) in m")
     return float(indenter.force(max(d - reach, 0.0), 1.0)) / float(indenter.force(d, 1.0))
 
@@ -830,6 +831,8 @@ def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     ------
     TypeError
         For a body on a spring.
+    ValueError
+        For a material with memory, two frequencies, or an amplitude at which springs slip back.
 
     Examples
     --------
@@ -840,10 +843,15 @@ def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     """
     if not require_case(case).pull.is_rigid:
         raise TypeError(f"this law is that of a rigid pull, got {case.pull!r}")
+    if case.rheology.remembers or case.repeats not in ((1, 0), (0, 1), (1, 1)):
+        raise ValueError("this law is that of an elastic contact whose depth and way have one frequency")
+    v_0 = finite("v_0", v_0)
     v_c = critical_velocity(case, 1 if v_0 >= 0 else -1)
     if v_c == 0:
         return 0.0
     case = resolved(case)
+    if v_c / case.omega >= case.mu_0 * case.material.mindlin_ratio * case.cycle.u_z0:
+        raise ValueError("this law is that of an amplitude below mu_0 kappa u_z0, at which no spring slips back")
     share = case.k_xc * v_c / case.omega / (case.mu_0 * mean_normal_force(case))
     return share * deficit(min(abs(v_0) / v_c, 1.0))
 
@@ -889,8 +897,10 @@ def elliptic_drive(alpha: float) -> EllipticDrive:
 
 
 def _of_the_paper(case: SlidingContact) -> SlidingContact:
-    if not require_case(case).is_of_the_paper:
-        raise ValueError("this law is known for a harmonic depth and a material without arms only")
+    if not require_case(case).is_of_the_paper or case.is_shaken:
+        raise ValueError(
+            "this law is known for a harmonic depth, a material without arms and no shake in the plane only"
+        )
     return case
 
 

@@ -143,10 +143,10 @@ def small_velocity(case: SlidingContact) -> Asymptote:
 def _rigid(case: SlidingContact) -> SlidingContact:
     if not require_case(case).pull.is_rigid:
         raise TypeError(f"the closed form is that of a rigid pull, got {case.pull!r}")
-    if not case.is_of_the_paper:
+    if not case.is_of_the_paper or case.is_shaken:
         raise ValueError(
             "the closed form is that of a harmonic depth on an elastic or Kelvin material, got "
-            f"{case.oscillation!r} on {case.material!r}: use cof_curve or slide, which march it"
+            f"{case.oscillation!r} on {case.material!r}, shake = {case.shake!r}: use cof_curve or slide"
         )
     return case
 

@@ -52,6 +52,7 @@ FLOOR = 1e-10  #: of the error: changes that are bisected to NEAR or overlooked
 HALVINGS = 16  #: of an interval of the array, at most
 MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
 DENSE = 32  #: instants per period of the highest harmonic, between which zeros are bracketed
+FARTHEST = 1e6  #: amplitude of the way over that of the springs' deflection
 MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
 _ORDER = 16
 
@@ -98,7 +99,10 @@ class ShakenPull(ArrayRecord):
 def has_shaken_form(case: SlidingContact) -> bool:
     """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
     known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
-    return bool(known and max(case.cycle.cos.size, case.way.size) <= MOST_HARMONICS)
+    if not known or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
+        return False
+    reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
+    return bool(np.abs(case.way).max(initial=0.0) <= FARTHEST * reach)  # else its digits hide the springs'
 
 
 def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Array]:

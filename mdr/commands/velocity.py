@@ -50,7 +50,7 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
 
     known, (equation, how) = resolved(case), equation_of(case)
     v_c, full = ([one(case, way) for way in (1, -1)] for one in (critical_velocity, full_slip_critical_velocity))
-    band, blocked, free = at_rest(case)
+    band, blocked, free = ends_of(case)
     if args.json:
         values = {
             "equation": equation, "v_c": v_c[0], "v_c_back": v_c[1], "full_slip": full[0], "full_slip_back": full[1],
@@ -64,7 +64,7 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
         ("other way", velocity_text(v_c[1]), "the same, pulled the other way"),
         ("full slip", velocity_text(full[0]), "critical velocity forward, any amplitude, all harmonics of the force"),
         ("other way", velocity_text(full[1]), "the same, pulled the other way"),
-        *rows_at_rest(band, blocked, free),
+        *rows_of_ends(band, blocked, free),
         ("alpha", f"{known.alpha:.6g}", "half the swing of the depth over its mean, du_z/u_z0"),
         ("chi", f"{known.chi:.6g}", "amplitude of the shake over the deflection at which springs slip"),
         ("contact", "kept" if known.keeps_contact else "lost in part of the period", "at its centre, Eq. (5)"),
@@ -72,25 +72,35 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE
 
 
-def at_rest(case: SlidingContact) -> tuple[HoldingBand, float | None, float]:
+Ends = tuple["HoldingBand", float | str | None, float | str]  #: of a characteristic; why, of what is not known
+
+
+def ends_of(case: SlidingContact) -> Ends:
     """The band of loads that a shaken contact holds, its blocked friction if that is one number, its free velocity."""
-    from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
+    from mdr.friction.shaken import HoldsABand, blocked_cof, holding_band, no_load_velocity
 
     try:
-        blocked: float | None = blocked_cof(case)
-    except ValueError:  # a band
+        blocked: float | str | None = blocked_cof(case)
+    except HoldsABand:
         blocked = None
-    return holding_band(case), blocked, no_load_velocity(case)
+    except ValueError as unknown:
+        blocked = str(unknown)
+    try:
+        free: float | str = no_load_velocity(case)
+    except ValueError as unknown:
+        free = str(unknown)
+    return holding_band(case), blocked, free
 
 
-def rows_at_rest(band: HoldingBand, blocked: float | None, free: float) -> list[tuple[str, str, str]]:
+def rows_of_ends(band: HoldingBand, blocked: float | str | None, free: float | str) -> list[tuple[str, str, str]]:
     """The same in words."""
-    one = "a band" if blocked is None else f"{blocked:.6g}"
+    one = "a band" if blocked is None else blocked if isinstance(blocked, str) else f"{blocked:.6g}"
+    velocity = free if isinstance(free, str) else f"{free:.6g} m/s"
     held = f"{band.high:.6g} alone" if band.is_one_number else f"{band.low:.6g} to {band.high:.6g}"
     return [
         ("band", held, "mean F_x over mean F_z that it holds at rest, held rigidly"),
         ("blocked", one, "mean F_x over mean F_z where the pull stands still"),
-        ("no load", f"{free:.6g} m/s", "velocity at which nothing holds it back"),
+        ("no load", velocity, "velocity at which nothing holds it back"),
     ]
 
 

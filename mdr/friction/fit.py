@@ -237,8 +237,8 @@ def _path(case: SlidingContact, name: Any) -> str:
 def _value(case: SlidingContact, path: str) -> Any:
     if path in ("mu_0", "T"):
         return getattr(case, path)
-    if path == "alpha":
-        return resolved(case).alpha
+    if path in ("alpha", "chi"):
+        return getattr(resolved(case), path)
     if path == "mindlin_ratio":
         return case.material.mindlin_ratio
     if path == "k_x/k_xc":

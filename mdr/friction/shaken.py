@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.friction.cof_curve import cof_curve, has_closed_form
@@ -49,7 +51,11 @@ class HoldingBand:
         bool
             True between the two ends.
         """
-        return self.low <= finite("load", load) <= self.high
+        return self.low - self.error <= finite("load", load) <= self.high + self.error
+
+
+class HoldsABand(ValueError):
+    """The force of a contact at rest is no single number."""
 
 
 def holding_band(case: SlidingContact) -> HoldingBand:
@@ -71,6 +77,8 @@ def holding_band(case: SlidingContact) -> HoldingBand:
     ------
     TypeError
         For what is no SlidingContact.
+    ValueError
+        Where a run that would tell does not settle.
 
     See Also
     --------
@@ -97,7 +105,8 @@ def _band(case: SlidingContact) -> HoldingBand:
         why = forward.why[0] or back.why[0]
         raise ValueError(f"friction at rest is not known, as its run does not settle: {why}")
     error = float(max(forward.cof_error[0], back.cof_error[0]))
-    return HoldingBand(low=0.0 - float(back.cof[0]), high=float(forward.cof[0]), error=error)
+    low, high = 0.0 - float(back.cof[0]), float(forward.cof[0])
+    return HoldingBand(low=min(low, high), high=max(low, high), error=error)
 
 
 def blocked_cof(case: SlidingContact) -> float:
@@ -131,9 +140,9 @@ def blocked_cof(case: SlidingContact) -> float:
     """
     band = _band(resolved(case))
     if not band.is_one_number:
-        raise ValueError(
+        raise HoldsABand(
             f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
-            "rest is no single number, and depends on how it came to rest; see holding_band"
+            "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)"
         )
     return 0.5 * (band.low + band.high)
 
@@ -168,6 +177,8 @@ def no_load_velocity(case: SlidingContact) -> float:
     0.00966 m/s
     """
     case = resolved(case)
+    if not np.isfinite(case.pace):
+        raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
     low = SLOW * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
     if side == 0:  # zero load lies between the two: is it held?

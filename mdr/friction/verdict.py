@@ -18,7 +18,7 @@ from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, Measured
 from mdr.friction.shaken import holding_band, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
-from mdr.tools.checks import between
+from mdr.tools.checks import between, positive
 from mdr.tools.progress import time_limit
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
@@ -71,7 +71,7 @@ class Verdict:
         sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
         if self.other_way is None:
             return sentence
-        return f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}"
+        return f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}."
 
     def _use(self, measured: float) -> str:
         """How good the formula is, and what to use in its place."""
@@ -142,10 +142,10 @@ def verdict(
     (True, True, 'Eq. (1)')
     """
     case, within = resolved(case), _tolerance(within)  # before the runs, not after them
-    forward = _judged(case, within, limit_s, accuracy)
-    if not case.is_shaken:
-        return forward
-    with time_limit(limit_s):
+    with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
+        forward = _judged(case, within, limit_s, accuracy)
+        if not case.is_shaken:
+            return forward
         back, rest = _judged(case.mirrored, within, limit_s, accuracy), _at_rest(case)
     return replace(forward, other_way=back, at_rest=rest)
 

@@ -129,7 +129,7 @@ def slide(
 
 
 def _velocity(case: SlidingContact, v_0: Any) -> float:
-    if case.is_shaken:
+    if case.is_shaken or (case.shake is not None and finite("v_0", v_0) < 0):  # also of a shake with no amplitude
         return finite("v_0", v_0)
     what = "pulling velocity in m/s; the limit of zero velocity is static_cof(case)"
     return positive("v_0", v_0, f"{what}, and the other way is the same where nothing shakes in the plane")

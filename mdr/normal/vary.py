@@ -14,6 +14,8 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from mdr.case.contact import KINDS, SlidingContact, common_frequency
 from mdr.normal.resolved import at_rest
 from mdr.tools.checks import positive
@@ -52,7 +54,11 @@ def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact
     contact = SlidingContact(mu_0=settings.get("mu_0", case.mu_0), **changed)
     if "chi" in settings:
         kept: Any = contact.shake
-        shake = replace(kept, du_x=settings["chi"] / at_rest(contact).chi)
+        if not np.isfinite(unit := at_rest(contact).chi):
+            raise ValueError(
+                "chi: the contact has no mean depth u_z0 > 0, which chi = du_x/(mu_0 kappa u_z0) refers to"
+            )
+        shake = replace(kept, du_x=settings["chi"] / unit)
         contact = replace(contact, shake=shake)
     if "k_x/k_xc" in settings:
         contact = _with_pull(contact, "k_x/k_xc", "k_x", settings["k_x/k_xc"] * _stiffness(contact))

@@ -156,3 +156,17 @@ def test_faults_of_a_shake_are_all_told():
     told = "\n".join(refusal.value.faults)
     assert "[shake] du_x must not be negative" in told
     assert "dux is no key of InPlaneOscillation; did you mean du_x" in told
+
+
+@pytest.mark.parametrize("load", [mdr.ConstantLoad(F_z0=0.05), mdr.LoadOscillation(0.05, 0.01, OMEGA)])
+def test_chi_refers_to_the_depth_under_a_load(load):
+    ball = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, load, shake=SHAKE)
+    varied = case_at(ball, {"chi": 2.0})
+    assert mdr.resolved(varied).working_depth * 0.4 * 1.5 * 2.0 == pytest.approx(varied.shake.du_x, rel=1e-9)
+    with pytest.raises(ValueError, match="no mean depth"):
+        case_at(contact(mdr.NormalOscillation(0.0, 5e-6, OMEGA)), {"chi": 2.0})
+
+
+def test_the_pace_is_no_less_than_any_critical_velocity():
+    case = contact(replace(TAPPING, omega=15 * OMEGA), replace(SHAKE, omega=16 * OMEGA, du_x=1e-9))
+    assert case.pace >= mdr.critical_velocity(case) * (1 - 1e-12)

@@ -242,3 +242,73 @@ def test_a_verdict_says_what_the_shake_does_forward_the_other_way_and_at_rest():
 )
 def test_what_a_verdict_says_of_rest(case, said):
     assert mdr.verdict(case, accuracy=1e-3).at_rest.startswith(said)
+
+
+# --- what is refused, and what an answer must not depend on ---
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        body(contact(chi=0.4, phi=np.pi / 2)),
+        contact(chi=0.4, phi=np.pi / 2, material=mdr.Prony(3e6, ((1e6, 1e-3), (2e6, 1e-1)), 0.5)),
+    ],
+    ids=["body", "arms"],
+)
+def test_friction_at_rest_is_the_limit_of_slow_pulls(case):
+    """A harmonic shake alone is its own mirror half a period on: the band is even, whatever a run at rest ends in."""
+    one, other = (mdr.cof_curve(each, [0.0]) for each in (case, case.mirrored))
+    assert abs(one.cof[0] - other.cof[0]) <= one.cof_error[0] + other.cof_error[0]
+    slow = mdr.slide(case, 1e-5 * case.pace)
+    assert 0 <= slow.cof - one.cof[0] + slow.cof_error < 3e-4 * MU_0
+
+
+def test_a_band_that_is_one_number_contains_it():
+    drive = contact(alpha=0.75, chi=5.0, phi=np.pi / 2)
+    band = mdr.holding_band(drive)
+    assert band.low <= band.high
+    assert band.contains(mdr.blocked_cof(drive))
+    assert mdr.holding_band(contact(chi=3.0)).contains(0.0)
+
+
+def test_laws_without_a_shake_refuse_one():
+    case = contact(alpha=0.4, chi=0.3)
+    for ask in (mdr.coupling_loss, mdr.coupled_critical_velocity, lambda one: mdr.laws.first_order(body(one))):
+        with pytest.raises(ValueError, match="shake in the plane"):
+            ask(replace(case, material=mdr.Elastic(3e6, 0.45)))
+    for wrong in (contact(chi=3.0), contact(chi=0.1, material=mdr.KelvinVoigt(3e6, 0.5, 1e-3))):
+        with pytest.raises(ValueError, match="this law is that of an"):
+            mdr.laws.lost_under_shake(wrong, 1e-4)
+
+
+def test_a_shake_of_no_amplitude_is_pulled_both_ways_too():
+    case = contact(alpha=0.4, chi=0.0)
+    for one in (case, body(case)):
+        curve = mdr.cof_curve(one, [-1e-3, 0.0, 1e-3])
+        assert curve.cof[0] == pytest.approx(-curve.cof[2], rel=1e-9)
+        assert curve.cof[1] == pytest.approx(mdr.static_cof(replace(one, shake=None)), rel=1e-9)
+    assert mdr.slide(case, -1e-3).cof == pytest.approx(curve_at(case, -1e-3), abs=1e-5 * MU_0)
+
+
+def curve_at(case, v_0):
+    return float(mdr.cof_curve(case, [v_0]).cof[0])
+
+
+def test_a_shake_that_hides_the_springs_is_refused():
+    with pytest.raises(ValueError, match="the shake is more than"):
+        mdr.slide(contact(chi=1e12), 1.0)
+
+
+def test_a_velocity_without_load_on_a_resonance_is_refused_in_words():
+    case = contact(alpha=0.5, at="pull", pull=mdr.SpringPull(k_x=2e4, m=2e4 / OMEGA**2))
+    with pytest.raises(ValueError, match="undamped natural frequency"):
+        mdr.no_load_velocity(case)
+
+
+def test_contact_lost_on_an_elastic_face_is_exact():
+    """The greatest slip rate stands at the instant of touch, arccos(1/3) before the deepest point."""
+    ball, depth = SHAPES["paraboloid"][0], mdr.NormalOscillation(-5e-6, 15e-6, OMEGA)
+    case = mdr.SlidingContact(ball, RUBBER, MU_0, depth, shake=mdr.InPlaneOscillation(OMEGA, 1e-5, 2.0))
+    touch = -math.acos(1 / 3)
+    rate = MU_0 * RUBBER.mindlin_ratio * OMEGA * 15e-6 * -math.sin(touch) - OMEGA * 1e-5 * math.sin(touch + 2.0)
+    assert mdr.full_slip_critical_velocity(case, -1) == pytest.approx(rate, rel=1e-10)
