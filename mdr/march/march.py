@@ -241,7 +241,8 @@ def check(case: SlidingContact, v_0: float) -> None:
             f"the amplitude du_z = {cycle.unit:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
-    if float(np.abs(case.way).max(initial=0.0)) > DEEPEST * case.mu_0 * case.material.mindlin_ratio * cycle.unit:
+    farthest = float(np.abs(case.way).max(initial=0.0))
+    if np.inf > farthest > DEEPEST * case.mu_0 * case.material.mindlin_ratio * cycle.unit:
         raise ValueError(
             f"the shake is more than {DEEPEST:g} times mu_0 kappa u_z0 (or du_z), so that the deflection of springs is "
             "lost in its rounding; lower it: beyond, a contact is rigid"
