@@ -151,7 +151,7 @@ def whole_ratio(one: float, other: float) -> tuple[int, int]:
     return p, q
 
 
-def way_of(direction: int) -> int:
+def sign_of(direction: int) -> int:
     """1 forward or -1 the other way; ValueError for anything else."""
     if isinstance(direction, bool) or direction not in (1, -1):
         raise ValueError(f"direction must be 1 (forward) or -1 (the pull the other way), got {direction!r}")

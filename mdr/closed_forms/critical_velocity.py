@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.in_plane import way_of
+from mdr.case.in_plane import sign_of
 from mdr.case.motion import LoadOscillation
 from mdr.closed_forms.paper import eq_1, eq_15, linear_critical_velocity
 from mdr.normal.resolved import at_rest
@@ -81,7 +81,7 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
     0.000486 m/s
     """
-    case, direction = at_rest(case), way_of(direction)
+    case, direction = at_rest(case), sign_of(direction)
     kappa, pull = case.material.mindlin_ratio, case.pull
     if case.is_of_the_paper and not case.is_shaken:
         du_z = case.cycle.du_z

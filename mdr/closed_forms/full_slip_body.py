@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import peaks
-from mdr.case.in_plane import way_of
+from mdr.case.in_plane import sign_of
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
 from mdr.normal.followed_force import N_STEPS
@@ -92,7 +92,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
     0.000516 m/s
     """
-    direction, X_n = way_of(direction), require_case(case).way
+    direction, X_n = sign_of(direction), require_case(case).way
     if not np.isfinite(X_n).all():
         return np.inf
     case, X_n = resolved(case), direction * X_n

@@ -5,6 +5,7 @@ The point v_0 = 0 is the static limit.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -131,7 +132,8 @@ def cof_curve(
 
     Notes
     -----
-    The closed form holds for any shape and any amplitude; `mdr.closed_forms.rigid_pull` derives it.
+    The closed form holds for any shape and any amplitude; `mdr.closed_forms.rigid_pull` derives it, and
+    `mdr.closed_forms.shaken_pull` that under a shake.
 
     Examples
     --------
@@ -151,36 +153,28 @@ def cof_curve(
     velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)  # a copy: the record keeps it
     if velocities.ndim != 1 or velocities.size == 0:
         raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
-    knobs = (n_springs, steps_per_period, accuracy)
-    if case.is_shaken or (case.shake is not None and np.any(velocities < 0)):  # also of a shake with no amplitude
-        return _shaken_curve(case, velocities, method, knobs)
-    if np.any(velocities < 0):
+    if case.shake is None and np.any(velocities < 0):
         raise ValueError(
             f"v_0 must not be negative, got {float(velocities.min())!r} m/s: friction is the same both ways where "
             "nothing shakes in the plane"
         )
-    static, moving = static_cof(case), velocities > 0
+    asked = velocities if np.any(velocities == 0) else np.append(velocities, 0.0)
     if method is None and has_closed_form(case):
-        columns = _closed_form(case, velocities[moving])
+        columns = _closed_form(case, asked)
     else:
-        columns = _ordered(velocities[moving], _runs(case, velocities[moving], *knobs))
-    cof, error, settled, sticks, why = columns
-
-    def with_limit(values: NDArray[Any], limit: Any) -> NDArray[Any]:
-        out = np.full(velocities.shape, limit, dtype=values.dtype)
-        out[moving] = values
-        return out
-
+        columns = _marched(case, asked, (n_springs, steps_per_period, accuracy))
+    (cof, error, settled, sticks, why), n = columns, velocities.size
     return CofCurve(
         v_0=velocities,
-        cof=with_limit(cof, static),
-        cof_error=with_limit(error, STATIC_ERROR * case.mu_0),
-        settled=with_limit(settled, True),
-        stick_share=with_limit(sticks, 1.0),
+        cof=cof[:n],
+        cof_error=error[:n],
+        settled=settled[:n],
+        stick_share=sticks[:n],
         v_c=critical_velocity(case),
         mu_0=case.mu_0,
-        static_cof=static,
-        why=tuple(with_limit(why, "").tolist()),
+        static_cof=float(cof[np.argmax(asked == 0)]),
+        why=tuple(why[:n].tolist()),
+        v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
     )
 
 
@@ -188,20 +182,61 @@ Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
 Given = tuple[int | None, int | None, float]  #: springs, steps and accuracy
 
 
-def _shaken_curve(case: SlidingContact, v_0: Array, method: str | None, knobs: Given) -> CofCurve:
-    """The curve of a contact that is shaken in the plane: that of its mirror image, turned, for the other way."""
-    velocities = np.append(v_0, 0.0) if not np.any(v_0 == 0) else v_0
-    if method is None and has_shaken_form(case):
-        return _with_ends(case, v_0, velocities, _closed_shaken_form(case, velocities))
-    columns: list[NDArray[Any]] = [
-        np.empty(velocities.size, dtype=kind) for kind in (float, float, bool, float, object)
-    ]
-    for one, side, where in ((case, 1.0, velocities >= 0), (case.mirrored, -1.0, velocities < 0)):
+def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
+    """Friction at velocities of either sign, of a case that `has_closed_form`; 0 is the limit of a pull forward."""
+    if case.is_shaken:
+        cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)
+        return case.mu_0 * cof, case.mu_0 * error, *_all_settled(sticks)
+    moving = v_0 != 0
+    known = average_friction(case, np.abs(v_0[moving]))
+    columns = np.sign(v_0[moving]) * known.cof, known.cof_error, *_all_settled(known.stick_share)
+    return _filled(moving, columns, _static(case))
+
+
+def _all_settled(sticks: Array) -> tuple[NDArray[np.bool_], Array, NDArray[np.object_]]:
+    """The last columns of what is known in closed form."""
+    return np.ones(sticks.shape, dtype=bool), sticks, np.full(sticks.shape, "", dtype=object)
+
+
+Point = tuple[float, float, bool, float, str]  #: a row of the columns
+
+
+def _static(case: SlidingContact) -> Point:
+    """The point v_0 = 0 of a contact that is not shaken in the plane."""
+    return static_cof(case), STATIC_ERROR * case.mu_0, True, 1.0, ""
+
+
+def _filled(where: NDArray[np.bool_], columns: Columns, point: Point) -> Columns:
+    """The columns where they are known, and one point elsewhere."""
+    out: list[NDArray[Any]] = []
+    for column, value in zip(columns, point, strict=True):
+        whole = np.full(where.shape, value, dtype=column.dtype)
+        whole[where] = column
+        out.append(whole)
+    return tuple(out)  # type: ignore[return-value]
+
+
+def _marched(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
+    """One run for each velocity, of the mirror image for the other way; those that contradict another are unsettled."""
+    columns: list[NDArray[Any]] = [np.empty(v_0.size, dtype=kind) for kind in (float, float, bool, float, object)]
+    for one, side, where in _ways(case, v_0):
+        parts = _from_rest_on(one, np.abs(v_0[where]), knobs)
+        for column, part in zip(columns, (side * parts[0] + 0.0, *parts[1:]), strict=True):
+            column[where] = part
+    cof, error, settled, sticks, why = columns
+    runs = settled & ((v_0 != 0) | case.is_shaken)  # a static limit in closed form judges none of them
+    wrong = disordered(v_0, cof, error, runs)
+    why[wrong] = "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
+    return cof, error, settled & ~wrong, sticks, why
+
+
+def _ways(case: SlidingContact, v_0: Array) -> Iterator[tuple[SlidingContact, float, NDArray[np.bool_]]]:
+    """The contact forward and, seen in a mirror, the other way, each with its sign and the velocities it is asked"
+    " at.
+    """
+    for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
         if where.any():
-            parts = _from_rest_on(one, np.abs(velocities[where]), knobs)
-            for column, part in zip(columns, (side * parts[0] + 0.0, *parts[1:]), strict=True):
-                column[where] = part
-    return _with_ends(case, v_0, velocities, _ordered(velocities, tuple(columns)))  # type: ignore[arg-type]
+            yield one, side, where
 
 
 def _from_rest_on(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
@@ -210,55 +245,25 @@ def _from_rest_on(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
     A body with mass, or arms, end a run at rest wherever they came to within the band; there two slow runs tell the
     limit, to which friction falls like a power of the velocity between 2/3 and 1.
     """
-    rests = v_0 == 0
-    if not rests.any():
-        return _runs(case, v_0, *knobs)
+    moving = v_0 > 0
+    columns = _runs(case, v_0[moving], *knobs)
+    if moving.all():
+        return columns
     if not case.is_shaken:
-        known = static_cof(case), STATIC_ERROR * case.mu_0, True, 1.0, ""
+        limit = _static(case)
     elif case.material.contact_arms or case.pull.coefficients[0] > 0:
-        known = _slow_limit(*_runs(case, np.array(SLOW) * case.pace, *knobs))
+        limit = _slow_limit(*_runs(case, np.array(SLOW) * case.pace, *knobs))
     else:
-        known = tuple(column[0] for column in _runs(case, np.zeros(1), *knobs))
-    columns = _runs(case, v_0[~rests], *knobs)
-    whole: list[NDArray[Any]] = []
-    for column, value in zip(columns, known, strict=True):
-        out = np.full(v_0.shape, value, dtype=column.dtype)
-        out[~rests] = column
-        whole.append(out)
-    return tuple(whole)  # type: ignore[return-value]
+        limit = tuple(column[0] for column in _runs(case, np.zeros(1), *knobs))
+    return _filled(moving, columns, limit)
 
 
-def _slow_limit(
-    cof: Array, error: Array, settled: NDArray[np.bool_], sticks: Array, why: NDArray[np.object_]
-) -> tuple[float, float, bool, float, str]:
+def _slow_limit(cof: Array, error: Array, settled: NDArray[np.bool_], sticks: Array, why: NDArray[np.object_]) -> Point:
     """The limit of runs at velocities SLOW, ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
     slower, faster = float(cof[0]), float(cof[1])
     apart = faster - slower
     bound = float(error[0] + (error[0] + error[1]) / 6) + 0.15 * abs(apart)
     return slower - apart / 6, bound, bool(settled.all()), float(sticks[0]), next((one for one in why if one), "")
-
-
-def _closed_shaken_form(case: SlidingContact, v_0: Array) -> Columns:
-    cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)
-    nothing = np.full(v_0.shape, "", dtype=object)
-    return case.mu_0 * cof, case.mu_0 * error, np.ones(v_0.shape, dtype=bool), sticks, nothing
-
-
-def _with_ends(case: SlidingContact, v_0: Array, velocities: Array, columns: Columns) -> CofCurve:
-    """The curve at v_0, the first of the velocities of the columns, among which zero is."""
-    (cof, error, settled, sticks, why), n = columns, v_0.size
-    return CofCurve(
-        v_0=v_0,
-        cof=cof[:n],
-        cof_error=error[:n],
-        settled=settled[:n],
-        stick_share=sticks[:n],
-        v_c=critical_velocity(case),
-        mu_0=case.mu_0,
-        static_cof=float(cof[np.flatnonzero(velocities == 0)[0]]),
-        why=tuple(why[:n].tolist()),
-        v_c_back=critical_velocity(case, -1),
-    )
 
 
 def has_closed_form(case: SlidingContact) -> bool:
@@ -271,33 +276,16 @@ def has_closed_form(case: SlidingContact) -> bool:
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
     """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
     case = resolved(case)
-    if case.is_shaken:
-        return _shaken_without_bound(case, v_0, n_springs, steps_per_period)
-    at_rest = v_0 == 0
-    out = np.full(v_0.shape, static_cof(case) if at_rest.any() else 0.0)
-    order = np.argsort(v_0, kind="stable")[int(at_rest.sum()) :]
     if has_closed_form(case):
-        out[order] = average_friction(case, v_0[order]).cof
-    else:
-        out[order] = list(cofs_without_bound(case, v_0[order].tolist(), n_springs, steps_per_period))
-    return out
-
-
-def _shaken_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
-    if has_shaken_form(case):
-        return _closed_shaken_form(case, v_0)[0]
-    out = np.empty(v_0.shape)
-    for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
-        order = np.flatnonzero(where)[np.argsort(np.abs(v_0[where]), kind="stable")]
+        return _closed_form(case, v_0)[0]
+    at_rest = (v_0 == 0) & (not case.is_shaken)
+    out = np.full(v_0.shape, static_cof(case) if at_rest.any() else 0.0)
+    for one, side, where in _ways(case, v_0):
+        there = np.flatnonzero(where & ~at_rest)
+        order = there[np.argsort(np.abs(v_0[there]), kind="stable")]
         cofs = cofs_without_bound(one, np.abs(v_0[order]).tolist(), n_springs, steps_per_period)
         out[order] = side * np.array(list(cofs))
     return out
-
-
-def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
-    known = average_friction(case, v_0)
-    nothing = np.full(v_0.shape, "", dtype=object)
-    return known.cof, known.cof_error, np.ones(v_0.shape, dtype=bool), known.stick_share, nothing
 
 
 def _runs(
@@ -311,11 +299,3 @@ def _runs(
     cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
     settled = np.array([run.settled for run in runs], dtype=bool)
     return cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object)
-
-
-def _ordered(v_0: Array, columns: Columns) -> Columns:
-    """The columns of runs, without those that contradict another one."""
-    cof, error, settled, sticks, why = columns
-    wrong = disordered(v_0, cof, error, settled)
-    why[wrong] = "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
-    return cof, error, settled & ~wrong, sticks, why

@@ -32,7 +32,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.in_plane import way_of
+from mdr.case.in_plane import sign_of
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.refinement import N_SPRINGS, default_steps
 from mdr.march.run import SlidingRun
@@ -158,7 +158,7 @@ def measure_critical_velocity(
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
     known = resolved(case)
     search = _Search(
-        known if way_of(direction) == 1 else known.mirrored, start, max(MARGIN * accuracy_of(accuracy), NARROWEST)
+        known if sign_of(direction) == 1 else known.mirrored, start, max(MARGIN * accuracy_of(accuracy), NARROWEST)
     )
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:

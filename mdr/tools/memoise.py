@@ -2,7 +2,7 @@
 
 A record that holds a function, such as a Profile, equals another one with the same function, although the function may
 since return something else. Results are kept for that very object alone. Nothing is kept for a record that can be
-changed: a shape, a material, a motion or a pull that is no frozen dataclass.
+changed: a shape, a material, a motion, a pull or a shake that is no frozen dataclass.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 
-PARTS = "indenter", "material", "oscillation", "pull"
+PARTS = "indenter", "material", "oscillation", "pull", "shake"
 PLAIN = int, float, str, tuple, type(None)
 
 
