@@ -145,7 +145,7 @@ class SlidingContact:
         return self.oscillation.cycle.repeated(max(self.repeats[0], 1), self.omega)
 
     @property
-    def drive(self) -> NDArray[np.complex128]:
+    def shake_harmonics(self) -> NDArray[np.complex128]:
         """X_n [m], shape (N,), of the shake x(t) = Re of sum X_n exp(i n omega t), n = 1 ... N; empty without one."""
         if self.shake is None or self.shake.is_still:
             return np.zeros(0, dtype=complex)
@@ -160,15 +160,15 @@ class SlidingContact:
 
         Of a shaken pulling point it is what spring, damper and mass pass on: (k_x + i n omega c_x) H(n omega) X_n.
         """
-        drive = self.drive
-        if not drive.size or self.pull.is_rigid or self.shake is None or self.shake.at == "tool":
-            return drive
+        given = self.shake_harmonics
+        if not given.size or self.pull.is_rigid or self.shake is None or self.shake.at == "tool":
+            return given
         _, c_x, k_x = self.pull.coefficients
-        n_omega = self.omega * np.arange(1, drive.size + 1)
-        H, out = np.asarray(self.pull.receptance(n_omega)), np.zeros_like(drive)
-        passed = (drive != 0) & np.isfinite(H)
-        out[passed] = (k_x + 1j * n_omega[passed] * c_x) * H[passed] * drive[passed]
-        out[(drive != 0) & ~np.isfinite(H)] = np.inf
+        n_omega = self.omega * np.arange(1, given.size + 1)
+        H, out = np.asarray(self.pull.receptance(n_omega)), np.zeros_like(given)
+        passed = (given != 0) & np.isfinite(H)
+        out[passed] = (k_x + 1j * n_omega[passed] * c_x) * H[passed] * given[passed]
+        out[(given != 0) & ~np.isfinite(H)] = np.inf
         return out
 
     @property
@@ -254,10 +254,10 @@ class SlidingContact:
         u_z0 <= 0.
         """
         reach = self.mu_0 * self.material.mindlin_ratio * self.working_depth
-        way = self.drive
-        if not way.size:
+        given = self.shake_harmonics
+        if not given.size:
             return 0.0
-        return 0.5 * (peak(way) + peak(-way)) / reach if reach > 0 else np.inf
+        return 0.5 * (peak(given) + peak(-given)) / reach if reach > 0 else np.inf
 
     @property
     def pace(self) -> float:

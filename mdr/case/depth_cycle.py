@@ -118,6 +118,12 @@ def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
     return np.asarray(cos - 1j * np.asarray(sin))
 
 
+def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
+    """Re of sum C_n exp(i n phase), n = 1 ... N, at phases of any shape."""
+    n = np.arange(1, harmonics.size + 1)
+    return np.asarray((harmonics * np.exp(1j * np.multiply.outer(np.asarray(phase), n))).real.sum(axis=-1))
+
+
 def peak(harmonics: NDArray[np.complex128]) -> float:
     """Greatest value of Re of sum C_n exp(i n phase), n = 1 ... N, over the period."""
     return float(peaks(harmonics).max(initial=-np.inf))

@@ -26,7 +26,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.depth_cycle import peaks
+from mdr.case.depth_cycle import harmonic_sum, peaks
 from mdr.case.in_plane import sign_of
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import edge_marks, followed, force_of, mean_normal_force, normal_force
@@ -117,8 +117,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         y_dot -= 2 * (panels.harmonic(y_dot, resonant) * np.exp(1j * resonant * panels.phase)).real
     middle = 0.5 * (panels.low + panels.high)
     touching = (middle >= on) | (middle <= off)
-    n = np.arange(1, X_n.size + 1)
-    shaken = (1j * n * omega * X_n * np.exp(1j * panels.phase[..., None] * n)).real.sum(axis=-1)
+    shaken = harmonic_sum(1j * omega * np.arange(1, X_n.size + 1) * X_n, panels.phase)
     rates = (-unit * np.sin(panels.phase) - y_dot - shaken)[touching]
     return max(_peak(rates[k]) for k in np.argsort(rates.max(axis=1))[-3:])
 
@@ -152,16 +151,13 @@ def _greatest(rates: NDArray[np.complex128], low: float, high: float) -> float:
     """Greatest value of Re of sum rates_n exp(i n phase), n = 1 ... N, between two phases, both included."""
     from scipy.optimize import minimize_scalar
 
-    n = np.arange(1, rates.size + 1)
-
-    def value(phase: Array | float) -> Array:
-        return np.asarray((rates * np.exp(1j * np.multiply.outer(np.asarray(phase), n))).real.sum(axis=-1))
-
     phase = np.linspace(low, high, 64 * rates.size + 1)
-    values = value(phase)
+    values = harmonic_sum(rates, phase)
     k = int(np.argmax(values))
     ends = phase[max(k - 1, 0)], phase[min(k + 1, phase.size - 1)]
-    refined = minimize_scalar(lambda at: -float(value(at)), bounds=ends, method="bounded", options={"xatol": 1e-12})
+    refined = minimize_scalar(
+        lambda at: -float(harmonic_sum(rates, at)), bounds=ends, method="bounded", options={"xatol": 1e-12}
+    )
     return max(float(values[k]), -float(refined.fun))
 
 

@@ -41,6 +41,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.depth_cycle import harmonic_sum
 from mdr.closed_forms.shaken_spring import Complex, Motion, all_changes, all_springs, root
 from mdr.indenters.base import Indenter
 from mdr.tools.arrays import Array
@@ -224,11 +225,7 @@ def _turns(C: Complex) -> Array:
     slope = 1j * np.arange(1, C.size + 1) * C
     bend = 1j * np.arange(1, C.size + 1) * slope
     phase = _zeros(slope, _zeros(bend, np.zeros(0)))
-    return np.column_stack([phase, _series(C, phase)])
-
-
-def _series(C: Complex, phase: Array) -> Array:
-    return np.asarray((C * np.exp(1j * np.outer(phase, np.arange(1, C.size + 1)))).real.sum(axis=1))
+    return np.column_stack([phase, harmonic_sum(C, phase)])
 
 
 def _zeros(C: Complex, marks: Array) -> Array:
@@ -238,7 +235,7 @@ def _zeros(C: Complex, marks: Array) -> Array:
     count = max(DENSE * C.size, 64)
     values = count / 2 * np.fft.irfft(np.r_[0, C, np.zeros(count // 2 - C.size)], count)
     phase = np.r_[2 * np.pi * np.arange(count + 1) / count, marks]
-    f = np.r_[values, values[0], _series(C, marks)]
+    f = np.r_[values, values[0], harmonic_sum(C, marks)]
     order = np.argsort(phase, kind="stable")
     phase, f = phase[order], f[order]
     k = np.flatnonzero((f[:-1] >= 0) != (f[1:] >= 0))

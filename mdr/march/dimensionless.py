@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.depth_cycle import harmonic_sum
 from mdr.march import kernels
 from mdr.materials.operator import L_DECAY, L_GAIN, Rheology
 from mdr.normal.springs import SpringArray
@@ -60,7 +61,7 @@ class ScaledContact:
     z_dot: Array  #: (n_steps + 1,) its rate
     x: Array  #: (n_steps + 1,) way on which a shake takes the indenter along the pull
     x_dot: Array  #: (n_steps + 1,) its rate
-    drive: Array  #: (n_steps + 1,) motion of the pulling point besides the pull; zero where the tool is shaken
+    far_end: Array  #: (n_steps + 1,) motion of the pulling point besides the pull; zero where the tool is shaken
     is_shaken: bool  #: whether there is one
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
     table: Array  #: (L_ROWS, 1 + J) the same over one step
@@ -139,9 +140,9 @@ class ScaledContact:
                 "the pulling point is shaken at the undamped natural frequency of the body: in full slip there is no "
                 "periodic motion to begin with; give the pull a damper c_x, or move omega or m"
             )
-        x, x_dot = series_over_a_period(way / length_x, steps)
+        x, x_dot = _over_a_period(way / length_x, steps)
         at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
-        drive = series_over_a_period(case.drive / length_x, steps)[0] if at_pull else np.zeros(steps + 1)
+        far_end = _over_a_period(case.shake_harmonics / length_x, steps)[0] if at_pull else np.zeros(steps + 1)
         M, C, K = _body_groups(case, springs.G_star * width)
         return cls(
             gap=gap,
@@ -150,7 +151,7 @@ class ScaledContact:
             z_dot=z_dot,
             x=x,
             x_dot=x_dot,
-            drive=drive,
+            far_end=far_end,
             is_shaken=case.is_shaken,
             rheology=rheology,
             table=rheology.over_step(2 * np.pi / steps),
@@ -328,16 +329,12 @@ class ScaledContact:
         return kernels.BodyState(y, np.zeros(2), np.zeros((2, self.n_arms)))
 
 
-def series_over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:
-    """Re of sum X_n exp(i n phase) and its rate at equidistant phases, both ends included: (steps + 1,)."""
-    x, rate = np.zeros((2, steps + 1))
+def _over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:
+    """The sum of harmonics and its rate at equidistant phases, both ends included: (steps + 1,)."""
     if not harmonics.size:
-        return x, rate
-    phase = 2 * np.pi * np.arange(steps + 1) / steps
-    for n in np.flatnonzero(harmonics) + 1:
-        turning = harmonics[n - 1] * np.exp(1j * n * phase)
-        x, rate = x + turning.real, rate - n * turning.imag
-    return x, rate
+        return np.zeros(steps + 1), np.zeros(steps + 1)
+    phase, n = 2 * np.pi * np.arange(steps + 1) / steps, np.arange(1, harmonics.size + 1)
+    return harmonic_sum(harmonics, phase), harmonic_sum(1j * n * harmonics, phase)
 
 
 def fast_ratio(case: SlidingContact) -> float:

@@ -48,12 +48,12 @@ def energy_balance(march: March) -> EnergyBalance:
     pull = float(sums[kernels.SHEAR_WORK]) - shake
     if not scaled.rigid:
         stretch = account.y[2:]  # of the system spring, backward
-        if at_pull := bool(scaled.drive.any()):
-            stretch = stretch + scaled.x - scaled.drive
+        if at_pull := bool(scaled.far_end.any()):
+            stretch = stretch + scaled.x - scaled.far_end
         force = -scaled.K * 0.5 * (stretch[1:] + stretch[:-1]) - scaled.C * np.diff(stretch) / h  # of the pull, forward
         pull = v * h * float(np.sum(force))
         damper = scaled.C * float(np.sum(np.diff(stretch) ** 2)) / h
-        shake = float(force @ np.diff(scaled.drive)) if at_pull else shake
+        shake = float(force @ np.diff(scaled.far_end)) if at_pull else shake
     viscous = unit_x * sums[kernels.SHEAR_VISCOUS] + unit_z * sums[kernels.NORMAL_VISCOUS]
     return EnergyBalance(
         pull_work=unit_x * pull,

@@ -211,8 +211,8 @@ class Stepper:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
         scaled, (y, y_old, y_older) = self.scaled, state.body.y
         u_dot = self.v + (1.5 * y - 2 * y_old + 0.5 * y_older) / scaled.h
-        if scaled.drive.any():  # the body moves on the way of the shake too, and stretches its spring by less
-            u_dot, y = u_dot + float(scaled.x_dot[0]), y + float(scaled.x[0] - scaled.drive[0])
+        if scaled.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
+            u_dot, y = u_dot + float(scaled.x_dot[0]), y + float(scaled.x[0] - scaled.far_end[0])
         ratios = scaled.table[L_RATIO]
         springs = 0.5 * float(ratios @ (state.e**2 @ scaled.w))
         normal = 0.5 * float(scaled.w @ self._compression(state, 0) ** 2 + ratios[1:] @ (state.s[1:] ** 2 @ scaled.w))

@@ -32,7 +32,7 @@ def test_a_harmonic_shake_is_a_series_of_one():
 
 def test_a_mirror_turns_the_shake_and_nothing_else():
     case = contact()
-    assert_allclose(case.mirrored.drive, -case.drive, rtol=1e-15)
+    assert_allclose(case.mirrored.shake_harmonics, -case.shake_harmonics, rtol=1e-15)
     assert replace(case.mirrored, shake=SHAKE) == case
     assert contact(shake=None).mirrored == contact(shake=None)
     saw = mdr.InPlaneMotion(OMEGA, x_cos=(1e-6,), x_sin=(2e-6, -1e-6))
@@ -48,7 +48,9 @@ def test_frequencies_in_whole_ratios_share_a_period(p, q):
     t = np.linspace(0, case.period, 50)
     phase = case.omega * t
     assert_allclose(case.cycle.u_z0 + case.cycle.unit * case.cycle.z(phase), case.oscillation.u_z(t), rtol=1e-12)
-    x = (case.drive * np.exp(1j * np.outer(phase, np.arange(1, case.drive.size + 1)))).real.sum(axis=1)
+    x = (case.shake_harmonics * np.exp(1j * np.outer(phase, np.arange(1, case.shake_harmonics.size + 1)))).real.sum(
+        axis=1
+    )
     assert_allclose(x, 3e-6 * np.cos(q * OMEGA * t + 0.7), rtol=0, atol=1e-18)
 
 

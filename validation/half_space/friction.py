@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import mdr
+from mdr.case.depth_cycle import harmonic_sum
 from mdr.tools.arrays import Array
 from validation.half_space import springs
 from validation.half_space.influence import HalfSpace, X, Z
@@ -114,9 +115,9 @@ def path(case: mdr.SlidingContact, v_0: float, knobs: Knobs) -> tuple[Array, Arr
     """Depth and way at the instants of a period, (steps + 1,), from the least depth on, and the step [s]."""
     dt = case.period / knobs.steps
     i = np.arange(knobs.steps + 1)
-    phase, harmonics = 2 * np.pi * i[:-1] / knobs.steps, np.arange(1, case.way.size + 1)
+    phase = 2 * np.pi * i[:-1] / knobs.steps
     one = case.cycle.u_z0 + case.cycle.unit * case.cycle.z(phase)
-    shake = (case.way * np.exp(1j * np.outer(phase, harmonics))).real.sum(axis=1)
+    shake = harmonic_sum(case.way, phase)
     at = (int(np.argmin(one)) + i) % knobs.steps
     return one[at], v_0 * dt * i + shake[at], dt
 
