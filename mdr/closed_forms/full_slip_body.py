@@ -101,9 +101,9 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     omega, unit = case.omega, case.unit_velocity
     on, off = contact_span(case)
     if case.pull.is_rigid and case.is_shaken:
-        rates = -1j * omega * np.arange(1, X_n.size + 1) * X_n
-        rates[0] += 1j * unit
-        return _greatest(rates, on, off + 2 * np.pi if off < on else off)
+        harmonics = -1j * omega * np.arange(1, X_n.size + 1) * X_n
+        harmonics[0] += 1j * unit
+        return _greatest(harmonics, on, off + 2 * np.pi if off < on else off)
     if case.pull.is_rigid:
         return unit * (1.0 if on <= 1.5 * np.pi else -float(np.sin(on)))
     panels = _time_panels(case, SMALLEST_RATE if case.pull.coefficients[:2] == (0, 0) else SMALLEST)

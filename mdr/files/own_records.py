@@ -59,9 +59,8 @@ def register(record: Record) -> Record:
         raise TypeError(f"record must be a dataclass that is an {kinds} and answers all that it must, got {record!r}")
     name = record.__name__
     known = _OWN.get(name, record)
-    if any(name in module.__all__ for module in (indenters, materials, motion, in_plane)) or _home(known) != _home(
-        record
-    ):
+    taken = any(name in module.__all__ for module in (indenters, materials, motion, in_plane))
+    if taken or _home(known) != _home(record):
         raise ValueError(f"{name} is the name of another record that a file can name; rename the class")
     _OWN[name] = record
     return record
