@@ -22,7 +22,7 @@ from mdr.commands.output import (
     velocity_text,
     write_figure,
 )
-from mdr.commands.velocity import ends_of, rows_of_ends
+from mdr.commands.velocity import Ends
 from mdr.files.case_files import write_case
 from mdr.normal.resolved import resolved
 from mdr.tools.atomic_write import write_whole
@@ -62,14 +62,12 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
     if args.json:
         scalars: dict[str, Any] = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof}
         if case.is_shaken:
-            band, blocked, free = ends_of(case)
-            scalars |= {"v_c_back": found.v_c_back, "holding_band": [band.low, band.high]}
-            scalars |= {"blocked_cof": blocked, "no_load_velocity": free}
+            scalars |= {"v_c_back": found.v_c_back, **Ends.of(case).values}
         print_json(args, scalars | _columns(found), case)
     else:
         _print_curve(found)
         if case.is_shaken:
-            print_rows(rows_of_ends(*ends_of(case)))
+            print_rows(Ends.of(case).rows)
     unsettled = int(np.sum(~found.settled))
     if unsettled:
         reasons = "".join(f"\n  {why}" for why in dict.fromkeys(_loose_ends(found)))

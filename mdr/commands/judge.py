@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
 from mdr.commands.output import DONE, FAILED, add_accuracy, print_json, print_rows, velocity_text
-from mdr.commands.velocity import ends_of, equation_of, rows_of_ends
+from mdr.commands.velocity import Ends, equation_of
 from mdr.friction.verdict import WITHIN
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def measure(args: argparse.Namespace, case: SlidingContact) -> int:
         for name, found in zip(("forward", "other way") if case.is_shaken else ("v_c",), measured, strict=True):
             print_rows([(name, velocity_text(found.v_c), found.kind), *_bracket(found), ("", found.why, "")])
         if case.is_shaken:
-            print_rows(rows_of_ends(*ends_of(case)))
+            print_rows(Ends.of(case).rows)
     return DONE if all(found.v_c is not None for found in measured) else FAILED
 
 
@@ -63,7 +63,7 @@ def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
             _print_verdict(one, equation, how)
         if case.is_shaken:
             print("\nat rest:")
-            print_rows(rows_of_ends(*ends_of(case)))
+            print_rows(Ends.of(case).rows)
     known = [one.holds or one.measured is not None for _, one in ways]
     return DONE if all(known) else FAILED  # no v_c on a resonance is an answer
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
@@ -50,11 +50,11 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
 
     known, (equation, how) = resolved(case), equation_of(case)
     v_c, full = ([one(case, way) for way in (1, -1)] for one in (critical_velocity, full_slip_critical_velocity))
-    band, blocked, free = ends_of(case)
+    ends = Ends.of(case)
     if args.json:
         values = {
             "equation": equation, "v_c": v_c[0], "v_c_back": v_c[1], "full_slip": full[0], "full_slip_back": full[1],
-            "mu_0": case.mu_0, "holding_band": [band.low, band.high], "blocked_cof": blocked, "no_load_velocity": free,
+            "mu_0": case.mu_0, **ends.values,
             "alpha": known.alpha, "chi": known.chi, "T": case.T, "mindlin_ratio": case.material.mindlin_ratio,
             "keeps_contact": known.keeps_contact,
         }  # fmt: skip
@@ -64,7 +64,7 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
         ("other way", velocity_text(v_c[1]), "the same, pulled the other way"),
         ("full slip", velocity_text(full[0]), "critical velocity forward, any amplitude, all harmonics of the force"),
         ("other way", velocity_text(full[1]), "the same, pulled the other way"),
-        *rows_of_ends(band, blocked, free),
+        *ends.rows,
         ("alpha", f"{known.alpha:.6g}", "half the swing of the depth over its mean, du_z/u_z0"),
         ("chi", f"{known.chi:.6g}", "amplitude of the shake over the deflection at which springs slip"),
         ("contact", "kept" if known.keeps_contact else "lost in part of the period", "at its centre, Eq. (5)"),
@@ -72,36 +72,48 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE
 
 
-Ends = tuple["HoldingBand", float | str | None, float | str]  #: of a characteristic; why, of what is not known
+class Ends(NamedTuple):
+    """The ends of the characteristic of a contact that is shaken in the plane; in words, what is not known."""
 
+    band: HoldingBand  #: of loads that it holds at rest
+    blocked: float | str | None  #: friction where the pull stands still; None where it is no single number
+    free: float | str  #: velocity without load [m/s]
 
-def ends_of(case: SlidingContact) -> Ends:
-    """The band of loads that a shaken contact holds, its blocked friction if that is one number, its free velocity."""
-    from mdr.friction.shaken import HoldsABand, blocked_cof, holding_band, no_load_velocity
+    @classmethod
+    def of(cls, case: SlidingContact) -> Ends:
+        """The ends of this case."""
+        from mdr.friction.shaken import HoldsABand, blocked_cof, holding_band, no_load_velocity
 
-    try:
-        blocked: float | str | None = blocked_cof(case)
-    except HoldsABand:
-        blocked = None
-    except ValueError as unknown:
-        blocked = str(unknown)
-    try:
-        free: float | str = no_load_velocity(case)
-    except ValueError as unknown:
-        free = str(unknown)
-    return holding_band(case), blocked, free
+        try:
+            blocked: float | str | None = blocked_cof(case)
+        except HoldsABand:
+            blocked = None
+        except ValueError as unknown:
+            blocked = str(unknown)
+        try:
+            free: float | str = no_load_velocity(case)
+        except ValueError as unknown:
+            free = str(unknown)
+        return cls(holding_band(case), blocked, free)
 
+    @property
+    def values(self) -> dict[str, Any]:
+        """What JSON says of them."""
+        band = [self.band.low, self.band.high]
+        return {"holding_band": band, "blocked_cof": self.blocked, "no_load_velocity": self.free}
 
-def rows_of_ends(band: HoldingBand, blocked: float | str | None, free: float | str) -> list[tuple[str, str, str]]:
-    """The same in words."""
-    one = "a band" if blocked is None else blocked if isinstance(blocked, str) else f"{blocked:.6g}"
-    velocity = free if isinstance(free, str) else f"{free:.6g} m/s"
-    held = f"{band.high:.6g} alone" if band.is_one_number else f"{band.low:.6g} to {band.high:.6g}"
-    return [
-        ("band", held, "mean F_x over mean F_z that it holds at rest, held rigidly"),
-        ("blocked", one, "mean F_x over mean F_z where the pull stands still"),
-        ("no load", velocity, "velocity at which nothing holds it back"),
-    ]
+    @property
+    def rows(self) -> list[tuple[str, str, str]]:
+        """The same in words."""
+        band, blocked, free = self
+        one = "a band" if blocked is None else blocked if isinstance(blocked, str) else f"{blocked:.6g}"
+        velocity = free if isinstance(free, str) else f"{free:.6g} m/s"
+        held = f"{band.high:.6g} alone" if band.is_one_number else f"{band.low:.6g} to {band.high:.6g}"
+        return [
+            ("band", held, "mean F_x over mean F_z that it holds at rest, held rigidly"),
+            ("blocked", one, "mean F_x over mean F_z where the pull stands still"),
+            ("no load", velocity, "velocity at which nothing holds it back"),
+        ]
 
 
 def equation_of(case: SlidingContact) -> tuple[str, str]:

@@ -18,6 +18,7 @@ from mdr.friction.cof_curve import cof_curve, has_closed_form
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import finite
+from mdr.tools.memoise import remembered
 
 ONE = 1e-8  #: of the load, up to which two ends of a band are one
 ROOT, ROOT_OF_RUNS = 1e-12, 1e-7  #: of the velocity scale of a case, to which the velocity without load is found
@@ -98,6 +99,7 @@ def holding_band(case: SlidingContact) -> HoldingBand:
     return _band(replace(resolved(case), pull=RigidPull()))
 
 
+@remembered(maxsize=16)  # a command asks for it more than once
 def _band(case: SlidingContact) -> HoldingBand:
     """The ends of friction at rest, under the pull of the case."""
     forward, back = (cof_curve(one, [0.0]) for one in (case, case.mirrored))
@@ -176,14 +178,18 @@ def no_load_velocity(case: SlidingContact) -> float:
     >>> print(f"{mdr.no_load_velocity(case):.3g} m/s")
     0.00966 m/s
     """
-    case = resolved(case)
+    return _free(resolved(case))
+
+
+@remembered(maxsize=16)
+def _free(case: SlidingContact) -> float:
     if not np.isfinite(case.pace):
         raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
     low = SLOW * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
     if side == 0:  # zero load lies between the two: is it held?
         band = _band(case)
-        if band.low - band.error <= 0 <= band.high + band.error:
+        if band.contains(0.0):
             return 0.0
         side, low = (1 if band.high < 0 else -1), 0.0
     ahead, high = case if side == 1 else case.mirrored, case.pace
