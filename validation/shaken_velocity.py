@@ -37,7 +37,7 @@ def claim(effort: str) -> Claim:
         ),
         range=(
             "Flat punch, cone, paraboloid and r^4, elastic, Kelvin (ωτ = 1) and with a Maxwell arm; normal oscillation"
-            f" of Δu_z/u_z0 up to {ALPHA:g}, or none, with a longitudinal one of Δu_x up to twice μ_0 κ u_z0 in any"
+            f" of Δu_z/u_z0 up to {ALPHA:g}, or none, with a longitudinal one of Δu_x up to μ_0 κ u_z0 in any"
             " phase, at the tool or at the pulling point; rigid pull and a body on a spring."
         ),
         measured=(
@@ -202,7 +202,7 @@ def _figure(quick: bool) -> Figure:
         f" (Δu_x = {CHI:g} μ_0 κ u_z0): closed form (lines) and measurements, filled forward, hollow the other way."
         " Left,"
         " all shapes lie on one curve each way: least forward in phase, where depth and shake go together. Right, with"
-        " a body: the flat punch stays on the formula, the cone leaves it a little, as it leaves Eq. (15).",
+        " a body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15).",
         fig,
         "Critical velocities over the phase of the shake, for both directions of the pull",
     )
