@@ -18,8 +18,8 @@ from mdr.case.contact import SlidingContact
 from mdr.indenters.base import Indenter
 from mdr.tools.memoise import remembered
 
-STEEPEST = 0.7  #: slope of the shape at the edge of contact; the theory is that of small slopes
-DEEPEST = 0.7  #: depth over contact radius, of a face without slope
+STEEPEST = 1.0  #: slope of the shape at the edge of contact; the theory is that of small slopes
+DEEPEST = 1.0  #: depth over contact radius, of a face without slope
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
 GREATEST_MU_0 = 2.0
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
@@ -78,13 +78,13 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
     if slope > STEEPEST:
         yield (
             f"the surface of {type(known.indenter).__name__} has slope {slope:.3g} at the edge of the contact "
-            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, below {STEEPEST:g}: is an "
+            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below {STEEPEST:g}: is an "
             "angle given in degrees, the depth too great, or the modulus too small?"
         )
     elif d > DEEPEST * a:
         yield (
             f"the depth {d:.4g} m is {d / a:.3g} times the radius of the contact, {a:.4g} m, and the theory is that of "
-            f"small strains, below {DEEPEST:g}: is the depth too great, or the modulus too small for the load?"
+            f"small strains, well below {DEEPEST:g}: is the depth too great, or the modulus too small for the load?"
         )
 
 

@@ -119,7 +119,7 @@ def plausibility(case: SlidingContact) -> tuple[str, ...]:
 
     Notes
     -----
-    Limits are pure numbers: slope of the shape at the edge of contact and depth over contact radius (0.7),
+    Limits are pure numbers: slope of the shape at the edge of contact and depth over contact radius (1),
     du_z/u_z0 (5), mu_0 (2), omega tau of a Kelvin body (5), stiffness of the spring over that of the contact (1e4,
     either way), natural frequency of the body over that of the oscillation (100). A case file is warned of too
     whose load may ride on the body and which says no m_z.
