@@ -16,7 +16,7 @@ version = release = version_of("mdr-friction")
 
 PAGES = {  #: in the order of the navigation, under their headings
     "Guide": ["tutorial", "rig", "springs", "shaken", "own_data", "studies", "extending", "report"],
-    "Physics": ["theory", "limits"],
+    "Physics": ["claims", "theory", "limits"],
     "Reference": ["api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
 }
 

@@ -6,11 +6,12 @@ the record; `--check` changes nothing and fails where a place is not what the re
 marked by comments, which no reader sees:
 
     4.9·10⁻⁶<!--= got :: finite_amplitude :: worst |v_c/full-slip value − 1| :: 2 -->
-    <!--= verdicts --> ... <!--= end -->
+    <!--= verdicts :: rigid_pull, spring_pull --> ... <!--= end -->
 
 A number stands right before its mark, which says what of the checks (`got`; `worst`, the greatest |got − expected|;
 `most`, the greatest got; `count`, how many there are) of a claim, by how their names begin (`*` for any letters), with
-how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX.
+how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX. A table of verdicts has the claims
+that its mark names.
 """
 
 import argparse
@@ -31,7 +32,7 @@ RECORD = ROOT / "docs" / "checks.json"
 CONSTRAINTS = Path(__file__).with_name("constraints.txt")
 
 _NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
-_TABLE = re.compile(r"(<!--= verdicts -->\n).*?(<!--= end -->)", re.DOTALL)
+_TABLE = re.compile(r"(<!--= verdicts :: ([\w, ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 #: what a mark takes of the checks that it names
@@ -74,7 +75,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def other_verdicts(claims: Iterable[Claim]) -> list[str]:
-    """Names of the claims whose verdict is not the one that README and docs quote."""
+    """Names of the claims whose verdict is not the one that docs/claims.md quotes."""
     recorded = json.loads(RECORD.read_text(encoding="utf-8"))["claims"]
     quoted = {claim["name"]: claim["verdict"] for claim in recorded}
     return [claim.name for claim in claims if plain(claim.verdict) != quoted.get(claim.name)]
@@ -88,8 +89,7 @@ def pages() -> list[Path]:
 
 def written(text: str, record: dict[str, Any]) -> str:
     """The text with all its marked places set from a record of checks."""
-    table = verdict_table(record)
-    text = _TABLE.sub(lambda place: place[1] + table + place[2], text)
+    text = _TABLE.sub(lambda place: place[1] + verdict_table(record, place[2].split(", ")) + place[3], text)
     return _NUMBER.sub(lambda place: f"{number(place[2], record)}<!--= {place[2]} -->", text)
 
 
@@ -119,10 +119,13 @@ def formatted(value: float, digits: str, style: str = "") -> str:
     return f"{mantissa.replace('-', '−')}·10{str(int(exponent)).translate(_RAISED)}"
 
 
-def verdict_table(record: dict[str, Any]) -> str:
-    """Every claim with its verdict, the conclusion in a sentence and how many checks held, as Markdown."""
+def verdict_table(record: dict[str, Any], names: Sequence[str]) -> str:
+    """The claims of these names with verdict, conclusion in a sentence and how many checks held, as Markdown."""
+    claims = {claim["name"]: claim for claim in record["claims"]}
+    if missing := [name for name in names if name not in claims]:
+        raise ValueError(f"the record lacks the claims {', '.join(missing)} of a table; it has {', '.join(claims)}")
     rows = ["| claim | verdict | in one sentence | checks held |", "| --- | --- | --- | --- |"]
-    for claim in record["claims"]:
+    for claim in map(claims.__getitem__, names):
         own = [check["held"] for check in record["checks"] if check["claim"] == claim["name"]]
         cells = (claim["name"].replace("_", " "), claim["verdict"], claim["sentence"], f"{sum(own)} of {len(own)}")
         rows.append(f"| {' | '.join(_cells(cells))} |")
