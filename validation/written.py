@@ -1,9 +1,9 @@
 """Numbers and tables in prose: taken from the record of the checks, never written by hand.
 
-`python -m validation.written report/checks.json`, where the report was just made, keeps that record as docs/checks.json
-and the versions that made it as constraints.txt beside this file, and sets every marked place of README and docs from
-the record; `--check` changes nothing and fails where a place is not what the record says. Places are
-marked by comments, which no reader sees:
+`python -m validation.written report/checks.json`, where the report was just made, keeps that record as
+docs/checks.json, the figure that opens the report as docs/claim.svg and the versions that made them as constraints.txt
+beside this file, and sets every marked place of README and docs from the record; `--check` changes nothing and fails
+where a place is not what the record says. Places are marked by comments, which no reader sees:
 
     4.9·10⁻⁶<!--= got :: finite_amplitude :: worst |v_c/full-slip value − 1| :: 2 -->
     <!--= verdicts :: rigid_pull, spring_pull --> ... <!--= end -->
@@ -25,7 +25,7 @@ from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
 from validation import CLAIMS
-from validation.report import Claim, plain
+from validation.report import Claim, markup, plain
 
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"
@@ -59,6 +59,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.error(f"the record lacks {', '.join(missing)}: give checks.json of a full report, python -m validation")
     if args.record is not None and not args.check:
         shutil.copyfile(args.record, RECORD)
+        for glance in args.record.parent.glob("*-glance.svg"):
+            shutil.copyfile(glance, RECORD.with_name("claim.svg"))
         pins = "".join(f"{name}=={version_of(name)}\n" for name in sorted(PARTS))
         CONSTRAINTS.write_text(pins, encoding="utf-8")
     record = json.loads((args.record or RECORD).read_text(encoding="utf-8"))
@@ -127,14 +129,14 @@ def verdict_table(record: dict[str, Any], names: Sequence[str]) -> str:
     rows = ["| claim | verdict | in one sentence | checks held |", "| --- | --- | --- | --- |"]
     for claim in map(claims.__getitem__, names):
         own = [check["held"] for check in record["checks"] if check["claim"] == claim["name"]]
-        cells = (claim["name"].replace("_", " "), claim["verdict"], claim["sentence"], f"{sum(own)} of {len(own)}")
-        rows.append(f"| {' | '.join(_cells(cells))} |")
+        told = (claim["name"].replace("_", " "), *map(_cell, (claim["verdict"], claim["sentence"])))
+        rows.append(f"| {' | '.join(told)} | {sum(own)} of {len(own)} |")
     return "\n".join(rows) + "\n"
 
 
-def _cells(texts: Iterable[str]) -> Iterable[str]:
-    """Texts as cells of a table: a bar would end one, and a star could set the rest in italics."""
-    return (re.sub(r"([|*])", r"\\\1", text) for text in texts)
+def _cell(text: str) -> str:
+    """Text as a cell of a table, symbols as the report sets them: a bar would end it, a star could set italics."""
+    return re.sub(r"([|*])", r"\\\1", markup(text))
 
 
 if __name__ == "__main__":

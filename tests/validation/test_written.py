@@ -15,7 +15,7 @@ CHECKS = [
     {"claim": "one", "name": "v over v_c: cone", "got": 0.998, "expected": 1.0, "held": True},
     {"claim": "one", "name": "v over v_c: punch", "got": 1.001, "expected": 1.0, "held": False},
 ]
-SAMPLE = {"claims": [{"name": "one", "verdict": "holds if E* | F", "sentence": "As v_c."}], "checks": CHECKS}
+SAMPLE = {"claims": [{"name": "one", "verdict": "holds if E* | F", "sentence": "As v_c^2."}], "checks": CHECKS}
 
 
 def test_every_page_is_as_the_record_says():
@@ -77,7 +77,8 @@ def test_a_mark_that_names_no_check_or_several_is_refused(mark):
 
 
 def test_the_table_counts_what_held_and_escapes_what_would_break_it():
-    assert verdict_table(SAMPLE, ["one"]).splitlines()[2] == r"| one | holds if E\* \| F | As v_c. | 2 of 3 |"
+    row = verdict_table(SAMPLE, ["one"]).splitlines()[2]
+    assert row == r"| one | holds if E\* \| F | As <i>v</i><sub>c</sub><sup>2</sup>. | 2 of 3 |"
 
 
 def test_a_table_has_the_claims_that_it_names_in_their_order():
@@ -96,6 +97,7 @@ def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     page.write_text(text, encoding="utf-8")
     given = tmp_path / "given.json"
     given.write_text(json.dumps(SAMPLE), encoding="utf-8")
+    (tmp_path / "one-glance.svg").write_text("<svg/>")
     monkeypatch.setattr(written, "ROOT", tmp_path)
     monkeypatch.setattr(written, "RECORD", record)
     monkeypatch.setattr(written, "CONSTRAINTS", tmp_path / "constraints.txt")
@@ -110,6 +112,7 @@ def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     assert not record.exists()
     assert main([str(given)]) == 0
     assert record.read_text() == given.read_text()
+    assert record.with_name("claim.svg").read_text() == "<svg/>"
     assert f"numpy=={np.__version__}\n" in (tmp_path / "constraints.txt").read_text()
     assert page.read_text(encoding="utf-8").startswith("4.9·10⁻⁶<!--=")
     assert "before" not in page.read_text(encoding="utf-8")
