@@ -45,8 +45,7 @@ class Parameter:
         path = path_of(case, name)
         start = value_at(case, path)
         if why := _refusal(case, path, start):
-            sense = "must be positive in the case, to begin with, got 0.0" if start == 0 else f"cannot be varied: {why}"
-            raise ValueError(f"{name} {sense}")
+            raise ValueError(f"{name} cannot be varied: {why}")
         unit = natural_unit(case, path)
         signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit)
         low, high = (0.0, 0.0) if given is None else _pair(name, given)

@@ -20,8 +20,7 @@ import numpy as np
 
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line, short
-from mdr.tools.written import UNITS, in_unit, is_number, number
-
+from mdr.tools.written import UNITS, in_unit, is_number, number_in
 
 _HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s/\s*(?P<other>\S.*))?")
 
@@ -207,6 +206,6 @@ def _number(cell: str, column: Column, where: str) -> float:
     if column.empty is not None and cell.strip().casefold() in ("", "inf", "infinity", "∞"):
         return column.empty
     try:
-        return number(cell)
+        return number_in(cell)
     except ValueError as wrong:
         raise fault(where, f"{wrong} (column {column.name})") from None

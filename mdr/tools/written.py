@@ -39,7 +39,7 @@ def is_number(text: str) -> bool:
     return bool(_PLAIN.fullmatch(text))
 
 
-def number(cell: str) -> float:
+def number_in(cell: str) -> float:
     """The finite number in a cell; ValueError with what to write instead."""
     text = cell.strip().replace("−", "-")
     value = float(text) if is_number(text) else math.nan
