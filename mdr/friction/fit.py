@@ -28,6 +28,7 @@ from mdr.tools.records import ArrayRecord
 STEP = 1e-3  #: on the scale of the search, for derivatives: well above the noise of a run, well below any curvature
 VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the parameter is poorly determined
 ALIKE = 0.99  #: correlation from which on two parameters are hardly told apart
+UNLIKELY = 1e-3  #: probability of deviations as large as these, below which the curve misses the data
 NEAR_END = 1e-4  #: of the range: a best fit so near to an end is at it
 ERRORS = 3.0  #: times its error that a coefficient of friction may lie outside its range
 N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
@@ -262,7 +263,7 @@ def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence
         correlation=correlation,
         rms=float(np.sqrt(np.mean(left**2))),
         units={one.name: one.symbol for one in free},
-        warnings=(*_vague(free, x, half), *_alike(names, correlation), *_beyond(case, model)),
+        warnings=(*_vague(free, x, half), *_alike(names, correlation), *_beyond(case, model), *_missed(left, model)),
     )
 
 
@@ -295,3 +296,12 @@ def _beyond(case: SlidingContact, model: _Model) -> list[str]:
     if "mu_0" in {one.path for one in model.free} or case.is_shaken or not above.max() > 0:
         return []
     return [f"cof: measured up to {model.data.cof.max():.4g}, above mu_0 = {case.mu_0:.4g}; fit mu_0 too"]
+
+
+def _missed(left: Array, model: _Model) -> list[str]:
+    """Whether the deviations (n,), in units of the errors, are larger than these explain: chi squared."""
+    from scipy.stats import chi2
+
+    if model.data.error is None or chi2.sf(float(left @ left), left.size - len(model.free)) > UNLIKELY:
+        return []
+    return ["the curve misses the data by more than their errors explain: free another parameter, or doubt the errors"]

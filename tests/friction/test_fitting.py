@@ -198,6 +198,13 @@ def test_signs_that_no_unshaken_contact_shows_are_refused():
     assert "cof: measured up to 0.8, above mu_0 = 0.5; fit mu_0 too" in high.warnings
 
 
+def test_a_curve_that_misses_the_data_says_so():
+    """The stiffness ratio of START is wrong by 9 %, ten times the noise."""
+    missed = mdr.fit(START, measured(0.01), ["mu_0"])
+    assert any("misses the data by more than their errors explain" in line for line in missed.warnings)
+    assert missed.rms > 2
+
+
 def test_residuals_are_what_is_left():
     data = measured(0.01)
     found = mdr.fit(START, data, ["mu_0", "tau"])
