@@ -18,7 +18,7 @@ from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
-from mdr.files.measured import DynamicModuli, read_moduli
+from mdr.files.measurements import DynamicModuli, read_moduli
 from mdr.files.own_records import register
 from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity

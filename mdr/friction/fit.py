@@ -18,7 +18,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
-from mdr.friction.free_parameters import DECADES, Parameter, case_of
+from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
 from mdr.tools.arrays import Array
 from mdr.tools.messages import short
@@ -30,6 +30,7 @@ VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the para
 ALIKE = 0.99  #: correlation from which on two parameters are hardly told apart
 UNLIKELY = 1e-3  #: probability of deviations as large as these, below which the curve misses the data
 NEAR_END = 1e-4  #: of the range: a best fit so near to an end is at it
+IDLE = 1e-8  #: of the data: a parameter that changes the curve by less on its scale has nothing to do with them
 ERRORS = 3.0  #: times its error that a coefficient of friction may lie outside its range
 N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
 
@@ -161,7 +162,10 @@ def fit(
     low, high = np.transpose([one.ends for one in free])
     first = np.array([one.first for one in free])
     found = least_squares(model.left, first, model.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-10)
-    return _with_intervals(model, found.x, found.jac, found.fun, confidence)
+    size = float(np.linalg.norm(data.cof / model.error))
+    idle = np.linalg.norm(found.jac, axis=0) < IDLE * size  # where these have drifted to means nothing
+    x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
+    return _with_intervals(model, x, found.jac, found.fun, confidence)
 
 
 def _parameters(case: SlidingContact, names: Any, bounds: Any) -> tuple[Parameter, ...]:
@@ -172,10 +176,13 @@ def _parameters(case: SlidingContact, names: Any, bounds: Any) -> tuple[Paramete
         raise ValueError("parameters must name at least one, such as mu_0")
     if not isinstance(bounds, Mapping):
         raise TypeError(f'bounds must be a dict, {{"{names[0]}": (low, high)}}, got {short(repr(bounds))}')
-    free = tuple(Parameter.of(case, name, bounds.get(name)) for name in names)
-    if len({one.path for one in free}) < len(free):
+    paths = [path_of(case, name) for name in names]
+    free = tuple(
+        Parameter.of(case, name, bounds.get(name, bounds.get(path))) for name, path in zip(names, paths, strict=True)
+    )
+    if len(set(paths)) < len(paths):
         raise ValueError(f"parameters name one twice: {', '.join(names)}")
-    if strange := [name for name in bounds if name not in names]:
+    if strange := [name for name in bounds if name not in (*names, *paths)]:
         raise ValueError(f"bounds: {short(str(strange[0]))} is not fitted; the parameters are {', '.join(names)}")
     return free
 

@@ -17,7 +17,7 @@ from os import PathLike
 
 import numpy as np
 
-from mdr.files.measured import read_table
+from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_table import Column

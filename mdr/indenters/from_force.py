@@ -20,7 +20,7 @@ from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import fit
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, Array
-from mdr.tools.checks import FieldError, finite_array, not_negative, plain, positive_array
+from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
@@ -127,9 +127,9 @@ class FromForce(Indenter):
         >>> mdr.FromForce.read("press.csv", E_star=4e6, tip="round").max_radius
         0.0002121...
         """
-        from mdr.files.measured import force_points
+        from mdr.files.measurements import force_points
 
-        d, F = force_points(path, units, columns, touch)
+        d, F = force_points(path, units, columns, None if touch is None else finite("touch", touch))
         try:
             return cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:

@@ -16,7 +16,7 @@ from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import SplineImage, fit
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FieldError, FieldTypeError, finite_array, not_negative, positive
+from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
@@ -148,14 +148,13 @@ class SampledProfile(Indenter):
         >>> mdr.SampledProfile.read("scan.csv")
         SampledProfile(7 points to r = 6e-06 m, tip='round')
         """
-        from mdr.files.measured import profile_points
+        from mdr.files.measurements import profile_points
 
-        r, f = profile_points(path, units, columns, apex, side, flip)
-        snapped = [
-            float(r[np.argmin(np.abs(r - b))]) if np.min(np.abs(r - b)) <= ROUNDING * r[-1] else b for b in kinks
-        ]
+        r, f = profile_points(path, units, columns, finite("apex", apex), side, flip)
+        nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}
+        named = tuple(to if abs(to - b) <= ROUNDING * r[-1] else b for b, to in nearest.items())
         try:
-            return cls(r, f, tip=tip, kinks=tuple(snapped), smoothing=smoothing)  # type: ignore[arg-type]
+            return cls(r, f, tip=tip, kinks=named, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:
             raise fault(fsdecode(path), str(refusal)) from None
 

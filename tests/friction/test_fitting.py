@@ -138,7 +138,7 @@ def test_bounds_hold_the_search_and_judge_the_interval():
     at_end = mdr.fit(replace(CASE, mu_0=0.45), data, ["mu_0"], bounds={"mu_0": (0.3, 0.48)})
     assert at_end.values["mu_0"] == pytest.approx(0.48, rel=1e-3)
     assert any("the best fit is at the end of what is searched, 0.3 to 0.48" in line for line in at_end.warnings)
-    narrow = mdr.fit(CASE, data, ["tau"], bounds={"tau": (0.95e-3, 1.05e-3)})
+    narrow = mdr.fit(CASE, data, ["tau"], bounds={"material.tau": (0.95e-3, 1.05e-3)})  # by either name
     assert narrow.undetermined == ("tau",)
     assert "wider than its bounds" in narrow.warnings[0]
 
@@ -203,6 +203,12 @@ def test_a_curve_that_misses_the_data_says_so():
     missed = mdr.fit(START, measured(0.01), ["mu_0"])
     assert any("misses the data by more than their errors explain" in line for line in missed.warnings)
     assert missed.rms > 2
+
+
+def test_what_the_data_do_not_know_stays_as_it_was():
+    found = mdr.fit(CASE, measured(0.01), ["E", "mu_0"])  # friction of a rigid pull does not depend on E
+    assert found.undetermined == ("E",)
+    assert found.values["E"] == pytest.approx(3e6, rel=0.1)
 
 
 def test_residuals_are_what_is_left():

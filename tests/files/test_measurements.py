@@ -219,5 +219,10 @@ def test_arguments_of_a_reader_are_checked(write):
         with pytest.raises(ValueError) as caught:  # noqa: PT011
             mdr.SampledProfile.read(path, **arguments)
         assert words in str(caught.value)
+    for wrong in ({"apex": "x"}, {"kinks": 3}):
+        with pytest.raises(TypeError, match=next(iter(wrong))):
+            mdr.SampledProfile.read(write(f"r [um], f [nm]\n{SCAN}\n"), **wrong)
+    with pytest.raises(ValueError, match="touch must be a finite number"):
+        mdr.FromForce.read(path, E_star=1e6, touch=np.nan)
     with pytest.raises(TypeError, match="units must be a dict from columns to words"):
         mdr.SampledProfile.read(path, units="um")
