@@ -292,15 +292,18 @@ def _period(
 
 @_jit
 def _spring(
-    rows: Complex, T: float, v: float, c: float, cuts: Array, points: Array, measure: bool
-) -> tuple[float, float, float, int]:
-    """The periodic state of a spring: integrals of e, s and force in stick over a period, and its modes as a number."""
+    rows: Complex, T: float, v: float, c: float, cuts: Array, points: Array, measure: bool, share: float
+) -> tuple[float, float, float, int, float]:
+    """The periodic state of a spring: integrals of e, s and force in stick over a period, its modes as a number, and
+    its extension at the beginning over its compression there; sought from that of another spring, `share`.
+    """
     top = cuts[0, 1] - c
     if not top > 0:
-        return 0.0, 0.0, 0.0, 0
+        return 0.0, 0.0, 0.0, 0, share
     n, s_sum, sequence = _follow(rows, T, v, c, cuts, points)
-    low, high, e, before = -top, top, top, 0
+    low, high, e, before = -top, top, top * share if T > 0 and share < 1 - 1e-9 else top, 0
     e_sum, pressed, modes = 0.0, 0.0, 0
+    close = 1e-14 if measure else 1e-10
     for k in range(PERIODS):
         after, e_sum, pressed, forgets, modes = _period(rows, T, v, c, points, n, e, measure and (T > 0 or k > 0))
         if T == 0:
@@ -314,23 +317,23 @@ def _spring(
             high = e
         lost = -math.expm1(-forgets / T)
         step = (after - e) / lost if lost > 0 else 2 * top
-        if abs(step) <= 1e-14 * top or abs(after - e) <= 1e-15 * top or high - low <= 1e-15 * top:
+        if abs(step) <= close * top or abs(after - e) <= 1e-15 * top or high - low <= 1e-15 * top:
             break  # the second of them for v = 0, where the slope of P at its fixed point is 1
         e = e + step if low < e + step < high else 0.5 * (low + high)
-    return e_sum, s_sum, pressed, (sequence + 7 * modes + 31 * before) % _PRIME
+    return e_sum, s_sum, pressed, (sequence + 7 * modes + 31 * before) % _PRIME, e / top
 
 
 @_jit
 def all_springs(m: Motion, v: Array, owner: NDArray[np.intp], c: Array) -> Array:
     """Means of e, s and force in stick (3, n) of springs of gaps c, ordered by the velocity v[owner]."""
     found = np.empty((3, c.size))
-    last = owner[0]
+    last, share = owner[0], 1.0
     cuts, points = _cuts(m, v[last])
     for i in range(c.size):
         if owner[i] != last:
             last = owner[i]
             cuts, points = _cuts(m, v[last])
-        e, s, pressed, _ = _spring(m.rows, m.T, v[last], c[i], cuts, points, True)
+        e, s, pressed, _, share = _spring(m.rows, m.T, v[last], c[i], cuts, points, True, share)
         found[0, i], found[1, i], found[2, i] = e / (2 * math.pi), s / (2 * math.pi), pressed / (2 * math.pi)
     return found
 
@@ -343,17 +346,18 @@ def all_changes(m: Motion, v: Array, c_low: float, c_high: float, scan: Array) -
         cuts, points = _cuts(m, v[i])
         # deeper springs never meet the lower barrier, as long as they are kept
         A, B, z = cuts[:, 3].min(), cuts[:, 4].min(), (cuts[:, 3] + cuts[:, 4]).min()
+        share = 1.0
         start = max(c_low, min(0.5 * (A + B) - math.pi * v[i], 0.5 * z) - 1e-3)
         span, count, modes = c_high - start, 0, 0
         low = start
         for k in range(scan.size):
             high = start + scan[k] * span
-            target = _spring(m.rows, m.T, v[i], high, cuts, points, False)[3]
+            _, _, _, target, share = _spring(m.rows, m.T, v[i], high, cuts, points, False, share)
             while k > 0 and modes != target and count < MOST_CHANGES:
                 near, far, other = low, high, target
                 while far - near > NEAR * span:
                     middle = 0.5 * (near + far)
-                    there = _spring(m.rows, m.T, v[i], middle, cuts, points, False)[3]
+                    _, _, _, there, share = _spring(m.rows, m.T, v[i], middle, cuts, points, False, share)
                     if there == modes:
                         near = middle
                     else:

@@ -45,8 +45,9 @@ def test_an_absurd_contact_is_warned_of_and_computed(what):
 
 def test_nothing_is_said_of_the_standing_examples():
     cases = [USUAL]
-    cases += [example(shape, motion=motion, pull=pull) for shape in SHAPES for motion in MOTIONS for pull in PULLS]
+    cases += [example(shape, "Elastic", motion) for shape in SHAPES for motion in MOTIONS]
     cases += [example(material=material, motion=motion) for material in MATERIALS for motion in MOTIONS]
+    cases += [example(pull=pull) for pull in PULLS]
     assert [(case, doubts_of(known)) for case in cases if doubts_of(known := mdr.resolved(case))] == []
 
 
