@@ -22,6 +22,7 @@ from mdr.normal.vary import GROUPS, case_at, fields_of
 from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
 from mdr.tools.progress import Ticker
+from mdr.tools.summary import Printed
 
 STEP = 1e-3  #: of a logarithm, for derivatives: well above the noise of a run, well below any curvature
 VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the data hardly tell the parameter
@@ -30,7 +31,7 @@ N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
 
 
 @dataclass(frozen=True)
-class Fit:
+class Fit(Printed):
     """A contact fitted to measurements; dictionaries by the names of the parameters as given."""
 
     case: SlidingContact  #: with the fitted parameters

@@ -22,6 +22,7 @@ from mdr.tools.checks import finite_array
 from mdr.tools.csv_table import cells_of, fault
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, span
 
 UNITS = {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3, "um/s": 1e-6, "µm/s": 1e-6, "μm/s": 1e-6, "nm/s": 1e-9}
 NAMES = {
@@ -32,8 +33,8 @@ NAMES = {
 _HEAD = re.compile(r"^(?P<name>[^\[\](]*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])])?$")
 
 
-@dataclass(frozen=True, eq=False)
-class FrictionData(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class FrictionData(Summarised, ArrayRecord):
     """Measured coefficients of friction; arrays of shape (n,)."""
 
     v_0: Array  #: velocities [m/s], ascending
@@ -55,6 +56,17 @@ class FrictionData(ArrayRecord):
         for name in columns:
             object.__setattr__(self, name, getattr(self, name)[order])
         super().__post_init__()
+
+    def _summary(self) -> Summary:
+        error = "not known" if self.error is None else span(self.error)
+        return Summary(
+            f"FrictionData of {self.v_0.size} measurements",
+            [
+                ("v_0", span(self.v_0, "m/s"), "velocities"),
+                ("COF", span(self.cof), "coefficients of friction"),
+                ("error", error, "standard deviation of each"),
+            ],
+        )
 
 
 def read_friction_data(path: str | PathLike[str]) -> FrictionData:

@@ -17,13 +17,14 @@ from mdr.studies.points import Status
 from mdr.tools.arrays import Array
 from mdr.tools.messages import nearest, short
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Printed
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 MOST_REASONS = 5  #: told in print
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(ArrayRecord):
+class Study(Printed, ArrayRecord):
     """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
 
     A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle

@@ -1,10 +1,18 @@
-"""CSV tables written by hand: the cells of one line, and errors that name the file."""
+"""CSV tables: columns as text, the cells of a line that was written by hand, and errors that name the file."""
 
 from __future__ import annotations
 
 import csv
+from collections.abc import Mapping
+from typing import Any
 
 from mdr.tools.messages import one_line
+
+
+def csv_text(columns: Mapping[str, Any]) -> str:
+    """A header of names, and a line for each row of columns of one length; numbers read back as they were."""
+    lines = [",".join(f"{value:.17g}" for value in row) for row in zip(*columns.values(), strict=True)]
+    return "\n".join([",".join(columns), *lines]) + "\n"
 
 
 def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
