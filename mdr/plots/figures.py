@@ -297,10 +297,13 @@ def _mark_critical(ax: "Axes", curves: Any, scales: Any, shades: Any, both: bool
         behind = [-float(one) / unit if _is_scale(one) else None for one, (unit, _) in zip(back, scales, strict=True)]
         sides.append(("$v_c$, other way", behind))
     for name, places in sides:
-        known = [(at, shade) for at, shade in zip(places, shades, strict=True) if at is not None]
-        shared = len({round(at / known[0][0], 6) for at, _ in known}) == 1
-        for at, shade in known[:1] if shared else known:
-            ax.axvline(at, color="0.4" if shared else shade, linewidth=1.0, linestyle=":", zorder=0)
+        marks: dict[float, Any] = {}
+        for at, shade in zip(places, shades, strict=True):
+            if at is not None:
+                at = float(f"{at:.6g}")
+                marks[at] = "0.4" if at in marks or len(curves) == 1 else shade
+        for at, shade in marks.items():
+            ax.axvline(at, color=shade, linewidth=1.0, linestyle=":", zorder=0)
             ax.annotate(name, (at, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -171,13 +171,15 @@ class Study(Printed, ArrayRecord):
 
         return to_xarray(self)
 
-    def plot(self, quantity: str | None = None) -> Any:
+    def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Any:
         """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
 
         Parameters
         ----------
         quantity : str, optional
             What is drawn. None: the first quantity.
+        levels : sequence of float, optional
+            Contours of maps. None: some round values; an empty list: none.
 
         Returns
         -------
@@ -186,7 +188,7 @@ class Study(Printed, ArrayRecord):
         """
         from mdr.plots.studies import plot
 
-        return plot(self, quantity)
+        return plot(self, quantity, levels)
 
     def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
         """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`.
