@@ -38,6 +38,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from inspect import isabstract
@@ -59,6 +60,10 @@ from mdr.tools.messages import nearest, offer, one_line, short
 
 MAX_BYTES = 2**24  #: of a case file
 _DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
+
+
+class StandardInput(str):
+    """The path of standard input; its text is what messages call it."""
 
 
 class CaseFileError(ValueError):
@@ -203,6 +208,8 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
     known = _top_level()
     content = {key: value for key, value in content.items() if key not in beside}
+    if "axes" in content:
+        raise fault_error(source, [STUDY])
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
     parts, of_tables = _read_tables(content)
     faults += [fault for found in of_tables.values() for fault in found]
@@ -247,11 +254,14 @@ def nameable() -> dict[str, dict[str, type[Any]]]:
 
 
 def read_text(path: str | PathLike[str]) -> str:
-    """The text of a file. Raises CaseFileError where there is none."""
+    """The text of a file, or of standard input. Raises CaseFileError where there is none."""
     source = fsdecode(path)
     try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
+        if isinstance(path, StandardInput):
+            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+        else:
+            with open(path, "rb") as file:
+                data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
         raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
     if len(data) > MAX_BYTES:
@@ -378,6 +388,7 @@ _HARMLESS = {
     "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
 }
 NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
+STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
 
@@ -496,6 +507,9 @@ def _syntax_fault(text: str, message: str) -> str:
         what += "; is it given twice?"
     elif what.startswith("Exceeds the limit"):
         what = "a number has thousands of digits"
+    elif what == "Invalid value":
+        name = re.search(r"=\s*([^\W\d]\w*)", line)
+        what = f'a name is written in quotes, "{name[1]}"' if name else "no number, name in quotes or list"
     return f"line {number}: {short(line)}: {what}" if where else what
 
 

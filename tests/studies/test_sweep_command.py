@@ -105,7 +105,7 @@ def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ([], "the study would be lost: give -o file.nc or file.csv, --store folder, or --json"),
+        ([], "the study would be lost: give -o folder, --store folder, or --json"),
         (["-o", "study.txt"], "study.txt: a study is written as .nc or .csv"),
         (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: there is no folder /nowhere"),
         (["--store", "study.toml"], "study.toml: is a file; a store is a folder"),
