@@ -313,7 +313,9 @@ def _runs(
 ) -> Columns:
     """One run for each velocity >= 0."""
     order = np.argsort(v_0, kind="stable")
-    rising = slides(case, progress(v_0[order].tolist(), "cof_curve"), n_springs, steps_per_period, accuracy)
+    rising = slides(
+        case, progress(v_0[order].tolist(), "COF curve", "velocities"), n_springs, steps_per_period, accuracy
+    )
     ended = dict(zip(order.tolist(), rising, strict=True))
     runs = [ended[i] for i in range(v_0.size)]
     cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))

@@ -123,7 +123,7 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
     model = _Model.of(case, data, parameters)
     if len(model.names) >= data.v_0.size:
         raise ValueError(f"{len(model.names)} parameters need more than {data.v_0.size} measurements")
-    ticker = Ticker("fit, curves")
+    ticker = Ticker("fit", parts="curves")
 
     def residuals(x: Array) -> Array:
         ticker.tick()

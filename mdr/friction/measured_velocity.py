@@ -176,7 +176,7 @@ class _Search:
 
     def __init__(self, case: SlidingContact, start: str, margin: float) -> None:
         self.case, self.start, self.margin, self.n_runs = case, start, margin, 0
-        self.ticker = Ticker("measure_critical_velocity, runs")
+        self.ticker = Ticker("critical velocity from runs", parts="runs")
         self.steps, self.n_springs = default_steps(case), N_SPRINGS
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity
