@@ -78,6 +78,9 @@ def _require_a_place(args: argparse.Namespace) -> None:
         if args.store is None and not args.json:
             raise WrongInput("the study would be lost: give -o folder, --store folder, or --json")
         return
+    own = None if args.store is None else (args.store / FILES[0]).resolve()
+    if own in (args.output.resolve(), (args.output / FILES[0]).resolve()):
+        raise WrongInput(f"{args.output}: the store keeps its own {FILES[0]} there; give another folder to -o")
     if _is_file(args.output):
         require_free([args.output, *(args.output.with_suffix(f".{kind}") for kind in ("png", "svg"))])
     elif args.output.suffix and not args.output.is_dir():

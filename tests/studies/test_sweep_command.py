@@ -121,6 +121,8 @@ def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
         (["-o", "study.txt"], "study.txt: a study is written as .nc or .csv"),
         (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: there is no folder /nowhere"),
         (["--store", "study.toml"], "study.toml: is a file; a store is a folder"),
+        (["--store", "store", "-o", "store"], "store: the store keeps its own study.nc there"),
+        (["--store", "store", "-o", "./store/study.nc"], "store/study.nc: the store keeps its own study.nc there"),
         (["--json", "--shard", "1/2"], "a shard needs a store"),
         (["--store", "store", "--shard", "3/2"], "shard must be k/n"),
     ],
