@@ -258,7 +258,7 @@ def read_text(path: str | PathLike[str]) -> str:
     source = fsdecode(path)
     try:
         if isinstance(path, StandardInput):
-            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+            data = _read_standard_input()
         else:
             with open(path, "rb") as file:
                 data = file.read(MAX_BYTES + 1)
@@ -272,6 +272,12 @@ def read_text(path: str | PathLike[str]) -> str:
         line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
         what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
         raise fault_error(source, [what]) from None
+
+
+def _read_standard_input() -> bytes:
+    if sys.stdin is None:
+        raise OSError("it is closed")
+    return sys.stdin.buffer.read(MAX_BYTES + 1)
 
 
 def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:

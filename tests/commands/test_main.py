@@ -262,6 +262,9 @@ def test_a_case_may_come_from_standard_input(capsys, monkeypatch, tmp_path):
     given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
     assert main(["sweep", "-", "--json"]) == 2
     assert "mdr: standard input: [axes] is missing" in capsys.readouterr().err
+    monkeypatch.setattr(sys, "stdin", None)
+    assert main(["velocity", "-"]) == 2
+    assert capsys.readouterr().err == "mdr: standard input: cannot be read: it is closed\n"
 
 
 def test_json_stands_before_the_command_too(capsys, punch):
