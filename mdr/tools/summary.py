@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
 
-Row = tuple[str, str, str]  #: name, value, meaning; a row without a name has its words in the value
+Row = tuple[str, str, str]  #: name, value, meaning
+LEFT = 'style="text-align: left"'  #: notebooks set cells to the right
 MOST_DIGITS = 8  #: behind the point, of a number with an error
 
 
@@ -24,11 +25,15 @@ class Summary(NamedTuple):
     @property
     def html(self) -> str:
         """The same as a table of HTML."""
-        cells = [
-            [f"<th>{escape(name)}</th>", *(f"<td>{escape(one)}</td>" for one in rest)] for name, *rest in self.rows
-        ]
-        rows = "".join(f'<tr style="text-align: left">{"".join(row)}</tr>' for row in cells)
-        return f'<table><caption style="text-align: left">{escape(self.title)}</caption>{rows}</table>'
+        rows = "".join(f"<tr>{''.join(_cells(row))}</tr>" for row in self.rows)
+        return f"<table><caption {LEFT}>{escape(self.title)}</caption>{rows}</table>"
+
+
+def _cells(row: Row) -> Iterator[str]:
+    """The cells of a row; a value without a meaning has the width of both."""
+    name, value, meaning = (escape(text) for text in row)
+    yield f"<th {LEFT}>{name}</th>"
+    yield f"<td {LEFT}>{value}</td><td {LEFT}>{meaning}</td>" if meaning else f'<td colspan="2" {LEFT}>{value}</td>'
 
 
 class Printed:

@@ -93,6 +93,20 @@ def test_a_case_of_a_users_own_shape_prints_without_addresses():
         assert len(text) < 1000
 
 
+def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
+    found = mdr.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7)
+    assert str(found).splitlines() == [
+        "MeasuredVelocity",
+        "  v_c        0.1 m/s               end of stick",
+        "  bracket    0.0999 to 0.1001 m/s  reduced below, full above",
+        "  why        all signs agree",
+        "  runs       7",
+    ]
+    nothing = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+    assert "bracket" not in str(nothing)
+    assert "none" in str(nothing)
+
+
 def test_what_has_a_sentence_shows_it_in_notebooks():
     study = mdr.sweep(CASE, {"v_0": [V_0]}, quantities=("v_c", "cof"))
     assert study._repr_html_().count("\n") == str(study).count("\n")
