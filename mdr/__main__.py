@@ -13,16 +13,20 @@ import argparse
 import os
 import shlex
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import mdr
+from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, judge, run, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import CaseFileError, StandardInput, read_case
+from mdr.normal.doubts import PlausibilityWarning, warn_outside
+from mdr.normal.rig import plausibility
 
 JSON = "print one JSON object instead of text"
-_FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError)
+_FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -50,9 +54,11 @@ def _run(args: argparse.Namespace) -> int:
     """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
     work: Callable[[argparse.Namespace, Any], int] = args.work
     try:
-        case = args.read(args.case) if args.read else None
+        case = _read(args) if args.read else None
     except CaseFileError as fault:
         return complain(str(fault), WRONG_INPUT)
+    except _FAILURES as fault:
+        return complain(f"{args.case}: {fault}", FAILED)
     try:
         status = work(args, case)
         sys.stdout.flush()  # a full disk shows here
@@ -64,6 +70,17 @@ def _run(args: argparse.Namespace) -> int:
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
         return complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
+
+
+def _read(args: argparse.Namespace) -> Any:
+    """What the file describes; what is unlikely of it is said on standard error. PYTHONWARNINGS=ignore silences it."""
+    with warnings.catch_warnings(record=True) as said:
+        case = args.read(args.case)
+        for doubt in plausibility(case) if isinstance(case, SlidingContact) else ():
+            warn_outside(doubt)
+    for one in said:
+        complain(f"warning: {one.message}", DONE)
+    return case
 
 
 def parser() -> argparse.ArgumentParser:
