@@ -1,5 +1,5 @@
-"""The command line: `mdr velocity`, `run`, `curve`, `measure` and `verdict` of a case file, `mdr sweep` of a study
-file, `mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
+"""The command line: `mdr velocity`, `run`, `curve`, `measure`, `verdict` and `fit` of a case file, `mdr sweep` of a
+study file, `mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -19,9 +19,9 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import begin, completion, curve, judge, run, sweep, velocity
-from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
-from mdr.files.case_files import CaseFileError, StandardInput, read_case
+from mdr.commands import begin, completion, curve, fit, judge, run, sweep, velocity
+from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
+from mdr.files.case_files import CaseFileError, read_case
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
 from mdr.normal.rig import plausibility
 
@@ -100,6 +100,7 @@ def parser() -> argparse.ArgumentParser:
         ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation"),
         ("measure", judge.measure, "critical velocity from simulation alone"),
         ("verdict", judge.verdict, "how good the closed-form critical velocity is, and what to use in its place"),
+        ("fit", fit.fit, "parameters of the case from measured friction over velocity"),
     ]
     for name, work, summary in with_case:
         command = _command(commands, name, work, summary)
@@ -112,6 +113,8 @@ def parser() -> argparse.ArgumentParser:
             judge.add_options(command)
         elif name == "measure":
             judge.add_accuracy_of_bracket(command)
+        elif name == "fit":
+            fit.add_options(command)
     study = "a grid of cases, from a study file; the same call goes on after any end"
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)
@@ -133,13 +136,9 @@ def _command(commands: Any, name: str, work: Callable[..., int], summary: str) -
 
 
 def _takes_file(command: argparse.ArgumentParser, name: str, meaning: str, read: Callable[[str], Any]) -> None:
-    command.add_argument("case", metavar=name, type=_path, help=f"{meaning}; - is standard input")
+    command.add_argument("case", metavar=name, type=path_of, help=f"{meaning}; - is standard input")
     command.set_defaults(read=read)
     command.usage = f"%(prog)s {name} [options]"  # an option with a list of values would take the file for one
-
-
-def _path(text: str) -> str:
-    return StandardInput("standard input") if text == "-" else text
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.files.case_files import write_case
+from mdr.files.case_files import StandardInput, write_case
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented, figure_metadata, versions
@@ -68,6 +68,11 @@ def output_folder(args: argparse.Namespace, names: Sequence[str]) -> Path | None
         raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
     require_free([folder / name for name in names])
     return folder
+
+
+def path_of(text: str) -> str:
+    """The path of a file as the command line gives it; - is standard input."""
+    return StandardInput("standard input") if text == "-" else text
 
 
 def print_rows(rows: Sequence[Row]) -> None:

@@ -11,11 +11,12 @@ from typing import NamedTuple
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.commands.output import WrongInput
-from mdr.friction.friction_data import UNITS
 from mdr.normal.resolved import resolved
+from mdr.tools.written import UNITS
 
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
-_WRITTEN = re.compile(r"(?P<number>.*?)\s*(?P<unit>v_c|[nuµμmc]?m/s)?", re.DOTALL)
+_UNITS = UNITS["m/s"] | {OF_V_C: 1.0}
+_WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{'|'.join(map(re.escape, _UNITS))})?", re.DOTALL)
 
 
 _NEGATIVE = re.compile(r"-[\d.]")  #: how a value begins that is no option
@@ -55,7 +56,7 @@ def velocity_in(usual: str) -> Callable[[str], Velocity]:
             number = math.nan
         if not math.isfinite(number):
             raise argparse.ArgumentTypeError(f"must be a velocity such as 1e-3, 1mm/s or 0.5v_c, got {text!r}")
-        return Velocity(number * UNITS.get(unit, 1.0), unit == OF_V_C)
+        return Velocity(number * _UNITS[unit], unit == OF_V_C)
 
     return read
 
