@@ -1,9 +1,10 @@
-"""The command line: `mdr velocity`, `curve`, `measure`, `verdict` and `fit` of a case file, `mdr sweep` of a study
-file, `mdr shapes` and `mdr case` to begin with.
+"""The command line: `mdr velocity`, `run`, `curve`, `measure`, `verdict` and `fit` of a case file, `mdr sweep` of a
+study file, `mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
-2 wrong input; 130 interrupted. Results go to standard output (with --json one JSON object: what is undefined is null,
-an infinite value the string "inf"), everything else to standard error.
+2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
+object: what is undefined is null, an infinite value the string "inf"), everything else to standard error. In the place
+of a file, - is standard input. -o names the folder that a command writes its files to.
 """
 
 from __future__ import annotations
@@ -18,19 +19,24 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import begin, curve, fit, judge, sweep, velocity
-from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
+from mdr.commands import begin, completion, curve, fit, judge, run, sweep, velocity
+from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
 from mdr.files.case_files import CaseFileError, read_case
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
 from mdr.normal.rig import plausibility
 
+JSON = "print one JSON object instead of text"
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
     given = list(sys.argv[1:] if argv is None else argv)
-    args = parser().parse_args(given)
+    top = parser()
+    args = top.parse_args(given)
+    if args.work is None:
+        top.print_help(sys.stderr)
+        top.exit(WRONG_INPUT)
     args.command = shlex.join(["mdr", *given]).encode("utf-8", "backslashreplace").decode("utf-8")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a letter the terminal lacks must not cost the result
@@ -84,10 +90,13 @@ def parser() -> argparse.ArgumentParser:
         description="Sliding friction of a viscoelastic contact under normal oscillation, from a case file (TOML, SI).",
         epilog="exit status: 0 done, 1 a run failed or did not settle, 2 wrong input, 130 interrupted",
     )  # fmt: skip
+    top.set_defaults(work=None, read=None)
+    top.add_argument("--json", action="store_true", help=JSON)
     top.add_argument("--version", action="version", version=f"mdr {mdr.__version__}")
-    commands = top.add_subparsers(required=True, metavar="command")
+    commands = top.add_subparsers(metavar="command")
     with_case = [
         ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run"),
+        ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip"),
         ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation"),
         ("measure", judge.measure, "critical velocity from simulation alone"),
         ("verdict", judge.verdict, "how good the closed-form critical velocity is, and what to use in its place"),
@@ -98,6 +107,8 @@ def parser() -> argparse.ArgumentParser:
         _takes_file(command, "case.toml", "the case file; docs/example.toml is one", read_case)
         if name == "curve":
             curve.add_options(command)
+        elif name == "run":
+            run.add_options(command)
         elif name == "verdict":
             judge.add_options(command)
         elif name == "measure":
@@ -111,20 +122,23 @@ def parser() -> argparse.ArgumentParser:
     named = "the shapes, materials and motions that a file can name, and their keys"
     _command(commands, "shapes", begin.shapes, named)
     begin.add_options(_command(commands, "case", begin.case, "a commented case file to begin with"))
+    shell = "a script that completes commands and options in the shell"
+    completion.add_options(_command(commands, "completion", completion.completion, shell), top)
     return top
 
 
 def _command(commands: Any, name: str, work: Callable[..., int], summary: str) -> argparse.ArgumentParser:
     """One command, which reads no file as yet."""
     command: argparse.ArgumentParser = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
-    command.add_argument("--json", action="store_true", help="print one JSON object instead of text")
-    command.set_defaults(work=work, read=None)
+    command.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help=JSON)
+    command.set_defaults(work=work)
     return command
 
 
 def _takes_file(command: argparse.ArgumentParser, name: str, meaning: str, read: Callable[[str], Any]) -> None:
-    command.add_argument("case", metavar=name, help=meaning)
+    command.add_argument("case", metavar=name, type=path_of, help=f"{meaning}; - is standard input")
     command.set_defaults(read=read)
+    command.usage = f"%(prog)s {name} [options]"  # an option with a list of values would take the file for one
 
 
 if __name__ == "__main__":

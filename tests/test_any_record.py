@@ -48,7 +48,7 @@ def test_any_record_runs_within_the_bounds_of_physics_or_says_why_not(question, 
 
 
 def test_what_is_drawn_is_of_every_kind():
-    """The dice reach every shape, material, motion and pull, and most contacts slide."""
+    """The dice reach every shape, material, motion and pull, and most contacts slide; each prints as a few lines."""
     kinds, slide = set(), 0
     for seed in range(200):
         try:
@@ -56,6 +56,7 @@ def test_what_is_drawn_is_of_every_kind():
         except questions.Refused:
             continue
         slide += 1
+        assert 6 <= len(str(case).splitlines()) <= 8
         kinds |= {type(part).__name__ for part in (case.indenter, case.material, case.oscillation, case.pull)}
     assert slide > 100
     assert kinds >= {*anything.SHAPES, "Elastic", "ElasticPair", "KelvinVoigt", "StandardLinearSolid", "Prony"}

@@ -126,10 +126,11 @@ def _progress(ended: Iterator[tuple[str, Outcome]], total: int) -> Iterator[tupl
     from tqdm import tqdm
 
     with tqdm(total=total, desc="claims", unit="claim", disable=not sys.stderr.isatty()) as bar:
-        for name, outcome in ended:
+        for n, (name, outcome) in enumerate(ended, start=1):
             claim, seconds, trace = outcome
             count = f"{claim.n_held}/{len(claim.checks)} checks held"
-            tqdm.write(f"{trace}{name}: {count}, {seconds:.1f} s", file=sys.stderr)
+            place = f"claim {n} of {total}, " if total > 1 else ""
+            tqdm.write(f"{trace}{place}{name}: {count}, {seconds:.1f} s", file=sys.stderr)
             bar.update()
             yield name, outcome
 

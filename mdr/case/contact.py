@@ -11,7 +11,7 @@ asked of `mdr.resolved(case)`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,9 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.tools.checks import FieldError, instance
-from mdr.tools.fields import check_fields, facts
+from mdr.tools.fields import check_fields, facts, facts_of
+from mdr.tools.messages import short
+from mdr.tools.summary import Row, Summarised, Summary, number
 
 SAME = 1e-9  #: of a dynamic modulus: rounding of a sum over arms
 #: abstract base class of each part
@@ -40,7 +42,7 @@ OPTIONAL = ("shake",)  #: parts that may be None
 
 
 @dataclass(frozen=True)
-class SlidingContact:
+class SlidingContact(Summarised):
     """An indenter that slides on a half-space while it is shaken, in the normal direction or along its way."""
 
     indenter: Indenter = field(metadata=facts("", "shape", rule=None))
@@ -77,6 +79,16 @@ class SlidingContact:
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
             if self.indenter.least_depth > 0:
                 self._refuse_incomplete()
+
+    def _summary(self) -> Summary:
+        parts = [(name, getattr(self, name)) for name in KINDS]
+        rows = [_told(name, part) for name, part in parts if part is not None]
+        rows.insert(2, ("mu_0", number(self.mu_0), "local coefficient of friction"))
+        if not self.oscillation.knows_depth:
+            return Summary("SlidingContact", [*rows, ("contact", "under a load", "mdr.resolved(case) finds its depth")])
+        a = float(self.indenter.contact_radius(max(self.working_depth, 0.0)))
+        stiff = f"k_zc = {number(self.k_zc, 'N/m')}, k_xc = {number(self.k_xc, 'N/m')}, at the mean depth"
+        return Summary("SlidingContact", [*rows, ("contact", f"a = {number(a, 'm')}", stiff)])
 
     def _refuse_what_springs_do_not_know(self) -> None:
         """Parts of a user's own may answer what no march computes with."""
@@ -285,6 +297,32 @@ class SlidingContact:
         """Whether depth is harmonic and material without arms: as in the paper, the normal force in closed form."""
         prescribed = self.oscillation.knows_depth and self.oscillation.load is None
         return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
+
+
+def _told(name: str, part: Any) -> Row:
+    """A part of a case in a row: its kind, and its numbers with their units."""
+    part = getattr(part, "load", None) or part  # of a depth that was solved for, what it was solved from
+    if not is_dataclass(part):
+        return name, type(part).__name__, short(repr(part))
+    given = [(one, getattr(part, one.name)) for one in fields(part) if one.init]
+    values = [_written(one.name, value, facts_of(one).unit) for one, value in given if not _is_left_out(value)]
+    return name, type(part).__name__, ", ".join(values)
+
+
+def _is_left_out(value: Any) -> bool:
+    return value is None or (isinstance(value, tuple) and not value)
+
+
+def _written(name: str, value: Any, unit: str) -> str:
+    """A field and its value; a list by its length, an angular frequency in hertz too."""
+    if callable(value):
+        return f"{name} = {getattr(value, '__name__', type(value).__name__)}"
+    if isinstance(value, tuple):
+        return f"{name} of {len(value)}"
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return f"{name} = {short(repr(value), 40)}"
+    hertz = f" ({value / (2 * np.pi):.6g} Hz)" if unit == "rad/s" else ""
+    return f"{name} = {number(value, unit)}{hertz}"
 
 
 def repeats(oscillation: Motion, shake: Shake | None) -> tuple[int, int]:

@@ -21,7 +21,7 @@ from mdr.tools.records import ArrayRecord
 DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Cycle(ArrayRecord):
     """A periodic depth; harmonics of shape (N,), of orders 1 to N."""
 

@@ -47,7 +47,7 @@ from mdr.tools.records import ArrayRecord
 N_INSTANTS = 8192  #: of the period; harmonics up to half of it
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FullSlip(ArrayRecord):
     """One period of full slip at equidistant instants; arrays of shape (n_t,)."""
 

@@ -59,7 +59,7 @@ from mdr.tools.records import ArrayRecord
 STEPS = (0.11, 0.22)  #: of the double-exponential rule, and of the one that it is compared with
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RigidPullFriction(ArrayRecord):
     """Average friction under a rigid pull; arrays in the shape of v_0."""
 

@@ -58,7 +58,7 @@ MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
 _ORDER = 16
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ShakenPull(ArrayRecord):
     """A rigid indenter of which depth and place in the plane are given: numbers only, scaled as above."""
 

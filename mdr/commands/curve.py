@@ -4,42 +4,54 @@ from __future__ import annotations
 
 import argparse
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.commands.output import (
     DONE,
     FAILED,
+    WrongInput,
     add_accuracy,
+    add_output,
     complain,
-    made_by,
-    make_folder,
+    output_folder,
     print_json,
     print_rows,
     velocity_text,
+    whole_number,
     write_figure,
+    write_table,
+)
+from mdr.commands.velocities import (
+    OF_V_C,
+    Velocity,
+    let_values_be_negative,
+    stand_in_of_v_c,
+    velocity_in,
+    velocity_scale,
 )
 from mdr.commands.velocity import Ends
-from mdr.files.case_files import write_case
-from mdr.normal.resolved import resolved
-from mdr.tools.atomic_write import write_whole
-from mdr.tools.provenance import commented
 
 if TYPE_CHECKING:
     from mdr.friction.cof_curve import CofCurve
 
-MOST_POINTS = 100_000  #: of a curve
+FILES = ("curve.csv", "curve.png", "curve.svg")
+POINTS, MOST_POINTS = 24, 100_000  #: of a curve
+UP_TO = Velocity(1.3, of_v_c=True)  #: highest velocity, unless asked otherwise
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Where to write, and over which velocities."""
-    folder = "write curve.csv, curve.png and curve.svg here"
-    command.add_argument("-o", "--output", metavar="folder", type=Path, help=folder)
-    command.add_argument("--points", type=_points, default=24, help="how many velocities (default: 24)")
+    add_output(command, FILES)
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
-    command.add_argument("--up-to", type=_multiple, default=1.3, help="highest velocity over v_c (default: 1.3)")
+    points = whole_number(2, MOST_POINTS)
+    command.add_argument("--points", metavar="n", type=points, help=f"how many velocities (default: {POINTS})")
+    which = command.add_mutually_exclusive_group()
+    highest = f"highest velocity, over v_c or with a unit: 1.3, 5mm/s (default: {UP_TO.number:g})"
+    which.add_argument("--up-to", metavar="velocity", type=_highest, default=UP_TO, help=highest)
+    listed = "these velocities, in m/s, with a unit or over v_c: 1e-3 2mm/s 0.5v_c"
+    which.add_argument("--v-0", metavar="velocity", type=velocity_in("m/s"), nargs="+", help=listed)
+    let_values_be_negative(command)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
 
 
@@ -47,15 +59,13 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
     """Compute the curve, write and print it; status 1 if a run did not settle."""
     import numpy as np
 
-    if args.output is not None:
-        make_folder(args.output, ("curve.csv", "curve.png", "curve.svg"))
     from mdr.friction.cof_curve import cof_curve
 
-    least = -args.up_to * velocity_scale(case.mirrored) if case.is_shaken else 0.0
-    velocities = np.linspace(least, args.up_to * velocity_scale(case), args.points)
+    velocities = _velocities(args, case)
+    folder = output_folder(args, FILES)  # before the work, not after it
     found = cof_curve(case, velocities, accuracy=args.accuracy)
-    if args.output is not None:
-        _write_csv(args, case, found)
+    if folder is not None:
+        write_table(args, case, folder / "curve.csv", found.table())
         _write_figures(args, found)
     if args.json:
         scalars: dict[str, Any] = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof}
@@ -73,29 +83,30 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE
 
 
-def velocity_scale(case: SlidingContact) -> float:
-    """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero."""
-    v_c = critical_velocity(case)
-    if math.isfinite(v_c) and v_c > 0:
-        return v_c
-    known = resolved(case)
-    return known.pace if math.isfinite(known.pace) else known.unit_velocity
+def _velocities(args: argparse.Namespace, case: SlidingContact) -> list[float]:
+    """The velocities [m/s] asked for; says what their scale is where there is no v_c."""
+    import numpy as np
+
+    if args.v_0 is not None:
+        if args.points is not None:
+            raise WrongInput("--points is for --up-to; --v-0 names every velocity")
+        given = [one.on(case) for one in args.v_0]
+        if min(given) < 0 and not case.is_shaken:
+            raise WrongInput(f"--v-0 must not be negative, got {min(given):.6g} m/s: nothing shakes in the plane")
+        return given
+    asked = args.up_to
+    if asked.of_v_c and (said := stand_in_of_v_c(case)):
+        complain(said, DONE)
+    forward, back = (asked.number * (velocity_scale(one) if asked.of_v_c else 1) for one in (case, case.mirrored))
+    found: list[float] = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS).tolist()
+    return found
 
 
-def _points(text: str) -> int:
-    if not text.isascii() or not text.isdigit() or not 2 <= int(text[:9]) <= MOST_POINTS:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 2 to {MOST_POINTS}, got {text!r}")
-    return int(text)
-
-
-def _multiple(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not 0 < number < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a positive multiple of v_c, got {text!r}")
-    return number
+def _highest(text: str) -> Velocity:
+    asked = velocity_in(OF_V_C)(text)
+    if asked.number <= 0:
+        raise argparse.ArgumentTypeError(f"must be above zero, got {text!r}")
+    return asked
 
 
 def _columns(curve: CofCurve) -> dict[str, Any]:
@@ -119,12 +130,6 @@ def _print_curve(curve: CofCurve) -> None:
         ratio = f"{v_0 / curve.v_c:8.4f}" if scaled else f"{'-':>8}"
         end = "yes" if settled else "no"
         print(f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}")
-
-
-def _write_csv(args: argparse.Namespace, case: SlidingContact, curve: CofCurve) -> None:
-    """curve.csv with versions, command and case at its head, each line behind a #."""
-    head = commented(made_by(args), "", write_case(case))
-    write_whole(args.output / "curve.csv", (head + curve.table()).encode("utf-8"))
 
 
 def _write_figures(args: argparse.Namespace, curve: CofCurve) -> None:

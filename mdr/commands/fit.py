@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
-from mdr.commands.output import DONE, WrongInput, made_by, make_folder, print_json, write_figure
+from mdr.commands.output import DONE, WrongInput, add_output, made_by, output_folder, path_of, print_json, write_figure
 from mdr.files.case_files import write_case
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented
@@ -21,30 +20,29 @@ FILES = ("fitted.toml", "fit.png", "fit.svg")
 def add_options(command: argparse.ArgumentParser) -> None:
     """The data, what is fitted to them, and where to write."""
     command.add_argument(
-        "data", metavar="data.csv", help="measured friction: columns v_0 [mm/s], cof and, if known, error"
+        "data", metavar="data.csv", type=path_of, help="measured friction: columns v_0 [mm/s], cof and, if known, error"
     )
+    command.usage = "%(prog)s case.toml data.csv --free name [name ...] [options]"
     what = "parameters to fit, such as mu_0 material.tau; the case says where the search begins"
     command.add_argument("--free", metavar="name", nargs="+", required=True, help=what)
     between = "lowest and highest value of a parameter, in SI: material.tau=1e-5:1e-1"
     command.add_argument("--bounds", metavar="name=low:high", nargs="+", type=_bounds, default=[], help=between)
     level = "level of the intervals (default: 0.95)"
     command.add_argument("--confidence", metavar="share", type=float, default=0.95, help=level)
-    folder = f"folder where {', '.join(FILES)} are written"
-    command.add_argument("-o", "--output", metavar="folder", type=Path, help=folder)
+    add_output(command, FILES)
 
 
 def fit(args: argparse.Namespace, case: SlidingContact) -> int:
     """Fit, write and print."""
     import mdr
 
-    if args.output is not None:
-        make_folder(args.output, FILES)
+    folder = output_folder(args, FILES)
     try:
         data = mdr.read_friction_data(args.data)
         found = mdr.fit(case, data, args.free, bounds=dict(args.bounds), confidence=args.confidence)
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
-    if args.output is not None:
+    if folder is not None:
         _write(args, found)
     if args.json:
         return print_json(args, _told(found), found.case)

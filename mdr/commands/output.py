@@ -7,17 +7,18 @@ import json
 import math
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.files.case_files import write_case
+from mdr.files.case_files import StandardInput, write_case
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.provenance import figure_metadata, versions
+from mdr.tools.provenance import commented, figure_metadata, versions
+from mdr.tools.summary import Row, lines_of
 
 DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130  #: exit statuses
 
@@ -39,11 +40,44 @@ def _accuracy(text: str) -> float:
         raise argparse.ArgumentTypeError(f"must be a number from 1e-8 to 1e-3, got {text!r}") from None
 
 
-def print_rows(rows: Sequence[tuple[str, str, str]]) -> None:
+def whole_number(least: int, most: int) -> Callable[[str], int]:
+    """What argparse reads a whole number with."""
+
+    def read(text: str) -> int:
+        if not text.isascii() or not text.isdigit() or not least <= int(text[: len(str(most)) + 1]) <= most:
+            raise argparse.ArgumentTypeError(f"must be a whole number from {least} to {most}, got {text!r}")
+        return int(text)
+
+    return read
+
+
+def add_output(command: argparse.ArgumentParser, names: Sequence[str]) -> None:
+    """The folder that a command writes its files to."""
+    meaning = f"write {', '.join(names[:-1])} and {names[-1]} here; files of these names are overwritten"
+    command.add_argument("-o", "--output", metavar="folder", type=Path, help=meaning)
+
+
+def output_folder(args: argparse.Namespace, names: Sequence[str]) -> Path | None:
+    """The folder asked for, made where it is missing; refused, before the work, where these files cannot be written."""
+    folder: Path | None = args.output
+    if folder is None:
+        return None
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as fault:
+        raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
+    require_free([folder / name for name in names])
+    return folder
+
+
+def path_of(text: str) -> str:
+    """The path of a file as the command line gives it; - is standard input."""
+    return StandardInput("standard input") if text == "-" else text
+
+
+def print_rows(rows: Sequence[Row]) -> None:
     """Name, value and meaning, in columns."""
-    wide = max((len(value) for name, value, _ in rows if name), default=0)
-    for name, value, meaning in rows:
-        print(f"{name:<11}{value:<{wide}}  {meaning}".rstrip())
+    print("\n".join(lines_of(rows)))
 
 
 def print_json(args: argparse.Namespace, values: dict[str, Any], case: SlidingContact | None = None) -> int:
@@ -74,6 +108,11 @@ def made_by(args: argparse.Namespace) -> str:
     return f"{versions()}\n{args.command}"
 
 
+def write_table(args: argparse.Namespace, case: SlidingContact, path: Path, table: str) -> None:
+    """Write a CSV file with versions, command and case at its head, each line behind a #."""
+    write_whole(path, (commented(made_by(args), "", write_case(case)) + table).encode("utf-8"))
+
+
 def write_figure(args: argparse.Namespace, figure: Any, folder: Path, stem: str) -> None:
     """Write stem.png and stem.svg, which keep versions and command."""
     for kind in ("png", "svg"):
@@ -82,17 +121,8 @@ def write_figure(args: argparse.Namespace, figure: Any, folder: Path, stem: str)
         write_whole(folder / f"{stem}.{kind}", drawn.getvalue())
 
 
-def make_folder(folder: Path, names: Sequence[str]) -> None:
-    """Make the folder of a command's files before the work. WrongInput where they cannot be written."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as fault:
-        raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
-    require_free([folder / name for name in names])
-
-
 def require_free(paths: Sequence[Path]) -> None:
-    """Refuse, before the work, places where no file can be written."""
+    """Refuse, before the work, places where no file can be written, and say which files will be overwritten."""
     for path in paths:
         if path.is_dir():
             raise WrongInput(f"{path}: is a folder, where a file is to be written")
@@ -100,6 +130,8 @@ def require_free(paths: Sequence[Path]) -> None:
             raise WrongInput(f"{path}: there is no folder {path.parent}")
         if not os.access(path.parent, os.W_OK):
             raise WrongInput(f"{path}: no file can be written there")
+    if there := [path for path in paths if path.exists()]:
+        complain(f"will be overwritten: {', '.join(map(str, there))}", DONE)
 
 
 def _plain(value: Any) -> Any:

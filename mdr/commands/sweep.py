@@ -12,8 +12,10 @@ from mdr.commands.output import (
     FAILED,
     INTERRUPTED,
     WrongInput,
+    add_output,
     complain,
     made_by,
+    output_folder,
     print_json,
     require_free,
     write_figure,
@@ -26,11 +28,14 @@ if TYPE_CHECKING:
     from mdr.studies.study_files import StudyFile
 
 
+FILES = ("study.nc", "study.csv", "study.png", "study.svg")
+
+
 def add_options(command: argparse.ArgumentParser) -> None:
     """Where to keep and write the study, and which part of it to compute."""
     command.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
-    whole = "write the whole study here, .nc or .csv, and a picture beside it, .png and .svg"
-    command.add_argument("-o", "--output", metavar="file", type=Path, help=whole)
+    add_output(command, FILES)
+    command.epilog = "-o file.nc or -o file.csv writes the study to that file, and a picture beside it."
     command.add_argument(
         "--chunk-seconds", type=float, default=5.0, metavar="s", help="work in a chunk [s] (default: 5)"
     )
@@ -71,22 +76,35 @@ def _require_a_place(args: argparse.Namespace) -> None:
         raise WrongInput(f"{args.store}: is a file; a store is a folder")
     if args.output is None:
         if args.store is None and not args.json:
-            raise WrongInput("the study would be lost: give -o file.nc or file.csv, --store folder, or --json")
+            raise WrongInput("the study would be lost: give -o folder, --store folder, or --json")
         return
-    if args.output.suffix not in (".nc", ".csv"):
-        raise WrongInput(f"{args.output}: a study is written as .nc or .csv")
-    require_free([args.output, *(args.output.with_suffix(f".{kind}") for kind in ("png", "svg"))])
+    own = None if args.store is None else (args.store / FILES[0]).resolve()
+    if own in (args.output.resolve(), (args.output / FILES[0]).resolve()):
+        raise WrongInput(f"{args.output}: the store keeps its own {FILES[0]} there; give another folder to -o")
+    if _is_file(args.output):
+        require_free([args.output, *(args.output.with_suffix(f".{kind}") for kind in ("png", "svg"))])
+    elif args.output.suffix and not args.output.is_dir():
+        raise WrongInput(f"{args.output}: a study is written as .nc or .csv, or as both into a folder")
+    else:
+        output_folder(args, FILES)
+
+
+def _is_file(output: Path) -> bool:
+    """Whether the study goes to this file, and not to a folder of this name."""
+    return output.suffix in (".nc", ".csv") and not output.is_dir()
 
 
 def _write(args: argparse.Namespace, study: Study) -> None:
-    """The file, and beside it the picture of its first quantity, where the study has few enough axes for one."""
+    """The study, and the picture of its first quantity, where it has few enough axes for one."""
     from mdr.studies.csv_files import table
     from mdr.studies.netcdf import packed
 
-    if args.output.suffix == ".csv":
-        write_whole(args.output, (commented(made_by(args), "", study.case) + table(study)).encode("utf-8"))
-    else:
-        write_whole(args.output, packed(study, history=made_by(args)))
+    files = [args.output] if _is_file(args.output) else [args.output / name for name in FILES[:2]]
+    for path in files:
+        if path.suffix == ".csv":
+            write_whole(path, (commented(made_by(args), "", study.case) + table(study)).encode("utf-8"))
+        else:
+            write_whole(path, packed(study, history=made_by(args)))
     import matplotlib as mpl
 
     mpl.use("Agg")  # no display is needed
@@ -95,7 +113,7 @@ def _write(args: argparse.Namespace, study: Study) -> None:
     except ValueError as fault:
         complain(f"no picture: {fault}", DONE)
     else:
-        write_figure(args, figure, args.output.parent, args.output.stem)
+        write_figure(args, figure, files[0].parent, files[0].stem)
 
 
 def _told(study: Study) -> dict[str, Any]:

@@ -38,6 +38,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from inspect import isabstract
@@ -61,6 +62,10 @@ from mdr.tools.messages import nearest, offer, one_line, short
 
 MAX_BYTES = 2**24  #: of a case file
 _DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
+
+
+class StandardInput(str):
+    """The path of standard input; its text is what messages call it."""
 
 
 class CaseFileError(ValueError):
@@ -205,6 +210,8 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
     known = _top_level()
     content = {key: value for key, value in content.items() if key not in beside}
+    if "axes" in content:
+        raise fault_error(source, [STUDY])
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
     parts, of_tables = _read_tables(content)
     faults += [fault for found in of_tables.values() for fault in found]
@@ -280,11 +287,14 @@ def nameable() -> dict[str, dict[str, type[Any]]]:
 
 
 def read_text(path: str | PathLike[str]) -> str:
-    """The text of a file. Raises CaseFileError where there is none."""
+    """The text of a file, or of standard input. Raises CaseFileError where there is none."""
     source = fsdecode(path)
     try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
+        if isinstance(path, StandardInput):
+            data = _read_standard_input()
+        else:
+            with open(path, "rb") as file:
+                data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
         raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
     if len(data) > MAX_BYTES:
@@ -295,6 +305,12 @@ def read_text(path: str | PathLike[str]) -> str:
         line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
         what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
         raise fault_error(source, [what]) from None
+
+
+def _read_standard_input() -> bytes:
+    if sys.stdin is None:
+        raise OSError("it is closed")
+    return sys.stdin.buffer.read(MAX_BYTES + 1)
 
 
 def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:
@@ -422,6 +438,7 @@ _HARMLESS = {
 }
 _NONE: Mapping[str, str] = {}
 NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
+STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
 
@@ -541,6 +558,9 @@ def _syntax_fault(text: str, message: str) -> str:
         what += "; is it given twice?"
     elif what.startswith("Exceeds the limit"):
         what = "a number has thousands of digits"
+    elif what == "Invalid value":
+        name = re.search(r"=\s*([^\W\d]\w*)", line)
+        what = f'a name is written in quotes, "{name[1]}"' if name else "no number, name in quotes or list"
     return f"line {number}: {short(line)}: {what}" if where else what
 
 

@@ -25,16 +25,19 @@ from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite_array
+from mdr.tools.csv_table import csv_text
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, span
 
 STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
 SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
+MOST_REASONS = 3  #: why runs did not settle, told in print
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
-@dataclass(frozen=True, eq=False)
-class CofCurve(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class CofCurve(Summarised, ArrayRecord):
     """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
 
     The point v_0 = 0 is the static limit, of a pull ever slower forward.
@@ -51,13 +54,32 @@ class CofCurve(ArrayRecord):
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
     v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draw cof/mu_0 over v_0/v_c.
+    def _summary(self) -> Summary:
+        n, settled = self.v_0.size, int(self.settled.sum())
+        back = [] if self.v_c_back is None else [("v_c back", number(self.v_c_back, "m/s"), "pulled the other way")]
+        reasons = dict.fromkeys(why for why, one in zip(self.why, self.settled, strict=False) if why and not one)
+        return Summary(
+            f"CofCurve at {n} velocities, {span(self.v_0, 'm/s')}",
+            [
+                ("COF", span(self.cof), f"of mu_0 = {self.mu_0:.6g}"),
+                ("error", span(self.cof_error), "bound on the numerical error of the COF"),
+                ("settled", f"{settled} of {n}", ""),
+                *(("why", why, "") for why in list(reasons)[:MOST_REASONS]),
+                ("at rest", number(self.static_cof), "COF as v_0 -> +0"),
+                ("v_c", number(self.v_c, "m/s"), "critical velocity in closed form"),
+                *back,
+            ],
+        )
+
+    def plot(self, ax: Any = None, *, absolute: bool = False) -> Any:
+        """Draw cof/mu_0 over v_0/v_c, or both as they are.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where to draw. None makes a new figure.
+        absolute : bool
+            Draw cof over v_0 in m/s.
 
         Returns
         -------
@@ -66,7 +88,7 @@ class CofCurve(ArrayRecord):
         """
         from mdr.plots import plot_curve
 
-        return plot_curve(self, ax)
+        return plot_curve(self, ax, absolute=absolute)
 
     def to_csv(self, path: str | Path) -> None:
         """Write v_0, cof, cof_error, settled and stick_share as CSV, with units in the header.
@@ -86,10 +108,8 @@ class CofCurve(ArrayRecord):
         str
             What `to_csv` writes.
         """
-        columns = (self.v_0, self.cof, self.cof_error, self.settled.astype(int), self.stick_share)
-        lines = ["v_0 [m/s],cof [-],cof_error [-],settled,stick_share [-]"]
-        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
-        return "\n".join(lines) + "\n"
+        columns = {"v_0 [m/s]": self.v_0, "cof [-]": self.cof, "cof_error [-]": self.cof_error}
+        return csv_text(columns | {"settled": self.settled.astype(int), "stick_share [-]": self.stick_share})
 
 
 def cof_curve(
@@ -293,7 +313,9 @@ def _runs(
 ) -> Columns:
     """One run for each velocity >= 0."""
     order = np.argsort(v_0, kind="stable")
-    rising = slides(case, progress(v_0[order].tolist(), "cof_curve"), n_springs, steps_per_period, accuracy)
+    rising = slides(
+        case, progress(v_0[order].tolist(), "COF curve", "velocities"), n_springs, steps_per_period, accuracy
+    )
     ended = dict(zip(order.tolist(), rising, strict=True))
     runs = [ended[i] for i in range(v_0.size)]
     cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))

@@ -24,6 +24,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Printed
 
 STEP = 1e-3  #: on the scale of the search, for derivatives: well above the noise of a run, well below any curvature
 VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the parameter is poorly determined
@@ -35,8 +36,8 @@ ERRORS = 3.0  #: times its error that a coefficient of friction may lie outside 
 N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
 
 
-@dataclass(frozen=True, eq=False)
-class Fit(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(Printed, ArrayRecord):
     """A contact fitted to measurements; dictionaries by the names of the parameters as given."""
 
     case: SlidingContact  #: with the fitted parameters
@@ -211,7 +212,7 @@ class _Model:
     def __init__(self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...]) -> None:
         self.case, self.data, self.free = case, data, free
         self.error = 1.0 if data.error is None else data.error
-        self._ticker = Ticker("fit, curves")
+        self._ticker = Ticker("fit", parts="curves")
         self._at = lru_cache(maxsize=2)(self._deviations)
 
     def values(self, x: Array) -> dict[str, float]:

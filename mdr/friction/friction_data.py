@@ -22,6 +22,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_table import Column
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, span
 
 COLUMNS = (
     Column("v_0", ("v", "velocity", "speed"), "m/s"),
@@ -30,8 +31,8 @@ COLUMNS = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class FrictionData(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class FrictionData(Summarised, ArrayRecord):
     """Measured coefficients of friction; arrays of shape (n,)."""
 
     v_0: Array  #: velocities [m/s], ascending; negative for a pull the other way, where the contact is shaken in plane
@@ -51,6 +52,17 @@ class FrictionData(ArrayRecord):
         for name in columns:
             object.__setattr__(self, name, getattr(self, name)[order])
         super().__post_init__()
+
+    def _summary(self) -> Summary:
+        error = "not known" if self.error is None else span(self.error)
+        return Summary(
+            f"FrictionData of {self.v_0.size} measurements",
+            [
+                ("v_0", span(self.v_0, "m/s"), "velocities"),
+                ("COF", span(self.cof), "coefficients of friction"),
+                ("error", error, "standard deviation of each"),
+            ],
+        )
 
 
 def read_friction_data(

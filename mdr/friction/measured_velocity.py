@@ -40,6 +40,7 @@ from mdr.march.slide import slide, slide_without_bound
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
+from mdr.tools.summary import Summarised, Summary, number
 
 MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
 NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
@@ -62,7 +63,7 @@ HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, th
 
 
 @dataclass(frozen=True)
-class MeasuredVelocity:
+class MeasuredVelocity(Summarised):
     """A critical velocity found from runs alone: v_c between low and high [m/s].
 
     The kinds of end:
@@ -83,6 +84,13 @@ class MeasuredVelocity:
     why: str  #: in words
     nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
+
+    def _summary(self) -> Summary:
+        found = "none" if self.v_c is None else number(self.v_c, "m/s")
+        rows = [("v_c", found, self.kind)]
+        if self.low is not None and self.high is not None:
+            rows.append(("bracket", f"{self.low:.9g} to {self.high:.9g} m/s", "reduced below, full above"))
+        return Summary("MeasuredVelocity", [*rows, ("why", self.why, ""), ("runs", str(self.n_runs), "")])
 
     def contains(self, v_0: float) -> bool:
         """True if a velocity lies within the bracket.
@@ -176,7 +184,7 @@ class _Search:
 
     def __init__(self, case: SlidingContact, start: str, margin: float) -> None:
         self.case, self.start, self.margin, self.n_runs = case, start, margin, 0
-        self.ticker = Ticker("measure_critical_velocity, runs")
+        self.ticker = Ticker("critical velocity from runs", parts="runs")
         self.steps, self.n_springs = default_steps(case), N_SPRINGS
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity

@@ -29,13 +29,14 @@ from mdr.normal.partial_slip import PartialSlip
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, span
 
 N_BETWEEN = 6  #: knots for each spring of an indentation
 N_KNOTS = 2048  #: of the displacement of a partial slip
 
 
-@dataclass(frozen=True, eq=False)
-class SurfaceFields(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfaceFields(Summarised, ArrayRecord):
     """The surface at one instant, in SI; r, pressure, traction, u_z and u_x are of the shape of r."""
 
     r: Array  #: distances from the axis [m]
@@ -47,6 +48,19 @@ class SurfaceFields(ArrayRecord):
     stick_radius: float  #: c, outermost radius that sticks [m]
     F_z: float  #: 2π ∫ p r dr [N]
     F_x: float  #: 2π ∫ traction r dr [N]
+
+    def _summary(self) -> Summary:
+        return Summary(
+            f"SurfaceFields at {np.size(self.r)} distances, {span(self.r, 'm')}",
+            [
+                ("a", number(self.contact_radius, "m"), "contact radius"),
+                ("c", number(self.stick_radius, "m"), "radius that sticks"),
+                ("pressure", span(self.pressure, "Pa"), "normal"),
+                ("traction", span(self.traction, "Pa"), "along the pull"),
+                ("F_z", number(self.F_z, "N"), "normal force"),
+                ("F_x", number(self.F_x, "N"), "tangential force"),
+            ],
+        )
 
 
 def surface_fields(

@@ -20,6 +20,7 @@ from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, positive
 from mdr.tools.progress import time_limit
+from mdr.tools.summary import Printed
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
@@ -29,7 +30,7 @@ WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the str
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Printed):
     """How good Eq. (15) is for a contact; print it for the sentence. Velocities in m/s.
 
     `dataclasses.replace(found, within=0.003)` judges by another tolerance, without a run.

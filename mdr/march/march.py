@@ -168,7 +168,7 @@ def steady(
     springs, scaled = at_hand(case, knobs)
     if not scaled.normal.mean > 0:
         raise too_coarse(knobs.steps)
-    stepper = Stepper(scaled, v_0 / scaled.speed, min(TOLERANCE, knobs.accuracy / 10))
+    stepper = Stepper(scaled, v_0 / scaled.speed, min(TOLERANCE, knobs.accuracy / 10), n_periods)
     from_full_slip = knobs.start == "full_slip"
     orbit = waiting = None
     if n_periods is None:

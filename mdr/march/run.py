@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,9 @@ from mdr.march.march import March, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
 from mdr.tools.arrays import Array
+from mdr.tools.csv_table import csv_text
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, with_error
 
 
 class State(IntEnum):
@@ -31,8 +34,8 @@ class State(IntEnum):
     SLIP_BACK = kernels.SLIP_BACK  #: slides backward, friction drives the indenter on
 
 
-@dataclass(frozen=True, eq=False)
-class SlidingRun(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class SlidingRun(Summarised, ArrayRecord):
     """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
     `cof` may be extrapolated to steps of no length (`slide`); recorded forces and energies are those of the run itself.
@@ -77,6 +80,63 @@ class SlidingRun(ArrayRecord):
         if state is not None:
             state = np.array([State.FREE, State.STICK, State.SLIP_BACK, State.SLIP], dtype=state.dtype)[state]
         return replace(self, **turned, state=state)
+
+    def _summary(self) -> Summary:
+        spent = self.energy_balance
+        lost = spent.friction_loss + spent.viscous_loss + spent.damper_loss
+        kept = "none; slide(..., record=1) keeps forces and springs" if self.t is None else f"{self.t.size} instants"
+        size = f"{self.n_springs} springs, {self.steps_per_period} steps per period, {self.n_periods} periods"
+        return Summary(
+            f"SlidingRun at v_0 = {number(self.v_0, 'm/s')}",
+            [
+                ("COF", with_error(self.cof, self.cof_error), f"{self.cof / self.mu_0:.6g} of mu_0 = {self.mu_0:.6g}"),
+                ("settled", "yes" if self.settled else "no", self.kind),
+                *([("why", self.why, "")] if self.why else []),
+                ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),
+                ("mean F_x", number(self.mean_F_x, "N"), "tangential force, which holds the indenter back"),
+                ("mean F_z", number(self.mean_F_z, "N"), "normal force"),
+                (
+                    "energy",
+                    f"{spent.residual:.1e} J",
+                    f"missing from the balance of one period, {lost:.4g} J lost in it",
+                ),
+                ("march", size, ""),
+                ("record", kept, ""),
+            ],
+        )
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write time, position, depth and forces of the recorded periods as CSV, with units in the header.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+
+        Raises
+        ------
+        ValueError
+            For a run without a record.
+        """
+        Path(path).write_text(self.table(), encoding="utf-8")
+
+    def table(self) -> str:
+        """The text of the CSV file.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes.
+
+        Raises
+        ------
+        ValueError
+            For a run without a record.
+        """
+        if self.t is None:
+            raise ValueError("the run kept no arrays to write; call slide(case, v_0, record=1) to keep a period")
+        columns = {"t [s]": self.t, "u_x [m]": self.u_x, "u_z [m]": self.u_z, "F_x [N]": self.F_x, "F_z [N]": self.F_z}
+        return csv_text(columns)
 
     def plot(self) -> Any:
         """Draw what was recorded: the mode of every spring over time, and the forces below.

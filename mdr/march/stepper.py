@@ -73,15 +73,18 @@ class PeriodRecord:
 
 
 class Stepper:
-    """Marches a contact at one velocity; tolerance: of cof/mu_0, to which its periodic state is to be found."""
+    """Marches a contact at one velocity.
 
-    def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE) -> None:
+    tolerance: of cof/mu_0, to which its periodic state is to be found; total: periods to be marched, where known.
+    """
+
+    def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
         self.springs, self.motion = scaled.springs, scaled.motion(v)
         self._remembers = bool(scaled.n_arms or scaled.table[L_DECAY, 0] > 0)
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
-        self.ticker = Ticker("slide, waiting for a steady state, periods")
+        self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
 
     def full_slip(self) -> MarchState:
         """The state of full slip at phase 0; of a body without its free oscillation."""

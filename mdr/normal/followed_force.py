@@ -25,7 +25,7 @@ N_EDGE = 512  #: springs
 N_STEPS = 4096  #: of the period
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class NormalCycle(ArrayRecord):
     """One period of normal contact at equidistant instants, arrays of shape (n_t,)."""
 

@@ -36,15 +36,17 @@ from mdr.materials import Material
 from mdr.normal import indentation_kernels as kernels
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite_array, instance
+from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, span
 
 N_SPRINGS = 512
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
 LONG = 0.3  #: an interval longer than this share of the time since the last jump is cut finer towards its start
 
 
-@dataclass(frozen=True, eq=False)
-class Indentation(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class Indentation(Summarised, ArrayRecord):
     """Outcome of indent(), in SI. The springs are kept only with `record=True`; otherwise x, s and q_z are None."""
 
     indenter: Indenter  #: shape
@@ -56,6 +58,20 @@ class Indentation(ArrayRecord):
     x: Array | None = None  #: (n_springs,) positions [m]
     s: Array | None = None  #: (n_t, n_springs) compressions, of free springs that of the relaxed surface [m]
     q_z: Array | None = None  #: (n_t, n_springs) line loads [N/m]
+
+    def _summary(self) -> Summary:
+        kept = "none; indent(..., record=True) keeps them" if self.x is None else f"{self.x.size} at every instant"
+        return Summary(
+            f"Indentation of {short(repr(self.indenter))} at {self.t.size} instants",
+            [
+                ("material", short(repr(self.material)), ""),
+                ("t", span(self.t, "s"), ""),
+                ("depth", span(self.u_z, "m"), f"at the end {number(self.u_z[-1], 'm')}"),
+                ("F_z", span(self.F_z, "N"), f"at the end {number(self.F_z[-1], 'N')}"),
+                ("a", span(self.contact_radius, "m"), f"at the end {number(self.contact_radius[-1], 'm')}"),
+                ("springs", kept, ""),
+            ],
+        )
 
 
 def indent(

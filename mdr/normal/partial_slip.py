@@ -27,11 +27,13 @@ from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials import Material
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite_array, instance, plain, positive
+from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, span
 
 
-@dataclass(frozen=True, eq=False)
-class PartialSlip(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class PartialSlip(Summarised, ArrayRecord):
     """Outcome of partial_slip(), in SI; u_x, F_x and stick_radius in the shape of the u_x given."""
 
     indenter: Indenter  #: shape
@@ -43,15 +45,40 @@ class PartialSlip(ArrayRecord):
     F_z: float  #: normal force, the same for all u_x [N]
     stick_radius: Array  #: radius of the disc that sticks, 0 in full slip [m]
 
+    def _summary(self) -> Summary:
+        slipping = int(np.count_nonzero(np.asarray(self.stick_radius) == 0))
+        return Summary(
+            f"PartialSlip of {short(repr(self.indenter))} at the depth {number(self.u_z0, 'm')}",
+            [
+                ("material", short(repr(self.material)), ""),
+                ("u_x", span(self.u_x, "m"), "displacement"),
+                ("F_x", span(self.F_x, "N"), f"tangential force; mu_0 F_z = {number(self.mu_0 * self.F_z, 'N')}"),
+                ("F_z", number(self.F_z, "N"), f"normal force; mu_0 = {self.mu_0:.6g}"),
+                ("c", span(self.stick_radius, "m"), "radius of the disc that sticks"),
+                ("full slip", f"{slipping} of {np.size(self.u_x)}", "displacements"),
+            ],
+        )
 
-@dataclass(frozen=True, eq=False)
-class TangentialLoop(ArrayRecord):
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TangentialLoop(Summarised, ArrayRecord):
     """Outcome of tangential_loop(), in SI: one turn from U to -U and back."""
 
     u_x: Array  #: (2 n - 1,) displacement [m]
     F_x: Array  #: (2 n - 1,) tangential force [N]
     F_z: float  #: normal force [N]
     loss: float  #: energy W of one turn [J]
+
+    def _summary(self) -> Summary:
+        return Summary(
+            f"TangentialLoop of {self.u_x.size} points",
+            [
+                ("u_x", span(self.u_x, "m"), "displacement"),
+                ("F_x", span(self.F_x, "N"), "tangential force"),
+                ("F_z", number(self.F_z, "N"), "normal force"),
+                ("loss", number(self.loss, "J"), "energy of one turn"),
+            ],
+        )
 
 
 def partial_slip(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: ArrayLike) -> PartialSlip:

@@ -21,12 +21,13 @@ from mdr.normal.spring_grid import AS_ONE, EACH_ITS_OWN, cells
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, span
 
 MIN_SPRINGS = 16  #: fewer cannot serve all panels
 
 
-@dataclass(frozen=True, eq=False)
-class SpringArray(ArrayRecord):
+@dataclass(frozen=True, eq=False, repr=False)
+class SpringArray(Summarised, ArrayRecord):
     """Springs of a contact, from the centre outwards; arrays of shape (n_springs,)."""
 
     x: Array  #: positions of the cell centres [m]
@@ -61,6 +62,19 @@ class SpringArray(ArrayRecord):
         share = EACH_ITS_OWN if case.is_shaken else AS_ONE
         x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs, share)
         return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
+
+    def _summary(self) -> Summary:
+        return Summary(
+            f"SpringArray of {self.x.size} springs at x > 0, each for the pair at +x and -x",
+            [
+                ("x", span(self.x, "m"), "positions"),
+                ("core", f"{self.n_core} springs", "from the centre, never out of contact"),
+                ("dk_z", span(self.dk_z, "N/m"), "normal stiffness of each"),
+                ("dk_x", span(self.dk_x, "N/m"), "tangential stiffness of each"),
+                ("E*", number(self.E_star, "Pa"), "normal modulus"),
+                ("G*", number(self.G_star, "Pa"), "tangential modulus"),
+            ],
+        )
 
     @property
     def dk_z(self) -> Array:

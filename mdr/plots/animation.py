@@ -84,7 +84,7 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
         canvas.draw()  # all but what moves
         still = canvas.copy_from_bbox(fig.bbox)
         pictures = []
-        for k in progress(at.tolist(), "frames"):
+        for k in progress(at.tolist(), "animation", "frames"):
             canvas.restore_region(still)
             for part in parts:
                 part.show(k)

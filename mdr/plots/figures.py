@@ -46,10 +46,10 @@ def style() -> AbstractContextManager[None]:
     )
 
 
-def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | None = None) -> "Axes":
-    """Draw COF over mu_0 against v_0 over v_c, for one CofCurve or several; hollow points have not settled.
-
-    Where a curve has no finite v_c (resonance), all are drawn against v_0 itself.
+def plot_curve(
+    curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | None = None, *, absolute: bool | None = None
+) -> "Axes":
+    """Draw one CofCurve, COF over mu_0 against v_0 over v_c, or several, COF against v_0; unsettled points are hollow.
 
     Parameters
     ----------
@@ -59,6 +59,9 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
         Where to draw. None makes a new figure.
     labels : sequence of str, optional
         One name for each curve.
+    absolute : bool, optional
+        True draws the COF against v_0 in m/s, False either over the curve's own scale, mu_0 and v_c. None: True for
+        several curves. Where a curve has no finite v_c (resonance) it is True.
 
     Returns
     -------
@@ -66,26 +69,26 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
         Where it was drawn.
     """
     curves = [curves] if hasattr(curves, "cof") else list(curves)
+    absolute = len(curves) > 1 if absolute is None else absolute
     if labels is not None and len(labels) != len(curves):
         raise ValueError(f"labels must name each of the {len(curves)} curves, got {len(labels)}")
-    scaled = all(_is_scale(curve.v_c) for curve in curves)
+    scaled = not absolute and all(_is_scale(curve.v_c) for curve in curves)
+    both = any(np.min(curve.v_0) < 0 for curve in curves)
+    factor, unit = prefix(np.concatenate([np.ravel(curve.v_0) for curve in curves]), "m/s")
+    scales = [(curve.v_c, curve.mu_0) if scaled else (1 / factor, 1.0) for curve in curves]
+    shades = colours(len(curves))
     with style():
         ax = axes_of(ax)
-        for i, (curve, colour) in enumerate(zip(curves, colours(len(curves)), strict=True)):
-            _draw_curve(ax, curve, curve.v_c if scaled else 1.0, colour, labels[i] if labels else None)
-        ax.axhline(1.0, color="0.75", linewidth=0.8, zorder=0)
-        marks = {1.0: "$v_c$"} if scaled else {}
-        if both := any(np.min(curve.v_0) < 0 for curve in curves):
-            for value in (0.0, -1.0):
+        for i, (curve, scale, colour) in enumerate(zip(curves, scales, shades, strict=True)):
+            _draw_curve(ax, curve, scale, colour, labels[i] if labels else None)
+        for level in {curve.mu_0 / mu for curve, (_, mu) in zip(curves, scales, strict=True)}:
+            for value in (level, 0.0, -level) if both else (level,):
                 ax.axhline(value, color="0.75", linewidth=0.8, zorder=0)
+        if both:
             ax.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
-            backs = {round(curve.v_c_back / curve.v_c, 6) for curve in curves if scaled and _is_scale(curve.v_c_back)}
-            marks |= {-back: "$v_c$, other way" for back in backs if len(backs) == 1}
-        for at, name in marks.items():
-            ax.axvline(at, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
-            ax.annotate(name, (at, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
-        ax.set_xlabel(r"pulling velocity $v_0/v_c$" if scaled else r"pulling velocity $v_0$ [m/s]")
-        ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$")
+        _mark_critical(ax, curves, scales, shades, both)
+        ax.set_xlabel(r"pulling velocity $v_0/v_c$" if scaled else rf"pulling velocity $v_0$ [{unit}]")
+        ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$" if scaled else r"coefficient of friction $\mu$")
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
         _curve_legend(ax, all(np.all(curve.settled) for curve in curves), both)
@@ -293,17 +296,41 @@ def save(figure: "Figure", script: str, suffix: str = "") -> Path:
     return path
 
 
-def _draw_curve(ax: "Axes", curve: Any, scale: float, colour: Any, label: str | None) -> None:
-    """Line, points (hollow where not settled), error bars wider than a point, and the static limit."""
-    v, mu = np.asarray(curve.v_0) / scale, np.asarray(curve.cof) / curve.mu_0
-    error = np.nan_to_num(np.asarray(curve.cof_error) / curve.mu_0, posinf=0.0)
+def _mark_critical(ax: "Axes", curves: Any, scales: Any, shades: Any, both: bool) -> None:
+    """Dotted lines at v_c, and at that of the other way: one line for curves that share it, else in their colours."""
+    ahead = [
+        curve.v_c / unit if _is_scale(curve.v_c) else None for curve, (unit, _) in zip(curves, scales, strict=True)
+    ]
+    sides = [("$v_c$", ahead)]
+    if both:
+        back: list[Any] = [getattr(curve, "v_c_back", None) for curve in curves]
+        behind = [-float(one) / unit if _is_scale(one) else None for one, (unit, _) in zip(back, scales, strict=True)]
+        sides.append(("$v_c$, other way", behind))
+    for name, places in sides:
+        marks: dict[float, Any] = {}
+        for at, shade in zip(places, shades, strict=True):
+            if at is not None:
+                at = float(f"{at:.6g}")
+                marks[at] = "0.4" if at in marks or len(curves) == 1 else shade
+        for at, shade in marks.items():
+            ax.axvline(at, color=shade, linewidth=1.0, linestyle=":", zorder=0)
+            ax.annotate(name, (at, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
+
+
+def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any, label: str | None) -> None:
+    """Line, points (hollow where not settled), error bars wider than a point, and the static limit.
+
+    scale: of velocities and of COFs.
+    """
+    v, mu = np.asarray(curve.v_0) / scale[0], np.asarray(curve.cof) / scale[1]
+    error = np.nan_to_num(np.asarray(curve.cof_error) / scale[1], posinf=0.0)
     settled = np.asarray(curve.settled, dtype=bool)
-    static = curve.static_cof / curve.mu_0
+    static = curve.static_cof / scale[1]
     ax.plot(v, mu, color=colour, label=label, zorder=2)
     size = 4.5 if len(v) <= 60 else 3.0
     ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
     ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
-    seen = error > 0.005
+    seen = error * scale[1] / curve.mu_0 > 0.005
     if np.any(seen):
         ax.errorbar(v[seen], mu[seen], error[seen], fmt="none", ecolor=colour, capsize=2, zorder=1)
     if np.isfinite(static) and np.min(curve.v_0) >= 0:

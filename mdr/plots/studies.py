@@ -7,7 +7,7 @@ are drawn on a logarithmic scale.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -35,15 +35,16 @@ LABELS = {
     "cof_error": "error of the coefficient of friction",
 }  #: how quantities are written in figures; any other by its name
 LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
+N_LEVELS = 6  #: of a map, at most about so many contours
 MOST_LABELS = 10  #: values of a family that are named one by one
 
 
-def plot(study: Study, quantity: str | None = None) -> Figure:
+def plot(study: Study, quantity: str | None = None, levels: Sequence[float] | None = None) -> Figure:
     """Draw the picture that suits the axes: curves along one, a map or curves over two, small multiples over three.
 
-    quantity: by default the first. Across stands the velocity where there is one, and else the last axis of numbers;
-    the multiples go over texts where there are any. Axes of one value are left out.
-    Raises ValueError for a study of other axes.
+    quantity: by default the first. levels: contours of maps, by default some round ones. Across stands the velocity
+    where there is one, and else the last axis of numbers; the multiples go over texts where there are any. Axes of one
+    value are left out. Raises ValueError for a study of other axes.
     """
     quantity = study.quantities[0] if quantity is None else quantity
     lone = {axis.path: axis.values[0] for axis in study.frame.grid if len(axis) == 1}
@@ -55,9 +56,21 @@ def plot(study: Study, quantity: str | None = None) -> Figure:
     if len(study.axes) == 3:
         rest = [path for path in study.axes if path != x]
         over = next((path for path in rest if path not in numbers), min(rest, key=lambda path: len(study.axes[path])))
-        return plot_multiples(study, quantity, over, x)
-    draw = plot_map if len(study.axes) == 2 and len(numbers) == 2 else plot_curves
-    return cast("Figure", draw(study, quantity, x).figure)
+        is_map = len([path for path in rest if path in numbers and path != over]) == 1
+        return plot_multiples(study, quantity, over, x, **_contours(study, quantity, levels if is_map else ()))
+    if len(study.axes) == 2 and len(numbers) == 2:
+        return cast("Figure", plot_map(study, quantity, x, **_contours(study, quantity, levels)).figure)
+    return cast("Figure", plot_curves(study, quantity, x).figure)
+
+
+def _contours(study: Study, quantity: str, levels: Sequence[float] | None) -> dict[str, Any]:
+    """The levels of a map as its argument: those asked for, or round ones."""
+    if levels is None:
+        from matplotlib.ticker import MaxNLocator
+
+        low, high = _limits(study[quantity], log=False)
+        levels = [float(level) for level in MaxNLocator(N_LEVELS).tick_values(low, high) if low < level < high]
+    return {"levels": levels} if len(levels) else {}
 
 
 def plot_map(
@@ -73,7 +86,8 @@ def plot_map(
 ) -> Axes:
     """Colours of a quantity over the two axes of a study; x is the path across, by default the last.
 
-    levels: contours to draw and label; limits: of the colours; log: logarithmic colours. Values are in SI.
+    levels: contours to draw and label; limits: of the colours; log: logarithmic colours. Values are in SI. The critical
+    velocity is dashed where an axis is v_0/v_c, or v_0 in a study that has the quantity v_c.
     """
     from matplotlib.colors import LogNorm, Normalize
 
@@ -83,13 +97,16 @@ def plot_map(
     norm = (LogNorm if log else Normalize)(*(limits or _limits(values, log)))
     with style():
         ax = axes_of(ax)
-        centres = [np.sort(axis.values) * _scale(ax, which, axis) for which, axis in (("x", across), ("y", up))]
+        factors = [_scale(ax, which, axis) for which, axis in (("x", across), ("y", up))]
+        centres = [np.sort(axis.values) * factor for axis, factor in zip((across, up), factors, strict=True)]
         edges = [_edges(axis, places) for axis, places in zip((across, up), centres, strict=True)]
         shown = np.ma.masked_invalid(values)
         mesh = ax.pcolormesh(*edges, shown, norm=norm, cmap="viridis", rasterized=True)
         if len(levels) and min(values.shape) > 1:
             lines = ax.contour(*centres, shown, levels=sorted(levels), colors="white", linewidths=1.2)
             ax.clabel(lines, fmt="%g", fontsize=9)
+        for line in _critical(study, (across, up), factors):
+            _draw_critical(ax, line)
         _mark(ax, edges, centres, ~np.isfinite(values), status)
         if colorbar:
             _colorbar(ax.figure, mesh, ax, study, quantity)
@@ -167,6 +184,38 @@ def plot_multiples(
         if is_map:
             _colorbar(fig, grid.ravel()[0].collections[0], grid, study, quantity)
     return fig
+
+
+def _critical(study: Study, axes: tuple[Axis, Axis], factors: Sequence[float]) -> Iterator[list[Array]]:
+    """The line x, y at which the velocity on one axis is the critical one, in the units of the figure."""
+    for i, (axis, other) in enumerate((axes, axes[::-1])):
+        order = np.argsort(other.values)
+        along = np.asarray(other.values, dtype=float)[order] * factors[1 - i]
+        if axis.path == "v_0/v_c":
+            v_c = np.ones(along.size)
+        elif axis.path == "v_0" and "v_c" in study.quantities:
+            v_c = _over(study, other, axis, study["v_c"])[order, 0] * factors[i]
+        else:
+            continue
+        line = [v_c, along]
+        yield line if i == 0 else line[::-1]
+
+
+def _draw_critical(ax: Axes, line: list[Array]) -> None:
+    """Dash the line, over the whole map where it is straight, and name it half-way along what is in sight."""
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    x, y = line
+    if np.ptp(x) == 0:
+        x, y = np.repeat(x[0], 3), np.linspace(low, high, 3)
+    elif np.ptp(y) == 0:
+        x, y = np.linspace(left, right, 3), np.repeat(y[0], 3)
+    seen = np.flatnonzero((left <= x) & (x <= right) & (low <= y) & (y <= high))
+    if not seen.size:
+        return
+    ax.autoscale(False)
+    ax.plot(x, y, color="black", linewidth=1.2, linestyle="--")
+    half = seen[seen.size // 2]
+    ax.annotate("$v_c$", (x[half], y[half]), (-3, 3), textcoords="offset points", ha="right", va="bottom")
 
 
 def _limits(values: Array, log: bool) -> tuple[float, float]:

@@ -41,7 +41,7 @@ class Ended(Exception):
     """Raised to end a sweep before its work is done."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Part(ArrayRecord):
     """The outcome of n consecutive points."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -17,13 +17,14 @@ from mdr.studies.points import Status
 from mdr.tools.arrays import Array
 from mdr.tools.messages import nearest, short
 from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Printed
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 MOST_REASONS = 5  #: told in print
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(ArrayRecord):
+class Study(Printed, ArrayRecord):
     """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
 
     A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle
@@ -170,13 +171,15 @@ class Study(ArrayRecord):
 
         return to_xarray(self)
 
-    def plot(self, quantity: str | None = None) -> Any:
+    def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Any:
         """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
 
         Parameters
         ----------
         quantity : str, optional
             What is drawn. None: the first quantity.
+        levels : sequence of float, optional
+            Contours of maps. None: some round values; an empty list: none.
 
         Returns
         -------
@@ -185,7 +188,7 @@ class Study(ArrayRecord):
         """
         from mdr.plots.studies import plot
 
-        return plot(self, quantity)
+        return plot(self, quantity, levels)
 
     def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
         """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`.

@@ -1,4 +1,4 @@
-"""Tables of measurements that people write or instruments export: columns with units, values in SI, or what is wrong.
+"""Tables as CSV: columns with units that people write or instruments export, values in SI, or what is wrong.
 
     # sphere on rubber
     r [um], height [nm], note
@@ -14,7 +14,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -74,6 +74,12 @@ def table_of(
             values[column.name].append(_number(row[place] if place < len(row) else "", column, where))
     scaled = {column.name: in_unit(np.array(values[column.name]), scale) for column, _, scale in found}
     return Table(source, scaled, tuple(number for number, _ in lines[1:]))
+
+
+def csv_text(columns: Mapping[str, Any]) -> str:
+    """A header of names, and a line for each row of columns of one length; numbers read back as they were."""
+    lines = [",".join(f"{value:.17g}" for value in row) for row in zip(*columns.values(), strict=True)]
+    return "\n".join([",".join(columns), *lines]) + "\n"
 
 
 def cells_of(line: str, where: str, separator: str = ",") -> list[str]:

@@ -21,9 +21,9 @@ _deadline: ContextVar[float] = ContextVar("deadline", default=float("inf"))
 _watch: ContextVar[Callable[[], None] | None] = ContextVar("watch", default=None)
 
 
-def progress(items: Sequence[T], what: str) -> Iterator[T]:
-    """Loop over items with progress: a bar on a terminal, plain lines elsewhere."""
-    meter = Meter(what, len(items))
+def progress(items: Sequence[T], what: str, parts: str = "") -> Iterator[T]:
+    """Loop over items with progress: a bar on a terminal, plain lines elsewhere; parts: what the items are called."""
+    meter = Meter(what, len(items), parts)
     try:
         for item in items:
             yield item
@@ -102,10 +102,11 @@ class Ticker:
             print(f"{self.what}: {self.done}{self._rest(now)}", file=sys.stderr, flush=True)
 
     def _rest(self, now: float) -> str:
+        parts = f" {self.parts}" if self.parts else ""
         if self.total is None:
-            return ""
+            return f"{parts} so far"
         left = (now - self.start) / (self.done - self.before) * (self.total - self.done)
-        return f" of {self.total}{f' {self.parts}' if self.parts else ''}, about {in_words(left)} left"
+        return f" of {self.total}{parts}, about {in_words(left)} left"
 
 
 def in_words(seconds: float) -> str:

@@ -1,4 +1,4 @@
-"""Records that hold arrays: they compare and hash by value, pickle, and cannot be written to."""
+"""Records that hold arrays: they compare and hash by value, pickle, print in one line, and cannot be written to."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
+LONGEST = 80  #: characters of a value in a record that prints in one line
+
 
 class ArrayRecord:
-    """Base of frozen dataclasses (eq=False) with arrays among their fields, which become read-only."""
+    """Base of frozen dataclasses (eq=False, repr=False) with arrays among their fields, which become read-only."""
 
     def __post_init__(self) -> None:
         for field in fields(self):  # type: ignore[arg-type]
@@ -25,6 +27,11 @@ class ArrayRecord:
 
     def _values(self) -> tuple[Any, ...]:
         return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
+
+    def __repr__(self) -> str:
+        told = zip(fields(self), self._values(), strict=True)  # type: ignore[arg-type]
+        given = ", ".join(f"{one.name}={_short(value)}" for one, value in told if value is not None)
+        return f"{type(self).__name__}({given})"
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other) or not isinstance(other, ArrayRecord):
@@ -43,3 +50,13 @@ def _same(one: Any, two: Any) -> bool:
     if isinstance(one, np.ndarray) and isinstance(two, np.ndarray):
         return np.array_equal(one, two, equal_nan=one.dtype.kind == two.dtype.kind == "f")
     return bool(type(one) is type(two) and one == two)
+
+
+def _short(value: Any) -> str:
+    """A value as it is written: numbers of six digits, of an array its shape, of a record in a record its kind."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        return f"<array {value.shape}>"
+    if isinstance(value, float | np.floating):
+        return f"{value:.6g}"
+    text = repr(value)
+    return text if len(text) <= LONGEST else f"{type(value).__name__}(...)"

@@ -2,12 +2,15 @@
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 import warnings
 from dataclasses import fields, replace
 from functools import partial
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
+from shutil import which
 
 import numpy as np
 import pytest
@@ -144,6 +147,179 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
     assert "v_c = infinite" in capsys.readouterr().out
     rows = (tmp_path / "curve.csv").read_text(encoding="utf-8").splitlines()
     assert float(rows[-1].split(",")[0]) == pytest.approx(2 * velocity_scale(case))
+
+
+@pytest.mark.parametrize(
+    ("options", "velocities"),
+    [(["--v-0", "1e-3", "2mm/s", "0.5v_c"], [1e-3, 2e-3, None]), (["--up-to", "5mm/s", "--points", "2"], [0, 5e-3]),
+     (["--up-to", "0.5", "--points", "2"], [0, None]), (["--up-to", "0.5 v_c", "--points", "2"], [0, None])],
+)  # fmt: skip
+def test_velocities_of_a_curve_in_metres_per_second_or_over_v_c(capsys, punch, monkeypatch, options, velocities):
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    half = 0.5 * mdr.critical_velocity(read_case(punch))
+    assert main(["curve", punch, *options, "--json"]) == 0
+    answer = strict_json(capsys.readouterr().out)
+    assert_allclose(answer["v_0"], [half if one is None else one for one in velocities], rtol=1e-15)
+
+
+def test_velocities_that_a_curve_cannot_have(capsys, punch, resonant, monkeypatch):
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    assert main(["curve", punch, "--v-0", "-1e-3"]) == 2
+    assert "must not be negative, got -0.001 m/s" in capsys.readouterr().err
+    assert main(["curve", punch, "--v-0", "1e-3", "--points", "3"]) == 2
+    assert "--v-0 names every velocity" in capsys.readouterr().err
+    assert main(["curve", resonant, "--v-0", "0.5v_c"]) == 2
+    assert "v_c is infinite here; give the velocity in m/s" in capsys.readouterr().err
+    assert main(["curve", resonant, "--points", "2"]) == 0
+    assert "v_c is infinite here: velocities are multiples of 0.0006 m/s" in capsys.readouterr().err
+
+
+def test_files_that_are_there_are_named_before_they_are_overwritten(capsys, punch, tmp_path, monkeypatch):
+    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    (tmp_path / "curve.csv").write_text("mine")
+    assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 0
+    assert capsys.readouterr().err == f"mdr: will be overwritten: {tmp_path / 'curve.csv'}\n"
+    assert "mine" not in (tmp_path / "curve.csv").read_text(encoding="utf-8")
+
+
+# --- run ---
+
+RUN = ("--n-springs", "64", "--steps", "256", "--accuracy", "1e-3")
+
+
+def test_a_run_writes_what_it_prints(capsys, punch, tmp_path):
+    command = ["run", punch, "--v-0", "0.5v_c", "-o", str(tmp_path / "one"), *RUN]
+    assert main(command) == 0
+    case = read_case(punch)
+    found = mdr.slide(case, 0.5 * mdr.critical_velocity(case), n_springs=64, steps_per_period=256, record=1)
+    assert capsys.readouterr() == (f"v_c = {mdr.critical_velocity(case):.6g} m/s, mu_0 = 0.4\n{found}\n", "")
+    assert sorted(path.name for path in (tmp_path / "one").iterdir()) == ["run.csv", "run.png", "run.svg"]
+    lines = (tmp_path / "one" / "run.csv").read_text(encoding="utf-8").splitlines()
+    head = [line[2:] for line in lines if line.startswith("#")]
+    assert head[:2] == [versions(), " ".join(["mdr", *command])]
+    assert parse_case("\n".join(head[2:])) == case
+    assert lines[len(head)] == "t [s],u_x [m],u_z [m],F_x [N],F_z [N]"
+    rows = np.loadtxt(lines[len(head) + 1 :], delimiter=",")
+    assert np.array_equal(rows.T, [found.t, found.u_x, found.u_z, found.F_x, found.F_z])
+    found.to_csv(tmp_path / "again.csv")
+    assert (tmp_path / "again.csv").read_text(encoding="utf-8").splitlines() == lines[len(head) :]
+
+
+def test_a_run_for_machines(capsys, punch):
+    assert main(["run", punch, "--v-0", "1mm/s", "--json", *RUN]) == 0
+    answer = strict_json(capsys.readouterr().out)
+    assert (answer["v_0"], answer["settled"], answer["n_springs"], answer["steps_per_period"]) == (1e-3, True, 64, 256)
+    assert abs(answer["mean_F_x"] / answer["mean_F_z"] - answer["cof"]) < 1e-12
+    assert abs(answer["energy_balance"]["residual"]) < 1e-3 * answer["energy_balance"]["friction_loss"]
+
+
+def test_a_run_that_does_not_settle_fails(capsys, punch, monkeypatch):
+    case = read_case(punch)
+    loose = mdr.slide(case, 1e-5, n_springs=32, steps_per_period=64, n_periods=2, record=1)
+    monkeypatch.setattr("mdr.march.slide.slide", lambda *args, **knobs: replace(loose, settled=False, why="it drifts"))
+    assert main(["run", punch, "--v-0", "1e-5"]) == 1
+    assert capsys.readouterr().err == "mdr: the run did not settle\n  it drifts\n"
+
+
+@pytest.mark.parametrize(
+    ("velocity", "words"),
+    [("0", "--v-0 must be above zero"), ("-1e-3", "--v-0 must be above zero, got -0.001 m/s"),
+     ("-0.5v_c", "--v-0 must be above zero"), ("nan", "must be a velocity such as 1e-3, 1mm/s or 0.5v_c, got 'nan'"),
+     ("inf", "must be a velocity"), ("v_c", "must be a velocity"), ("", "must be a velocity"),
+     ("1e-3km/s", "must be a velocity"), ("1,5", "must be a velocity")],
+)  # fmt: skip
+def test_a_velocity_that_is_none_is_status_2(capsys, punch, velocity, words):
+    try:
+        status = main(["run", punch, "--v-0", velocity])
+    except SystemExit as end:
+        status = end.code
+    assert status == 2
+    assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("options", [["--n-springs", "31"], ["--steps", "1e3"], ["--steps", "9" * 5000], []])
+def test_a_run_of_too_few_or_too_many_is_status_2(punch, options):
+    with pytest.raises(SystemExit) as end:
+        main(["run", punch, *(["--v-0", "1e-3"] if options else []), *options])
+    assert end.value.code == 2
+
+
+# --- standard input, and what goes before the command ---
+
+
+def given(monkeypatch, text):
+    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(text.encode("utf-8")), encoding="utf-8"))
+
+
+def test_a_case_may_come_from_standard_input(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "-").write_text("a file of this name is not meant")
+    given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
+    assert main(["velocity", "-", "--json"]) == 0
+    assert strict_json(capsys.readouterr().out)["v_c"] == mdr.critical_velocity(read_case(EXAMPLE))
+    given(monkeypatch, "mu_0 = ")
+    assert main(["verdict", "-"]) == 2
+    assert capsys.readouterr().err.startswith("mdr: standard input: line 1: ")
+    given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
+    assert main(["sweep", "-", "--json"]) == 2
+    assert "mdr: standard input: [axes] is missing" in capsys.readouterr().err
+    monkeypatch.setattr(sys, "stdin", None)
+    assert main(["velocity", "-"]) == 2
+    assert capsys.readouterr().err == "mdr: standard input: cannot be read: it is closed\n"
+
+
+def test_json_stands_before_the_command_too(capsys, punch):
+    assert main(["--json", "velocity", punch]) == 0
+    before = strict_json(capsys.readouterr().out)
+    assert main(["velocity", punch, "--json"]) == 0
+    assert strict_json(capsys.readouterr().out)["v_c"] == before["v_c"]
+
+
+def test_no_command_shows_the_help(capsys):
+    for given in ([], ["--json"]):
+        with pytest.raises(SystemExit) as end:
+            main(given)
+        out, err = capsys.readouterr()
+        assert (end.value.code, out) == (2, "")
+        assert "velocity" in err
+        assert "verdict" in err
+
+
+def test_a_study_file_is_sent_to_sweep(capsys):
+    assert main(["velocity", str(Path(EXAMPLE).with_name("study.toml"))]) == 2
+    assert capsys.readouterr().err.endswith("[axes] makes it a study file, not a case file; `mdr sweep` reads it\n")
+
+
+# --- completion ---
+
+
+def completed(script, words):
+    """What bash offers for the last of these words."""
+    test = (
+        f"COMP_WORDS=({' '.join(map(shlex.quote, words))}); COMP_CWORD={len(words) - 1}; _mdr; echo ${{COMPREPLY[@]}}"
+    )
+    done = subprocess.run(["bash", "-c", f"{script}\n{test}"], capture_output=True, text=True, timeout=60)
+    assert done.stderr == ""
+    return done.stdout.split()
+
+
+@pytest.mark.skipif(which("bash") is None, reason="bash is not installed")
+def test_bash_completes_commands_and_their_options(capsys):
+    assert main(["completion", "bash"]) == 0
+    script = capsys.readouterr().out
+    assert completed(script, ["mdr", "cu"]) == ["curve"]
+    assert completed(script, ["mdr", "curve", "case.toml", "--p"]) == ["--points"]
+    assert completed(script, ["mdr", "--json", "run", "--v"]) == ["--v-0"]
+    assert completed(script, ["mdr", "completion", "f"]) == ["fish"]
+    assert completed(script, ["mdr", "curve", "case"]) == []  # files, which the shell finds
+
+
+def test_every_shell_is_told_every_command_and_option(capsys):
+    for shell in ("bash", "zsh", "fish"):
+        assert main(["completion", shell]) == 0
+        script = capsys.readouterr().out
+        for word in ("velocity", "run", "sweep", "within", "chunk-seconds", "v-0"):
+            assert word in script
 
 
 # --- measure and verdict ---

@@ -112,8 +112,23 @@ def test_several_curves_share_given_axes():
 @pytest.mark.parametrize("v_c", [np.inf, np.nan, None, 0.0])
 def test_without_a_finite_v_c_the_axis_is_the_velocity_itself(v_c):
     ax = plots.plot_curve([made_up_curve(v_c=v_c), made_up_curve()], labels=["a", "b"])
-    assert "m/s" in ax.get_xlabel()
-    assert_allclose(line(ax, "b").get_xdata(), made_up_curve().v_0)
+    assert "[mm/s]" in ax.get_xlabel()
+    assert_allclose(line(ax, "b").get_xdata(), 1e3 * made_up_curve().v_0)
+
+
+def test_several_curves_are_drawn_as_they_are_unless_asked_otherwise():
+    curves = [made_up_curve(v_c=0.02), made_up_curve(v_c=0.04, static=0.2)]
+    ax = plots.plot_curve(curves, labels=["a", "b"])
+    assert_allclose(line(ax, "a").get_xdata(), 1e3 * curves[0].v_0)
+    assert_allclose(line(ax, "a").get_ydata(), curves[0].cof)
+    assert ("[mm/s]" in ax.get_xlabel(), "mu_0" in ax.get_ylabel()) == (True, False)
+    dotted = {float(drawn.get_xdata()[0]): drawn.get_color() for drawn in ax.lines if drawn.get_linestyle() == ":"}
+    assert dotted == {20.0: plots.COLOURS[0], 40.0: plots.COLOURS[1]}  # v_c of each, in its colour
+    over = plots.plot_curve(curves, labels=["a", "b"], absolute=False)
+    assert_allclose(line(over, "a").get_xdata(), curves[0].v_0 / 0.02)
+    assert len([drawn for drawn in over.lines if drawn.get_linestyle() == ":"]) == 1
+    alone = plots.plot_curve(curves[0], labels=["a"], absolute=True)
+    assert_allclose(line(alone, "a").get_ydata(), curves[0].cof)
 
 
 def test_too_few_labels_are_refused():

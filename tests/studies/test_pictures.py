@@ -133,6 +133,43 @@ def test_axes_that_grow_by_a_factor_are_logarithmic():
     assert_allclose(ax.collections[0].get_coordinates()[0, :2, 0], [0.1 / 10**0.25, 0.1 * 10**0.25])
 
 
+def critical(ax):
+    """Places of the dashed line of a map."""
+    return [np.asarray(line.get_data()) for line in ax.lines if line.get_linestyle() == "--"]
+
+
+def test_a_map_over_velocity_shows_the_critical_one(flat):
+    x, _ = critical(flat.plot_map("cof", x="v_0/v_c"))[0]
+    assert_allclose(x, 1.0)
+    _, y = critical(flat.plot_map("cof", x="alpha"))[0]
+    assert_allclose(y, 1.0)
+    slow = mdr.sweep(CASE, {"alpha": [0.1, 0.2], "v_0/v_c": [0.2, 0.4]})
+    assert critical(slow.plot_map("cof")) == []  # out of sight
+
+
+@pytest.mark.parametrize("x", ["v_0", "oscillation.du_z"])
+def test_a_map_in_metres_per_second_shows_it_where_the_study_has_it(x):
+    axes = {"oscillation.du_z": [3e-6, 1e-6, 2e-6], "v_0": [1e-4, 2e-3]}
+    study = mdr.sweep(CASE, axes, quantities=("cof", "v_c"))
+    line = critical(study.plot_map("cof", x=x))[0]
+    v_c = np.sort(study["v_c"][:, 0])
+    assert_allclose(line[0 if x == "v_0" else 1], 1e3 * v_c)  # mm/s
+    assert_allclose(line[1 if x == "v_0" else 0], [1, 2, 3])  # µm
+    assert critical(mdr.sweep(CASE, axes).plot_map("cof", x=x)) == []
+
+
+def test_the_picture_of_a_map_has_contours_round_or_chosen(study, flat):
+    def contours(fig):
+        return [one for ax in fig.axes for one in ax.collections if hasattr(one, "levels")]
+
+    round_ones = contours(flat.plot("cof"))[0].levels
+    assert len(round_ones) >= 2
+    assert_allclose(round_ones, np.round(round_ones, 2))
+    assert_allclose(contours(flat.plot("cof", levels=[0.4, 0.35]))[0].levels, [0.35, 0.4])
+    assert contours(flat.plot("cof", levels=[])) == []
+    assert len(contours(study.plot())) == 2
+
+
 def test_what_cannot_be_drawn_says_so(study, flat):
     with pytest.raises(ValueError, match="the study has 3"):
         study.plot_map("cof")

@@ -47,6 +47,18 @@ def test_a_study_is_written_and_told(file, tmp_path, capsys):
     assert mdr.parse_case("\n".join(line[2:] for line in head[2:])) == mdr.parse_case(study.case)
 
 
+def test_a_folder_gets_all_files(file, tmp_path, capsys, monkeypatch):
+    (tmp_path / "v1.2").mkdir()  # a folder, whatever its name
+    assert main(["sweep", file, "-o", str(tmp_path / "v1.2")]) == 0
+    assert sorted(os.listdir(tmp_path / "v1.2")) == ["study.csv", "study.nc", "study.png", "study.svg"]
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr("mdr.commands.sweep.write_figure", lambda *args: None)
+    (tmp_path / "new.nc").write_text("mine")
+    assert main(["sweep", file, "-o", str(tmp_path / "new.nc")]) == 0
+    assert capsys.readouterr().err == f"mdr: will be overwritten: {tmp_path / 'new.nc'}\n"
+    assert np.array_equal(mdr.read_study(tmp_path / "new.nc").values, mdr.read_study(tmp_path / "v1.2/study.nc").values)
+
+
 def test_every_file_names_the_command_and_the_versions(file, tmp_path):
     for kind in ("nc", "csv"):
         out = tmp_path / f"study.{kind}"
@@ -105,10 +117,12 @@ def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ([], "the study would be lost: give -o file.nc or file.csv, --store folder, or --json"),
+        ([], "the study would be lost: give -o folder, --store folder, or --json"),
         (["-o", "study.txt"], "study.txt: a study is written as .nc or .csv"),
         (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: there is no folder /nowhere"),
         (["--store", "study.toml"], "study.toml: is a file; a store is a folder"),
+        (["--store", "store", "-o", "store"], "store: the store keeps its own study.nc there"),
+        (["--store", "store", "-o", "./store/study.nc"], "store/study.nc: the store keeps its own study.nc there"),
         (["--json", "--shard", "1/2"], "a shard needs a store"),
         (["--store", "store", "--shard", "3/2"], "shard must be k/n"),
     ],

@@ -1,5 +1,7 @@
 """Progress is silent for what is short, and says how far it got, and how long the rest takes, for what is long."""
 
+import re
+
 import pytest
 
 import mdr
@@ -35,8 +37,8 @@ def test_what_was_there_before_is_counted_and_not_timed(capsys, clock):
 
 def test_an_unknown_end(capsys, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", -1.0)
-    Ticker("runs").tick()
-    assert capsys.readouterr().err == "runs: 1\n"
+    Ticker("velocity", parts="runs").tick()
+    assert capsys.readouterr().err == "velocity: 1 runs so far\n"
 
 
 def test_a_terminal_gets_a_bar_from_where_it_stands(capsys, monkeypatch):
@@ -72,5 +74,16 @@ def test_a_long_march_says_how_many_periods_are_done(capsys, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", -1.0)
     motion = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
     case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, motion)
+    monkeypatch.setattr("mdr.march.stepper.AT_ONCE", 4 * 64)  # four periods
     mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64, n_periods=12)
-    assert capsys.readouterr().err == "slide, waiting for a steady state, periods: 11\n"  # the last is looked at
+    assert capsys.readouterr().err.startswith("slide: 4 of 11 periods, about ")  # the last is looked at
+    mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64)
+    assert re.search("^slide, waiting for a steady state: [0-9]+ periods so far$", capsys.readouterr().err, re.M)
+
+
+def test_a_curve_says_how_many_velocities_there_are(capsys, monkeypatch):
+    monkeypatch.setattr(module, "PATIENCE", -1.0)
+    motion = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
+    case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, motion)
+    mdr.cof_curve(case, [1e-4, 2e-4], method="march", n_springs=32, steps_per_period=64)
+    assert "COF curve: 1 of 2 velocities, about " in capsys.readouterr().err

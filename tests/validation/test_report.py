@@ -291,7 +291,7 @@ def test_all_held_gives_0_and_the_default_folder(claims, capsys):
     out, err = capsys.readouterr()
     assert "one: holds [1/1 checks held]" in out
     assert "Done with long" in out
-    assert re.search(r"two: 1/1 checks held, \d+\.\d s", err)
+    assert re.search(r"claim [12] of 2, two: 1/1 checks held, \d+\.\d s", err)
     assert Path("report/index.html").exists()
 
 
@@ -412,7 +412,7 @@ def test_an_interrupt_ends_the_command_and_its_processes(asleep, send):
     send(process.pid, signal.SIGINT)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert re.fullmatch(r"one: 1/1 checks held, .* s\ninterrupted before the report was complete\n", err)
+    assert re.fullmatch(r"claim 1 of 4, one: 1/1 checks held, .* s\ninterrupted before the report was complete\n", err)
     assert not any(is_alive(number) for number in workers)
     assert not Path("report").exists()
     assert not Path("asleep.late.pid").exists()

@@ -1,0 +1,130 @@
+"""Records print as a few lines, never as arrays, and notebooks show the same."""
+
+import re
+from dataclasses import replace
+from html import unescape
+
+import numpy as np
+import pytest
+from conftest import contact, unit_of_velocity
+
+import mdr
+from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summary, lines_of, number, span, with_error
+
+CASE = contact("cone", 2.0)
+V_0 = 0.5 * unit_of_velocity(CASE)
+RUBBER, BALL = mdr.Elastic(E=3e6, nu=0.5), mdr.Paraboloid(R=5e-3)
+
+
+def pressed():
+    return mdr.indent(BALL, RUBBER, np.linspace(0, 1e-2, 2000), np.linspace(0, 1e-5, 2000), n_springs=64)
+
+
+def pulled():
+    return mdr.partial_slip(BALL, RUBBER, 0.4, 20e-6, np.linspace(0, 3e-5, 300))
+
+
+MAKE = {
+    "case": lambda: CASE,
+    "run": lambda: mdr.slide(CASE, V_0, n_springs=32, steps_per_period=64, n_periods=8, record=1),
+    "curve": lambda: mdr.cof_curve(CASE, V_0 * np.linspace(0, 2, 500)),
+    "indentation": pressed,
+    "pull": pulled,
+    "loop": lambda: mdr.tangential_loop(BALL, RUBBER, 0.4, 20e-6, 4e-6),
+    "fields": lambda: mdr.surface_fields(pulled(), i=100),
+    "springs": lambda: mdr.SpringArray.of(CASE),
+    "data": lambda: mdr.FrictionData(v_0=[1e-4, 2e-4, 4e-4], cof=[0.365, 0.388, 0.4], error=[0.01, 0.02, 0.01]),
+}
+
+
+@pytest.mark.parametrize("kind", MAKE)
+def test_records_print_as_a_few_lines_and_in_notebooks_alike(kind):
+    record = MAKE[kind]()
+    text = str(record)
+    assert text.startswith("SlidingContact" if kind == "case" else type(record).__name__)
+    assert 3 <= len(text.splitlines()) <= 12
+    assert max(map(len, text.splitlines())) <= 140
+    assert not re.search(r"array|\[|nan", text)
+    words = unescape(re.sub("<[^>]*>", " ", record._repr_html_()))
+    assert words.split() == text.split()
+    if isinstance(record, ArrayRecord):
+        assert len(repr(record)) < 1500
+        assert "\n" not in repr(record)
+        assert type(record).__name__ in repr([record])
+
+
+def test_a_run_says_how_it_ended():
+    run = replace(MAKE["run"](), cof=0.25, mu_0=0.5, cof_error=2e-5, settled=False, why="F_x still drifts")
+    text = str(run)
+    assert "COF        0.250000 +- 2.0e-05  0.5 of mu_0 = 0.5" in text
+    assert "settled    no" in text
+    assert "why        F_x still drifts" in text
+    assert f"mean F_z   {run.mean_F_z:.6g} N" in text
+    assert "64 instants" in text
+
+
+def test_a_curve_names_the_reasons_of_what_did_not_settle_once():
+    curve = mdr.cof_curve(CASE, V_0 * np.arange(4))
+    loose = replace(curve, settled=np.array([True, False, False, True]), why=("", "it drifts", "it drifts", "a note"))
+    assert "settled    2 of 4" in str(loose)
+    assert str(loose).count("it drifts") == 1
+    assert "a note" not in str(loose)
+
+
+def test_a_case_names_its_parts_with_units_and_reads_back_from_its_repr():
+    load = mdr.LoadOscillation(F_z0=0.05, dF_z=0.01, omega=100 * np.pi)
+    shake = mdr.InPlaneOscillation(omega=100 * np.pi, du_x=1e-6)
+    case = mdr.SlidingContact(BALL, RUBBER, 0.5, load, mdr.SpringPull(k_x=2e4), shake)
+    text = str(case)
+    for words in ("Paraboloid", "R = 0.005 m", "E = 3e+06 Pa", "F_z0 = 0.05 N", "(50 Hz)", "k_x = 20000 N/m", "du_x"):
+        assert words in text
+    assert "mdr.resolved(case)" in text
+    assert "a = 0.000" in str(mdr.resolved(case))
+    assert "F_z0 = 0.05 N" in str(mdr.resolved(case))
+    assert eval(repr(case), vars(mdr)) == case
+
+
+def test_a_case_of_a_users_own_shape_prints_without_addresses():
+    measured = mdr.SampledProfile(np.linspace(0, 1e-3, 30), 100 * np.linspace(0, 1e-3, 30) ** 2)
+    for shape in (mdr.Profile(lambda r: 100 * r**2), measured):
+        text = str(replace(CASE, indenter=shape, oscillation=mdr.NormalOscillation(20e-6, 2e-6, 300.0)))
+        assert "0x" not in text
+        assert len(text) < 1000
+
+
+def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
+    found = mdr.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7)
+    assert str(found).splitlines() == [
+        "MeasuredVelocity",
+        "  v_c        0.1 m/s               end of stick",
+        "  bracket    0.0999 to 0.1001 m/s  reduced below, full above",
+        "  why        all signs agree",
+        "  runs       7",
+    ]
+    nothing = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+    assert "bracket" not in str(nothing)
+    assert "none" in str(nothing)
+
+
+def test_what_has_a_sentence_shows_it_in_notebooks():
+    study = mdr.sweep(CASE, {"v_0": [V_0]}, quantities=("v_c", "cof"))
+    assert study._repr_html_().count("\n") == str(study).count("\n")
+    assert "Study of 1 points" in study._repr_html_()
+
+
+def test_numbers_are_cut_to_what_is_known():
+    assert number(0.1234567, "m") == "0.123457 m"
+    assert number(2.0, "-") == "2"
+    assert with_error(0.43864123, 4.6e-6) == "0.4386412 +- 4.6e-06"
+    assert with_error(0.5, 0.0) == with_error(0.5, np.nan) == with_error(0.5, np.inf) == "0.5"
+    assert with_error(0.5, 1e-300) == "0.50000000 +- 1.0e-300"
+    assert with_error(12.0, 30.0) == "12 +- 3.0e+01"
+    assert span([2.0, np.nan, 1.0], "s") == "1 to 2 s"
+    assert span([1.0, 1.0], "s") == "1 s"
+    assert span([np.nan]) == span([]) == "none"
+    assert lines_of([]) == []
+
+
+def test_markup_is_text():
+    assert "&lt;b&gt;" in Summary("<b>", [("a", "<b>", "")]).html
