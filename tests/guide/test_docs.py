@@ -10,6 +10,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from inspect import isfunction
 
+import gallery_page
 import matplotlib as mpl
 import numpy as np
 import pages
@@ -435,4 +436,11 @@ def test_bump_of_the_page_on_extending_has_that_image():
 
 def test_figures_are_all_shown():
     shown = {name for page in pages.PAGES for name in pages.figures(page)}
-    assert {path.name for path in (DOCS / "figures").iterdir()} == shown
+    assert {path.name for path in (DOCS / "figures").iterdir() if path.is_file()} == shown
+
+
+def test_the_gallery_has_every_script():
+    """Where this fails, `python tests/gallery_page.py` draws what is missing and writes the page."""
+    assert gallery_page.PAGE.read_text(encoding="utf-8") == gallery_page.page()
+    assert {path.stem for path in gallery_page.PICTURES.iterdir()} == set(gallery_page.names())
+    assert all(path.stat().st_size < 4e4 for path in gallery_page.PICTURES.iterdir())
