@@ -1,7 +1,7 @@
 """The gallery of the guide: every script of geometries/ with its question, its picture and a link to it.
 
-`.venv/bin/python tests/gallery_page.py` draws all pictures and writes docs/gallery.md anew; with names of scripts, their pictures alone.
-The text above the first entry of the page is kept.
+`.venv/bin/python tests/gallery_page.py` draws all pictures and writes docs/gallery.md anew; with names of scripts it
+draws theirs alone. The text above the first entry of the page is kept.
 """
 
 import ast
