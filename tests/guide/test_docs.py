@@ -444,3 +444,15 @@ def test_the_gallery_has_every_script():
     assert gallery_page.PAGE.read_text(encoding="utf-8") == gallery_page.page()
     assert {path.stem for path in gallery_page.PICTURES.iterdir()} == set(gallery_page.names())
     assert all(path.stat().st_size < 4e4 for path in gallery_page.PICTURES.iterdir())
+
+
+def test_the_paper_has_the_form_that_its_journal_asks_for():
+    """Sections and length of the Journal of Open Source Software; every reference is cited, and every citation there."""
+    paper = (DOCS / "paper.md").read_text(encoding="utf-8").split("\n---\n", 1)[1]
+    sections = ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement"]
+    sections += ["AI usage disclosure", "Acknowledgements", "References"]
+    assert re.findall(r"^# (.*)$", paper, re.MULTILINE) == sections
+    assert 750 <= len(re.sub(r"<!--.*?-->", "", paper).split()) <= 1750
+    assert len(re.findall(r"^!\[.*\]\((\S+)\)", paper, re.MULTILINE)) == 1
+    bib = (DOCS / "paper.bib").read_text(encoding="utf-8")
+    assert set(re.findall(r"@(\w+)", paper)) == set(re.findall(r"^@\w+\{(\w+),", bib, re.MULTILINE))
