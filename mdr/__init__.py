@@ -11,6 +11,8 @@ from mdr.case.in_plane import *
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.case.contact import SlidingContact
 from mdr.normal.resolved import resolved
+from mdr.normal.doubts import PlausibilityWarning
+from mdr.normal.rig import plausibility, rig, static_depth, static_load
 from mdr.normal.springs import SpringArray
 from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
@@ -50,6 +52,7 @@ __all__ = [
     "Indentation",
     "MeasuredVelocity",
     "PartialSlip",
+    "PlausibilityWarning",
     "Pull",
     "Quantity",
     "RigidPull",
@@ -77,14 +80,18 @@ __all__ = [
     "no_load_velocity",
     "parse_case",
     "partial_slip",
+    "plausibility",
     "radial_rub",
     "read_case",
     "read_friction_data",
     "read_study",
     "register",
     "resolved",
+    "rig",
     "slide",
     "static_cof",
+    "static_depth",
+    "static_load",
     "surface_fields",
     "sweep",
     "tangential_loop",

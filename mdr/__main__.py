@@ -12,15 +12,19 @@ import argparse
 import os
 import shlex
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import mdr
+from mdr.case.contact import SlidingContact
 from mdr.commands import begin, curve, judge, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import CaseFileError, read_case
+from mdr.normal.doubts import PlausibilityWarning
+from mdr.normal.rig import plausibility
 
-_FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError)
+_FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -48,6 +52,7 @@ def _run(args: argparse.Namespace) -> int:
     except CaseFileError as fault:
         return complain(str(fault), WRONG_INPUT)
     try:
+        _say_doubts(case)
         status = work(args, case)
         sys.stdout.flush()  # a full disk shows here
         return status
@@ -58,6 +63,17 @@ def _run(args: argparse.Namespace) -> int:
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
         return complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
+
+
+def _say_doubts(case: Any) -> None:
+    """What is unlikely of a case, on standard error; PYTHONWARNINGS=ignore silences it."""
+    if not isinstance(case, SlidingContact):
+        return
+    with warnings.catch_warnings(record=True) as said:
+        for doubt in plausibility(case):
+            warnings.warn(doubt, PlausibilityWarning, stacklevel=1)
+    for one in said:
+        complain(f"warning: {one.message}", DONE)
 
 
 def parser() -> argparse.ArgumentParser:

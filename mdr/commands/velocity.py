@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
+from mdr.normal.doubts import depth_in_doubt, edge
 from mdr.normal.resolved import resolved
 
 if TYPE_CHECKING:
@@ -29,7 +31,7 @@ def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
         values = {
             "equation": equation, "v_c": v_c, "full_slip": full_slip, "static_cof": static, "mu_0": case.mu_0,
             "alpha": known.alpha, "T": case.T, "loss_tangent": loss, "mindlin_ratio": kappa,
-            "keeps_contact": known.keeps_contact,
+            "keeps_contact": known.keeps_contact, **Size.of(known).values,
         }  # fmt: skip
         return print_json(args, values, case)
     print_rows([
@@ -40,6 +42,7 @@ def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
         ("loss", f"{loss:.6g}", "loss tangent of the material at omega; omega tau of a Kelvin body"),
         ("kappa", f"{kappa:.6g}", "E*/G*, Mindlin ratio"),
         ("contact", "kept" if known.keeps_contact else "lost in part of the period", "at its centre, Eq. (5)"),
+        *Size.of(known).rows,
     ])  # fmt: skip
     return DONE
 
@@ -56,7 +59,7 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
             "equation": equation, "v_c": v_c[0], "v_c_back": v_c[1], "full_slip": full[0], "full_slip_back": full[1],
             "mu_0": case.mu_0, **ends.values,
             "alpha": known.alpha, "chi": known.chi, "T": case.T, "mindlin_ratio": case.material.mindlin_ratio,
-            "keeps_contact": known.keeps_contact,
+            "keeps_contact": known.keeps_contact, **Size.of(known).values,
         }  # fmt: skip
         return print_json(args, values, case)
     print_rows([
@@ -68,8 +71,48 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
         ("alpha", f"{known.alpha:.6g}", "half the swing of the depth over its mean, du_z/u_z0"),
         ("chi", f"{known.chi:.6g}", "amplitude of the shake over the deflection at which springs slip"),
         ("contact", "kept" if known.keeps_contact else "lost in part of the period", "at its centre, Eq. (5)"),
+        *Size.of(known).rows,
     ])  # fmt: skip
     return DONE
+
+
+class Size(NamedTuple):
+    """The numbers by which a mistake in a case file shows: how large, how steep, how loaded, how stiff."""
+
+    contact_radius: float  #: [m]
+    edge_slope: float
+    load: float  #: [N], at the mean depth
+    k_zc: float  #: [N/m]
+    k_xc: float  #: [N/m]
+    omega_0_over_omega: float | None  #: None of a rigid pull, infinite of a body without mass
+
+    @classmethod
+    def of(cls, known: SlidingContact) -> Size:
+        """Those of a case of known depth."""
+        d, E_star = depth_in_doubt(known), known.material.E_star
+        a, slope = edge(known.indenter, d)
+        k_zc = float(known.indenter.stiffness(d, E_star))
+        ratio = None if known.pull.is_rigid else known.pull.omega_0 / known.omega
+        return cls(a, slope, float(known.indenter.force(d, E_star)), k_zc, k_zc / known.material.mindlin_ratio, ratio)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """What JSON says of them."""
+        return self._asdict()
+
+    @property
+    def rows(self) -> list[tuple[str, str, str]]:
+        """The same in words."""
+        ratio = self.omega_0_over_omega
+        body = "rigid" if ratio is None else "no mass" if math.isinf(ratio) else f"{ratio:.6g}"
+        return [
+            ("radius", f"{self.contact_radius:.6g} m", "of the contact at the mean depth"),
+            ("slope", f"{self.edge_slope:.6g}", "of the shape at the edge of the contact; small, below 0.5"),
+            ("load", f"{self.load:.6g} N", "at the mean depth"),
+            ("k_zc", f"{self.k_zc:.6g} N/m", "normal stiffness of the contact"),
+            ("k_xc", f"{self.k_xc:.6g} N/m", "tangential stiffness of the contact"),
+            ("body", body, "its natural frequency over that of the oscillation, omega_0/omega"),
+        ]
 
 
 class Ends(NamedTuple):

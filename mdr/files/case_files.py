@@ -52,6 +52,7 @@ from mdr.case.in_plane import Shake
 from mdr.case.motion import Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
+from mdr.files.spellings import SPELLINGS, as_written, meant, other_spellings, respelled, rest_under_load
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.tools.fields import checked
@@ -231,9 +232,29 @@ def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str
 def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, list[str]]]:
     """The parts that the tables describe, and the faults of those tables that have some."""
     tables = {**_meant(content), **content}
-    read = {name: table.read(tables) for name, table in _TABLES.items()}
-    parts = {name: part for name, (part, _) in read.items() if part is not None}
-    return parts, {name: faults for name, (_, faults) in read.items() if faults}
+    parts: dict[str, Any] = {}
+    wrong: dict[str, list[str]] = {}
+    for name, table in _TABLES.items():
+        if name == "oscillation":
+            tables, wrong[name] = _depth_under_load(tables, parts)
+        part, faults = table.read(tables)
+        wrong[name] = wrong.get(name, []) + faults
+        if part is not None and not wrong[name]:
+            parts[name] = part
+    return parts, {name: faults for name, faults in wrong.items() if faults}
+
+
+def _depth_under_load(tables: Mapping[str, Any], parts: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """The tables with the depth in the place of a load beside du_z; and the faults."""
+    given = tables.get("oscillation")
+    if not isinstance(given, dict) or not {"load", "du_z"} <= set(given):
+        return dict(tables), []
+    found = {key: value for key, value in given.items() if key != "load"} | {"u_z0": 1.0}  # of other parts unknown
+    faults: list[str] = []
+    if {"indenter", "material"} <= set(parts):
+        rests, faults = _tried(rest_under_load, given, parts["indenter"], parts["material"])
+        found = rests or found
+    return {**tables, "oscillation": found}, [f"[oscillation] {fault}" for fault in faults]
 
 
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
@@ -312,14 +333,14 @@ class _Table:
         if self.name not in content:
             needed = any(field.name == self.name and _is_required(field) for field in fields(SlidingContact))
             return None, [f"[{self.name}] is missing"] if needed else []
-        table = content[self.name]
-        if not isinstance(table, dict):
-            return None, [f"[{self.name}] must be one table of keys, got {_kind(table)}"]
+        if not isinstance(content[self.name], dict):
+            return None, [f"[{self.name}] must be one table of keys, got {_kind(content[self.name])}"]
+        table, misspelt = respelled(self.name, content)
         record, fault = self._choose(table)
-        if record is None:
-            return None, [f"[{self.name}] {fault}"]
-        made, faults = self._describe(record, table)
-        return made, [f"[{self.name}] {fault}" for fault in faults]
+        if record:
+            table = as_written(self.name, table, content, self.keys(record))
+        made, faults = self._describe(record, table) if record else (None, [fault])
+        return None if misspelt else made, [f"[{self.name}] {one}" for one in [*misspelt, *faults]]
 
     def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, str]:
         """The record that the table names, or what is wrong with the name."""
@@ -347,13 +368,23 @@ class _Table:
         known = self.keys(record)
         unknown = [self._unknown(key, record) for key in table if key not in known]
         given = {key: _number(table[key]) for key in table if key in known and key != self.choice}
-        faults = _field_faults(record, given, "; leave [pull] out for a rigid pull" if record is SpringPull else "")
+        faults = _field_faults(record, given, self._ways_out(record))
         made, together = (None, []) if faults else _tried(record, **given)
         return made, [*unknown, *faults, *together]
+
+    def _ways_out(self, record: type[Any]) -> dict[str, str]:
+        """What else may be given, or left out, in the place of a field that is missing."""
+        if record is SpringPull:
+            return {"k_x": "leave [pull] out for a rigid pull"}
+        known = SPELLINGS.get(self.name, {})
+        return {one.key: f"or give {alias} [{one.unit}]" for alias, one in known.items()}
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""
         known, whose = self.keys(record), f"{_bare(key)} is no key of {record.__name__}"
+        if usual := meant(self.name, key):
+            return f"{whose}; did you mean {usual}?"
+        known += other_spellings(self.name, known)
         if key.casefold() not in {one.casefold() for one in known}:
             if key in _top_level() and key not in _TABLES:
                 return f"{whose}; write it at the top of the file, above the first table"
@@ -377,6 +408,7 @@ _HARMLESS = {
     "material": Elastic(E=1.0, nu=0.5),
     "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
 }
+_NONE: Mapping[str, str] = {}
 NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
@@ -422,11 +454,12 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
-def _field_faults(record: type[Any], given: Mapping[str, Any], way_out: str = "") -> list[str]:
+def _field_faults(record: type[Any], given: Mapping[str, Any], ways_out: Mapping[str, str] = _NONE) -> list[str]:
     """What is missing, then what each field refuses by its rule."""
-    absent = [one for one in _inputs(record) if _is_required(one) and one.name not in given]
+    absent = [one.name for one in _inputs(record) if _is_required(one) and one.name not in given]
     refused = [_tried(checked, one, given[one.name])[1] for one in _inputs(record) if one.name in given]
-    return [f"{one.name} is missing{way_out}" for one in absent] + [fault for found in refused for fault in found]
+    missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
+    return missing + [fault for found in refused for fault in found]
 
 
 def _tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:

@@ -2,7 +2,7 @@
 
 A SlidingContact computes its properties from its fields. Under a load the depth is no field: it follows from
 shape, material and load (load_control.py). `resolved` puts it there, as a `DepthUnderLoad`; every function that needs
-the depth does this first, so that it takes either case.
+the depth does this first, so that it takes either case, and there a user is warned of what is unlikely (doubts.py).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from mdr.case.depth_cycle import Cycle
 from mdr.case.motion import ConstantLoad, LoadOscillation, Motion
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
+from mdr.normal.doubts import warn_at_the_door
 from mdr.normal.load_control import depth_under_load, static_depth
 from mdr.tools.memoise import remembered
 
@@ -83,6 +84,13 @@ def resolved(case: SlidingContact) -> SlidingContact:
     >>> print(f"{mdr.resolved(case).working_depth:.3g} m")
     2.6e-05 m
     """
+    known = with_depth(case)
+    warn_at_the_door(known)
+    return known
+
+
+def with_depth(case: SlidingContact) -> SlidingContact:
+    """The same without a warning of what is unlikely."""
     load = _load_of(case)
     if load is None:
         return case
@@ -100,11 +108,12 @@ def at_rest(case: SlidingContact) -> SlidingContact:
     For what needs no more: a case of prescribed depth as it is; under a load, no periodic motion is sought.
     Raises ValueError where the shape does not carry the load.
     """
-    load = _load_of(case)
-    if load is None:
-        return case
-    rest = _rests_at(case.indenter, case.material, load.F_z0)
-    return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, None))
+    load, known = _load_of(case), case
+    if load is not None:
+        rest = _rests_at(case.indenter, case.material, load.F_z0)
+        known = replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, None))
+    warn_at_the_door(known)
+    return known
 
 
 def _load_of(case: SlidingContact) -> LoadOscillation | ConstantLoad | None:

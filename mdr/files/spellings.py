@@ -1,0 +1,136 @@
+"""Other spellings of a case file's keys: what rigs are set to, in the units that people have.
+
+    [indenter]     theta_deg = 1.5     for theta [rad]
+    [material]     tan_delta = 0.2     for tau [s]: the loss tangent at the frequency of the file
+    [oscillation]  frequency = 50      for omega [rad/s], in Hz; so in [shake]
+    [oscillation]  load = 1.0          for F_z0 [N]; with du_z, for u_z0: the depth at which this load rests
+
+A key and its other spelling are not given together. Files are written in the fields of the records.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from mdr.indenters import Indenter
+from mdr.materials import Material
+from mdr.normal.rig import static_depth
+from mdr.tools.checks import not_negative, positive
+
+
+class Spelling(NamedTuple):
+    """One other spelling of a key."""
+
+    key: str  #: of the record's field
+    unit: str
+    meaning: str
+    convert: Callable[[Any, float], float]  #: the value, and omega [rad/s] of the file
+
+
+def _frequency(value: Any, _: float) -> float:
+    return 2 * math.pi * positive("frequency", value, "in Hz")
+
+
+_FREQUENCY = Spelling("omega", "Hz", "frequency", _frequency)
+SPELLINGS: dict[str, dict[str, Spelling]] = {
+    "indenter": {
+        "theta_deg": Spelling(
+            "theta",
+            "deg",
+            "angle between flank and plane",
+            lambda value, _: math.radians(positive("theta_deg", value, "angle in degrees")),
+        )
+    },
+    "material": {
+        "tan_delta": Spelling(
+            "tau",
+            "-",
+            "loss tangent at the frequency of the file",
+            lambda value, omega: not_negative("tan_delta", value, "loss tangent") / omega,
+        )
+    },
+    "oscillation": {
+        "frequency": _FREQUENCY,
+        "load": Spelling(
+            "F_z0", "N", "mean load; beside du_z, for u_z0", lambda value, _: positive("load", value, "mean load in N")
+        ),
+    },
+    "shake": {"frequency": _FREQUENCY},
+}
+_MEANT = {"f": "frequency", "hz": "frequency", "freq": "frequency"}  #: what nobody should have to guess
+
+
+def respelled(name: str, content: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """The table [name] of a file in the fields of its record, and what is wrong with its other spellings.
+
+    A load beside the amplitude of a depth stays as it is, see `rest_under_load`. Where a value is refused a harmless
+    one stands in its place, so that the rest of the table can be read.
+    """
+    out, faults = dict(content[name]), []
+    for alias, (key, _, _, convert) in SPELLINGS.get(name, {}).items():
+        if alias not in out or _asks_for_depth(name, out, alias):
+            continue
+        value = out.pop(alias)
+        if key in out:
+            faults.append(f"{alias} and {key} say the same: give one of them")
+            continue
+        omega = _omega(content) if key == "tau" else 1.0
+        if omega is None:
+            faults.append(f"{alias} needs a frequency: give it in [oscillation] or [shake]")
+        try:
+            out[key] = convert(value, omega or 1.0)
+        except (TypeError, ValueError) as refusal:
+            faults.append(str(refusal))
+            out[key] = 0.5  # within the rule of every field above
+    return out, faults
+
+
+def as_written(name: str, table: Mapping[str, Any], content: Mapping[str, Any], keys: list[str]) -> dict[str, Any]:
+    """The table, with the spellings of the file for keys that its record has not, so that a refusal names these."""
+    back = {one.key: alias for alias, one in SPELLINGS.get(name, {}).items() if alias in content[name]}
+    return {back.get(key, key) if key not in keys else key: value for key, value in table.items()}
+
+
+def rest_under_load(table: Mapping[str, Any], indenter: Indenter, material: Material) -> dict[str, Any]:
+    """A table [oscillation] with load and du_z, where the depth at which this load rests stands for it.
+
+    Raises ValueError or TypeError where the load is refused or more than the shape carries, or u_z0 is given too.
+    """
+    out = dict(table)
+    load = positive("load", out.pop("load"), "mean load in N")
+    if "u_z0" in out:
+        raise ValueError("load and u_z0 say the same: give one of them")
+    return {**out, "u_z0": static_depth(indenter, material, load)}
+
+
+def other_spellings(name: str, keys: list[str]) -> list[str]:
+    """The other spellings of a table whose record has these keys."""
+    return [alias for alias, one in SPELLINGS.get(name, {}).items() if one.key in keys]
+
+
+def meant(name: str, key: str) -> str | None:
+    """The other spelling that a common abbreviation stands for."""
+    found = _MEANT.get(key.casefold())
+    return found if found in SPELLINGS.get(name, {}) else None
+
+
+def _asks_for_depth(name: str, table: Mapping[str, Any], alias: str) -> bool:
+    """Whether a load stands beside the amplitude of a depth."""
+    return name == "oscillation" and alias == "load" and "du_z" in table
+
+
+def _omega(content: Mapping[str, Any]) -> float | None:
+    """Angular frequency [rad/s] of the file, of the oscillation before that of a shake; None where it has none."""
+    for table in (content.get("oscillation"), content.get("shake")):
+        if not isinstance(table, dict):
+            continue
+        try:
+            if "frequency" in table:
+                return _frequency(table["frequency"], 1.0)
+            if "omega" in table:
+                return positive("omega", table["omega"])
+        except (TypeError, ValueError):
+            return 1.0  # refused by its own rule
+    return None

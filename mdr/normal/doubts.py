@@ -1,0 +1,143 @@
+"""Plausibility of a contact: what is legal but unlikely, told in dimensionless numbers, so that it needs no units.
+
+A record refuses what cannot be. What can be but hardly ever is meant (a cone of 57 degrees, an amplitude ten times the
+mean depth, a contact a million times softer than the spring that pulls it) is computed, with a warning: most often a
+unit is wrong. Each limit below is far from usual contacts and near what the theory of small slopes still carries.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterator
+from types import FrameType
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact
+from mdr.case.motion import LoadOscillation
+from mdr.indenters.base import Indenter
+from mdr.tools.memoise import remembered
+
+STEEPEST = 0.5  #: slope of the shape at the edge of contact; the theory is that of small slopes
+DEEPEST = 0.5  #: depth over contact radius, of a face without slope
+GREATEST_ALPHA = 5.0  #: du_z/u_z0
+GREATEST_MU_0 = 2.0
+GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
+GREATEST_RATIO = 1e4  #: stiffness of the spring over that of the contact, and the other way round
+LIGHTEST = 100.0  #: natural frequency of the body over that of the oscillation
+
+
+class PlausibilityWarning(UserWarning):
+    """A contact is legal but unlikely: a unit may be wrong, or the theory be left. Silence it by its class."""
+
+
+def warn_at_the_door(known: SlidingContact) -> None:
+    """Warn of what is unlikely of a case of known depth, where code outside the package asked for it.
+
+    Called by what a public function calls first; warned of is the line that called the public function. What the
+    package asks itself, such as each point of a study, is not looked at.
+    """
+    public = _past_wrappers(sys._getframe(2))
+    outside = _past_wrappers(public.f_back) if public is not None and _is_ours(public) else public
+    if outside is None or _is_ours(outside):
+        return
+    level, frame = 1, sys._getframe(0)
+    while frame is not outside and frame.f_back is not None:
+        level, frame = level + 1, frame.f_back
+    for doubt in doubts_of(known):
+        warnings.warn(doubt, PlausibilityWarning, stacklevel=level)
+
+
+def doubts_of(known: SlidingContact) -> tuple[str, ...]:
+    """What is unlikely of a case of known depth, one sentence each: the number, its usual range, a likely reason."""
+    return (*_of_shape(known), *_of_motion(known), *_of_material(known), *_of_pull(known))
+
+
+def depth_in_doubt(known: SlidingContact) -> float:
+    """Mean depth [m], and for tapping from above the surface, whose mean depth is no contact, the greatest."""
+    return known.working_depth if known.working_depth > 0 else known.u_z_max
+
+
+@remembered(maxsize=256)
+def edge(indenter: Indenter, d: float) -> tuple[float, float]:
+    """Radius a [m] of the contact at the depth d [m], and the slope |f'(a)| [-] of the shape there, from within."""
+    a = float(indenter.contact_radius(d))
+    h = 1e-4 * a
+    f = np.asarray(indenter.profile_3d(a - h * np.arange(3)))
+    return a, abs(float(1.5 * f[0] - 2 * f[1] + 0.5 * f[2])) / h  # second order, from one side
+
+
+def _of_shape(known: SlidingContact) -> Iterator[str]:
+    d = depth_in_doubt(known)
+    a, slope = edge(known.indenter, d)
+    if slope > STEEPEST:
+        yield (
+            f"the surface of {type(known.indenter).__name__} has slope {slope:.3g} at the edge of the contact "
+            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, below {STEEPEST:g}: is an "
+            "angle given in degrees, the depth too great, or the modulus too small?"
+        )
+    elif d > DEEPEST * a:
+        yield (
+            f"the depth {d:.4g} m is {d / a:.3g} times the radius of the contact, {a:.4g} m, and the theory is that of "
+            f"small strains, below {DEEPEST:g}: is the depth too great, or the modulus too small for the load?"
+        )
+
+
+def _of_motion(known: SlidingContact) -> Iterator[str]:
+    if known.oscillation.knows_depth and known.alpha > GREATEST_ALPHA:
+        yield (
+            f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
+            f"u_z0 = {known.cycle.u_z0:.4g} m), so that the contact is open most of the time: are the two swapped?"
+        )
+    if known.mu_0 > GREATEST_MU_0:
+        yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
+
+
+def _of_material(known: SlidingContact) -> Iterator[str]:
+    if known.T > GREATEST_T and not known.material.contact_arms:
+        yield (
+            f"omega tau = {known.T:.3g} is the loss tangent of this Kelvin body, and that of rubber is below 3: is tau "
+            "in ms, or omega far beyond the measurement of tau? A material with arms (Prony) stays bounded there"
+        )
+
+
+def _of_pull(known: SlidingContact) -> Iterator[str]:
+    if known.pull.is_rigid:
+        return
+    m, _, k_x = known.pull.coefficients
+    ratio = k_x / (known.k_xc or known.indenter.stiffness(depth_in_doubt(known), known.material.G_star))
+    if ratio > GREATEST_RATIO:
+        yield (
+            f"the spring of the pull is {ratio:.3g} times as stiff as the contact, which is as good as a rigid pull: "
+            "is the modulus in MPa, or k_x in a wrong unit?"
+        )
+    if ratio < 1 / GREATEST_RATIO:
+        yield (
+            f"the contact is {1 / ratio:.3g} times as stiff as the spring of the pull: is k_x in N/mm, or the modulus "
+            "in a wrong unit?"
+        )
+    light = known.pull.omega_0 / known.omega
+    if m > 0 and light > LIGHTEST:
+        yield (
+            f"the natural frequency of the body is {light:.3g} times that of the oscillation, so that its mass, "
+            f"{m:.4g} kg, has no effect: is it in the right unit?"
+        )
+    load = known.oscillation.load
+    if m > 0 and isinstance(load, LoadOscillation) and load.m_z == 0:
+        yield (
+            f"the body has the mass m = {m:.4g} kg along the pull, but the load moves no mass (m_z = 0): if the load "
+            f"presses on the body itself, give m_z = {m:.4g} kg, which may change the critical velocity several times"
+        )
+
+
+def _is_ours(frame: FrameType) -> bool:
+    """Whether a frame belongs to the package."""
+    return str(frame.f_globals.get("__name__", "")).partition(".")[0] == __name__.partition(".")[0]
+
+
+def _past_wrappers(frame: FrameType | None) -> FrameType | None:
+    """The frame, or the first before it that is no wrapper of memoisation."""
+    while frame is not None and frame.f_globals.get("__name__") == "mdr.tools.memoise":
+        frame = frame.f_back
+    return frame

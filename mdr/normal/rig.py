@@ -1,0 +1,303 @@
+"""From a rig to a case: what is set and read at an experiment, turned into the fields of a `SlidingContact`.
+
+Rigs have a load, a frequency in hertz, a loss tangent and a sled; a case has a depth, an angular frequency, a
+relaxation time, and one mass for each direction.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping
+
+from mdr.case.contact import SlidingContact
+from mdr.case.in_plane import Shake
+from mdr.case.motion import ConstantLoad, LoadOscillation, Motion, NormalOscillation
+from mdr.case.pull import Pull, RigidPull, SpringPull
+from mdr.indenters.base import Indenter
+from mdr.materials import Elastic, KelvinVoigt, Material
+from mdr.normal.doubts import PlausibilityWarning, doubts_of, edge
+from mdr.normal.load_control import static_depth as _static_depth
+from mdr.normal.resolved import at_rest, with_depth
+from mdr.tools.checks import instance, not_negative, positive
+
+GRAVITY = 9.80665  #: standard gravity [m/s²]
+LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
+
+
+def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
+    """Depth [m] at which a constant load rests in the end.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space; its long-time modulus counts.
+    F_z : float
+        Load [N].
+
+    Returns
+    -------
+    float
+        Depth [m]; `static_load` is its inverse.
+
+    Raises
+    ------
+    TypeError
+        For what is no shape or no material.
+    ValueError
+        If the load is not above zero, or more than the whole shape carries.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> print(f"{mdr.static_depth(ball, rubber, 1.0):.3g} m")
+    0.000192 m
+    """
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
+    return _static_depth(indenter, material, positive("F_z", F_z, "load in N"))
+
+
+def static_load(indenter: Indenter, material: Material, u_z0: float) -> float:
+    """Load [N] that holds a contact at a constant depth in the end.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space; its long-time modulus counts.
+    u_z0 : float
+        Depth [m].
+
+    Returns
+    -------
+    float
+        Load [N]; `static_depth` is its inverse.
+
+    Raises
+    ------
+    TypeError
+        For what is no shape or no material.
+    ValueError
+        If the depth is not above zero, or deeper than the shape reaches.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> print(f"{mdr.static_load(ball, rubber, 192e-6):.2g} N")
+    1 N
+    """
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
+    return float(indenter.force(positive("u_z0", u_z0, "depth in m"), material.E_star))
+
+
+def plausibility(case: SlidingContact) -> tuple[str, ...]:
+    """What is unlikely of a contact, in words: most often a unit is wrong.
+
+    Functions that are given such a contact warn of the same with a `PlausibilityWarning`, which
+    ``warnings.simplefilter("ignore", mdr.PlausibilityWarning)`` silences; they compute all the same.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    tuple of str
+        One sentence for each doubt, empty where there is none.
+
+    Raises
+    ------
+    ValueError
+        If the shape does not carry the load, or no periodic depth under it is found.
+
+    Notes
+    -----
+    Limits are pure numbers: slope of the shape at the edge of contact and depth over contact radius (0.5),
+    du_z/u_z0 (5), mu_0 (2), omega tau of a Kelvin body (5), stiffness of the spring over that of the contact (1e4,
+    either way), natural frequency of the body over that of the oscillation (100); and a body with mass under an
+    oscillating load that moves none.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=2e-6, du_z=20e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, tapping)
+    >>> for doubt in mdr.plausibility(case):
+    ...     print(doubt)
+    the amplitude of the depth is 10 times the mean depth ...
+    """
+    return doubts_of(with_depth(case))
+
+
+def rig(
+    indenter: Indenter,
+    material: Material,
+    mu_0: float,
+    *,
+    frequency: float,
+    load: float | None = None,
+    load_grams: float | None = None,
+    load_amplitude: float | None = None,
+    depth_amplitude: float | None = None,
+    acceleration: float | None = None,
+    tan_delta: float | None = None,
+    k_x: float | None = None,
+    m: float | None = None,
+    c_x: float = 0.0,
+    load_rides: bool | None = None,
+    shake: Shake | None = None,
+    density: float | None = None,
+) -> SlidingContact:
+    """The contact that a rig makes, from what is set and read at it.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape; a measured one is a `SampledProfile`.
+    material : Material
+        The half-space.
+    mu_0 : float
+        Coefficient of friction without vibration [-].
+    frequency : float
+        Frequency of the vibration [Hz], not the angular one.
+    load, load_grams : float
+        Mean load [N], or the mass [g] whose weight it is. Give one.
+    load_amplitude, depth_amplitude, acceleration : float, optional
+        What the normal vibration is set to; give one, or none where `shake` moves the contact in the plane alone.
+        Amplitude of the load [N]; amplitude of the depth [m]; or amplitude of the normal acceleration of the indenter
+        [m/s²], which is (2 pi frequency)² times that of the depth.
+    tan_delta : float, optional
+        Loss tangent [-] at this frequency. It turns an `Elastic` material, whose E then is the storage modulus, into
+        the `KelvinVoigt` material that has it.
+    k_x : float, optional
+        Stiffness of the spring that pulls [N/m]. None: a rigid pull.
+    m : float, optional
+        Mass of the sled [kg]; must be given with k_x, 0 for a body without inertia.
+    c_x : float
+        Damping beside the spring [N s/m].
+    load_rides : bool, optional
+        Whether an oscillating load presses on the sled, so that the sled's mass moves in the normal direction too. Must
+        be said where there are both.
+    shake : Shake, optional
+        Motion in the plane besides the pull.
+    density : float, optional
+        Density [kg/m³] of the half-space. With it a vibration is warned of whose shear waves are not much longer than
+        the contact, as the springs are quasi-static.
+
+    Returns
+    -------
+    SlidingContact
+        The contact. With an amplitude of the load, a `LoadOscillation`; with one of depth or acceleration, a
+        `NormalOscillation` about the depth at which the load rests before the vibration sets in; with none, a
+        `ConstantLoad`.
+
+    Raises
+    ------
+    TypeError
+        For a part of a wrong kind, and for `tan_delta` with a material that has a loss tangent of its own.
+    ValueError
+        Where something is missing, given twice, or refused by its rule; and for a load the shape does not carry.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.rig(
+    ...     ball, rubber, 0.8, frequency=50, load_grams=100, load_amplitude=0.1, tan_delta=0.2,
+    ...     k_x=2e4, m=0.2, load_rides=True,
+    ... )
+    >>> case.oscillation
+    LoadOscillation(F_z0=0.980665, dF_z=0.1, omega=314.1592653589793, m_z=0.2)
+    >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
+    0.0659 m/s
+    """
+    omega = 2 * math.pi * positive("frequency", frequency, "in Hz")
+    material = _lossy(material, tan_delta, omega)
+    instance("indenter", indenter, Indenter)
+    F_z0 = _load(load, load_grams)
+    given = {"load_amplitude": load_amplitude, "depth_amplitude": depth_amplitude, "acceleration": acceleration}
+    amplitudes = {name: positive(name, value) for name, value in given.items() if value is not None}
+    if len(amplitudes) > 1:
+        raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
+    pull = _pull(k_x, m, c_x)
+    moved = not_negative("m", m, "mass in kg") if m is not None else 0.0
+    if load_amplitude is not None and moved > 0 and load_rides is None:
+        raise ValueError(
+            f"does the oscillating load press on the sled of m = {moved:.6g} kg? Say load_rides=True, and the sled "
+            "moves in the normal direction with its mass, or load_rides=False, and the load moves no mass"
+        )
+    motion = _motion(indenter, material, F_z0, amplitudes, omega, moved if load_rides else 0.0)
+    if not amplitudes and shake is None:
+        raise ValueError(f"nothing vibrates: give one of {', '.join(given)}, or a shake in the plane")
+    case = SlidingContact(indenter, material, mu_0, motion, pull, shake)
+    if density is not None:
+        _warn_of_waves(case, positive("density", density, "in kg/m³"))
+    return case
+
+
+def _lossy(material: Material, tan_delta: float | None, omega: float) -> Material:
+    """The material with this loss tangent at omega."""
+    instance("material", material, Material)
+    if tan_delta is None:
+        return material
+    if not isinstance(material, Elastic):
+        raise TypeError(
+            f"tan_delta turns an Elastic material into one with that loss tangent, and {material!r} has its own: give "
+            "Elastic(E, nu) with E the storage modulus, or leave tan_delta out"
+        )
+    return KelvinVoigt.from_loss_tangent(E=material.E, nu=material.nu, tan_delta=tan_delta, omega=omega)
+
+
+def _load(load: float | None, load_grams: float | None) -> float:
+    """The mean load [N]."""
+    if (load is None) == (load_grams is None):
+        raise ValueError("give the mean load once: load in N, or load_grams, the mass in g whose weight it is")
+    if load is not None:
+        return positive("load", load, "mean load in N")
+    return 1e-3 * GRAVITY * positive("load_grams", load_grams, "in g")
+
+
+def _pull(k_x: float | None, m: float | None, c_x: float) -> Pull:
+    if k_x is not None and m is None:
+        raise ValueError("m is missing: give the mass of the sled in kg, or m=0 for a body without inertia")
+    if k_x is None and not_negative("c_x", c_x, "in N s/m") > 0:
+        raise ValueError("c_x is the damper beside a spring: give k_x in N/m too, or leave c_x out for a rigid pull")
+    return RigidPull() if k_x is None else SpringPull(k_x, m, c_x)  # type: ignore[arg-type]
+
+
+def _motion(
+    indenter: Indenter, material: Material, F_z0: float, amplitudes: Mapping[str, float], omega: float, m_z: float
+) -> Motion:
+    """The normal motion: a load, or a depth about the one at which the load rests."""
+    if not amplitudes:
+        return ConstantLoad(F_z0)
+    if "load_amplitude" in amplitudes:
+        return LoadOscillation(F_z0, amplitudes["load_amplitude"], omega, m_z)
+    du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
+    return NormalOscillation(_static_depth(indenter, material, F_z0), du_z, omega)
+
+
+def _warn_of_waves(case: SlidingContact, density: float) -> None:
+    """Warn where shear waves in the half-space are not much longer than the contact is wide."""
+    known = at_rest(case)
+    width = 2 * edge(known.indenter, known.working_depth)[0]
+    stiffening = abs(complex(case.material.dynamic_modulus(case.omega))) / case.material.E_star
+    kappa = case.material.mindlin_ratio
+    nu = (2 * kappa - 2) / (2 * kappa - 1)
+    G = case.material.G_star * (2 - nu) / 4 * stiffening
+    wavelength = 2 * math.pi / case.omega * math.sqrt(G / density)
+    if wavelength < LONG * width:
+        warnings.warn(
+            f"shear waves in the half-space are about {wavelength:.3g} m long at this frequency, and the contact is "
+            f"{width:.3g} m wide: the springs are quasi-static, which wants waves {LONG:g} times as long",
+            PlausibilityWarning,
+            stacklevel=3,
+        )

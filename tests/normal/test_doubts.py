@@ -1,0 +1,79 @@
+"""What is legal but unlikely is warned of, once, where a user asks; and nothing usual is."""
+
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example
+from mdr.normal.doubts import doubts_of, edge
+
+USUAL = mdr.read_case(Path(__file__).parents[2] / "docs/example.toml")
+SOFT = mdr.KelvinVoigt(E=3.0, nu=0.5, tau=1e-3)  # 3 for 3 MPa
+ABSURD = {
+    "a cone of 57 degrees": ({"indenter": mdr.Cone(theta=1.0)}, "slope 1.56"),
+    "a cone of 89 degrees": ({"indenter": mdr.Cone(theta=1.55)}, "slope 48"),
+    "a sphere pressed four radii deep": ({"indenter": mdr.Sphere(R=5e-6)}, "slope"),
+    "a paraboloid with a/R = 63": ({"indenter": mdr.Paraboloid(R=5e-9)}, "slope 63.2"),
+    "a punch pressed two radii deep": ({"indenter": mdr.FlatPunch(a=1e-5)}, "2 times the radius"),
+    "du_z and u_z0 swapped": ({"oscillation": mdr.NormalOscillation(2e-6, 20e-6, USUAL.omega)}, "are the two swapped"),
+    "friction in per cent": ({"mu_0": 50.0}, "percentage"),
+    "E = 3 for 3 MPa": ({"material": SOFT}, "modulus in MPa"),
+    "the same under a load": (
+        {"material": SOFT, "oscillation": mdr.LoadOscillation(0.03, 0.003, USUAL.omega, 1e-6)},
+        "slope",
+    ),
+    "tau in ms": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1.0)}, "tau in ms"),
+    "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=2e-2, m=0.1)}, "k_x in N/mm"),
+    "a mass in wrong units": ({"pull": mdr.SpringPull(k_x=2e4, m=1e-6)}, "mass"),
+    "a load that moves no mass": ({"oscillation": mdr.LoadOscillation(0.03, 0.003, USUAL.omega)}, "give m_z = 0.1 kg"),
+}
+
+
+@pytest.mark.parametrize("what", ABSURD)
+def test_an_absurd_contact_is_warned_of_and_computed(what):
+    changed, words = ABSURD[what]
+    case = replace(USUAL, **changed)
+    with pytest.warns(mdr.PlausibilityWarning, match=words) as said:
+        assert mdr.critical_velocity(case) > 0
+    assert {one.filename for one in said} == {__file__}  # the user's line
+    assert tuple(str(one.message) for one in said) == mdr.plausibility(case)
+
+
+def test_nothing_is_said_of_the_standing_examples():
+    cases = [USUAL]
+    cases += [example(shape, motion=motion, pull=pull) for shape in SHAPES for motion in MOTIONS for pull in PULLS]
+    cases += [example(material=material, motion=motion) for material in MATERIALS for motion in MOTIONS]
+    assert [(case, doubts_of(known)) for case in cases if doubts_of(known := mdr.resolved(case))] == []
+
+
+def test_it_is_said_of_what_a_user_asks_and_not_of_what_the_package_asks_itself():
+    steep = replace(USUAL, indenter=mdr.Cone(theta=1.0))
+    doors = [mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.static_cof, mdr.resolved]
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        for door in doors:
+            door(steep)
+        mdr.slide(steep, 1e-3, n_periods=1)
+        mdr.cof_curve(replace(steep, pull=mdr.RigidPull(), material=mdr.Elastic(3e9, 0.5)), [1e-3, 2e-3])
+    assert [one.filename for one in said if "slope" in str(one.message)] == [__file__] * (len(doors) + 2)
+
+
+def test_it_can_be_silenced():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", mdr.PlausibilityWarning)
+        mdr.critical_velocity(replace(USUAL, mu_0=50.0))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_slope_at_the_edge_is_that_of_the_shape(shape):
+    indenter, d = SHAPES[shape], 2e-5
+    a, slope = edge(indenter, d)
+    r = a * (1 - np.array([1e-6, 3e-6]))
+    f = np.asarray(indenter.profile_3d(r))
+    assert_allclose(slope, abs(f[0] - f[1]) / (r[0] - r[1]), rtol=1e-3, atol=1e-6)  # rounding of f over 2e-6 a

@@ -1,0 +1,88 @@
+"""From a rig to a case: each way of saying the same gives the same contact, and what is left open is asked."""
+
+import numpy as np
+import pytest
+from conftest import SHAPES
+from numpy.testing import assert_allclose
+
+import mdr
+
+BALL, RUBBER = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
+OMEGA = 2 * np.pi * 50
+
+
+def rig(**given):
+    return mdr.rig(BALL, RUBBER, 0.8, **{"frequency": 50.0, "load": 1.0, **given})
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_load_and_depth_are_inverse(shape):
+    indenter = SHAPES[shape][0]
+    F_z = mdr.static_load(indenter, RUBBER, 6e-6)
+    assert_allclose(F_z, indenter.force(6e-6, RUBBER.E_star), rtol=1e-15)
+    assert_allclose(mdr.static_depth(indenter, RUBBER, F_z), 6e-6, rtol=1e-12)
+
+
+def test_a_load_amplitude_makes_an_oscillating_load():
+    case = rig(load_amplitude=0.1, k_x=2e4, m=0.2, c_x=1.0, load_rides=True)
+    assert case.oscillation == mdr.LoadOscillation(1.0, 0.1, OMEGA, m_z=0.2)
+    assert case.pull == mdr.SpringPull(2e4, 0.2, 1.0)
+    assert rig(load_amplitude=0.1, k_x=2e4, m=0.2, load_rides=False).oscillation.m_z == 0.0
+
+
+def test_acceleration_and_depth_are_one_amplitude_about_the_depth_of_the_load():
+    by_depth, by_acceleration = rig(depth_amplitude=2e-6), rig(acceleration=2e-6 * OMEGA**2)
+    assert by_depth.oscillation.u_z0 == mdr.static_depth(BALL, RUBBER, 1.0)
+    assert_allclose(by_acceleration.oscillation.du_z, 2e-6, rtol=1e-15)
+    assert by_depth.pull == mdr.RigidPull()
+
+
+def test_the_mass_of_a_load_in_grams_has_its_weight():
+    assert_allclose(rig(load=None, load_grams=100, load_amplitude=0.1).oscillation.F_z0, 0.980665, rtol=1e-15)
+
+
+def test_the_loss_tangent_is_that_of_the_material_at_the_frequency():
+    case = rig(load_amplitude=0.1, tan_delta=0.2)
+    assert_allclose(case.material.loss_tangent(OMEGA), 0.2, rtol=1e-15)
+    assert case.material.E == RUBBER.E
+
+
+def test_a_shake_alone_is_under_a_constant_load():
+    case = rig(shake=mdr.InPlaneOscillation(OMEGA, 1e-6))
+    assert case.oscillation == mdr.ConstantLoad(1.0)
+
+
+REFUSED = [
+    ({"load": None, "load_amplitude": 0.1}, "mean load once"),
+    ({"load_grams": 3.0, "load_amplitude": 0.1}, "mean load once"),
+    ({"load": -1.0, "load_amplitude": 0.1}, "load must be positive"),
+    ({"frequency": 0.0, "load_amplitude": 0.1}, "frequency must be positive"),
+    ({"load_amplitude": 0.1, "acceleration": 3.0}, "give one of them"),
+    ({}, "nothing vibrates"),
+    ({"load_amplitude": 0.1, "k_x": 2e4}, "m is missing"),
+    ({"load_amplitude": 0.1, "c_x": 2.0}, "give k_x"),
+    ({"load_amplitude": 0.1, "k_x": 2e4, "m": 0.2}, "Say load_rides=True"),
+    ({"load_amplitude": 0.1, "m": 0.2}, "Say load_rides=True"),
+    ({"load_amplitude": 2.0}, "must be less than F_z0"),
+    ({"depth_amplitude": float("nan")}, "depth_amplitude must be"),
+    ({"load": 1e6, "depth_amplitude": 1e-6}, "carries on this material"),
+    ({"load_amplitude": 0.1, "tan_delta": -0.1}, "tan_delta must not be negative"),
+]
+
+
+@pytest.mark.parametrize(("given", "words"), REFUSED)
+def test_what_is_missing_twice_or_wrong_is_refused_in_words(given, words):
+    with pytest.raises(ValueError, match=words):
+        rig(**given)
+
+
+def test_a_loss_tangent_beside_a_material_that_has_one_is_refused():
+    with pytest.raises(TypeError, match="tan_delta turns an Elastic"):
+        mdr.rig(BALL, mdr.KelvinVoigt(3e6, 0.5, 1e-3), 0.8, frequency=50, load=1.0, load_amplitude=0.1, tan_delta=0.1)
+
+
+def test_short_waves_are_warned_of():
+    """Shear waves at 20 kHz in rubber of 1 MPa, 1000 kg/m³: sqrt(1e3)/2e4 = 1.58 mm; the contact is 1.95 mm wide."""
+    with pytest.warns(mdr.PlausibilityWarning, match=r"about 0.00158 m long .* is 0.0019\d m wide"):
+        rig(frequency=20e3, depth_amplitude=2e-6, density=1000.0)
+    rig(depth_amplitude=2e-6, density=1000.0)  # none at 50 Hz
