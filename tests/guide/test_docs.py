@@ -447,7 +447,7 @@ def test_the_gallery_has_every_script():
 
 
 def test_the_paper_has_the_form_that_its_journal_asks_for():
-    """Sections and length of the Journal of Open Source Software; every reference is cited, and every citation there."""
+    """Sections and length of the Journal of Open Source Software; every reference is cited, and the other way round."""
     paper = (DOCS / "paper.md").read_text(encoding="utf-8").split("\n---\n", 1)[1]
     sections = ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement"]
     sections += ["AI usage disclosure", "Acknowledgements", "References"]
