@@ -21,7 +21,7 @@ from mdr.case.contact import SlidingContact
 from mdr.commands import begin, curve, judge, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import CaseFileError, read_case
-from mdr.normal.doubts import PlausibilityWarning
+from mdr.normal.doubts import PlausibilityWarning, warn_outside
 from mdr.normal.rig import plausibility
 
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
@@ -48,11 +48,12 @@ def _run(args: argparse.Namespace) -> int:
     """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
     work: Callable[[argparse.Namespace, Any], int] = args.work
     try:
-        case = args.read(args.case) if args.read else None
+        case = _read(args) if args.read else None
     except CaseFileError as fault:
         return complain(str(fault), WRONG_INPUT)
+    except _FAILURES as fault:
+        return complain(f"{args.case}: {fault}", FAILED)
     try:
-        _say_doubts(case)
         status = work(args, case)
         sys.stdout.flush()  # a full disk shows here
         return status
@@ -65,15 +66,15 @@ def _run(args: argparse.Namespace) -> int:
         return complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
 
 
-def _say_doubts(case: Any) -> None:
-    """What is unlikely of a case, on standard error; PYTHONWARNINGS=ignore silences it."""
-    if not isinstance(case, SlidingContact):
-        return
+def _read(args: argparse.Namespace) -> Any:
+    """What the file describes; what is unlikely of it is said on standard error. PYTHONWARNINGS=ignore silences it."""
     with warnings.catch_warnings(record=True) as said:
-        for doubt in plausibility(case):
-            warnings.warn(doubt, PlausibilityWarning, stacklevel=1)
+        case = args.read(args.case)
+        for doubt in plausibility(case) if isinstance(case, SlidingContact) else ():
+            warn_outside(doubt)
     for one in said:
         complain(f"warning: {one.message}", DONE)
+    return case
 
 
 def parser() -> argparse.ArgumentParser:

@@ -107,7 +107,7 @@ class Size(NamedTuple):
         body = "rigid" if ratio is None else "no mass" if math.isinf(ratio) else f"{ratio:.6g}"
         return [
             ("radius", f"{self.contact_radius:.6g} m", "of the contact at the mean depth"),
-            ("slope", f"{self.edge_slope:.6g}", "of the shape at the edge of the contact; small, below 0.5"),
+            ("slope", f"{self.edge_slope:.6g}", "of the shape at the edge of the contact; well below 1"),
             ("load", f"{self.load:.6g} N", "at the mean depth"),
             ("k_zc", f"{self.k_zc:.6g} N/m", "normal stiffness of the contact"),
             ("k_xc", f"{self.k_xc:.6g} N/m", "tangential stiffness of the contact"),

@@ -49,12 +49,13 @@ from mdr import indenters, materials
 from mdr.case import in_plane, motion
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.in_plane import Shake
-from mdr.case.motion import Motion, NormalOscillation
+from mdr.case.motion import LoadOscillation, Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.files.spellings import SPELLINGS, as_written, meant, other_spellings, respelled, rest_under_load
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
+from mdr.normal.doubts import warn_outside
 from mdr.tools.fields import checked
 from mdr.tools.messages import nearest, offer, one_line, short
 
@@ -216,7 +217,18 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     if faults := [*faults, *refused, *whole]:
         raise fault_error(source, faults)
     assert isinstance(case, SlidingContact)
+    _ask_for_mass(case, content["oscillation"])
     return case
+
+
+def _ask_for_mass(case: SlidingContact, given: Mapping[str, Any]) -> None:
+    """Warn of a load that may ride on the body, where the file does not say with which mass."""
+    m = case.pull.coefficients[0]
+    if m > 0 and isinstance(case.oscillation, LoadOscillation) and "m_z" not in given:
+        warn_outside(
+            f"the body has the mass m = {m:.6g} kg along the pull, and [oscillation] does not say which mass the load "
+            f"moves: m_z = {m:.6g} if it presses on the body itself, which may change v_c several times, or m_z = 0"
+        )
 
 
 def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str]]:

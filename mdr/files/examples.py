@@ -140,7 +140,7 @@ def _motion(name: str, indenter: indenters.Indenter, material: materials.Materia
     load = float(f"{float(indenter.force(DEPTH, material.E_star)):.2g}")
     if name == "ConstantLoad":
         return ConstantLoad(F_z0=load)
-    return LoadOscillation(F_z0=load, dF_z=float(f"{load / 10:.2g}"), omega=OMEGA, m_z=1e-3)
+    return LoadOscillation(F_z0=load, dF_z=float(f"{load / 10:.2g}"), omega=OMEGA)
 
 
 def _choice(motion: Motion) -> str:

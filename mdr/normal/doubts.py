@@ -15,12 +15,11 @@ from types import FrameType
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.tools.memoise import remembered
 
-STEEPEST = 0.5  #: slope of the shape at the edge of contact; the theory is that of small slopes
-DEEPEST = 0.5  #: depth over contact radius, of a face without slope
+STEEPEST = 1.0  #: slope of the shape at the edge of contact; the theory is that of small slopes
+DEEPEST = 1.0  #: depth over contact radius, of a face without slope
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
 GREATEST_MU_0 = 2.0
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
@@ -42,11 +41,16 @@ def warn_at_the_door(known: SlidingContact) -> None:
     outside = _past_wrappers(public.f_back) if public is not None and _is_ours(public) else public
     if outside is None or _is_ours(outside):
         return
-    level, frame = 1, sys._getframe(0)
-    while frame is not outside and frame.f_back is not None:
-        level, frame = level + 1, frame.f_back
     for doubt in doubts_of(known):
-        warnings.warn(doubt, PlausibilityWarning, stacklevel=level)
+        warn_outside(doubt)
+
+
+def warn_outside(doubt: str) -> None:
+    """Warn of the last line outside the package that led here."""
+    level, frame = 1, sys._getframe(0)
+    while _is_ours(frame) and frame.f_back is not None:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(doubt, PlausibilityWarning, stacklevel=level)
 
 
 def doubts_of(known: SlidingContact) -> tuple[str, ...]:
@@ -74,13 +78,13 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
     if slope > STEEPEST:
         yield (
             f"the surface of {type(known.indenter).__name__} has slope {slope:.3g} at the edge of the contact "
-            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, below {STEEPEST:g}: is an "
+            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below {STEEPEST:g}: is an "
             "angle given in degrees, the depth too great, or the modulus too small?"
         )
     elif d > DEEPEST * a:
         yield (
             f"the depth {d:.4g} m is {d / a:.3g} times the radius of the contact, {a:.4g} m, and the theory is that of "
-            f"small strains, below {DEEPEST:g}: is the depth too great, or the modulus too small for the load?"
+            f"small strains, well below {DEEPEST:g}: is the depth too great, or the modulus too small for the load?"
         )
 
 
@@ -122,12 +126,6 @@ def _of_pull(known: SlidingContact) -> Iterator[str]:
         yield (
             f"the natural frequency of the body is {light:.3g} times that of the oscillation, so that its mass, "
             f"{m:.4g} kg, has no effect: is it in the right unit?"
-        )
-    load = known.oscillation.load
-    if m > 0 and isinstance(load, LoadOscillation) and load.m_z == 0:
-        yield (
-            f"the body has the mass m = {m:.4g} kg along the pull, but the load moves no mass (m_z = 0): if the load "
-            f"presses on the body itself, give m_z = {m:.4g} kg, which may change the critical velocity several times"
         )
 
 

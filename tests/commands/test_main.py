@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import warnings
 from dataclasses import fields, replace
 from functools import partial
 from pathlib import Path
@@ -363,3 +364,16 @@ def test_an_example_goes_through_the_other_commands(tmp_path, capsys):
 def test_an_example_of_nothing_is_wrong_input(capsys):
     assert main(["case", "--example", "coen"]) == 2
     assert "did you mean Cone" in capsys.readouterr().err
+
+
+def test_what_is_unlikely_is_said_on_standard_error_and_computed(tmp_path, capsys):
+    file = tmp_path / "steep.toml"
+    file.write_text(mdr.write_case(replace(read_case(EXAMPLE), indenter=mdr.Cone(theta=1.0))))
+    assert main(["velocity", str(file)]) == 0
+    said = capsys.readouterr()
+    assert said.err.startswith("mdr: warning: the surface of Cone has slope 1.56")
+    assert "Eq. (" in said.out
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert main(["velocity", str(file)]) == 0
+    assert capsys.readouterr().err == ""

@@ -1,6 +1,7 @@
 """Other spellings of the keys of a case file give the same case, and are refused in their own words."""
 
 import math
+import warnings
 
 import pytest
 
@@ -80,3 +81,13 @@ def test_a_load_waits_for_a_sound_shape():
     with pytest.raises(mdr.CaseFileError) as refused:
         read(slope="theta = 7", motion="frequency=50\nload=1.0\ndu_z=2e-6")
     assert ["theta must lie" in one for one in refused.value.faults] == [True]
+
+
+def test_a_load_that_may_ride_on_the_body_is_asked_for_its_mass():
+    body = "F_z0 = 1.0\ndF_z = 0.1\nomega = 300\n{}\n[pull]\nk_x = 2e4\nm = 0.2"
+    with pytest.warns(mdr.PlausibilityWarning, match=r"m_z = 0\.2 if it presses on the body itself") as said:
+        asked = read(motion=body.format(""))
+    assert [one.filename for one in said] == [__file__]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert read(motion=body.format("m_z = 0")) == asked == mdr.parse_case(mdr.write_case(asked))

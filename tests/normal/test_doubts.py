@@ -30,7 +30,6 @@ ABSURD = {
     "tau in ms": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1.0)}, "tau in ms"),
     "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=2e-2, m=0.1)}, "k_x in N/mm"),
     "a mass in wrong units": ({"pull": mdr.SpringPull(k_x=2e4, m=1e-6)}, "mass"),
-    "a load that moves no mass": ({"oscillation": mdr.LoadOscillation(0.03, 0.003, USUAL.omega)}, "give m_z = 0.1 kg"),
 }
 
 
