@@ -10,11 +10,14 @@ takes over the relative error in k_xc = 2 G* a, but only in its second term. For
 too. Which of them is the first to be off by 1 %, and does a stiffer cantilever help?
 """
 
+import warnings
+
 import numpy as np
 from scipy.optimize import brentq
 
 import mdr
 
+warnings.simplefilter("ignore", mdr.PlausibilityWarning)  # the ball is pressed far beyond small slopes, on purpose
 ball, parabola = mdr.Sphere(R=5e-6), mdr.Paraboloid(R=5e-6)
 pdms, mu_0, du_z, omega = mdr.Elastic(E=2e6, nu=0.5), 0.5, 20e-9, 2 * np.pi * 1e3
 cantilever = mdr.SpringPull(k_x=20)

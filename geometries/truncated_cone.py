@@ -9,7 +9,6 @@ dynamic stiffness K_z(omega) = 2a E*(omega), Eq. (15), and so on the contact rad
 import numpy as np
 
 import mdr
-from mdr.normal.load_control import static_depth
 
 omega, mu_0, du_z, load, slope = 2 * np.pi * 100, 0.8, 30e-6, 2.0, np.deg2rad(17)
 rubber = mdr.Prony.power_law(modulus=4e6, exponent=0.2, omega=(100, 3e3), nu=0.5, error=0.02)
@@ -19,7 +18,7 @@ block = mdr.SpringPull(k_x=3e4, m=5e-3, c_x=5.0)
 def stone(b, pull=block):
     """The stone with a face of radius b, as deep as the load presses it in the long run."""
     indenter = mdr.TruncatedCone(b, slope) if b else mdr.Cone(slope)
-    oscillation = mdr.NormalOscillation(static_depth(indenter, rubber, load), du_z, omega)
+    oscillation = mdr.NormalOscillation(mdr.static_depth(indenter, rubber, load), du_z, omega)
     return mdr.SlidingContact(indenter, rubber, mu_0, oscillation, pull)
 
 

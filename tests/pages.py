@@ -99,8 +99,8 @@ class Run:
         if not words:
             assert not line or line.startswith("#"), line
             return ""
-        if words[0] == "mdr":
-            return mdr_command(words[1:])
+        if words[0] in ("mdr", ".venv/bin/mdr"):
+            return mdr_command([str(ROOT / word) if word.startswith("docs/") else word for word in words[1:]])
         if words[0] == "sed":
             return subprocess.run(line, shell=True, check=True, capture_output=True, text=True).stdout
         if words[:3] == [".venv/bin/python", "-m", "validation"] and {"--quick", "--only"} <= set(words):
@@ -192,6 +192,8 @@ def require_known(command: str) -> None:
         _arguments(CLAIMS).parse_args(words[3:])
     elif words[0].startswith("geometries/") or words[-1].startswith("geometries/"):
         assert (ROOT / words[-1]).is_file(), command
+    elif command in ("git clone <address of this repository> mdr-friction", "cd mdr-friction"):
+        pass  # what comes before everything else
     elif command == ".venv/bin/python -m sphinx -W docs site":
         pass  # test_docs.py builds so
     elif words[:2] == [".venv/bin/python", "tests/pages.py"]:

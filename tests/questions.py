@@ -31,6 +31,7 @@ def asked(call, *args, **knobs):
     """The answer, or Refused; a warning is an error, and so is whatever else is raised."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.simplefilter("ignore", mdr.PlausibilityWarning)
         warnings.filterwarnings("ignore", "Profile is mapped")  # an answer too: how good its digits are
         try:
             return call(*args, **knobs)

@@ -197,7 +197,7 @@ def readme_case():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     script = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
     names = {}
-    exec(script[: script.index("v_c =")], names)
+    exec(script[: script.index("run =")], names)
     return names["case"]
 
 

@@ -12,10 +12,14 @@ import sys
 import threading
 import time
 import traceback
+import warnings
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import mdr
 from validation.report import Claim
+
+warnings.simplefilter("ignore", mdr.PlausibilityWarning)  # claims go to extremes on purpose
 
 CLAIMS = (
     "mapping",

@@ -29,8 +29,8 @@ LONGEST = (
 
 
 def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
-    """Test the claims of `package`; 0 if every check held and README quotes every verdict, 1 if not, 2 for wrong
-    arguments, 130 if interrupted.
+    """Test the claims of `package`; 0 if every check held and docs/claims.md quotes every verdict, 1 if not, 2 for
+    wrong arguments, 130 if interrupted.
     """
     known = importlib.import_module(package).CLAIMS
     args = _arguments(known).parse_args(argv)
@@ -47,7 +47,7 @@ def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
     print(f"report: {page}")
     other = other_verdicts(claims) if package == "validation" else []
     if other:
-        print(f"verdicts other than README and docs quote (validation.written): {', '.join(other)}", file=sys.stderr)
+        print(f"verdicts other than docs/claims.md quotes (validation.written): {', '.join(other)}", file=sys.stderr)
     return 0 if all(claim.held for claim in claims) and not other else 1
 
 

@@ -1,16 +1,17 @@
 """Numbers and tables in prose: taken from the record of the checks, never written by hand.
 
-`python -m validation.written report/checks.json`, where the report was just made, keeps that record as docs/checks.json
-and the versions that made it as constraints.txt beside this file, and sets every marked place of README and docs from
-the record; `--check` changes nothing and fails where a place is not what the record says. Places are
-marked by comments, which no reader sees:
+`python -m validation.written report/checks.json`, where the report was just made, keeps that record as
+docs/checks.json, the figure that opens the report as docs/claim.svg and the versions that made them as constraints.txt
+beside this file, and sets every marked place of README and docs from the record; `--check` changes nothing and fails
+where a place is not what the record says. Places are marked by comments, which no reader sees:
 
     4.9·10⁻⁶<!--= got :: finite_amplitude :: worst |v_c/full-slip value − 1| :: 2 -->
-    <!--= verdicts --> ... <!--= end -->
+    <!--= verdicts :: rigid_pull, spring_pull --> ... <!--= end -->
 
 A number stands right before its mark, which says what of the checks (`got`; `worst`, the greatest |got − expected|;
 `most`, the greatest got; `count`, how many there are) of a claim, by how their names begin (`*` for any letters), with
-how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX.
+how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX. A table of verdicts has the claims
+that its mark names.
 """
 
 import argparse
@@ -24,14 +25,14 @@ from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
 from validation import CLAIMS
-from validation.report import Claim, plain
+from validation.report import Claim, markup, plain
 
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"
 CONSTRAINTS = Path(__file__).with_name("constraints.txt")
 
 _NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
-_TABLE = re.compile(r"(<!--= verdicts -->\n).*?(<!--= end -->)", re.DOTALL)
+_TABLE = re.compile(r"(<!--= verdicts :: ([\w, ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 #: what a mark takes of the checks that it names
@@ -58,6 +59,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.error(f"the record lacks {', '.join(missing)}: give checks.json of a full report, python -m validation")
     if args.record is not None and not args.check:
         shutil.copyfile(args.record, RECORD)
+        for glance in args.record.parent.glob("*-glance.svg"):
+            shutil.copyfile(glance, RECORD.with_name("claim.svg"))
         pins = "".join(f"{name}=={version_of(name)}\n" for name in sorted(PARTS))
         CONSTRAINTS.write_text(pins, encoding="utf-8")
     record = json.loads((args.record or RECORD).read_text(encoding="utf-8"))
@@ -74,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def other_verdicts(claims: Iterable[Claim]) -> list[str]:
-    """Names of the claims whose verdict is not the one that README and docs quote."""
+    """Names of the claims whose verdict is not the one that docs/claims.md quotes."""
     recorded = json.loads(RECORD.read_text(encoding="utf-8"))["claims"]
     quoted = {claim["name"]: claim["verdict"] for claim in recorded}
     return [claim.name for claim in claims if plain(claim.verdict) != quoted.get(claim.name)]
@@ -88,8 +91,7 @@ def pages() -> list[Path]:
 
 def written(text: str, record: dict[str, Any]) -> str:
     """The text with all its marked places set from a record of checks."""
-    table = verdict_table(record)
-    text = _TABLE.sub(lambda place: place[1] + table + place[2], text)
+    text = _TABLE.sub(lambda place: place[1] + verdict_table(record, place[2].split(", ")) + place[3], text)
     return _NUMBER.sub(lambda place: f"{number(place[2], record)}<!--= {place[2]} -->", text)
 
 
@@ -119,19 +121,22 @@ def formatted(value: float, digits: str, style: str = "") -> str:
     return f"{mantissa.replace('-', '−')}·10{str(int(exponent)).translate(_RAISED)}"
 
 
-def verdict_table(record: dict[str, Any]) -> str:
-    """Every claim with its verdict, the conclusion in a sentence and how many checks held, as Markdown."""
+def verdict_table(record: dict[str, Any], names: Sequence[str]) -> str:
+    """The claims of these names with verdict, conclusion in a sentence and how many checks held, as Markdown."""
+    claims = {claim["name"]: claim for claim in record["claims"]}
+    if missing := [name for name in names if name not in claims]:
+        raise ValueError(f"the record lacks the claims {', '.join(missing)} of a table; it has {', '.join(claims)}")
     rows = ["| claim | verdict | in one sentence | checks held |", "| --- | --- | --- | --- |"]
-    for claim in record["claims"]:
+    for claim in map(claims.__getitem__, names):
         own = [check["held"] for check in record["checks"] if check["claim"] == claim["name"]]
-        cells = (claim["name"].replace("_", " "), claim["verdict"], claim["sentence"], f"{sum(own)} of {len(own)}")
-        rows.append(f"| {' | '.join(_cells(cells))} |")
+        told = (claim["name"].replace("_", " "), *map(_cell, (claim["verdict"], claim["sentence"])))
+        rows.append(f"| {' | '.join(told)} | {sum(own)} of {len(own)} |")
     return "\n".join(rows) + "\n"
 
 
-def _cells(texts: Iterable[str]) -> Iterable[str]:
-    """Texts as cells of a table: a bar would end one, and a star could set the rest in italics."""
-    return (re.sub(r"([|*])", r"\\\1", text) for text in texts)
+def _cell(text: str) -> str:
+    """Text as a cell of a table, symbols as the report sets them: a bar would end it, a star could set italics."""
+    return re.sub(r"([|*])", r"\\\1", markup(text))
 
 
 if __name__ == "__main__":

@@ -37,7 +37,12 @@ def _slope_angle(name: str, value: Any, note: str = "") -> float:
     return between(name, value, 0, np.pi / 2, note)
 
 
-FLANK = facts("rad", "angle between flank and plane", _slope_angle)
+FLANK = facts(
+    "rad",
+    "angle between flank and plane",
+    _slope_angle,
+    note="angle between flank and plane in rad; of degrees, np.deg2rad",
+)
 
 
 class Indenter(Record, ABC):

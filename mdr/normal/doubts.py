@@ -78,8 +78,8 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
     if slope > STEEPEST:
         yield (
             f"the surface of {type(known.indenter).__name__} has slope {slope:.3g} at the edge of the contact "
-            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below {STEEPEST:g}: is an "
-            "angle given in degrees, the depth too great, or the modulus too small?"
+            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below {STEEPEST:g}: "
+            "is an angle given in degrees, the depth too great, or the modulus too small?"
         )
     elif d > DEEPEST * a:
         yield (

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import Field, fields
-from typing import Any, NamedTuple
+from inspect import signature
+from typing import Any, NamedTuple, Self
 
 from mdr.tools.checks import FieldError, FieldTypeError, positive
+from mdr.tools.messages import offer
 
 Rule = Callable[[str, Any, str], Any]  #: (name, value, note) to the value as it is kept; raises what is wrong with it
 
@@ -66,5 +68,20 @@ def check_fields(record: Any) -> None:
 class Record:
     """Base of frozen dataclasses whose fields have facts; one with relations between fields adds them after these."""
 
+    def __new__(cls, *args: Any, **given: Any) -> Self:
+        """Refuse a keyword that is no argument, with the nearest one, or the constructor that takes it."""
+        if unknown := given.keys() - getattr(cls, "__dataclass_fields__", given).keys():
+            known = signature(cls.__init__).parameters
+            for name in sorted(unknown - known.keys()):
+                raise TypeError(f"{cls.__name__} takes no {name}; {_taken_by(cls, name) or offer(name, [*known][1:])}")
+        return super().__new__(cls)
+
     def __post_init__(self) -> None:
         check_fields(self)
+
+
+def _taken_by(record: type[Any], name: str) -> str:
+    """What else makes such a record from what has this name; empty where nothing does."""
+    makers = [one for one in vars(record) if isinstance(vars(record)[one], classmethod)]
+    found = [one for one in makers if name in signature(getattr(record, one)).parameters]
+    return f"use {record.__name__}.{found[0]}" if found else ""

@@ -366,6 +366,7 @@ def test_an_example_of_nothing_is_wrong_input(capsys):
     assert "did you mean Cone" in capsys.readouterr().err
 
 
+@pytest.mark.filterwarnings("always::mdr.PlausibilityWarning")
 def test_what_is_unlikely_is_said_on_standard_error_and_computed(tmp_path, capsys):
     file = tmp_path / "steep.toml"
     file.write_text(mdr.write_case(replace(read_case(EXAMPLE), indenter=mdr.Cone(theta=1.0))))

@@ -363,7 +363,7 @@ def test_the_command_itself_runs_claims_in_processes_of_their_own(tmp_path):
     quoted.write_text('{"claims": [{"name": "mapping", "verdict": "holds if T = 0"}]}', encoding="utf-8")
     done = subprocess.run(command_line, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 1
-    assert done.stderr.endswith("verdicts other than README and docs quote (validation.written): mapping\n")
+    assert done.stderr.endswith("verdicts other than docs/claims.md quotes (validation.written): mapping\n")
 
 
 ASLEEP = "open(f'{__name__}.pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(600)"

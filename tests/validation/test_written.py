@@ -1,6 +1,7 @@
 """Numbers in prose are those of the record, the record is that of the claims, and a stale number is seen."""
 
 import json
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +15,7 @@ CHECKS = [
     {"claim": "one", "name": "v over v_c: cone", "got": 0.998, "expected": 1.0, "held": True},
     {"claim": "one", "name": "v over v_c: punch", "got": 1.001, "expected": 1.0, "held": False},
 ]
-SAMPLE = {"claims": [{"name": "one", "verdict": "holds if E* | F", "sentence": "As v_c."}], "checks": CHECKS}
+SAMPLE = {"claims": [{"name": "one", "verdict": "holds if E* | F", "sentence": "As v_c^2."}], "checks": CHECKS}
 
 
 def test_every_page_is_as_the_record_says():
@@ -28,7 +29,13 @@ def test_the_record_is_of_all_claims_and_all_checks_held():
     assert all(check["held"] for check in record["checks"])
     for claim in record["claims"]:
         assert len(claim["verdict"]) <= 100
-        assert len(claim["sentence"]) <= 200, "a row of README's table is read at a glance"
+        assert len(claim["sentence"]) <= 200, "a row of a table is read at a glance"
+
+
+def test_every_claim_stands_in_one_table_of_its_page():
+    page = (RECORD.parent / "claims.md").read_text(encoding="utf-8")
+    shown = [name for names in re.findall(r"<!--= verdicts :: (.*?) -->", page) for name in names.split(", ")]
+    assert sorted(shown) == sorted(CLAIMS)
 
 
 def test_a_verdict_that_is_not_quoted_is_named():
@@ -70,16 +77,27 @@ def test_a_mark_that_names_no_check_or_several_is_refused(mark):
 
 
 def test_the_table_counts_what_held_and_escapes_what_would_break_it():
-    assert verdict_table(SAMPLE).splitlines()[2] == r"| one | holds if E\* \| F | As v_c. | 2 of 3 |"
+    row = verdict_table(SAMPLE, ["one"]).splitlines()[2]
+    assert row == r"| one | holds if E\* \| F | As <i>v</i><sub>c</sub><sup>2</sup>. | 2 of 3 |"
+
+
+def test_a_table_has_the_claims_that_it_names_in_their_order():
+    record = {"claims": [SAMPLE["claims"][0] | {"name": name} for name in ("one", "a_b", "c")], "checks": CHECKS}
+    text = written.written("<!--= verdicts :: c, a_b -->\nbefore\n<!--= end -->\n", record)
+    assert [line.split(" | ")[0] for line in text.splitlines()[3:5]] == ["| c", "| a b"]
+    assert "before" not in text
+    with pytest.raises(ValueError, match="lacks the claims two of a table; it has one"):
+        verdict_table(SAMPLE, ["one", "two"])
 
 
 def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     (tmp_path / "docs").mkdir()
     page, record = tmp_path / "README.md", tmp_path / "docs" / "checks.json"
-    text = "17 %<!--= got :: one :: worst :: 2 -->\n<!--= verdicts -->\nbefore\n<!--= end -->\n"
+    text = "17 %<!--= got :: one :: worst :: 2 -->\n<!--= verdicts :: one -->\nbefore\n<!--= end -->\n"
     page.write_text(text, encoding="utf-8")
     given = tmp_path / "given.json"
     given.write_text(json.dumps(SAMPLE), encoding="utf-8")
+    (tmp_path / "one-glance.svg").write_text("<svg/>")
     monkeypatch.setattr(written, "ROOT", tmp_path)
     monkeypatch.setattr(written, "RECORD", record)
     monkeypatch.setattr(written, "CONSTRAINTS", tmp_path / "constraints.txt")
@@ -94,6 +112,7 @@ def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     assert not record.exists()
     assert main([str(given)]) == 0
     assert record.read_text() == given.read_text()
+    assert record.with_name("claim.svg").read_text() == "<svg/>"
     assert f"numpy=={np.__version__}\n" in (tmp_path / "constraints.txt").read_text()
     assert page.read_text(encoding="utf-8").startswith("4.9·10⁻⁶<!--=")
     assert "before" not in page.read_text(encoding="utf-8")

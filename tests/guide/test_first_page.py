@@ -1,0 +1,68 @@
+"""The first page: its picture is drawn as it stands, its words are few, and its commands are those of the tests."""
+
+import re
+import runpy
+import shlex
+
+import matplotlib as mpl
+import pages
+import pytest
+from matplotlib.testing.compare import compare_images
+from test_docs import SAME
+
+README = (pages.ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def prose(page):
+    """What is read of a page: no code, no marks, no targets of links, no tables set from the record."""
+    text = re.sub(r"<!--= verdicts.*?<!--= end -->", "", pages.FENCE.sub("", page), flags=re.DOTALL)
+    return re.sub(r"<!--.*?-->|(?<=\])\([^)]*\)|\*", "", text, flags=re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    mpl.use("Agg")
+    return runpy.run_path(str(pages.DOCS / "picture.py"))["figure"]()
+
+
+def test_the_picture_is_drawn_as_it_stands(drawn, tmp_path):
+    stored = pages.DOCS / "picture.png"
+    assert stored.stat().st_size < 2e5
+    drawn.savefig(tmp_path / "picture.png", dpi=150)
+    assert compare_images(str(stored), str(tmp_path / "picture.png"), tol=SAME) is None
+    assert "docs/picture.png" in README
+
+
+def test_no_label_of_the_picture_meets_another(drawn):
+    drawn.canvas.draw()
+    boxes = []
+    for ax in drawn.axes:
+        texts = [*ax.texts, ax.title, ax.xaxis.label, ax.yaxis.label, *ax.get_xticklabels(), *ax.get_yticklabels()]
+        boxes += [(text.get_text(), text.get_window_extent()) for text in texts if text.get_text()]
+    for n, (one, box) in enumerate(boxes):
+        assert not [other for other, second in boxes[n + 1 :] if box.overlaps(second)], one
+
+
+def test_it_is_read_in_some_minutes():
+    assert len(prose(README).split()) <= 950
+
+
+@pytest.mark.parametrize("name", ["README.md", "docs/index.md", "docs/claims.md"])
+def test_no_sentence_is_long(name):
+    text = prose((pages.ROOT / name).read_text(encoding="utf-8"))
+    paragraphs = re.split(r"\n\s*\n|\n- |\|", text)
+    sentences = [sentence for one in paragraphs for sentence in re.split(r"(?<=[.?!:;])\s", one)]
+    longest = max(sentences, key=lambda sentence: len(sentence.split()))
+    assert len(longest.split()) <= 30, longest
+
+
+def test_its_test_command_is_the_one_that_every_change_runs():
+    """Both install the distribution in place with the extra `test`, and run pytest without arguments."""
+    ci = (pages.ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    command = next(line for line in README.splitlines() if line.endswith("-m pytest"))
+    made, installed, tested = command.split(" && ")
+    assert made in ci
+    assert f"\n{tested}\n" in ci
+    extras = re.search(rf"{re.escape(installed.split(' -e ')[0])} -e '\.\[([\w,]+)\]'", ci)[1]
+    assert shlex.split(installed)[-1] == ".[test]"
+    assert "test" in extras.split(",")
