@@ -18,6 +18,7 @@ from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
 from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.files.measurements import DynamicModuli, read_moduli
 from mdr.files.own_records import register
 from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
@@ -45,6 +46,7 @@ from mdr.tools.version import __version__ as __version__
 __all__ = [
     "CaseFileError",
     "CofCurve",
+    "DynamicModuli",
     "EnergyBalance",
     "Fit",
     "FrictionData",
@@ -84,6 +86,7 @@ __all__ = [
     "radial_rub",
     "read_case",
     "read_friction_data",
+    "read_moduli",
     "read_study",
     "register",
     "resolved",

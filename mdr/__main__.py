@@ -1,5 +1,5 @@
-"""The command line: `mdr velocity`, `curve`, `measure` and `verdict` of a case file, `mdr sweep` of a study file,
-`mdr shapes` and `mdr case` to begin with.
+"""The command line: `mdr velocity`, `curve`, `measure`, `verdict` and `fit` of a case file, `mdr sweep` of a study
+file, `mdr shapes` and `mdr case` to begin with.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input; 130 interrupted. Results go to standard output (with --json one JSON object: what is undefined is null,
@@ -18,7 +18,7 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import begin, curve, judge, sweep, velocity
+from mdr.commands import begin, curve, fit, judge, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import CaseFileError, read_case
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
@@ -91,6 +91,7 @@ def parser() -> argparse.ArgumentParser:
         ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation"),
         ("measure", judge.measure, "critical velocity from simulation alone"),
         ("verdict", judge.verdict, "how good the closed-form critical velocity is, and what to use in its place"),
+        ("fit", fit.fit, "parameters of the case from measured friction over velocity"),
     ]
     for name, work, summary in with_case:
         command = _command(commands, name, work, summary)
@@ -101,6 +102,8 @@ def parser() -> argparse.ArgumentParser:
             judge.add_options(command)
         elif name == "measure":
             judge.add_accuracy_of_bracket(command)
+        elif name == "fit":
+            fit.add_options(command)
     study = "a grid of cases, from a study file; the same call goes on after any end"
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)

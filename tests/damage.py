@@ -23,6 +23,9 @@ ROOT = Path(__file__).parents[1]
 LONGEST = 500  #: characters of a fault, with the name of the file
 
 FRICTION = "v_0 [mm/s], COF, error\n0.5, 0.31, 0.01\n1.0, 0.35, 0.01\n# a remark\n2.0, 0.41, 0.02\n5, 0.47, 0.02\n"
+SCAN = "x [um],f [nm],note\n" + "".join(f"{x},{40 * x * x},a\n" for x in range(-6, 7))
+PRESS = "d [um];F [mN]\n" + "".join(f"{d};{0.4 * d**1.5:.6f}\n" for d in range(1, 10))
+MODULI = "f [Hz],E' [MPa],tan delta\n1,3,0.1\n10,3.5,0.2\n100,4,0.15\n"
 ARMS = "E_j [Pa],tau_j [s]\n2e6,1e-2\n4e6,1e-4\n1e5,0.3\n3e6,inf\n"
 MATERIAL = """# a rubber at 20 °C, a gel of two arms; E [Pa], tau [s]
 [material]
@@ -166,6 +169,9 @@ def files():
         "written case": [("case.toml", mdr.write_case(case).encode()) for case in cases],
         "study": [("study.toml", (ROOT / "docs" / "study.toml").read_bytes())],
         "friction": [("friction.csv", text.encode()) for text in (FRICTION, FRICTION.replace(",", ";"))],
+        "profile": [("scan.csv", SCAN.encode())],
+        "force": [("press.csv", PRESS.encode())],
+        "moduli": [("moduli.csv", MODULI.encode())],
         "arms": [("arms.csv", ARMS.encode())],
         "material": [("arms.toml", MATERIAL.encode())],
         "stored study": [("study.nc", stored)],
@@ -177,6 +183,9 @@ READERS = {
     "written case": mdr.read_case,
     "study": read_study_file,
     "friction": mdr.read_friction_data,
+    "profile": mdr.SampledProfile.read,
+    "force": lambda path: mdr.FromForce.read(path, E_star=1e6),
+    "moduli": mdr.read_moduli,
     "arms": lambda path: mdr.Prony.read(path, nu=0.5),
     "material": mdr.Prony.read,
     "stored study": mdr.read_study,

@@ -12,13 +12,12 @@ from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.commands.output import (
     DONE,
     FAILED,
-    WrongInput,
     add_accuracy,
     complain,
     made_by,
+    make_folder,
     print_json,
     print_rows,
-    require_free,
     velocity_text,
     write_figure,
 )
@@ -49,8 +48,7 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
     import numpy as np
 
     if args.output is not None:
-        _make_folder(args.output)  # before the work, not after it
-        require_free([args.output / name for name in ("curve.csv", "curve.png", "curve.svg")])
+        make_folder(args.output, ("curve.csv", "curve.png", "curve.svg"))
     from mdr.friction.cof_curve import cof_curve
 
     least = -args.up_to * velocity_scale(case.mirrored) if case.is_shaken else 0.0
@@ -121,13 +119,6 @@ def _print_curve(curve: CofCurve) -> None:
         ratio = f"{v_0 / curve.v_c:8.4f}" if scaled else f"{'-':>8}"
         end = "yes" if settled else "no"
         print(f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}")
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as fault:
-        raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
 
 
 def _write_csv(args: argparse.Namespace, case: SlidingContact, curve: CofCurve) -> None:

@@ -23,7 +23,8 @@ def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     measured = [measure_critical_velocity(case, way, accuracy=args.accuracy) for way in ways]
     if args.json:
         told = [{name: getattr(one, name) for name in ("v_c", "low", "high", "kind", "why")} for one in measured]
-        print_json(args, told[0] | ({"other_way": told[1]} if case.is_shaken else {}), case)
+        more = {"other_way": told[1], **Ends.of(case).values} if case.is_shaken else {}
+        print_json(args, told[0] | more, case)
     else:
         for name, found in zip(("forward", "other way") if case.is_shaken else ("v_c",), measured, strict=True):
             print_rows([(name, velocity_text(found.v_c), found.kind), *_bracket(found), ("", found.why, "")])
@@ -53,7 +54,7 @@ def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     if args.json:
         names = ("eq_15", "full_slip", "measured", "deviation", "within", "good", "holds", "why")
         told = [{name: getattr(one, name) for name in names} for _, one in ways]
-        more = {"other_way": told[1], "at_rest": found.at_rest} if len(ways) > 1 else {}
+        more = {"other_way": told[1], "at_rest": found.at_rest, **Ends.of(case).values} if len(ways) > 1 else {}
         print_json(args, told[0] | more | {"sentence": str(found)}, case)
     else:
         print(found)

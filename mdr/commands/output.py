@@ -82,6 +82,15 @@ def write_figure(args: argparse.Namespace, figure: Any, folder: Path, stem: str)
         write_whole(folder / f"{stem}.{kind}", drawn.getvalue())
 
 
+def make_folder(folder: Path, names: Sequence[str]) -> None:
+    """Make the folder of a command's files before the work. WrongInput where they cannot be written."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as fault:
+        raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
+    require_free([folder / name for name in names])
+
+
 def require_free(paths: Sequence[Path]) -> None:
     """Refuse, before the work, places where no file can be written."""
     for path in paths:

@@ -10,8 +10,10 @@ import numpy as np
 
 from mdr.files.case_files import parse_toml, read_text
 from mdr.materials import Prony
-from mdr.tools.csv_table import cells_of, fault
+from mdr.tools.csv_table import Column, fault, table_of
 from mdr.tools.messages import short
+
+ARMS = (Column("E_j", unit="Pa", bare=True), Column("tau_j", unit="s", bare=True, empty=np.inf))
 
 
 def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
@@ -27,25 +29,12 @@ def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
 
 
 def _from_csv(text: str, name: str) -> dict[str, Any]:
-    rows = [
-        (number, cells_of(line, f"{name}: row {number}"))
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip()
-    ]
-    heads = [cell.split("[")[0].strip() for cell in rows[0][1]] if rows else []
-    if not {"E_j", "tau_j"} <= set(heads):
-        got = short(", ".join(heads)) or "nothing"
-        raise fault(name, f"the first line must name the columns E_j and tau_j, got {got}")
+    table = table_of(text, name, ARMS)
     E_inf, arms = 0.0, []
-    for number, row in rows[1:]:
-        cells = dict(zip(heads, (cell.strip() for cell in row), strict=False))
-        try:
-            E_j, tau_j = float(cells["E_j"]), float(cells.get("tau_j") or "inf")
-        except (KeyError, ValueError):
-            raise fault(name, f"row {number} is no pair of numbers: {short(', '.join(row))}") from None
-        if not 0 <= E_j < np.inf or not tau_j > 0:
-            what = f"row {number} must have a finite E_j >= 0 Pa and tau_j > 0 s, got {short(', '.join(row))}"
-            raise fault(name, what)
+    for line, E_j, tau_j in zip(table.lines, *(table.values[key].tolist() for key in ("E_j", "tau_j")), strict=True):
+        if not E_j >= 0 or not tau_j > 0:
+            what = f"must have E_j >= 0 Pa and tau_j > 0 s, got {E_j:.6g} Pa and {tau_j:.6g} s"
+            raise fault(f"{name}: line {line}", what)
         if np.isinf(tau_j):
             E_inf += E_j
         else:

@@ -1,79 +1,106 @@
 """fit(): parameters of a contact from measured friction, by least squares, with confidence intervals.
 
-Positive parameters are searched for by their logarithm, so that scales do not matter; intervals come from the curvature
-at the best fit and Student's t, and are asymmetric where the logarithm is. Parameters that the data do not tell apart,
-or do not tell at all, are named in `warnings`: a fit may be good and say nothing about them.
+Intervals come from the curvature at the best fit and Student's t, on the scale on which a parameter is searched for
+(`free_parameters`): asymmetric where that is the logarithm. A parameter whose interval is wider than its bounds, or
+than three decades, is not determined by the data. Those that the data do not tell apart are named in `warnings`: a fit
+may be good and say nothing about them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact, as_given
-from mdr.case.units import facts_at
+from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
+from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
-from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import GROUPS, case_at, fields_of
 from mdr.tools.arrays import Array
-from mdr.tools.messages import offer, short
+from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
+from mdr.tools.records import ArrayRecord
 
-STEP = 1e-3  #: of a logarithm, for derivatives: well above the noise of a run, well below any curvature
-VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the data hardly tell the parameter
+STEP = 1e-3  #: on the scale of the search, for derivatives: well above the noise of a run, well below any curvature
+VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the parameter is poorly determined
 ALIKE = 0.99  #: correlation from which on two parameters are hardly told apart
+UNLIKELY = 1e-3  #: probability of deviations as large as these, below which the curve misses the data
+NEAR_END = 1e-4  #: of the range: a best fit so near to an end is at it
+IDLE = 1e-8  #: of the data: a parameter that changes the curve by less on its scale has nothing to do with them
+ERRORS = 3.0  #: times its error that a coefficient of friction may lie outside its range
 N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
 
 
-@dataclass(frozen=True)
-class Fit:
+@dataclass(frozen=True, eq=False)
+class Fit(ArrayRecord):
     """A contact fitted to measurements; dictionaries by the names of the parameters as given."""
 
     case: SlidingContact  #: with the fitted parameters
     data: FrictionData
     values: dict[str, float]  #: best values, in SI
-    low: dict[str, float]  #: lower ends of the confidence intervals
+    low: dict[str, float]  #: lower ends of the confidence intervals, within the bounds
     high: dict[str, float]  #: upper ends
+    undetermined: tuple[str, ...]  #: parameters whose interval is wider than their bounds, or than three decades
     confidence: float
+    residuals: Array  #: measured less fitted coefficient of friction [-], shape (n,), in the order of `data`
+    correlation: Array  #: of the parameters [-], shape (k, k), in the order of `values`
     rms: float  #: root mean square of the deviations, in units of the errors given, else of the COF
+    units: dict[str, str]  #: of the values, "" for pure numbers
     warnings: tuple[str, ...]  #: what the data do not tell
 
     @property
     def curve(self) -> CofCurve:
-        """The curve of the fitted contact from rest to a little beyond the highest velocity measured; computed anew."""
-        v_0 = np.linspace(0, 1.05 * float(self.data.v_0.max()), 60)
-        return cof_curve(self.case, v_0, n_springs=N_SPRINGS, steps_per_period=STEPS)
+        """The curve of the fitted contact a little beyond the velocities measured, from rest; computed anew."""
+        least, most = 1.05 * min(float(self.data.v_0.min()), 0.0), 1.05 * max(float(self.data.v_0.max()), 0.0)
+        return cof_curve(self.case, np.linspace(least, most, 60), n_springs=N_SPRINGS, steps_per_period=STEPS)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw the data with their errors, and the fitted curve.
+        """Draw the data with their errors, the fitted curve, and what is left below.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw. None makes a new figure.
+            Where to draw data and curve alone. None makes a new figure, with a second panel for the residuals.
 
         Returns
         -------
         matplotlib.axes.Axes
-            Where it was drawn.
+            Where data and curve were drawn.
         """
         from mdr.plots import plot_fit
 
         return plot_fit(self, ax)
 
     def __str__(self) -> str:
-        rows = [
-            f"{name:<16} {value:.6g} {_unit(self.case, name)}  ({self.low[name]:.4g} ... {self.high[name]:.4g})"
-            for name, value in self.values.items()
+        names = list(self.values)
+        pairs = [
+            f"{one} and {two} {self.correlation[i, j]:+.2f}" for (i, one), (j, two) in combinations(enumerate(names), 2)
         ]
-        return "\n".join([f"{self.confidence:.0%} intervals:", *rows, *self.warnings])
+        scale = "in units of the errors" if self.data.error is not None else "of the COF"
+        told = [f"correlations: {', '.join(pairs)}"] if pairs else []
+        told += [f"residuals: {self.rms:.3g} root mean square, {scale}"]
+        rows = [f"{name:<16} {self._row(name)}" for name in names]
+        return "\n".join([f"{self.confidence:.0%} intervals:", *rows, *told, *self.warnings])
+
+    def _row(self, name: str) -> str:
+        unit = f" {self.units[name]}" if self.units[name] else ""
+        if name in self.undetermined:
+            return f"not determined (best fit {self.values[name]:.4g}{unit})"
+        return f"{self.values[name]:.4g} ({self.low[name]:.4g} ... {self.high[name]:.4g}){unit}"
 
 
-def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, confidence: float = 0.95) -> Fit:
+def fit(
+    case: SlidingContact,
+    data: FrictionData,
+    parameters: Iterable[str],
+    *,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    confidence: float = 0.95,
+) -> Fit:
     """Parameters of a contact, in SI, from measured friction, by least squares, with confidence intervals.
 
     Parameters
@@ -81,11 +108,13 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
     case : SlidingContact
         The contact. The search begins with its values.
     data : FrictionData
-        Measured friction over velocity.
+        Measured friction over velocity; of a contact that is shaken in the plane, either way.
     parameters : iterable of str
         What is fitted: "mu_0", "mindlin_ratio" (by Poisson's ratio), paths of fields ("material.tau", "pull.k_x",
-        "indenter.R") or their last part where that is unique ("tau", "k_x", "m", "c_x"), or groups ("alpha", "T"). All
-        but mindlin_ratio must be positive in the case.
+        "indenter.R") or their last part where that is unique ("tau", "k_x", "m", "c_x"), or groups ("alpha", "T").
+    bounds : dict of str to (float, float), optional
+        Lowest and highest value of a parameter, in SI, by its name. None: a factor of 1000 either way of a positive
+        one; else ten units of the contact either way, a phase half a turn; never beyond what the case can have.
     confidence : float
         Level of the intervals [-], between 0 and 1.
 
@@ -101,6 +130,12 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
     TypeError
         For data or parameters of another type.
 
+    Notes
+    -----
+    A positive parameter is searched for by its logarithm. One that may change sign (a phase), begins at zero, or has
+    bounds that reach zero, is searched for on a linear scale, and so is mindlin_ratio. The search finds the best fit
+    nearest to where it begins: begin elsewhere where there may be several.
+
     Examples
     --------
     >>> import mdr
@@ -108,7 +143,7 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
     >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.5, oscillation=tapping)
     >>> data = mdr.FrictionData(v_0=[1e-4, 2e-4, 4e-4], cof=[0.365, 0.388, 0.4])
-    >>> found = mdr.fit(case, data, ["mu_0"])
+    >>> found = mdr.fit(case, data, ["mu_0"], bounds={"mu_0": (0.1, 1.0)})
     >>> print(f"{found.values['mu_0']:.2f}")
     0.40
     """
@@ -119,136 +154,161 @@ def fit(case: SlidingContact, data: FrictionData, parameters: Iterable[str], *, 
         raise TypeError(f"data must be FrictionData, as read_friction_data gives, got {short(repr(data))}")
     if not 0 < confidence < 1:
         raise ValueError(f"confidence must lie between 0 and 1, got {confidence!r}")
-    model = _Model.of(case, data, parameters)
-    if len(model.names) >= data.v_0.size:
-        raise ValueError(f"{len(model.names)} parameters need more than {data.v_0.size} measurements")
-    ticker = Ticker("fit, curves")
+    _refuse_wrong_signs(case, data)
+    free = _parameters(case, parameters, bounds)
+    if len(free) >= data.v_0.size:
+        raise ValueError(f"{len(free)} parameters need more than {data.v_0.size} measurements")
+    model = _Model(case, data, free)
+    low, high = np.transpose([one.ends for one in free])
+    first = np.array([one.first for one in free])
+    found = least_squares(model.left, first, model.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-10)
+    size = float(np.linalg.norm(data.cof / model.error))
+    idle = np.linalg.norm(found.jac, axis=0) < IDLE * size  # where these have drifted to means nothing
+    x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
+    return _with_intervals(model, x, found.jac, found.fun, confidence)
 
-    def residuals(x: Array) -> Array:
-        ticker.tick()
-        return model.residuals(x)
 
-    bounds = np.transpose([model.bounds(name) for name in model.names])
-    found = least_squares(residuals, model.start, bounds=bounds, diff_step=STEP, x_scale="jac", xtol=1e-7, ftol=1e-10)
-    return _with_intervals(model, found.x, found.jac, found.fun, confidence)
+def _parameters(case: SlidingContact, names: Any, bounds: Any) -> tuple[Parameter, ...]:
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise TypeError(f'parameters must be a list of names, got {short(repr(names))}; write ["mu_0", ...]')
+    names, bounds = tuple(names), {} if bounds is None else bounds
+    if not names:
+        raise ValueError("parameters must name at least one, such as mu_0")
+    if not isinstance(bounds, Mapping):
+        raise TypeError(f'bounds must be a dict, {{"{names[0]}": (low, high)}}, got {short(repr(bounds))}')
+    paths = [path_of(case, name) for name in names]
+    free = tuple(
+        Parameter.of(case, name, bounds.get(name, bounds.get(path))) for name, path in zip(names, paths, strict=True)
+    )
+    if len(set(paths)) < len(paths):
+        raise ValueError(f"parameters name one twice: {', '.join(names)}")
+    if strange := [name for name in bounds if name not in (*names, *paths)]:
+        raise ValueError(f"bounds: {short(str(strange[0]))} is not fitted; the parameters are {', '.join(names)}")
+    return free
 
 
-@dataclass(frozen=True)
+def _refuse_wrong_signs(case: SlidingContact, data: FrictionData) -> None:
+    """What a contact that is not shaken in the plane cannot show."""
+    if case.is_shaken:
+        return
+    if data.v_0[0] < 0:
+        raise ValueError(
+            f"v_0 must not be negative, got {float(data.v_0[0])!r} m/s: both ways are alike unless the contact is "
+            "shaken in the plane; give the speed"
+        )
+    error = 0.0 if data.error is None else ERRORS * data.error
+    if np.any(wrong := data.cof + error < 0):
+        i = int(np.argmax(wrong))
+        raise ValueError(
+            f"cof must not be negative, got {data.cof[i]:.6g} at {data.v_0[i]:.6g} m/s: a contact that is not shaken "
+            "in the plane is held back, by 0 to mu_0; turn the sign of the force, or give the errors of the data"
+        )
+
+
 class _Model:
-    case: SlidingContact
-    data: FrictionData
-    names: tuple[str, ...]  # as given
-    paths: tuple[str, ...]
-    start: Array  # logarithms of the values; mindlin_ratio as it is
+    """What is left of the data at coordinates x (k,) of the parameters, and its derivatives."""
 
-    @classmethod
-    def of(cls, case: SlidingContact, data: FrictionData, parameters: Iterable[str]) -> _Model:
-        if isinstance(parameters, str) or not isinstance(parameters, Iterable):
-            raise TypeError(f'parameters must be a list of names, got {short(repr(parameters))}; write ["mu_0", ...]')
-        names = tuple(parameters)
-        if not names:
-            raise ValueError("parameters must name at least one, such as mu_0")
-        paths = tuple(_path(case, name) for name in names)
-        if len(set(paths)) < len(paths):
-            raise ValueError(f"parameters name one twice: {', '.join(names)}")
-        start = []
-        for name, path in zip(names, paths, strict=True):
-            value = _value(case, path)
-            if path != "mindlin_ratio" and not value > 0:
-                raise ValueError(f"{name} must be positive in the case, to begin with, got {value!r}")
-            start.append(value if path == "mindlin_ratio" else np.log(value))
-        return cls(case, data, names, paths, np.array(start))
+    def __init__(self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...]) -> None:
+        self.case, self.data, self.free = case, data, free
+        self.error = 1.0 if data.error is None else data.error
+        self._ticker = Ticker("fit, curves")
+        self._at = lru_cache(maxsize=2)(self._deviations)
 
-    def bounds(self, name: str) -> tuple[float, float]:
-        """Limits of the search: three decades to either side, and what Poisson's ratio allows."""
-        i = self.names.index(name)
-        if self.paths[i] == "mindlin_ratio":
-            return 0.76, 1.5 + 1e-12
-        return self.start[i] - 7, self.start[i] + 7
+    def values(self, x: Array) -> dict[str, float]:
+        """{path: value}."""
+        return {one.path: one.value(at) for one, at in zip(self.free, x.tolist(), strict=True)}
 
-    def case_of(self, x: Array) -> SlidingContact:
-        settings: dict[str, Any] = {}
-        for path, value in zip(self.paths, x.tolist(), strict=True):
-            if path == "mindlin_ratio":
-                settings["material.nu"] = min((2 * value - 2) / (2 * value - 1), 0.5)
-            else:
-                settings[path] = float(np.exp(value))
-        return case_at(self.case, settings)
+    def left(self, x: Array) -> Array:
+        """Fitted less measured, over the errors (n,)."""
+        return self._at(tuple(x.tolist()))
 
-    def residuals(self, x: Array) -> Array:
-        cof = friction_without_bound(self.case_of(x), self.data.v_0, N_SPRINGS, STEPS)
-        return (cof - self.data.cof) / (1.0 if self.data.error is None else self.data.error)
+    def slopes(self, x: Array) -> Array:
+        """Derivatives (n, k), by a step into the range."""
+        columns = []
+        for i, one in enumerate(self.free):
+            low, high = one.ends
+            step = min(STEP, (high - low) / 4) * (1 if x[i] + STEP < high else -1)
+            moved = x + step * (np.arange(x.size) == i)
+            columns.append((self._deviations(tuple(moved.tolist())) - self.left(x)) / step)
+        return np.transpose(columns)
+
+    def _deviations(self, x: tuple[float, ...]) -> Array:
+        self._ticker.tick()
+        values = self.values(np.array(x))
+        try:
+            cof = friction_without_bound(case_of(self.case, values), self.data.v_0, N_SPRINGS, STEPS)
+        except ValueError as refusal:
+            where = ", ".join(f"{path} = {value:.6g}" for path, value in values.items())
+            raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None
+        return np.asarray((cof - self.data.cof) / self.error)
 
 
 def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:
     """The fit with intervals and warnings, from the Jacobian (n, k) and the residuals (n,) at the best values."""
     from scipy.stats import t
 
-    free = left.size - x.size
-    variance = float(left @ left) / free if model.data.error is None else 1.0
+    spare = left.size - x.size
+    variance = float(left @ left) / spare if model.data.error is None else 1.0
     _, lengths, right = np.linalg.svd(jac, full_matrices=False)
     kept = np.maximum(lengths, 1e-9 * lengths[0] + 1e-300)
     covariance = variance * (right.T / kept**2) @ right
     sigma = np.sqrt(np.diag(covariance))
-    half = float(t.ppf(0.5 + confidence / 2, free)) * sigma
-    names, values, low, high = model.names, {}, {}, {}
-    for i, (name, path) in enumerate(zip(names, model.paths, strict=True)):
-        ends = np.array([x[i], x[i] - half[i], x[i] + half[i]])
-        values[name], low[name], high[name] = (
-            ends if path == "mindlin_ratio" else np.exp(np.clip(ends, -700, 700))
-        ).tolist()
-    warnings = [f"{names[i]}: the data hardly tell it" for i in np.flatnonzero(half > VAGUE)]
-    correlation = covariance / np.outer(sigma, sigma)
-    warnings += [
-        f"{names[i]} and {names[j]}: the data hardly tell them apart (correlation {correlation[i, j]:.3f})"
-        for i in range(len(names))
-        for j in range(i)
+    half = float(t.ppf(0.5 + confidence / 2, spare)) * sigma
+    correlation = covariance / np.outer(sigma, sigma) if variance else np.eye(x.size)
+    free = model.free
+    names = [one.name for one in free]
+    case = case_of(model.case, model.values(x))
+    return Fit(
+        case=case,
+        data=model.data,
+        values={one.name: one.value(x[i]) for i, one in enumerate(free)},
+        low={one.name: one.value(x[i] - half[i]) for i, one in enumerate(free)},
+        high={one.name: one.value(x[i] + half[i]) for i, one in enumerate(free)},
+        undetermined=tuple(names[i] for i, one in enumerate(free) if not 2 * half[i] <= one.widest),
+        confidence=confidence,
+        residuals=-left * model.error,
+        correlation=correlation,
+        rms=float(np.sqrt(np.mean(left**2))),
+        units={one.name: one.symbol for one in free},
+        warnings=(*_vague(free, x, half), *_alike(names, correlation), *_beyond(case, model), *_missed(left, model)),
+    )
+
+
+def _vague(free: tuple[Parameter, ...], x: Array, half: Array) -> list[str]:
+    """Parameters that the data determine badly, or not at all."""
+    told = []
+    for one, at, wide in zip(free, x, half, strict=True):
+        if not 2 * wide <= one.widest:
+            limit = "its bounds" if one.unit or one.widest < np.log(10) * DECADES else f"{DECADES:.0f} decades"
+            told.append(f"{one.name}: not determined by these data; its interval is wider than {limit}")
+        elif not one.unit and wide > VAGUE:
+            told.append(f"{one.name}: poorly determined; its interval spans a factor of {np.exp(2 * wide):.2g}")
+        low, high = one.ends
+        if min(at - low, high - at) < NEAR_END * (high - low):
+            told.append(f"{one.name}: the best fit is at the end of what is searched, {one.low:.4g} to {one.high:.4g}")
+    return told
+
+
+def _alike(names: list[str], correlation: Array) -> list[str]:
+    return [
+        f"{one} and {two}: the data hardly tell them apart (correlation {correlation[i, j]:.3f})"
+        for (j, two), (i, one) in combinations(enumerate(names), 2)
         if abs(correlation[i, j]) > ALIKE
     ]
-    warnings += [
-        f"{name}: the best fit is at the end of what is searched"
-        for i, name in enumerate(names)
-        if min(abs(x[i] - end) for end in model.bounds(name)) < 1e-6
-    ]
-    rms = float(np.sqrt(np.mean(left**2)))
-    return Fit(model.case_of(x), model.data, values, low, high, confidence, rms, tuple(warnings))
 
 
-def _path(case: SlidingContact, name: Any) -> str:
-    """The path of a parameter in the case."""
-    if not isinstance(name, str):
-        raise TypeError(f"parameters must be names, got {short(repr(name))}")
-    known = [f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot))]
-    numbers = [path for path in known if isinstance(_value(case, path), int | float)]
-    if name in ("mu_0", "mindlin_ratio", *GROUPS, *numbers):
-        return name
-    ends = [path for path in numbers if path.partition(".")[2] == name]
-    if len(ends) == 1:
-        return ends[0]
-    short_names = [path.partition(".")[2] for path in numbers]
-    meant = (
-        f"is {' or '.join(ends)}"
-        if ends
-        else f"is no parameter of this case; {offer(name, ['mu_0', 'mindlin_ratio', *short_names])}"
-    )
-    raise ValueError(f"{short(name)} {meant}")
+def _beyond(case: SlidingContact, model: _Model) -> list[str]:
+    """Friction above the local coefficient, which no contact shows."""
+    above = model.data.cof - case.mu_0 - (0.0 if model.data.error is None else ERRORS * model.data.error)
+    if "mu_0" in {one.path for one in model.free} or case.is_shaken or not above.max() > 0:
+        return []
+    return [f"cof: measured up to {model.data.cof.max():.4g}, above mu_0 = {case.mu_0:.4g}; fit mu_0 too"]
 
 
-def _value(case: SlidingContact, path: str) -> Any:
-    if path in ("mu_0", "T"):
-        return getattr(case, path)
-    if path in ("alpha", "chi"):
-        return getattr(resolved(case), path)
-    if path == "mindlin_ratio":
-        return case.material.mindlin_ratio
-    if path == "k_x/k_xc":
-        return getattr(case.pull, "k_x", 0.0) / at_rest(case).k_xc
-    if path == "omega_0/omega":
-        omega_0 = case.pull.omega_0
-        return omega_0 / case.omega if omega_0 < np.inf else 0.0
-    slot, _, field = path.partition(".")
-    return getattr(getattr(case, slot), field)
+def _missed(left: Array, model: _Model) -> list[str]:
+    """Whether the deviations (n,), in units of the errors, are larger than these explain: chi squared."""
+    from scipy.stats import chi2
 
-
-def _unit(case: SlidingContact, name: str) -> str:
-    return "-" if name == "mindlin_ratio" else facts_at(_path(case, name)).unit
+    if model.data.error is None or chi2.sf(float(left @ left), left.size - len(model.free)) > UNLIKELY:
+        return []
+    return ["the curve misses the data by more than their errors explain: free another parameter, or doubt the errors"]

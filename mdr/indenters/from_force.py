@@ -3,8 +3,12 @@
 k_zc = dF_N/dd = 2E*a holds for any shape, so that F(d) tells the shape (Popov & Heß 2015).
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from os import PathLike, fsdecode
 from typing import Any
 
 import numpy as np
@@ -16,7 +20,8 @@ from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import fit
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, Array
-from mdr.tools.checks import FieldError, finite_array, not_negative, plain, positive_array
+from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
+from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
 N_POINTS = 7  #: fewer make no spline
@@ -77,6 +82,66 @@ class FromForce(Indenter):
         elif (least := min(self.F[1:])) <= 0:
             raise FieldError(f"F must be positive for d > 0, got {least:.6g} N: leave such depths out", "F")
         self._refuse_shrinking()
+
+    @classmethod
+    def read(
+        cls,
+        path: str | PathLike[str],
+        *,
+        E_star: float,
+        units: Mapping[str, str] | None = None,
+        columns: Mapping[str, str] | None = None,
+        touch: float | None = None,
+        tip: str = "any",
+        smoothing: float = 0.0,
+    ) -> FromForce:
+        r"""The shape of a measured force–indentation curve in a CSV file.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file: the loading alone, depths ascending. Its header names depth and force with their units:
+            `d [um], F [mN]`. The point of first touch, 0, 0, may be left out.
+        E_star : float
+            Contact modulus of the body that was pressed [Pa].
+        units : dict of str, optional
+            Units of columns whose header has none: {"d": "um", "F": "mN"}.
+        columns : dict of str, optional
+            What the header calls a column: {"d": "Weg", "F": "Kraft"}.
+        touch : float, optional
+            Reading of the depth at first touch [m], from which depths count; what was measured before is left out.
+            None: the readings are depths.
+        tip : str
+            "any", "round", "sharp" or "flat".
+        smoothing : float
+            Standard deviation of the noise of the forces [N].
+
+        Returns
+        -------
+        FromForce
+            The shape.
+
+        Raises
+        ------
+        ValueError
+            With file and line of what is wrong.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> import mdr
+        >>> points = "".join(f"{d}, {0.4 * d**1.5}\n" for d in range(1, 9))
+        >>> _ = Path("press.csv").write_text("d [um], F [mN]\n" + points)
+        >>> mdr.FromForce.read("press.csv", E_star=4e6, tip="round").max_radius
+        0.0002121...
+        """
+        from mdr.files.measurements import force_points
+
+        d, F = force_points(path, units, columns, None if touch is None else finite("touch", touch))
+        try:
+            return cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
+        except ValueError as refusal:
+            raise fault(fsdecode(path), str(refusal)) from None
 
     @property
     def kinks(self) -> tuple[float, ...]:

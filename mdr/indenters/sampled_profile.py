@@ -1,9 +1,12 @@
 """A shape known at measured points: a spline through them, whose image g follows exactly (`mapping.splines`)."""
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
+from os import PathLike, fsdecode
 from typing import Any
 
 import numpy as np
@@ -13,7 +16,8 @@ from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import SplineImage, fit
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FieldError, FieldTypeError, finite_array, not_negative, positive
+from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
+from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
@@ -94,6 +98,73 @@ class SampledProfile(Indenter):
         except ValueError as ring:
             noise = "if it is noise, give its size as smoothing="
             raise ValueError(f"{ring}; {self._way_out_of_a_kink()}; {noise}") from None
+
+    @classmethod
+    def read(
+        cls,
+        path: str | PathLike[str],
+        *,
+        units: Mapping[str, str] | None = None,
+        columns: Mapping[str, str] | None = None,
+        apex: float = 0.0,
+        side: str = "both",
+        flip: bool = False,
+        tip: str = "round",
+        kinks: Sequence[float] = (),
+        smoothing: float = 0.0,
+    ) -> SampledProfile:
+        r"""The shape of a measured profile in a CSV file.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file. Its header names radius and height with their units: `r [um], f [nm]`. Rows in any order.
+        units : dict of str, optional
+            Units of columns whose header has none: {"r": "um", "f": "nm"}.
+        columns : dict of str, optional
+            What the header calls a column: {"r": "Position", "f": "Z"}.
+        apex : float
+            Where the tip is along the scan [m]; one of the points.
+        side : str
+            "right" or "left" of the tip, or "both": a scan across the tip is laid upon its mirror image, and the mean
+            is taken of two heights at one radius.
+        flip : bool
+            True for a tip that was measured pointing up, so that heights fall away from it.
+        tip : str
+            "round" or "sharp".
+        kinks : sequence of float
+            Radii of points at which the slope jumps [m].
+        smoothing : float
+            Standard deviation of the noise of the heights [m].
+
+        Returns
+        -------
+        SampledProfile
+            The shape.
+
+        Raises
+        ------
+        ValueError
+            With file and line of what is wrong.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> import mdr
+        >>> points = "".join(f"{x}, {50 * x * x}\n" for x in range(-6, 7))
+        >>> _ = Path("scan.csv").write_text("x [um], height [nm]\n" + points)
+        >>> mdr.SampledProfile.read("scan.csv")
+        SampledProfile(7 points to r = 6e-06 m, tip='round')
+        """
+        from mdr.files.measurements import profile_points
+
+        r, f = profile_points(path, units, columns, finite("apex", apex), side, flip)
+        nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}
+        named = tuple(to if abs(to - b) <= ROUNDING * r[-1] else b for b, to in nearest.items())
+        try:
+            return cls(r, f, tip=tip, kinks=named, smoothing=smoothing)  # type: ignore[arg-type]
+        except ValueError as refusal:
+            raise fault(fsdecode(path), str(refusal)) from None
 
     @property
     def joints(self) -> tuple[float, ...]:

@@ -215,9 +215,9 @@ class Prony(_WithArms):
         Parameters
         ----------
         path : str or path-like
-            CSV: columns E_j [Pa] and tau_j [s] under a header that names them; the row with tau_j = inf, or an empty
-            one, is E_inf. TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted, tau, as
-            in a case file.
+            CSV: columns E_j and tau_j under a header that names them and their units (without units, Pa and s); the row
+            with tau_j = inf, or an empty one, is E_inf. TOML: a [material] table with E_inf, arms = [[E_j, tau_j],
+            ...], nu and, if wanted, tau, as in a case file.
         nu : float, optional
             Poisson's ratio [-]. A CSV file needs it; it takes the place of the one in a TOML file.
 

@@ -93,28 +93,38 @@ def plot_curve(curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | No
 
 
 def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
-    """Draw measured coefficients of friction with their errors, and the curve of the fitted contact.
+    """Draw measured coefficients of friction with their errors, the curve of the fitted contact, and residuals below.
 
     Parameters
     ----------
     fitted : Fit
         What `fit` returned.
     ax : matplotlib.axes.Axes, optional
-        Where to draw. None makes a new figure.
+        Where to draw data and curve alone. None makes a new figure, with a second panel for the residuals.
 
     Returns
     -------
     matplotlib.axes.Axes
-        Where it was drawn.
+        Where data and curve were drawn.
     """
+    import matplotlib.pyplot as plt
+
     data, curve = fitted.data, fitted.curve
     factor, unit = prefix(data.v_0, "m/s")
+    velocity = f"pulling velocity $v_0$ [{unit}]"
     with style():
-        ax = axes_of(ax)
+        if ax is None:
+            _, (ax, below) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.2), height_ratios=(3, 1))
+            below.errorbar(data.v_0 * factor, fitted.residuals, data.error, fmt="o", color=COLOURS[1], capsize=2)
+            below.axhline(0, color=COLOURS[0], linewidth=1.0, zorder=0)
+            below.set(xlabel=velocity, ylabel="measured\nless fitted")
         ax.errorbar(data.v_0 * factor, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
         ax.plot(curve.v_0 * factor, curve.cof, color=COLOURS[0], label="fitted contact")
         ax.axhline(fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
-        ax.set(xlabel=f"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
+        if fitted.case.is_shaken:
+            ax.axhline(-fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
+        ax.set(xlabel=velocity, ylabel=r"coefficient of friction $\mu$")
+        ax.label_outer()
         ax.legend()
     return ax
 

@@ -1,10 +1,79 @@
-"""CSV tables written by hand: the cells of one line, and errors that name the file."""
+"""Tables of measurements that people write or instruments export: columns with units, values in SI, or what is wrong.
+
+    # sphere on rubber
+    r [um], height [nm], note
+    0, 0.2, tip
+    1, 0.9,
+
+The first line that is no comment names the columns, each with its unit in brackets. They may stand in any order, beside
+others; commas, semicolons or tabs separate them. What is wrong is told with its line, and with what to write instead.
+"""
 
 from __future__ import annotations
 
 import csv
+import re
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
-from mdr.tools.messages import one_line
+import numpy as np
+
+from mdr.tools.arrays import Array
+from mdr.tools.messages import one_line, short
+from mdr.tools.written import UNITS, in_unit, is_number, number_in
+
+_HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s/\s*(?P<other>\S.*))?")
+
+
+class Column(NamedTuple):
+    """A column that is looked for."""
+
+    name: str  #: in the library
+    names: tuple[str, ...] = ()  #: other names that a header may give it; case, spaces and underscores do not matter
+    unit: str = "-"  #: of the library, a key of `UNITS`
+    needed: bool = True
+    bare: bool = False  #: whether a header without a unit means that of the library
+    empty: float | None = None  #: what an empty cell, or inf, stands for; None refuses them
+
+
+class Table(NamedTuple):
+    """The columns that were found."""
+
+    source: str  #: name of the file
+    values: dict[str, Array]  #: each column (n,) in the unit of the library
+    lines: tuple[int, ...]  #: where each row stands in the file
+
+    def fault(self, what: str) -> ValueError:
+        """The error of this file."""
+        return fault(self.source, what)
+
+
+def table_of(
+    text: str,
+    source: str,
+    columns: Sequence[Column],
+    *,
+    units: Mapping[str, str] | None = None,
+    called: Mapping[str, str] | None = None,
+) -> Table:
+    """The columns in a text; `units` of columns whose header has none, and what a file has `called` them."""
+    names = [column.name for column in columns]
+    _require_known("units", units, names)
+    _require_known("columns", called, names)
+    lines = _lines(text, source, columns)
+    separator = max(",;\t", key=lines[0][1].count)
+    rows = [cells_of(line, f"{source}: line {number}", separator) for number, line in lines]
+    found = _Header(source, rows[0], columns, dict(units or {}), dict(called or {})).places()
+    values: dict[str, list[float]] = {column.name: [] for column, _, _ in found}
+    for (number, _), row in zip(lines[1:], rows[1:], strict=True):
+        where = f"{source}: line {number}"
+        if any(cell.strip() for cell in row[len(rows[0]) :]):
+            what = f"has {len(row)} cells, the header {len(rows[0])}; if a comma is the decimal mark, write a point"
+            raise fault(where, what)
+        for column, place, _ in found:
+            values[column.name].append(_number(row[place] if place < len(row) else "", column, where))
+    scaled = {column.name: in_unit(np.array(values[column.name]), scale) for column, _, scale in found}
+    return Table(source, scaled, tuple(number for number, _ in lines[1:]))
 
 
 def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
@@ -18,3 +87,125 @@ def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
 def fault(where: str, what: str) -> ValueError:
     """The error of one line, whatever the file holds."""
     return ValueError(one_line(f"{where}: {what}"))
+
+
+# --- lines ---
+
+
+def _lines(text: str, source: str, columns: Sequence[Column]) -> list[tuple[int, str]]:
+    """The header and the rows, each with its number. A header may be the last comment before a row of numbers."""
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip(" \t,;")]
+    rows = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
+    if rows and all(is_number(cell) for cell in re.split(r"[,;\s]+", rows[0][1].strip(" \t,;"))):
+        comments = [(number, line) for number, line in lines if number < rows[0][0]]
+        if not comments:
+            raise fault(f"{source}: line {rows[0][0]}", f"numbers, where a header must be: {_example(columns)}")
+        rows.insert(0, (comments[-1][0], comments[-1][1].lstrip(" \t#")))
+    if len(rows) < 2:
+        raise fault(source, f"holds no table; a header such as {_example(columns)}, and a row a measurement")
+    return rows
+
+
+def _example(columns: Sequence[Column]) -> str:
+    """A header as it is meant."""
+    units = {"m": "um", "m/s": "mm/s", "rad/s": "Hz", "Pa": "MPa"}
+    return ", ".join(
+        one.name + (f" [{units.get(one.unit, one.unit)}]" if one.unit != "-" else "") for one in columns if one.needed
+    )
+
+
+# --- the header ---
+
+
+class _Header(NamedTuple):
+    source: str
+    cells: list[str]
+    columns: Sequence[Column]
+    units: dict[str, str]  # given beside the file
+    called: dict[str, str]
+
+    def places(self) -> list[tuple[Column, int, float]]:
+        """Each column that is there, where it stands, and its unit in that of the library."""
+        heads = [_split(cell.strip()) for cell in self.cells]
+        found = []
+        for column in self.columns:
+            wanted = {_plain(one) for one in self._names(column)}
+            places = [i for i, (name, _, whole) in enumerate(heads) if {_plain(name), _plain(whole)} & wanted]
+            if len(places) > 1:
+                raise fault(self.source, f"the header names {column.name} twice: {self._text}")
+            if places:
+                name, unit, _ = heads[places[0]]
+                found.append((column, places[0], self._scale(column, "" if _plain(name) not in wanted else unit)))
+            elif column.needed or column.name in self.called:
+                raise self._missing(column)
+        return found
+
+    def _names(self, column: Column) -> tuple[str, ...]:
+        return (self.called[column.name],) if column.name in self.called else (column.name, *column.names)
+
+    def _scale(self, column: Column, written: str) -> float:
+        known, given = UNITS[column.unit], self.units.get(column.name)
+        if given is not None and given not in known:
+            raise fault(self.source, f"units: {column.name} = {short(repr(given))} is none of {_listed(known)}")
+        if written not in known and column.unit == "-":
+            raise fault(self.source, f"{column.name} is a pure number, got the unit {short(written)!r}")
+        if written and written not in known:
+            what = f"the unit {short(written)!r} of {column.name} is none of {_listed(known)}"
+            raise fault(self.source, f"{what}: {_example([column])}")
+        if written and given is not None and known[written] != known[given]:
+            raise fault(self.source, f"the header gives {column.name} in {written}, units= in {given}; give one")
+        if not written and given is None and not column.bare and column.unit != "-":
+            what = f"{column.name} needs a unit in its header, one of {_listed(known)}: {_example([column])}"
+            raise fault(self.source, what)
+        return known[written or given or column.unit]
+
+    def _missing(self, column: Column) -> ValueError:
+        called = self.called.get(column.name)
+        what = f"the header names no {called or column.name}: {self._text}; "
+        if called:
+            return fault(self.source, what + "columns= must name one of these")
+        if len(self.cells) == 1:
+            what += "columns are separated by commas, semicolons or tabs; "
+        return fault(self.source, what + f"write {_example(self.columns)}")
+
+    @property
+    def _text(self) -> str:
+        return short(", ".join(cell.strip() for cell in self.cells), 120)
+
+
+def _split(head: str) -> tuple[str, str, str]:
+    """Name, unit and whole of a head: "r [um]", "r (um)" or "r / um"."""
+    found = _HEAD.fullmatch(head)
+    if found is None:
+        return head, "", head
+    return found["name"], (found["unit"] or found["other"] or "").strip(" ()"), head
+
+
+def _plain(name: str) -> str:
+    """A name without what does not matter in it."""
+    same = {"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "_": "", " ": "", "-": "", "µ": "μ"}
+    return "".join(same.get(letter, letter) for letter in name.casefold())
+
+
+def _listed(known: Mapping[str, float]) -> str:
+    """Spellings of a unit, each once."""
+    return ", ".join(one for one in known if not {"μ", "^"} & set(one))
+
+
+def _require_known(name: str, given: Mapping[str, str] | None, known: Sequence[str]) -> None:
+    if given is None:
+        return
+    if not isinstance(given, Mapping) or not all(isinstance(one, str) for pair in given.items() for one in pair):
+        example = f'{{"{known[0]}": ...}}'
+        raise TypeError(f"{name} must be a dict from columns to words, {example}, got {short(repr(given))}")
+    if strange := [one for one in given if one not in known]:
+        raise ValueError(f"{name}: {short(strange[0])} is no column; there are {', '.join(known)}")
+
+
+def _number(cell: str, column: Column, where: str) -> float:
+    if column.empty is not None and cell.strip().casefold() in ("", "inf", "infinity", "∞"):
+        return column.empty
+    try:
+        return number_in(cell)
+    except ValueError as wrong:
+        raise fault(where, f"{wrong} (column {column.name})") from None

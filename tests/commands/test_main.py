@@ -378,3 +378,14 @@ def test_what_is_unlikely_is_said_on_standard_error_and_computed(tmp_path, capsy
         warnings.simplefilter("ignore")
         assert main(["velocity", str(file)]) == 0
     assert capsys.readouterr().err == ""
+
+
+def test_what_a_shaken_contact_holds_at_rest_is_told_to_machines(capsys, punch):
+    case = replace(read_case(punch), shake=mdr.InPlaneOscillation(omega=100.0, du_x=2e-7))
+    Path(punch).write_text(write_case(case), encoding="utf-8")
+    for command in ("measure", "verdict"):
+        assert main([command, "--json", "--accuracy", "1e-3", punch]) == 0
+        told = strict_json(capsys.readouterr().out)
+        band = mdr.holding_band(case)
+        assert told["holding_band"] == [band.low, band.high]
+        assert {"blocked_cof", "no_load_velocity", "other_way"} <= set(told)

@@ -1,5 +1,6 @@
 """Parameters from measured friction: what was put in comes out, within its interval, or a warning."""
 
+import re
 from dataclasses import replace
 
 import matplotlib as mpl
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr.friction.free_parameters import Parameter
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
@@ -24,7 +26,7 @@ TRUTH = {"mu_0": MU_0, "mindlin_ratio": CASE.material.mindlin_ratio, "tau": TAU}
 def measured(noise, seed=0, case=CASE, v=V):
     cof = mdr.cof_curve(case, v, n_springs=64, steps_per_period=256).cof
     drawn = cof * (1 + noise * np.random.default_rng(seed).normal(size=v.size))
-    return mdr.FrictionData(v, drawn, max(noise, 1e-6) * cof)
+    return mdr.FrictionData(v, drawn, max(noise, 1e-6) * np.abs(cof))
 
 
 def test_without_noise_the_truth_comes_back():
@@ -66,7 +68,10 @@ def test_a_body_is_fitted_through_its_runs():
 def test_what_the_data_do_not_tell_is_said():
     above = mdr.critical_velocity(CASE) * np.linspace(1.1, 3, 10)
     found = mdr.fit(START, measured(0.01, 0, v=above), ["mu_0", "tau"])
-    assert any(line.startswith("tau: the data hardly tell it") for line in found.warnings)
+    assert found.undetermined == ("tau",)
+    assert "tau: not determined by these data; its interval is wider than 3 decades" in found.warnings
+    assert "tau              not determined (best fit" in str(found)
+    assert 1e-6 < found.low["tau"] < found.high["tau"] < 10  # what was searched, a factor of 1000 either way
     elastic = replace(CASE, material=mdr.Elastic(E=3e6, nu=0.4))  # Eq. (1) knows kappa omega only
     pairs = mdr.fit(elastic, measured(0.01, 0, elastic), ["mindlin_ratio", "omega"])
     assert any("hardly tell them apart" in line for line in pairs.warnings)
@@ -107,17 +112,122 @@ def test_ratios_of_the_body_are_fitted_as_its_fields_are():
         assert two["k_x/k_xc"] * BODY.k_xc == pytest.approx(one["k_x"], rel=1e-3)  # to what least squares stop at
 
 
-def test_a_parameter_that_is_zero_to_begin_with_is_refused():
-    with pytest.raises(ValueError, match="c_x must be positive in the case"):
-        mdr.fit(replace(BODY, pull=mdr.SpringPull(k_x=8e3)), measured(0.01), ["c_x"])
-    with pytest.raises(ValueError, match="omega_0/omega must be positive in the case"):
+def test_a_parameter_may_begin_at_zero_where_it_may_be_zero():
+    undamped = replace(CASE, material=mdr.KelvinVoigt(E=3e6, nu=0.4, tau=0.0))
+    free, within = (mdr.fit(undamped, measured(0.01), ["tau"], bounds=b) for b in (None, {"tau": (0.0, 1.0)}))
+    assert free.low["tau"] < TAU < free.high["tau"]
+    assert within.values["tau"] == pytest.approx(free.values["tau"], rel=1e-4)
+    with pytest.raises(ValueError, match=r"cannot be varied: omega_0/omega: RigidPull has no k_x"):
         mdr.fit(replace(BODY, pull=mdr.RigidPull()), measured(0.01), ["omega_0/omega"])
+    with pytest.raises(ValueError, match="T cannot be varied: T: Elastic has no tau"):
+        mdr.fit(replace(CASE, material=mdr.Elastic(3e6, 0.4)), measured(0.01), ["T"])
+
+
+def test_linear_and_logarithmic_scales_find_the_same():
+    """Bounds that reach zero make the scale linear: the best fit stays, the interval becomes symmetric."""
+    start, data = replace(CASE, material=mdr.KelvinVoigt(E=3e6, nu=0.4, tau=3e-3)), measured(0.002, 2)
+    log, linear = (mdr.fit(start, data, ["tau"], bounds={"tau": b}) for b in ((1e-5, 1e-1), (0.0, 1e-1)))
+    value = log.values["tau"]
+    assert linear.values["tau"] == pytest.approx(value, rel=1e-3)
+    assert log.high["tau"] / value == pytest.approx(value / log.low["tau"], rel=1e-9)
+    assert linear.high["tau"] - value == pytest.approx(value - linear.low["tau"], rel=1e-2)
+
+
+def test_bounds_hold_the_search_and_judge_the_interval():
+    data = measured(0.01)
+    at_end = mdr.fit(replace(CASE, mu_0=0.45), data, ["mu_0"], bounds={"mu_0": (0.3, 0.48)})
+    assert at_end.values["mu_0"] == pytest.approx(0.48, rel=1e-3)
+    assert any("the best fit is at the end of what is searched, 0.3 to 0.48" in line for line in at_end.warnings)
+    narrow = mdr.fit(CASE, data, ["tau"], bounds={"material.tau": (0.95e-3, 1.05e-3)})  # by either name
+    assert narrow.undetermined == ("tau",)
+    assert "wider than its bounds" in narrow.warnings[0]
+
+
+def test_a_search_keeps_to_what_the_case_can_have():
+    """A cone of 0.5 rad may be steepened by a factor of pi, not of 1000."""
+    case = replace(CASE, indenter=mdr.Cone(theta=0.5))
+    assert Parameter.of(case, "theta").high == pytest.approx(np.pi / 2, rel=1e-9)
+    assert Parameter.of(case, "nu").high == pytest.approx(0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "error", "words"),
+    [
+        ({"tau": (1e-5, 1e-4)}, ValueError, "must hold the value of the case, where the search begins: 0.001 is not"),
+        ({"tau": (1e-1, 1e-5)}, ValueError, "low < high, got 0.1 and 1e-05"),
+        ({"tau": (-1.0, 1.0)}, ValueError, "bounds of tau: -1 is no value of it: tau must not be negative"),
+        ({"tau": (0.0, float("nan"))}, ValueError, "bounds of tau must be a finite number"),
+        ({"tau": 3}, TypeError, r"bounds of tau must be a pair \(low, high\), got 3"),
+        ({"k_x": (1, 2)}, ValueError, "bounds: k_x is not fitted; the parameters are tau"),
+        ([(1, 2)], TypeError, "bounds must be a dict"),
+    ],
+)
+def test_bounds_are_checked(bounds, error, words):
+    with pytest.raises(error, match=words):
+        mdr.fit(CASE, measured(0.01), ["tau"], bounds=bounds)
+
+
+SHAKEN = mdr.SlidingContact(
+    mdr.Cone(theta=0.02), mdr.Elastic(3e6, 0.4), MU_0, mdr.NormalOscillation(20e-6, 6e-6, 300.0),
+    shake=mdr.InPlaneOscillation(300.0, du_x=5e-6, phi_x=0.8),
+)  # fmt: skip
+
+
+def test_a_phase_is_fitted_to_both_ways_from_zero():
+    both = measured(0.005, 1, SHAKEN, np.linspace(-2.5e-3, 2.5e-3, 10))
+    data = mdr.FrictionData(both.v_0, both.cof, np.full(10, 0.003))
+    start = replace(SHAKEN, shake=mdr.InPlaneOscillation(300.0, du_x=5e-6))
+    found = mdr.fit(start, data, ["phi_x", "mu_0"])
+    assert found.low["phi_x"] < 0.8 < found.high["phi_x"]
+    assert abs(found.correlation[0, 1]) < 1
+    least, most = found.curve.v_0[[0, -1]]
+    assert least < -2.5e-3 < 2.5e-3 < most
+    ax = found.plot()
+    assert len(ax.figure.axes) == 2
+    plt.close(ax.figure)
+
+
+def test_signs_that_no_unshaken_contact_shows_are_refused():
+    v = V[:4]
+    with pytest.raises(ValueError, match=r"v_0 must not be negative, got .* unless the contact is shaken in the plane"):
+        mdr.fit(CASE, mdr.FrictionData(-v, np.full(4, 0.3)), ["mu_0"])
+    with pytest.raises(ValueError, match=r"cof must not be negative, got -0\.3 .*turn the sign of the force"):
+        mdr.fit(CASE, mdr.FrictionData(v, [0.3, -0.3, 0.3, 0.3], np.full(4, 0.05)), ["mu_0"])
+    mdr.fit(CASE, mdr.FrictionData(v, [-0.01, 0.2, 0.2, 0.2], np.full(4, 0.05)), ["mu_0"])  # within its error
+    high = mdr.fit(CASE, mdr.FrictionData(v, np.full(4, 0.8)), ["tau"])
+    assert "cof: measured up to 0.8, above mu_0 = 0.5; fit mu_0 too" in high.warnings
+
+
+def test_a_curve_that_misses_the_data_says_so():
+    """The stiffness ratio of START is wrong by 9 %, ten times the noise."""
+    missed = mdr.fit(START, measured(0.01), ["mu_0"])
+    assert any("misses the data by more than their errors explain" in line for line in missed.warnings)
+    assert missed.rms > 2
+
+
+def test_what_the_data_do_not_know_stays_as_it_was():
+    found = mdr.fit(CASE, measured(0.01), ["E", "mu_0"])  # friction of a rigid pull does not depend on E
+    assert found.undetermined == ("E",)
+    assert found.values["E"] == pytest.approx(3e6, rel=0.1)
+
+
+def test_residuals_are_what_is_left():
+    data = measured(0.01)
+    found = mdr.fit(START, data, ["mu_0", "tau"])
+    left = data.cof - mdr.cof_curve(found.case, data.v_0).cof
+    np.testing.assert_allclose(found.residuals, left, atol=1e-9)
+    assert found.rms == pytest.approx(np.sqrt(np.mean((left / data.error) ** 2)), rel=1e-6)
 
 
 def test_a_fit_prints_and_draws():
     found = mdr.fit(START, measured(0.01), ["mu_0", "tau"])
-    assert "95% intervals" in str(found)
-    assert "tau" in str(found)
+    told = str(found).splitlines()
+    assert told[0] == "95% intervals:"
+    assert re.fullmatch(r"mu_0 +0\.\d+ \(0\.\d+ \.\.\. 0\.\d+\)", told[1])  # a pure number has no unit
+    assert re.fullmatch(r"tau +\S+ \(\S+ \.\.\. \S+\) s", told[2])
+    assert re.fullmatch(r"correlations: mu_0 and tau [+-]0\.\d\d", told[3])
     ax = found.plot()
+    below = ax.figure.axes[1]
+    assert below.get_ylabel() == "measured\nless fitted"
     assert {text.get_text() for text in ax.get_legend().get_texts()} == {"measured", "fitted contact"}
     plt.close(ax.figure)

@@ -209,18 +209,19 @@ def test_tables_of_arms(tmp_path):
     case.write_text(text, encoding="utf-8")
     assert mdr.Prony.read(case) == body
     for text, words in (
-        ("tau,E\n1,2\n", "must name the columns E_j and tau_j"),
-        ("E_j,tau_j\n1e6,soft\n", "row 2 is no pair of numbers"),
-        ("E_j,tau_j\n1e6,nan\n", "row 2 must have"),
+        ("tau,E\n1,2\n", "the header names no E_j: tau, E"),
+        ("E_j,tau_j\n1e6,soft\n", "line 2: soft is no number"),
+        ("E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
+        ("E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
     ):
         table.write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=words):
             mdr.Prony.read(table, nu=0.3)
     for content, words in (
         (b"E_j,tau_j\n1e6,\xff\n", "line 2 is not UTF-8"),
-        (b"E_j,tau_j\ninf,1\n", "row 2 must have a finite E_j"),
-        (b"E_j,tau_j\n1e6," + b"1" * 140_000, "row 2: field larger"),
-        (b"E_j,\x1btau\n", "got E_j, tau"),
+        (b"E_j,tau_j\ninf,1\n", "line 2: inf is no number"),
+        (b"E_j,tau_j\n1e6," + b"1" * 140_000, "line 2: field larger"),
+        (b"E_j,\x1btau\n1,1\n", "names no tau_j: E_j, tau"),
     ):
         table.write_bytes(content)
         with pytest.raises(ValueError, match=rf"arms\.csv: .*{words}"):

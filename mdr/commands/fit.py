@@ -1,0 +1,85 @@
+"""`mdr fit`: parameters of a case from measured friction over velocity, as a table, a case file and a figure."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mdr.case.contact import SlidingContact
+from mdr.commands.output import DONE, WrongInput, made_by, make_folder, print_json, write_figure
+from mdr.files.case_files import write_case
+from mdr.tools.atomic_write import write_whole
+from mdr.tools.provenance import commented
+
+if TYPE_CHECKING:
+    from mdr.friction.fit import Fit
+
+FILES = ("fitted.toml", "fit.png", "fit.svg")
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """The data, what is fitted to them, and where to write."""
+    command.add_argument(
+        "data", metavar="data.csv", help="measured friction: columns v_0 [mm/s], cof and, if known, error"
+    )
+    what = "parameters to fit, such as mu_0 material.tau; the case says where the search begins"
+    command.add_argument("--free", metavar="name", nargs="+", required=True, help=what)
+    between = "lowest and highest value of a parameter, in SI: material.tau=1e-5:1e-1"
+    command.add_argument("--bounds", metavar="name=low:high", nargs="+", type=_bounds, default=[], help=between)
+    level = "level of the intervals (default: 0.95)"
+    command.add_argument("--confidence", metavar="share", type=float, default=0.95, help=level)
+    folder = f"folder where {', '.join(FILES)} are written"
+    command.add_argument("-o", "--output", metavar="folder", type=Path, help=folder)
+
+
+def fit(args: argparse.Namespace, case: SlidingContact) -> int:
+    """Fit, write and print."""
+    import mdr
+
+    if args.output is not None:
+        make_folder(args.output, FILES)
+    try:
+        data = mdr.read_friction_data(args.data)
+        found = mdr.fit(case, data, args.free, bounds=dict(args.bounds), confidence=args.confidence)
+    except ValueError as fault:
+        raise WrongInput(str(fault)) from None
+    if args.output is not None:
+        _write(args, found)
+    if args.json:
+        return print_json(args, _told(found), found.case)
+    print(found)
+    return DONE
+
+
+def _told(found: Fit) -> dict[str, Any]:
+    """What JSON says: no interval of what is not determined."""
+    parameters = {}
+    for name, value in found.values.items():
+        known = name not in found.undetermined
+        ends = {"low": found.low[name] if known else None, "high": found.high[name] if known else None}
+        parameters[name] = {"value": value, **ends, "unit": found.units[name] or "-", "determined": known}
+    return {
+        "parameters": parameters, "confidence": found.confidence, "rms": found.rms,
+        "correlation": found.correlation.tolist(), "warnings": list(found.warnings),
+        "v_0": found.data.v_0.tolist(), "cof": found.data.cof.tolist(), "residuals": found.residuals.tolist(),
+    }  # fmt: skip
+
+
+def _write(args: argparse.Namespace, found: Fit) -> None:
+    import matplotlib as mpl
+
+    text = commented(made_by(args), str(found)) + write_case(found.case)
+    write_whole(args.output / "fitted.toml", text.encode("utf-8"))
+    mpl.use("Agg")  # no display is needed
+    write_figure(args, found.plot().figure, args.output, "fit")
+
+
+def _bounds(text: str) -> tuple[str, tuple[float, float]]:
+    name, _, ends = text.partition("=")
+    try:
+        low, high = (float(end) for end in ends.split(":"))
+    except ValueError:
+        wrong = f"must be name=low:high, such as material.tau=1e-5:1e-1, got {text!r}"
+        raise argparse.ArgumentTypeError(wrong) from None
+    return name, (low, high)

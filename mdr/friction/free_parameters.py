@@ -1,0 +1,193 @@
+"""What a fit may vary: a number of the case, the scale on which it is searched for, and the range of the search.
+
+A number that is positive is searched for by its logarithm, so that its scale does not matter. One that may change sign,
+such as a phase, one that begins at zero, and one whose bounds reach zero, is searched for on a linear scale, in the
+unit that the contact makes of it: depths in the greatest depth, times in 1/omega, stiffnesses in that of the contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.units import facts_at
+from mdr.normal.resolved import at_rest, resolved
+from mdr.normal.vary import GROUPS, case_at, fields_of
+from mdr.tools.checks import finite
+from mdr.tools.messages import offer, short
+
+DECADES = 3.0  #: an interval of a positive parameter that is wider than this says nothing
+REACH = np.log(10) * DECADES  #: of the search to either side, on the scale of the logarithm
+UNITS_AWAY = 10.0  #: of the search to either side, on a linear scale
+KAPPA = (0.76, 1.5)  #: of the Mindlin ratio, all that Poisson's ratio allows but for a percent at nu = -1
+INSIDE = 1e-3  #: of the range: so far from its ends a search begins
+HALVINGS = 40  #: of a range whose end the case refuses
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number that is fitted; its coordinate is the logarithm of the value, or the value over `unit`."""
+
+    name: str  #: as given
+    path: str  #: in the case
+    start: float  #: value in the case, in SI
+    low: float  #: ends of the search
+    high: float
+    unit: float  #: of a linear scale; 0 for that of the logarithm
+
+    @classmethod
+    def of(cls, case: SlidingContact, name: Any, given: Any = None) -> Parameter:
+        """A parameter of the case, by its name; `given` bounds, or as far as it is sensible."""
+        path = path_of(case, name)
+        start = value_at(case, path)
+        if why := _refusal(case, path, start):
+            raise ValueError(f"{name} cannot be varied: {why}")
+        unit = natural_unit(case, path)
+        signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit)
+        low, high = (0.0, 0.0) if given is None else _pair(name, given)
+        if signed or start == 0 or path == "mindlin_ratio" or (given is not None and low <= 0):
+            away = unit * (np.pi if facts_at(path).unit == "rad" else UNITS_AWAY)
+            reach = KAPPA if path == "mindlin_ratio" else (start - away, start + away)
+        else:
+            unit, reach = 0.0, (start * float(np.exp(-REACH)), start * float(np.exp(REACH)))
+        if given is None:
+            low, high = (_allowed(case, path, start, end) for end in reach)
+        else:
+            _require_bounds(case, name, path, start, (low, high))
+        return cls(name, path, start, low, high, unit)
+
+    def coordinate(self, value: float) -> float:
+        """Where a value stands on the scale of the search."""
+        return value / self.unit if self.unit else float(np.log(value))
+
+    def value(self, x: float) -> float:
+        """The value at a coordinate, within the range."""
+        inside = min(max(x, self.coordinate(self.low)), self.coordinate(self.high))
+        return float(min(max(inside * self.unit if self.unit else np.exp(inside), self.low), self.high))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Coordinates of the ends of the search."""
+        return self.coordinate(self.low), self.coordinate(self.high)
+
+    @property
+    def first(self) -> float:
+        """Coordinate at which the search begins: that of the case, a little inside the range."""
+        low, high = self.ends
+        margin = INSIDE * (high - low)
+        return min(max(self.coordinate(self.start), low + margin), high - margin)
+
+    @property
+    def widest(self) -> float:
+        """Width of an interval, on the scale of the search, from which on it says nothing."""
+        low, high = self.ends
+        return high - low if self.unit else min(high - low, REACH)
+
+    @property
+    def symbol(self) -> str:
+        """Its unit, "" for a pure number."""
+        unit = "" if self.path == "mindlin_ratio" else facts_at(self.path).unit
+        return "" if unit == "-" else unit
+
+
+def case_of(case: SlidingContact, values: Mapping[str, float]) -> SlidingContact:
+    """The case with these values at these paths; mindlin_ratio sets Poisson's ratio."""
+    settings: dict[str, Any] = dict(values)
+    if "mindlin_ratio" in settings:
+        kappa = settings.pop("mindlin_ratio")
+        settings["material.nu"] = min((2 * kappa - 2) / (2 * kappa - 1), 0.5)
+    return case_at(case, settings)
+
+
+def path_of(case: SlidingContact, name: Any) -> str:
+    """The path of a parameter in the case."""
+    if not isinstance(name, str):
+        raise TypeError(f"parameters must be names, got {short(repr(name))}")
+    known = [f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot))]
+    numbers = [path for path in known if isinstance(value_at(case, path), int | float)]
+    if name in ("mu_0", "mindlin_ratio", *GROUPS, *numbers):
+        return name
+    ends = [path for path in numbers if path.partition(".")[2] == name]
+    if len(ends) == 1:
+        return ends[0]
+    short_names = [path.partition(".")[2] for path in numbers]
+    meant = (
+        f"is {' or '.join(ends)}"
+        if ends
+        else f"is no parameter of this case; {offer(name, ['mu_0', 'mindlin_ratio', *short_names])}"
+    )
+    raise ValueError(f"{short(name)} {meant}")
+
+
+def value_at(case: SlidingContact, path: str) -> Any:
+    """The value at a path of the case."""
+    if path in ("mu_0", "T"):
+        return getattr(case, path)
+    if path in ("alpha", "chi"):
+        return getattr(resolved(case), path)
+    if path == "mindlin_ratio":
+        return case.material.mindlin_ratio
+    if path == "k_x/k_xc":
+        return getattr(case.pull, "k_x", 0.0) / at_rest(case).k_xc
+    if path == "omega_0/omega":
+        omega_0 = case.pull.omega_0
+        return omega_0 / case.omega if omega_0 < np.inf else 0.0
+    slot, _, field = path.partition(".")
+    return getattr(getattr(case, slot), field)
+
+
+def natural_unit(case: SlidingContact, path: str) -> float:
+    """What the contact makes a unit of a quantity, in SI."""
+    known, omega = resolved(case), case.omega
+    depth, E_star = known.u_z_max, case.material.E_star
+    k = float(case.indenter.stiffness(depth, E_star))
+    units = {
+        "m": depth, "s": 1 / omega, "Pa": E_star, "N": k * depth, "N/m": k, "N s/m": k / omega, "kg": k / omega**2,
+        "rad/s": omega, "rad": 1.0, "-": 1.0,
+    }  # fmt: skip
+    return units.get(facts_at(path).unit) or abs(float(value_at(case, path))) or 1.0
+
+
+def _refusal(case: SlidingContact, path: str, value: float) -> str:
+    """Why the case cannot have this value; "" where it can."""
+    try:
+        case_of(case, {path: value})
+    except (ValueError, TypeError, ArithmeticError) as refusal:
+        return str(refusal) or type(refusal).__name__
+    return ""
+
+
+def _allowed(case: SlidingContact, path: str, start: float, end: float) -> float:
+    """The end of a range, or the value nearest to it that the case can have."""
+    if not _refusal(case, path, end):
+        return end
+    good, bad = start, end
+    for _ in range(HALVINGS):
+        middle = (good + bad) / 2
+        good, bad = (good, middle) if _refusal(case, path, middle) else (middle, bad)
+    return good
+
+
+def _pair(name: str, given: Any) -> tuple[float, float]:
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise TypeError(f"bounds of {name} must be a pair (low, high), got {short(repr(given))}")
+    low, high = (finite(f"bounds of {name}", one) for one in given)
+    if not low < high:
+        raise ValueError(f"bounds of {name} must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
+    return low, high
+
+
+def _require_bounds(case: SlidingContact, name: str, path: str, start: float, given: tuple[float, float]) -> None:
+    low, high = given
+    for end in given:
+        if why := _refusal(case, path, end):
+            raise ValueError(f"bounds of {name}: {end:.6g} is no value of it: {why}")
+    if not low <= start <= high:
+        raise ValueError(
+            f"bounds of {name} must hold the value of the case, where the search begins: {start:.6g} is not in "
+            f"{low:.6g} to {high:.6g}; change the case or the bounds"
+        )

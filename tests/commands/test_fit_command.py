@@ -1,0 +1,83 @@
+"""`mdr fit`: the table, the files and the JSON of a fit, and what wrong input is told."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import mdr
+from mdr.__main__ import main
+from mdr.files.case_files import read_case
+
+CASE = """mu_0 = 0.4
+[indenter]
+shape = "Cone"
+theta = 0.02
+[material]
+model = "KelvinVoigt"
+E = 3e6
+nu = 0.4
+tau = 1e-3
+[oscillation]
+u_z0 = 20e-6
+du_z = 6e-6
+omega = 300.0
+"""
+DATA = "v_0 [mm/s], cof, error\n0.1, 0.40, 0.01\n0.4, 0.46, 0.01\n0.8, 0.49, 0.01\n1.6, 0.50, 0.01\n3.2, 0.5, 0.01\n"
+
+
+@pytest.fixture
+def files(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE)
+    Path("data.csv").write_text(DATA)
+    return ["fit", "case.toml", "data.csv"]
+
+
+def test_a_fit_is_printed_and_written(files, capsys):
+    assert main([*files, "--free", "mu_0", "--bounds", "mu_0=0.1:1", "-o", "out"]) == 0
+    found = mdr.fit(read_case("case.toml"), mdr.read_friction_data("data.csv"), ["mu_0"], bounds={"mu_0": (0.1, 1)})
+    assert capsys.readouterr().out == f"{found}\n"
+    assert read_case("out/fitted.toml") == found.case
+    assert Path("out/fitted.toml").read_text().splitlines()[2] == "# 95% intervals:"
+    assert {path.name for path in Path("out").iterdir()} == {"fitted.toml", "fit.png", "fit.svg"}
+
+
+def test_machines_are_told_what_is_not_determined(files, capsys):
+    arguments = ["--free", "mu_0", "material.tau", "--bounds", "material.tau=9e-4:1.1e-3", "--json"]
+    assert main([*files, *arguments]) == 0
+    told = json.loads(capsys.readouterr().out)
+    tau, mu_0 = told["parameters"]["material.tau"], told["parameters"]["mu_0"]
+    assert (tau["low"], tau["high"], tau["determined"], tau["unit"]) == (None, None, False, "s")
+    assert mu_0["determined"]
+    assert mu_0["low"] < mu_0["value"] < mu_0["high"]
+    assert len(told["residuals"]) == len(told["cof"]) == 5
+    assert len(told["correlation"]) == 2
+    assert told["case"].startswith("mu_0 = 0.")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--free", "taw"], "taw is no parameter of this case; did you mean tau?"),
+        (["--free", "mu_0", "--bounds", "mu_0=0.1-1"], "must be name=low:high, such as material.tau=1e-5:1e-1"),
+        (["--free", "mu_0", "--bounds", "mu_0=0.5:1"], "must hold the value of the case"),
+        (["--free", "mu_0", "--bounds", "R=1:2"], "bounds: R is not fitted"),
+        (["--free", "mu_0", "--confidence", "95"], "confidence must lie between 0 and 1"),
+        (["--free", "mu_0", "-o", "data.csv"], "data.csv: no folder to write to"),
+        ([], "the following arguments are required: --free"),
+    ],
+)
+def test_wrong_input_has_status_2(files, capsys, arguments, words):
+    try:
+        status = main([*files, *arguments])
+    except SystemExit as end:
+        status = end.code
+    assert status == 2
+    assert words in capsys.readouterr().err
+
+
+def test_a_fault_of_the_data_names_their_file(files, capsys):
+    Path("data.csv").write_text(DATA.replace("0.49", "high"))
+    assert main([*files, "--free", "mu_0"]) == 2
+    assert "data.csv: line 4: high is no number (column cof)" in capsys.readouterr().err
