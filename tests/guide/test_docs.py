@@ -12,6 +12,7 @@ from inspect import isfunction
 
 import gallery_page
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pages
 import pytest
@@ -36,6 +37,7 @@ def test_a_page_does_what_it_says(page, tmp_path, monkeypatch):
     monkeypatch.setenv("SLURM_ARRAY_TASK_ID", "1")
     monkeypatch.setattr("mdr.files.own_records._OWN", {})  # what a page registers is its own
     run = pages.Run(page).all()
+    plt.close("all")
     wrong = {f"{page.name}:{block.line}": why for block, out in run.shown if (why := pages.difference(block.text, out))}
     assert not wrong
     source = "".join(block.text for block in pages.blocks(page) if block.language == "python")
