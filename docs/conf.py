@@ -15,8 +15,9 @@ author = copyright = "The mdr-friction developers"
 version = release = version_of("mdr-friction")
 
 PAGES = {  #: in the order of the navigation, under their headings
-    "Guide": ["tutorial", "rig", "springs", "shaken", "own_data", "studies", "extending", "report"],
-    "Physics": ["claims", "theory", "limits"],
+    "Guide": ["tutorial", "rig", "recipes", "questions", "gallery", "springs", "exercises"],
+    "In depth": ["shaken", "own_data", "studies", "extending"],
+    "Physics": ["claims", "theory", "limits", "report", "glossary"],
     "Reference": ["api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
 }
 

@@ -1,4 +1,4 @@
-"""Depths: for which shapes does the critical velocity depend on how deep they are pressed, and how well is it foretold?
+"""Depths: for which shapes does the critical velocity depend on the depth, and how good is Eq. (15) for it?
 
 All shapes of the gallery, equal in stiffness when they are 40 µm deep, are pulled by the same mass and spring and
 shaken by 4 µm. Eq. (15) knows shape and depth by the stiffness 2E*a(u_z0) alone. So v_c over Eq. (1), the rigid pull's,

@@ -1,4 +1,4 @@
-"""Gallery: every shape of indenter, its image in one dimension, and how it slides under oscillation.
+"""All shapes: at equal stiffness, what does the shape change in the friction under oscillation?
 
 All shapes are scaled to touch over the radius a = 1 mm when they are 40 µm deep, so that they are equally stiff there,
 and oscillate by 10 µm at 100 Hz on an elastic rubber. What is left of the shape is the force it carries, from half of

@@ -269,8 +269,9 @@ def same_number(shown: str, printed: str, percentage: bool = False) -> bool:
 
 
 def figures(page: Path) -> list[str]:
-    """Names of the figures that a page shows from docs/figures/."""
-    return FIGURE.findall(page.read_text(encoding="utf-8"))
+    """Names of the figures from docs/figures/ that the code of a page draws; the paper, without code, borrows one."""
+    code = any(block.language == "python" or block.language == "sh" for block in blocks(page))
+    return FIGURE.findall(page.read_text(encoding="utf-8")) if code else []
 
 
 def made(name: str) -> Path:

@@ -210,3 +210,10 @@ def test_the_sentence_of_the_readme_runs():
 
 def test_the_example_file_is_the_case_of_the_readme():
     assert read_case(ROOT / "docs" / "example.toml") == readme_case()
+
+
+def test_the_supported_pythons_are_those_of_the_workflow():
+    told = re.findall(r"Python :: (3\.\d+)", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    workflow = (ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8")
+    assert re.findall(r'"(3\.\d+)"', workflow) == told
+    assert ".ci/run" in workflow

@@ -43,7 +43,21 @@ OPTIONAL = ("shake",)  #: parts that may be None
 
 @dataclass(frozen=True)
 class SlidingContact(Summarised):
-    """An indenter that slides on a half-space while it is shaken, in the normal direction or along its way."""
+    """An indenter that slides on a half-space while it is shaken, in the normal direction or along its way.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> case = mdr.SlidingContact(
+    ...     indenter=mdr.Paraboloid(R=5e-3),
+    ...     material=mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
+    ...     mu_0=0.5,
+    ...     oscillation=mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=314.0),
+    ...     pull=mdr.SpringPull(k_x=2e4, m=0.1, c_x=4.0),
+    ... )
+    >>> print(f"k_zc = {case.k_zc:.0f} N/m, alpha = {case.alpha:.2g}")
+    k_zc = 2530 N/m, alpha = 0.1
+    """
 
     indenter: Indenter = field(metadata=facts("", "shape", rule=None))
     material: Material = field(metadata=facts("", "half-space", rule=None))

@@ -72,8 +72,8 @@ class RigidPullFriction(ArrayRecord):
 class Asymptote:
     """A leading term coefficient * x**power."""
 
-    power: float
-    coefficient: float
+    power: float  #: [-]
+    coefficient: float  #: [-]
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +92,15 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     """Average COF under a rigid pull at velocities v_0 > 0 [m/s], any shape; (*) above.
 
     Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> from mdr.closed_forms.rigid_pull import average_friction
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> print(average_friction(case, [0.3e-3, 0.6e-3]).cof.round(4))
+    [0.3672 0.3976]
     """
     case = _rigid(case)
     v_0 = finite_array("v_0", v_0, "m/s")
@@ -110,7 +119,18 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
 
 
 def near_critical(case: SlidingContact) -> Asymptote:
-    """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, for u_z0 such that the centre touches at phase 3 pi/2."""
+    """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, for u_z0 such that the centre touches at phase 3 pi/2.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> from mdr.closed_forms.rigid_pull import near_critical
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> law = near_critical(case)
+    >>> print(f"{law.coefficient:.3g} times the power {law.power:.3g}")
+    0.213 times the power 2
+    """
     case = _rigid(case)
     k_zc, F_N = _stiffness(case, contact_edge(np.array(1.5 * np.pi), case.T)), mean_normal_force(case)
     share = float(k_zc) * case.cycle.unit / F_N
@@ -122,7 +142,18 @@ def near_critical(case: SlidingContact) -> Asymptote:
 
 
 def small_velocity(case: SlidingContact) -> Asymptote:
-    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z)."""
+    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z).
+
+    Examples
+    --------
+    >>> import mdr
+    >>> from mdr.closed_forms.rigid_pull import small_velocity
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> law = small_velocity(case)
+    >>> print(f"{law.coefficient:.3g} times the power {law.power:.3g}")
+    0.895 times the power 1
+    """
     case = _rigid(case)
     cycle, T, F_N = case.cycle, case.T, mean_normal_force(case)
     R = -kept_gap(T)

@@ -187,7 +187,7 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         holds = found.contains(eq_15) or max(eq_15, found.v_c) < scale
     reasons = list(_reasons(case, eq_15, full, found))
     if holds and found.kind == "end of stick":
-        reasons = ["the springs that stick to the last all slip from the velocity of one element on"]
+        reasons = ["all springs stop sticking at the velocity that the formula gives for one spring"]
     elif holds and found.v_c is not None:
         reasons = [found.why]
     if found.v_c is None or not reasons:

@@ -49,6 +49,14 @@ class FromForce(Indenter):
     g to 1e-6 of the greatest depth and F to 4e-4 at a thousandth of it. Where the tip is known to be "round" (F ~
     d^3/2), "sharp" (d²) or "flat" (d), the spline is that of ln F less this power, over d. The same points then give a
     and F to 1e-11, and the pressure to 2e-7.
+
+    Examples
+    --------
+    >>> import mdr, numpy as np
+    >>> d = np.linspace(0, 40e-6, 21)
+    >>> tip = mdr.FromForce(d, 3e6 * d**2, E_star=4e6)  # as of a cone
+    >>> print(f"{tip.contact_radius(20e-6):.3g} m")
+    1.5e-05 m
     """
 
     d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m"))

@@ -40,6 +40,13 @@ class Profile(Indenter):
     or a flat part ends. A kink that is not named costs accuracy, and a warning says how much. ``name`` is what the
     shape is called in print and in stored studies, as a function has no such text. Two profiles are equal if they hold
     the same function object, kinks, r_max and name.
+
+    Examples
+    --------
+    >>> import mdr, numpy as np
+    >>> worn = mdr.Profile(lambda r: 0.02 * np.maximum(r - 4e-4, 0), kinks=(4e-4,), name="worn cone")
+    >>> print(f"{worn.contact_radius(20e-6):.2g} m, {worn.force(20e-6, E_star=4e6):.3g} N")
+    0.0009 m, 0.0979 N
     """
 
     f: Callable[..., Any] = field(metadata=facts("m", "height over radius", _function))

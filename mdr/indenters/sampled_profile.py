@@ -60,6 +60,14 @@ class SampledProfile(Indenter):
 
     200 even points of a sphere up to a = R/2 give g and F_N to 1e-11, 50 to 1e-8, 20 to 1e-6. Nothing is known beyond
     r[-1]: a contact that would reach further is refused.
+
+    Examples
+    --------
+    >>> import mdr, numpy as np
+    >>> r = np.linspace(0, 2e-3, 21)
+    >>> tip = mdr.SampledProfile(r, r**2 / 10e-3)
+    >>> print(f"{tip.contact_radius(20e-6):.3g} m, {mdr.Paraboloid(R=5e-3).contact_radius(20e-6):.3g} m")
+    0.000316 m, 0.000316 m
     """
 
     r: tuple[float, ...] = field(metadata=facts("m", "radii of the points, from 0", column, note="m"))

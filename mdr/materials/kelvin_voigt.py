@@ -67,6 +67,12 @@ class KelvinVoigt(OneBody):
         -------
         KelvinVoigt
             The body.
+
+        Examples
+        --------
+        >>> import mdr
+        >>> mdr.KelvinVoigt.from_loss_tangent(E=3e6, nu=0.5, tan_delta=0.3, omega=300.0)
+        KelvinVoigt(E=3000000.0, nu=0.5, tau=0.001)
         """
         tan_delta = not_negative("tan_delta", tan_delta, "loss tangent")
         return cls(E=E, nu=nu, tau=tan_delta / positive("omega", omega, "angular frequency in rad/s"))

@@ -28,7 +28,17 @@ MIN_SPRINGS = 16  #: fewer cannot serve all panels
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SpringArray(Summarised, ArrayRecord):
-    """Springs of a contact, from the centre outwards; arrays of shape (n_springs,)."""
+    """Springs of a contact, from the centre outwards; arrays of shape (n_springs,).
+
+    Examples
+    --------
+    >>> import mdr
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> springs = mdr.SpringArray.of(case, n_springs=64)
+    >>> print(f"{springs.normal_force(20e-6, 20e-6):.4f} N, in closed form {case.indenter.force(20e-6, 4e6):.4f} N")
+    0.0802 N, in closed form 0.0802 N
+    """
 
     x: Array  #: positions of the cell centres [m]
     gap: Array  #: mean of g over the cell, less u_z0 [m]

@@ -61,7 +61,7 @@ def to_xarray(study: Study) -> Any:
     try:
         import xarray
     except ImportError:
-        raise ImportError("to_xarray needs xarray: pip install 'mdr-friction[xarray]'") from None
+        raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
     return xarray.load_dataset(BytesIO(packed(study)), engine="scipy")
 
 

@@ -30,6 +30,15 @@ class Quantity:
 
     Its name is its identity in a store, which cannot look into a function: a function that is changed needs a new name,
     or a new store. For other processes `of` must be defined at the top of a module.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> radius = mdr.Quantity("a", "m", lambda case: case.indenter.contact_radius(case.oscillation.u_z0))
+    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> mdr.sweep(case, {"oscillation.u_z0": [10e-6, 20e-6]}, quantities=(radius,))["a"].round(6)
+    array([0.000501, 0.001002])
     """
 
     name: str  #: letters, digits and _

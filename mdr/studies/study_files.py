@@ -1,7 +1,7 @@
 """Study files: a case file with the axes that vary the case, strictly read.
 
     quantities = ["cof", "stick_share"]       # names of the catalogue; left out, ["cof"]
-    n_springs = 192                           # knobs of runs; left out, chosen to meet the accuracy budget
+    n_springs = 192                           # of every run; left out, chosen to meet the accuracy
     steps_per_period = 512
     mu_0 = 0.5                                # the case, as in a case file
     ...

@@ -10,7 +10,9 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from inspect import isfunction
 
+import gallery_page
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pages
 import pytest
@@ -35,6 +37,7 @@ def test_a_page_does_what_it_says(page, tmp_path, monkeypatch):
     monkeypatch.setenv("SLURM_ARRAY_TASK_ID", "1")
     monkeypatch.setattr("mdr.files.own_records._OWN", {})  # what a page registers is its own
     run = pages.Run(page).all()
+    plt.close("all")
     wrong = {f"{page.name}:{block.line}": why for block, out in run.shown if (why := pages.difference(block.text, out))}
     assert not wrong
     source = "".join(block.text for block in pages.blocks(page) if block.language == "python")
@@ -435,4 +438,23 @@ def test_bump_of_the_page_on_extending_has_that_image():
 
 def test_figures_are_all_shown():
     shown = {name for page in pages.PAGES for name in pages.figures(page)}
-    assert {path.name for path in (DOCS / "figures").iterdir()} == shown
+    assert {path.name for path in (DOCS / "figures").iterdir() if path.is_file()} == shown
+
+
+def test_the_gallery_has_every_script():
+    """Where this fails, `python tests/gallery_page.py` draws what is missing and writes the page."""
+    assert gallery_page.PAGE.read_text(encoding="utf-8") == gallery_page.page()
+    assert {path.stem for path in gallery_page.PICTURES.iterdir()} == set(gallery_page.names())
+    assert all(path.stat().st_size < 4e4 for path in gallery_page.PICTURES.iterdir())
+
+
+def test_the_paper_has_the_form_that_its_journal_asks_for():
+    """Sections and length of the Journal of Open Source Software; every reference is cited, and the other way round."""
+    paper = (DOCS / "paper.md").read_text(encoding="utf-8").split("\n---\n", 1)[1]
+    sections = ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement"]
+    sections += ["AI usage disclosure", "Acknowledgements", "References"]
+    assert re.findall(r"^# (.*)$", paper, re.MULTILINE) == sections
+    assert 750 <= len(re.sub(r"<!--.*?-->", "", paper).split()) <= 1750
+    assert len(re.findall(r"^!\[.*\]\((\S+)\)", paper, re.MULTILINE)) == 1
+    bib = (DOCS / "paper.bib").read_text(encoding="utf-8")
+    assert set(re.findall(r"@(\w+)", paper)) == set(re.findall(r"^@\w+\{(\w+),", bib, re.MULTILINE))

@@ -2,8 +2,13 @@
 
 import doctest
 import inspect
+import pkgutil
+import re
 import sys
+from dataclasses import fields, is_dataclass
+from enum import Enum
 
+import pages
 import pytest
 
 import mdr
@@ -11,6 +16,7 @@ from mdr import plots
 from mdr.plots import animation
 
 numpydoc = pytest.importorskip("numpydoc.docscrape")
+sys.path.append(str(pages.DOCS / "extensions"))
 
 
 def functions():
@@ -33,6 +39,8 @@ def functions():
 
 
 FUNCTIONS = functions()
+CLASSES = {name: one for name in mdr.__all__ if inspect.isclass(one := getattr(mdr, name)) and ">>>" in one.__doc__}
+RECORDS = [one for name in mdr.__all__ if is_dataclass(one := getattr(mdr, name))]
 WITH_EXAMPLES = [name for name in mdr.__all__ if inspect.isfunction(getattr(mdr, name))]
 
 
@@ -81,10 +89,35 @@ def test_a_docstring_without_sections_is_refused():
     assert len(faults(other)) == 2
 
 
-@pytest.mark.parametrize("path", FUNCTIONS)
+def test_every_name_of_the_reference_has_an_example():
+    """In its docstring, on its page, in the starting files; a result where it is returned."""
+    facts = pytest.importorskip("facts")
+    without = []
+    for page in sorted((pages.DOCS / "api").glob("*.md")):
+        blocks = pages.blocks(page)
+        code = "".join(block.text for block in blocks if block.language == "python")
+        for path in (one for block in blocks for one in pages.documented(block.text)):
+            one, name = pkgutil.resolve_name(path), path.rpartition(".")[2]
+            is_shown = ">>>" in (one.__doc__ or "") or re.search(rf"\b{name}\(", code)
+            if inspect.isclass(one):
+                exempt = inspect.isabstract(one) or issubclass(one, Exception | Enum)
+                is_shown = is_shown or exempt or facts.example_of(one) or [*facts.makers(one)]
+            if not (is_shown or inspect.ismodule(one)):
+                without.append(path)
+    assert not without
+
+
+@pytest.mark.parametrize("record", RECORDS, ids=lambda record: record.__name__)
+def test_types_of_fields_are_in_plain_words(record):
+    facts = pytest.importorskip("facts")
+    for field in fields(record):
+        assert "." not in facts.type_of(field.type).replace("...", ""), field.name
+
+
+@pytest.mark.parametrize("path", [*FUNCTIONS, *CLASSES])
 def test_examples_run(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    function = FUNCTIONS[path]
+    function = FUNCTIONS.get(path) or CLASSES[path]
     tests = doctest.DocTestFinder(recurse=False).find(function, path, module=False, globs={})
     examples = [one for test in tests for one in test.examples]
     assert examples or path not in WITH_EXAMPLES

@@ -95,7 +95,7 @@ def test_to_xarray_is_the_same(study, tmp_path):
 
 def test_without_xarray_it_says_what_to_install(study, monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(ImportError, match=r"to_xarray needs xarray: pip install 'mdr-friction\[xarray\]'"):
+    with pytest.raises(ImportError, match=r"to_xarray needs xarray: .* install -e '\.\[xarray\]'"):
         study.to_xarray()
 
 
