@@ -17,32 +17,30 @@ from typing import Any, NamedTuple
 
 from validation.report import Claim
 
-CLAIMS = (
-    "mapping",
-    "normal_contact",
-    "fields",
-    "full_slip_motion",
-    "static_cof",
-    "rigid_pull",
-    "one_curve",
-    "spring_pull",
-    "generalisation",
-    "lost_contact",
-    "resonances",
-    "uniqueness",
-    "shaken_velocity",
-    "shaken_curves",
-    "drive",
-    "maps",
-    "resolution",
-    "energy",
-    "judge",
-    "uncoupled",
-    "coupled",
-    "end_of_stick",
-    "coupling_law",
-    "transverse_slip",
-)
+#: title of a group -> what it is about, and its claims, in the order of the report
+GROUPS = {
+    "The model": (
+        "Springs stand for the contact: what they have to reproduce before anything is said about friction.",
+        ("mapping", "normal_contact", "fields", "full_slip_motion"),
+    ),
+    "The paper’s claims": (
+        "What the paper states, one claim after the other.",
+        ("static_cof", "rigid_pull", "one_curve", "spring_pull", "generalisation"),
+    ),
+    "Beyond the paper": (
+        "Contact lost, resonances, uniqueness, oscillation along the slide, and maps of friction.",
+        ("lost_contact", "resonances", "uniqueness", "shaken_velocity", "shaken_curves", "drive", "maps"),
+    ),
+    "Accuracy of the runs": (
+        "Whether the numbers of the runs are as good as they say.",
+        ("resolution", "energy"),
+    ),
+    "Three dimensions": (
+        "A half-space, solved with no springs at all, judges what independent springs leave out.",
+        ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip"),
+    ),
+}
+CLAIMS = tuple(name for _, names in GROUPS.values() for name in names)
 
 
 class Outcome(NamedTuple):
