@@ -30,7 +30,7 @@ from validation.cases import LOOKS, shape_label
 from validation.half_space import tables
 from validation.half_space.friction import Knobs
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
 
 Column = Sequence[Row]  #: of one contact
 
@@ -175,6 +175,15 @@ def claim(effort: str) -> Claim:
             *_group_checks(effort == "quick"),
         ),
         figures=(_collapse_figure(everything), _trial_figure(training, trials, constants)),
+        equations=(
+            Equation(
+                "",
+                r"\frac{\mu_{\text{springs}} - \mu_{\text{3D}}}{\mu_0} = L_0 \left[ \frac{c_1 \lambda^2}{c_2 + \lambda}"
+                r" + c_3 \frac{\beta^2}{\kappa} \right], \quad L_0 = 1 - \frac{\mu_s}{\mu_0}, \quad"
+                r" \lambda = \frac{2 |\beta|}{\pi \mu_0 \kappa}",
+                f"The law; of the greatest loss over all velocities c_1, c_2, c_3 are {a:.3g}, {b:.3g} and {c:.3g}.",
+            ),
+        ),
     )
 
 

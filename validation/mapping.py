@@ -51,7 +51,7 @@ def claim(effort: str) -> Claim:
             " (Section 2.2.2)"
         ),
         range=(
-            "flat punch, cone, paraboloid and r^4, depths from 20 pm to 40 µm, each also given as a mere"
+            "flat punch, cone, paraboloid and r^4, depths from 2·10⁻⁵ to 40 µm, each also given as a mere"
             " function f(r); every other shape of the catalogue, with flat faces, caps and corners, also given by"
             " points and by a curve of force; spring arrays for Δu_z/u_z0 from 10^-9 to 2, with"
             f" {counts[0]} to {counts[-1]} springs."

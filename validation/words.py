@@ -35,8 +35,9 @@ def ranged(values: Iterable[float], digits: int = 3) -> str:
 
 
 def counted(n: int, one: str, many: str = "") -> str:
-    """So many things: "one shape", "six shapes", "12 shapes"; `many` is the plural where it is not `one` with an s."""
-    return f"{_COUNTS[n] if n < len(_COUNTS) else n} {one if n == 1 else many or one + 's'}"
+    """So many things: "one shape", "six velocities", "12 shapes"; `many` is a plural of its own."""
+    plural = many or (one[:-1] + "ies" if one.endswith("y") else one + "s")
+    return f"{_COUNTS[n] if n < len(_COUNTS) else n} {one if n == 1 else plural}"
 
 
 def listed(values: Iterable[object], last: str = "and") -> str:

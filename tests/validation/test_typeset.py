@@ -60,7 +60,7 @@ def test_a_range_of_one_value_is_no_range(values, expected):
 
 
 def test_counts_and_enumerations():
-    assert [counted(n, "velocity", "velocities") for n in (0, 1, 2, 12)] == [
+    assert [counted(n, "velocity") for n in (0, 1, 2, 12)] == [
         "no velocities", "one velocity", "two velocities", "12 velocities"
     ]  # fmt: skip
     assert counted(3, "shape") == "three shapes"

@@ -30,6 +30,7 @@ from validation import measured
 from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, shape_label
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Figure, Part
+from validation.words import counted
 
 RATIOS = (0.3, 0.6, 0.8, 1.2, 1.5, 2.5, 3.5)  # omega_0/omega of the table
 ALPHAS = (0.01, 0.03, 0.1, 0.3, 0.6, 1.3, 1.6)
@@ -187,7 +188,8 @@ def part(effort: str) -> Part:
         quote="Only this “non-jumping” case is considered in the following. — Section 2.2, on Eq. (5)",
         range=f"{', '.join(SHAPES)}; elastic and ωτ = 1; k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of "
         f"critical; maps over α = {RANGE[0][0]:g} … {RANGE[0][1]:g} and ω_0/ω = {RANGE[1][0]:g} … {RANGE[1][1]:g}; "
-        f"{len(points)} measured velocities, {len(lost)} of them with the whole contact lost in every period (α > 1 "
+        f"{counted(len(points), 'measured velocity')}, {len(lost)} of them with the whole contact lost in every"
+        " period (α > 1 "
         f"elastic, α > {1 / np.sqrt(2):.2f} for ωτ = 1).",
         measured="Within 1 % of Eq. (15), as a share of the map: "
         + "; ".join(f"{m.name}: {100 * m.share_within(0.01):.0f} %" for m in known)

@@ -28,7 +28,8 @@ from mdr.plots import style
 from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Point, deviation
-from validation.report import Check, Figure, Part
+from validation.report import Check, Equation, Figure, Part
+from validation.words import counted, listed
 
 NU = 0.5
 RATIO = 3.0  # E_1/E_inf of the standard solid
@@ -73,7 +74,8 @@ def part(effort: str) -> Part:
         range=(
             f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
             " and without a dashpot) under random bodies; "
-            f"{len(chosen)} chosen materials ({', '.join(chosen)}) measured for {', '.join(shapes)} at 1 % amplitude."
+            f"{counted(len(chosen), 'chosen material')} ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 %"
+            " amplitude."
         ),
         measured=(
             "With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is for a"
@@ -88,6 +90,15 @@ def part(effort: str) -> Part:
         ),
         checks=tuple(checks),
         figures=figures,
+        equations=(
+            Equation(
+                "",
+                r"v_c = \mu_0 \omega \Delta u_z \left| \kappa + K_z(\omega) H(\omega) \right|, \quad K_z = 2 a"
+                r" E^*(\omega), \quad E^*(\omega) ="
+                r" E^*_{\infty} (1 + i\omega\tau) + \sum_j E^*_j \frac{i\omega\tau_j}{1 + i\omega\tau_j}",
+                "Any linear material with one Poisson’s ratio; for a Kelvin material this is Eq. (15).",
+            ),
+        ),
     )
 
 
