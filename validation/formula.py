@@ -16,7 +16,7 @@ _OPERATORS = {
     "cdot": "·", "le": "≤", "ge": "≥", "ll": "≪", "gg": "≫", "to": "→", "sum": "∑", "int": "∫", "mp": "∓", "pm": "±",
     "langle": "⟨", "rangle": "⟩", "approx": "≈", "ldots": "…",
 }  # fmt: skip
-_FUNCTIONS = ("sin", "cos", "arcsin", "arctan", "arccos", "tan", "exp", "max", "min", "ln", "Re")
+_FUNCTIONS = ("sin", "cos", "arcsin", "ln")
 _OVER = {"dot": "˙", "ddot": "¨", "hat": "^"}
 
 
@@ -88,8 +88,10 @@ def _one(tokens: _Tokens) -> str:
 def _symbol(token: str, tex: str) -> str:
     name = token[1:]
     if token.startswith("\\"):
+        if name in ("max", "min"):
+            return f"<mo>{name}</mo>"
         if name in _FUNCTIONS:
-            return f"<mi>{name}</mi><mo>&#8289;</mo>" if name not in ("max", "min") else f"<mo>{name}</mo>"
+            return f'<mi>{name}</mi><mspace width="0.17em"></mspace>'
         if name in _LETTERS:
             return f"<mi>{_LETTERS[name]}</mi>"
         if name in _OPERATORS:

@@ -281,14 +281,12 @@ def _figure_of_velocities(quick: bool) -> Figure:
         fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
         bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
         for ax, (title, groups) in zip(axes, bodies, strict=True):
-            for materials, colour, label in (
-                (solid, "C0", "standard solid"),
-                (kelvin, "C1", "Kelvin, same first loss"),
+            for materials, look, label in (
+                (solid, {"color": "C0"}, "standard solid"),
+                (kelvin, {"color": "0.15", "ls": "-."}, "Kelvin, same first loss"),
             ):
                 cases = [contact("flat punch", material, 0.01, groups) for material in materials]
-                ax.semilogx(
-                    times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], color=colour, label=label
-                )
+                ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
             for material, ls, label in (
                 (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
                 (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
@@ -308,7 +306,7 @@ def _figure_of_velocities(quick: bool) -> Figure:
         "velocities",
         "Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that"
         " of the long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the"
-        " same loss at low frequency (orange) has no such end and rises without bound.",
+        " same loss at low frequency (chain line) has no such end and rises without bound.",
         fig,
         "Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body.",
     )

@@ -5,7 +5,7 @@ from validation.report import Equation
 PAPER = (
     Equation(
         "(1)", r"v_c = \mu_0 \omega \Delta u_z \frac{E^*}{G^*}",
-        "Critical velocity of a rigid pull; κ = E^*/G^* = k_z,c/k_x,c below.",
+        "Critical velocity of a rigid pull; κ = E*/G* = k_z,c/k_x,c below.",
     ),
     Equation(
         "(2)",
@@ -66,7 +66,8 @@ PAPER = (
     ),
     Equation(
         "full-slip condition", r"v_c = \max_t \left( \mu_0 \kappa \dot{u}_z - \dot{y} \right)",
-        "All springs in contact slip at v_0 + ẏ − μ_0 κ u̇_z; v_c is the velocity above which this is never zero, over"
+        "All springs in contact slip at v_0 + <i>ẏ</i> − μ_0 κ <i>u̇</i><sub>z</sub>; v_c is the velocity above"
+        " which this is never zero, over"
         " the instants with contact. Any shape, amplitude, linear material and periodic depth; Eq. (15) is its case of"
         " a single harmonic.",
     ),
