@@ -14,7 +14,7 @@ GREEK = {
     "omega": "ω",
 }  # fmt: skip
 _NAME = re.compile(rf"(?<![A-Za-z0-9_])({'|'.join(GREEK)})(?![A-Za-z0-9])")
-_POWER_OF_TEN = re.compile(r"(?<![\w.])([-−]?\d+(?:\.\d+)?)e([+-]?)0*(\d+)(?![\w.])")
+_POWER_OF_TEN = re.compile(r"(?<![\w.])([-−]?\d+(?:\.\d+)?)e([+-]?)0*(\d+)(?!\w|\.\d)")
 _RAISED = re.compile(r"\^\{([^}]*)\}|\^\(([^)]*)\)|\^([-−]?\w+(?:\.\w+)?)")
 _SYMBOL = re.compile(
     r"(?<![A-Za-z0-9_])(Δ?)([^\W\d_])_(\w(?:[\w,]{0,2}\w)?)(?!\w)"  # Δu_z, k_x,c, E_inf
@@ -26,8 +26,8 @@ def markup(text: str) -> str:
     """Set plain text as HTML."""
     text = re.sub(rf"&lt;(/?(?:{_TAGS}))&gt;", r"<\1>", html.escape(text, quote=False))
     text = _NAME.sub(lambda name: GREEK[name[1]], text.replace("v_hat", "v̂"))
-    text = _POWER_OF_TEN.sub(_power_of_ten, text)
-    text = _RAISED.sub(_raised, text)
+    text = _RAISED.sub(_raised, _POWER_OF_TEN.sub(_power_of_ten, text))
+    text = re.sub(r"(?<![\w>-])-(?=\d)", "−", text)
     return _SYMBOL.sub(_symbol, text)
 
 
