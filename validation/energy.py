@@ -23,6 +23,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
+from validation.words import span
 
 LEVELS = tuple(
     round(64 * 16 ** (i / 10)) for i in range(11)
@@ -125,7 +126,7 @@ def claim(effort: str) -> Claim:
         f"1, rigid pull and spring "
         f"pull with a damper, {len(SHARES[effort])} velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full "
         f"slip at 1.5 v_c",
-        measured=f"The residual of the balance falls with the power {min(orders):.2f} to {max(orders):.2f} of the "
+        measured=f"The residual of the balance falls with the power {span(orders)} of the "
         f"step and is at most {finest:.1e} of "
         f"the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
         verdict="holds",

@@ -93,8 +93,9 @@ def part(effort: str) -> Part:
         + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
         f"z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {laws.depth_sensitivity(stiff):.2g} for that body and "
         f"{laws.depth_sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: "
-        "under a rigid pull, for any shape, here over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface "
-        "that comes back late ends this); for a flat punch that keeps contact; and at the one depth "
+        f"under a rigid pull, for any shape, here {listed(rigid_shapes)} over a factor of 500 in depth and up to α = "
+        "0.95 at ωτ = 1 (a surface that comes back late ends this); for a flat punch that keeps contact; and at the"
+        " one depth "
         "at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in depth.",
         sentence="v_c does not depend on the depth for a rigid pull and for a flat punch that keeps contact; else as "
         "much as the stiffness k_x,c(u_z0) in Eq. (15) does, so to use Eq. (15) one has to know the depth.",
