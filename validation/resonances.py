@@ -237,11 +237,10 @@ def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:
         fig, ax = plt.subplots(figsize=(7.2, 4.6))
         for knobs in shown:
             shape, T, n = knobs
-            colour, marker = LOOKS[shape]
+            colour, _ = LOOKS[shape]
             over = np.array([reduction(shape, T, n, float(v))[0] for v in velocities]) / share(*knobs)
-            pale = {"color": colour, "alpha": 1.0 if n < 3 else 0.55, "mfc": colour if n < 3 else "w"}
-            name = f"{shape}, $\omega_0 = {n if n > 1 else ''}\omega$: $|F_n|/F_0$ = {percent(share(*knobs))}"
-            ax.plot(velocities, over, marker if n < 3 else "Dv"[n % 2], ms=5, label=name, **pale)
+            name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$: $|F_n|/F_0$ = {percent(share(*knobs))}"
+            ax.plot(velocities, over, "os^vD"[n - 1], ms=6, mfc="w", color=colour, label=name)
         ax.axhline(1.0, color="0.3", lw=1.0)
         ax.set(
             xscale="log",
