@@ -107,9 +107,10 @@ _EQUATIONS = (
         " until b = θ + σ, where T (v̂ + sin b)(1 − E) = cos b − cos θ − v̂ σ; over all θ with D > 0 and σ > 0.",
     ),
     Equation(
-        "its ends",
-        r"1 - \frac{\mu}{\mu_0} \to \frac{k_{z,c} \Delta u_z}{\langle F_N \rangle} \left( \frac{9}{4\pi}"
-        r" (1 - \hat{v})^2 \text{ elastic}, \quad \frac{2 \sqrt{2} T}{3\pi} (1 - \hat{v})^{3/2} \text{ Kelvin} \right)",
+        "its end",
+        r"1 - \frac{\mu}{\mu_0} \to \frac{9}{4\pi} \frac{k_{z,c} \Delta u_z}{\langle F_N \rangle} (1 - \hat{v})^2"
+        r" \text{ elastic}, \quad"
+        r" \frac{2 \sqrt{2} T}{3\pi} \frac{k_{z,c} \Delta u_z}{\langle F_N \rangle} (1 - \hat{v})^{3/2} \text{ Kelvin}",
         "As v_0 → v_c, with the stiffness at the instant when the depth grows fastest.",
     ),
 )

@@ -40,7 +40,7 @@ def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
             _navigation(groups),
             f"<main><header id=answer><h1>{_TITLE}</h1>{_marks(claims, effort)}",
             _question(),
-            f"<ol class=answers>{''.join(f'<li>{markup(text)}</li>' for text in answers(claims))}</ol>",
+            _answers(answers(claims)),
             *(figure_of(claim, figure) for claim, figure in glance),
             f"<p class=count>{count_of(n_held, n_checks)}, of {len(claims)} claims. A claim opens with a tap.</p>",
             "</header>",
@@ -104,8 +104,16 @@ def _question() -> str:
         "<p>Above the <b>critical velocity</b> <i>v</i><sub>c</sub> an oscillation in the normal direction no longer"
         " lowers sliding friction. For one spring and damper in contact M. Popov (<i>Facta Universitatis, Series"
         f" Mechanical Engineering</i> 14 (2016) 335) derives</p>{equation_of(EQ_15)}<p>and argues that it is valid"
-        f" “{_QUOTE}”. Arrays of springs, each of which sticks, slips and leaves contact on its own, answer:</p>"
+        f" “{_QUOTE}”.</p>"
     )
+
+
+def _answers(sentences: Sequence[str]) -> str:
+    if not sentences:
+        return ""
+    items = "".join(f"<li>{markup(text)}</li>" for text in sentences)
+    springs = "Arrays of springs, each of which sticks, slips and leaves contact on its own, answer:"
+    return f"<p>{springs}</p><ol class=answers>{items}</ol>"
 
 
 def _symbols() -> str:

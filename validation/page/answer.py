@@ -1,28 +1,33 @@
 """The answer to the question of the report, in four sentences whose numbers are those of the checks of this run."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from validation.report import Check, Claim
-from validation.words import number, percent, span
+from validation.words import counted, number, percent, span
 
 
-def answers(claims: Sequence[Claim]) -> Iterator[str]:
-    """Yes, nearly, no, and what to use instead; a sentence says so where this run has no checks for it, or lost one."""
+def answers(claims: Sequence[Claim]) -> list[str]:
+    """Yes, nearly, no, and what to use instead; empty where none of it was asked.
+
+    A sentence says so where this run has no checks for it, or one that did not hold.
+    """
+    sentences, asked = [], False
     for name, checks, sentence in (
-        ("rigid pull and flat punch", {"rigid": _RIGID, "punch": _PUNCH}, _exact),
-        ("curved shape on a spring", {"power": _POWER, "error": _ERROR}, _curved),
-        ("resonance with a harmonic", {"reduction": _REDUCTION}, _resonance),
-        ("full slip", {"full_slip": _FULL_SLIP}, _instead),
+        ("Rigid pull and flat punch", {"rigid": _RIGID, "punch": _PUNCH}, _exact),
+        ("Curved shape on a spring", {"power": _POWER, "error": _ERROR}, _curved),
+        ("Resonance with a harmonic", {"reduction": _REDUCTION}, _resonance),
+        ("Full slip", {"full_slip": _FULL_SLIP}, _instead),
     ):
         found = {key: _found(claims, *where) for key, where in checks.items()}
-        every = [check for some in found.values() for check in some]
+        missed = sum(not check.held for some in found.values() for check in some)
         if not all(found.values()):
-            yield f"<b>{name.capitalize()}</b>: not asked in this run."
-        elif not all(check.held for check in every):
-            yield f"<b>{name.capitalize()}</b>: not confirmed, {sum(not c.held for c in every)} checks did not hold."
-        else:
-            yield sentence(**found)
+            sentences.append(f"<b>{name}</b>: not asked in this run.")
+            continue
+        asked = True
+        lost = f"<b>{name}</b>: not confirmed, {counted(missed, 'check')} did not hold."
+        sentences.append(lost if missed else sentence(**found))
+    return sentences if asked else []
 
 
 #: claim, and how the names of its checks begin
