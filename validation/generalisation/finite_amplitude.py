@@ -205,8 +205,8 @@ def part(effort: str) -> Part:
         f"The relative error is large too beside ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself "
         f"nearly vanishes: {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). "
         f"More than {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α = {reach[0.0]:.2g} (elastic) "
-        f"and {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (next "
-        "claim).",
+        f"and {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (claim on "
+        "lost contact).",
         sentence=f"How small is small depends on the body: Eq. (15) is good to 1 % up to α = {reach[0.0]:.2g} "
         f"(elastic) and {reach[1.0]:.2g} (ωτ = 1), but only to {resonant[0.0]:.2g} and {resonant[1.0]:.2g} at ω_0 = "
         "2ω; the full-slip condition is exact throughout, lost contact included.",
