@@ -20,7 +20,7 @@ from validation.report import Claim
 #: title of a group -> what it is about, and its claims, in the order of the report
 GROUPS = {
     "The model": (
-        "Independent springs stand for the contact: they carry its forces, lose no energy unseen, and runs are accurate.",
+        "Independent springs stand for the contact: they carry its forces, lose no energy, and runs are accurate.",
         ("mapping", "normal_contact", "fields", "energy", "resolution"),
     ),
     "The claims of the paper": (
