@@ -332,7 +332,7 @@ def _glance(points: list[Point], effort: str) -> Figure:
         fig.legend(handles=handles, loc="outside lower center", ncols=4)
     return Figure(
         "glance",
-        f"Points: {len(points)} critical velocities measured with arrays of springs, over Eq. (15) with the contact "
+        "Points: critical velocities measured with arrays of springs, over Eq. (15) with the contact "
         "stiffness at the mean depth. Lines: the full-slip condition. Under a rigid pull "
         f"({_tested(rigid)}; points of one amplitude side by side) all lie on 1. Under a spring and a mass (ω_0 = "
         f"1.7 ω, damper 5 % of critical, {DEPTH * 1e6:g} µm deep) only the flat punch does; the other lines tend to "

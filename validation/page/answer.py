@@ -58,10 +58,12 @@ def _exact(rigid: Sequence[Check], punch: Sequence[Check]) -> str:
 
 
 def _curved(power: Sequence[Check], error: Sequence[Check]) -> str:
+    largest = max(error, key=lambda check: check.got or 0.0)
+    where = re.findall(r"\(([^()]*)\)$", largest.why)
     return (
         "<b>For a curved shape on a spring only in the limit of small amplitude.</b> With a damper the error is of"
         f" first order in α = Δu_z/u_z0 (power found: {span([check.got or 0.0 for check in power])}); the largest one"
-        f" measured is {percent(_most(error))}."
+        f" measured is {percent(largest.got or 0.0, 3)}{f' ({where[0]})' if where else ''}."
     )
 
 
