@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from validation import Outcome, not_tested, send_claim
-from validation.report import text_table, write_report
+from validation.page import write_report
+from validation.report import text_table
 from validation.written import other_verdicts
 
 LONGEST = (

@@ -24,6 +24,7 @@ from validation.half_space import pictures, tables
 from validation.half_space.friction import Knobs, in_three_dimensions, march
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Figure
+from validation.words import span
 
 SHAPES = ("paraboloid", "flat punch")
 RATIOS, FRICTIONS = (0.0, 0.15, 0.3, 0.45), (0.1, 0.3, 0.6)  # nu, mu_0
@@ -88,7 +89,7 @@ def _where(rows: list[Row], most: float) -> str:
         max((r for r in within if (r.point.shape, r.point.nu, r.point.mu_0) == one), key=lambda row: row.loss).point.v
         for one in contacts
     ]
-    return f"{min(tops):g} to {max(tops):g} v_c"
+    return f"{span(tops)} v_c"
 
 
 def _percent(rows: list[Row], nu: float, mu_0: float) -> str:

@@ -29,7 +29,6 @@ large (0.2 to 1.6 times (**) in the tables).
 Symbols: kappa = E*/G*, beta Dundurs' constant, alpha = du_z/u_z0, v_c Eq. (1). Elastic, rigid pull.
 """
 
-from collections.abc import Sequence
 from math import log
 
 import numpy as np
@@ -42,7 +41,8 @@ from validation.half_space import pictures, tables
 from validation.half_space.friction import Knobs, March, contact_of, in_three_dimensions, march, path, stuck
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
+from validation.words import counted, percent, ranged, span
 
 Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
 
@@ -80,9 +80,8 @@ def claim(effort: str) -> Claim:
             " some critical velocity. (Section 3)"
         ),
         range=(
-            f"{len(ends)} elastic contacts under a rigid pull, ν from {min(k[1] for k in ends):g} to"
-            f" {max(k[1] for k in ends):g}, μ_0 from {min(k[2] for k in ends):g} to {max(k[2] for k in ends):g},"
-            f" Δu_z/u_z0 from {min(k[3] for k in ends):g} to {max(k[3] for k in ends):g}, on {cells}² cells and"
+            f"{counted(len(ends), 'elastic contact')} under a rigid pull, ν {ranged(k[1] for k in ends)}, μ_0"
+            f" {ranged(k[2] for k in ends)}, Δu_z/u_z0 {ranged(k[3] for k in ends)}, on {cells}² cells and"
             f" {STEPS} steps; stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α"
         ),
         measured=_measured(ends, cells),
@@ -95,31 +94,40 @@ def claim(effort: str) -> Claim:
         ),
         checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
         figures=(_end_figure(ends, cells), _map_figure(seen)),
+        equations=(
+            Equation(
+                "(*)",
+                r"v_s \approx \left( \mu_0 \kappa + \frac{2 |\beta|}{\pi} \right) \Delta u_z \omega"
+                r" = v_c (1 + \lambda), \quad \lambda = \frac{2 |\beta|}{\pi \mu_0 \kappa}",
+                "End of stick, to lowest order in μ_0 and λ; the line in the figure below.",
+            ),
+            Equation(
+                "(**)",
+                r"1 - \frac{\mu}{\mu_0} \to \frac{\lambda^2 M}{8} \left( \frac{v_c}{v_0} \right)^2, \quad"
+                r" M = \frac{1}{F_z} \int R^2 p \, dA, \quad R = \frac{a - \sqrt{a^2 - r^2}}{r}",
+                "Loss far above it, <i>R</i> the radial velocity of the surface over that at the edge.",
+            ),
+        ),
     )
 
 
 def _measured(ends: dict[Known, float], cells: int) -> str:
     by_mu = {mu_0: [_share(k, v) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})}
-    listed = "; ".join(f"{_span(one)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
+    listed = "; ".join(f"{span(one, 3)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
     finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
     return (
         "Eq. (1) is not where stick ends. The last of it is a crescent at the trailing edge, at the instant when the"
         " depth grows fastest: there the surface, drawn to the middle, keeps up with the pull. It shrinks with"
         f" velocity, and is gone on these cells at (v_s/v_c − 1)/λ = {listed}; found to {FOUND:g}, in steps that change"
-        " it by as much. On twice as many cells a side the linear problem has v_s/v_c"
-        f" {100 * (finer[1] / finer[0] - 1):.0f} % higher. To lowest order in μ_0 it is v_c(1 + λ), from the radial"
-        " velocity of the surface at the edge;"
+        " it by as much. On twice as many cells a side v_s of the linear problem is"
+        f" {percent(abs(finer[1] / finer[0] - 1), 1)} {'higher' if finer[1] > finer[0] else 'lower'}. To lowest order"
+        " in μ_0 it is v_c(1 + λ), from the radial velocity of the surface at the edge;"
         " friction adds to it by what it does to the pressure. Above, nothing sticks, and friction is still short of"
-        " μ_0, as radial slip turns it away from the pull: by λ^2 <i>M</i>/8 (v_c/v_0)^2 for velocities well above"
-        f" v_c/α, with <i>M</i> = {MEANS['paraboloid']:.2f} of a paraboloid and {MEANS['flat punch']:.2f} of a punch,"
-        f" and otherwise before: {_before(0.1, 'flat punch'):.2f} of it at 2 v_c for a punch at Δu_z/u_z0 = 0.1, where"
+        " μ_0, as radial slip turns it away from the pull. The law (**) of this loss holds for velocities well above"
+        f" v_c/α, with <i>M</i> = {MEANS['paraboloid']:.2f} of a paraboloid and {MEANS['flat punch']:.2f} of a punch."
+        f" Before, it is {_before(0.1, 'flat punch'):.2f} of that at 2 v_c for a punch at Δu_z/u_z0 = 0.1, where"
         f" friction has not the way to turn, and {_before(0.9, 'paraboloid'):.2f} times it for a paraboloid at 0.9."
     )
-
-
-def _span(values: Sequence[float]) -> str:
-    low, high = f"{min(values):.2f}", f"{max(values):.2f}"
-    return low if low == high else f"{low} to {high}"
 
 
 def _share(known: Known, ratio: float) -> float:
@@ -267,8 +275,12 @@ def _end_figure(ends: dict[Known, float], cells: int) -> Figure:
     return Figure(
         name="ends",
         caption="The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
-        " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end). Above"
-        " the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends.",
+        " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end)."
+        + (
+            " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
+            if len(ends) > 2
+            else ""
+        ),
         drawing=fig,
         alt="Scatter of the end of stick against one plus lambda, along the diagonal.",
     )

@@ -23,6 +23,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
+from validation.words import span
 
 LEVELS = tuple(
     round(64 * 16 ** (i / 10)) for i in range(11)
@@ -125,7 +126,7 @@ def claim(effort: str) -> Claim:
         f"1, rigid pull and spring "
         f"pull with a damper, {len(SHARES[effort])} velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full "
         f"slip at 1.5 v_c",
-        measured=f"The residual of the balance falls with the power {min(orders):.2f} to {max(orders):.2f} of the "
+        measured=f"The residual of the balance falls with the power {span(orders)} of the "
         f"step and is at most {finest:.1e} of "
         f"the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
         verdict="holds",
@@ -181,63 +182,50 @@ def _figure(balances: list[Balance]) -> Figure:
     import matplotlib.pyplot as plt
 
     with style():
-        kinds = list(dict.fromkeys(b.kind for b in balances))
-        fig = plt.figure(figsize=(10.4, 6.4))
-        columns = fig.add_gridspec(1, 2, width_ratios=(1.15, 1))
-        bars = fig.add_subplot(columns[0])
-        panels: Any = columns[1].subgridspec(len(kinds), 1).subplots(sharex=True, sharey=True)
-        place = np.arange(len(balances), dtype=float)[::-1]
-        runs = [b.example.energy_balance for b in balances]
-        total = np.array([run.pull_work + run.normal_work for run in runs])
-        supplies = (("pull work", "pull_work", COLOURS[0]), ("normal drive", "normal_work", COLOURS[4]))
-        losses = (
-            ("friction", "friction_loss", COLOURS[1]),
-            ("viscous", "viscous_loss", COLOURS[3]),
-            ("damper", "damper_loss", COLOURS[6]),
-        )
-        for offset, terms in ((0.2, supplies), (-0.2, losses)):
-            left = np.zeros(len(runs))
-            for name, term, colour in terms:
-                share = np.array([getattr(run, term) for run in runs]) / total
-                bars.barh(place + offset, share, 0.36, left=left, color=colour, label=name)
-                left += share
-        bars.set_yticks(
-            place,
-            [b.name.replace("ωτ", r"$\omega\tau$").replace(", contact", ",\ncontact") for b in balances],
-            fontsize=8.5,
-        )
-        bars.set(xlabel="share of the supply", xlim=(0, 1.02))
-        bars.legend(loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=5, handlelength=1, columnspacing=1)
+        fig, (bars, ax) = plt.subplots(1, 2, figsize=(9.8, 4.2), width_ratios=(1.2, 1))
+        _draw_bars(bars, [b for b in balances if b.name.startswith("paraboloid") and "ωτ = 1" in b.name])
         n = np.array(LEVELS, dtype=float)
+        for b in balances:
+            colour, elastic = COLOURS["spring" in b.name], "elastic" in b.name
+            ax.plot(n, b.residual, "-" if elastic else "--", color=colour, lw=1.1)
         top = 3 * max(float(b.residual[0]) for b in balances)
-        for ax, kind in zip(panels, kinds, strict=True):
-            for b in (b for b in balances if b.kind == kind):
-                colour, full = COLOURS["spring" in b.name], "elastic" in b.name
-                ax.plot(n, b.residual, "o" if full else "s", ms=5, color=colour, mfc=colour if full else "white")
-                line = np.polyfit(np.log(n), np.log(b.residual), 1)
-                ax.plot(n, np.exp(np.polyval(line, np.log(n))), color=colour, lw=1.0, ls="-" if full else "--")
-            ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.2)
-            ax.set(xscale="log", yscale="log", ylabel="residual")
-            ax.set_title(kind, loc="right", y=0.82)
-        for name, look in (
-            ("rigid pull, elastic", {"color": COLOURS[0], "marker": "o"}),
-            ("spring pull, elastic", {"color": COLOURS[1], "marker": "o"}),
-            (r"rigid pull, $\omega\tau$ = 1", {"color": COLOURS[0], "marker": "s", "mfc": "white", "ls": "--"}),
-            (r"spring pull, $\omega\tau$ = 1", {"color": COLOURS[1], "marker": "s", "mfc": "white", "ls": "--"}),
-            ("second order", {"color": "0.6", "ls": ":"}),
-        ):
-            panels[0].plot([], [], label=name, ms=5, lw=1.0, **look)
-        panels[0].legend(loc="lower center", bbox_to_anchor=(0.45, 1.0), ncols=2)
-        panels[-1].set_xlabel("steps per period")
-        panels[-1].set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
-        panels[-1].minorticks_off()
+        ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.4, label="second order")
+        for colour, pull in zip(COLOURS, PULLS, strict=False):
+            ax.plot([], [], color=colour, label=pull)
+        ax.plot([], [], "--", color="0.3", label=r"$\omega\tau$ = 1, else elastic")
+        ax.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="missing, over the losses")
+        ax.set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
+        ax.minorticks_off()
+        ax.legend(loc="lower left")
     return Figure(
         "balance",
         "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at "
-        "half of v_c; the bars end "
-        "together. Right: what is missing, over the losses, falls with the second power of the step in each case; "
-        "lines are least-squares fits, from whose slopes the orders are taken.",
+        "half of v_c, paraboloid, ωτ = 1; the bars end together. Right: what is missing, for all "
+        f"{len(balances)} contacts, falls with the second power of the step.",
         fig,
         "Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of "
         "the steps.",
     )
+
+
+def _draw_bars(ax: Any, balances: list[Balance]) -> None:
+    """Supply above and losses below, as shares of the supply."""
+    supplies = (("pull", "pull_work", COLOURS[0]), ("normal drive", "normal_work", COLOURS[4]))
+    losses = (
+        ("friction", "friction_loss", COLOURS[1]),
+        ("viscous", "viscous_loss", COLOURS[3]),
+        ("damper", "damper_loss", COLOURS[6]),
+    )
+    place = np.arange(len(balances), dtype=float)[::-1]
+    runs = [b.example.energy_balance for b in balances]
+    total = np.array([run.pull_work + run.normal_work for run in runs])
+    for offset, terms in ((0.18, supplies), (-0.18, losses)):
+        left = np.zeros(len(runs))
+        for name, term, colour in terms:
+            share = np.array([getattr(run, term) for run in runs]) / total
+            ax.barh(place + offset, share, 0.34, left=left, color=colour, label=name)
+            left += share
+    names = [b.name.split(", ") for b in balances]  # shape, contact, loss, pull
+    ax.set_yticks(place, [f"{contact},\n{pull}" for _, contact, _, pull in names])
+    ax.set(xlabel="share of the supply", xlim=(0, 1.01))
+    ax.legend(loc="lower center", bbox_to_anchor=(0.4, 1.0), ncols=5, handlelength=1, columnspacing=1)

@@ -22,7 +22,8 @@ from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
 from validation.cases import DAMPING, LOOKS, SHAPES, STIFFNESS, contact, driven, loss, shape_label
 from validation.measured import SHARP, Measured, deviation, worst
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
+from validation.words import counted, listed, percent, ranged
 
 RATIOS = (0.6, 1.5, 2.5)  # omega_0/omega
 TIMES = (0.0, 1.0, 10.0, 30.0, 100.0)  # of the curves under a rigid pull
@@ -110,11 +111,11 @@ def claim(effort: str) -> Claim:
         name="lost_contact",
         title="Where contact is lost: how far the formulas reach, and what v_c is beyond",
         quote="Only this “non-jumping” case is considered in the following. (Section 2.2, on Eq. (5))",
-        range=f"Contact lost in every period, α √(1 + (ωτ)²) > 1. Rigid pull: {len(rigid)} measured velocities, ωτ "
-        f"from {min(p.T for p in rigid):g} to {max(p.T for p in rigid):g}, α from {min(p.alpha for p in rigid):g} to "
-        f"{max(p.alpha for p in rigid):g}. Mass and spring (k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of "
-        f"critical): {len(body)} more, {', '.join(dict.fromkeys(p.shape for p in body))}; full-slip values up to "
-        "ωτ = 100 000.",
+        range="Contact lost in every period, α √(1 + (ωτ)²) > 1. Rigid pull: "
+        f"{counted(len(rigid), 'measured velocity')}, ωτ {ranged(p.T for p in rigid)}, α "
+        f"{ranged(p.alpha for p in rigid)}. Mass and spring (k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of "
+        f"critical): {counted(len(body), 'more', 'more')}, {listed(dict.fromkeys(p.shape for p in body))}; full-slip "
+        "values up to ωτ = 100 000.",
         measured="Under a rigid pull the loss of contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a "
         "surface that comes back later than a quarter of a period before the deepest point: α above α_1 = min "
         f"(e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in "
@@ -127,14 +128,34 @@ def claim(effort: str) -> Claim:
         "contact is a blow once in a period, and v_c no longer depends on τ nor, under a light damper and "
         "away from ω_0 = nω, where the blows add up, on k_x: it is half the velocity that one blow gives the body, "
         "π μ_0 F_N(u_z0 + Δu_z)/(mω), F_N the elastic force at the deepest point, plus a known term in (ωτ)^{−1/2}. "
-        f"Eq. (15) grows with ωτ: measured are {100 * (1 + least.deviation):.1f} % of it ({least.where}). The "
-        "full-slip condition with the true times of contact lies in the bracket of every measurement.",
+        f"Eq. (15) grows with ωτ; the least v_c measured is {percent(1 + least.deviation, 3)} of it ({least.where}). "
+        "The full-slip condition with the true times of contact lies in the bracket of every measurement.",
         verdict="holds if contact is kept; under a rigid pull also if it is back in time",
         sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ, but ends Eq. (15) "
         "of a punch at once; a slow rubber that taps gives the body blows, whose v_c does not grow with viscosity.",
         checks=(*_rigid_checks(rigid), *_limit_checks(), *_onset_checks(), *_slow_checks(), *_body_checks(body)),
         figures=(_rigid_figure(rigid), _onset_figure(effort), _slow_figure(body, effort)),
+        equations=_EQUATIONS,
     )
+
+
+_EQUATIONS = (
+    Equation(
+        "(*)",
+        r"v_c - v_c^{(15)} = \frac{\mu_0 k_{z,c} u_{z0}}{m \omega_d \omega} \text{ Im } \frac{(A s + B s^2/\omega)"
+        r" e^{s t_m}}{1 - e^{2\pi s/\omega}}, \quad s = -\frac{c_x}{2m} + i \omega_d",
+        "A punch just lost under a body, whose free oscillation is e^{<i>s</i>t}; <i>t</i><sub>m</sub> is the time from"
+        " the loss of contact to the maximum of Eq. (15). Elastic: <i>A</i> = (4√2/3) ε^{3/2}, <i>B</i> = 0. Kelvin:"
+        " <i>B</i> = (9/2) ε^2, <i>A</i> = <i>B</i>/ωτ. Leading order in ε (<code>mdr.laws.onset</code>).",
+    ),
+    Equation(
+        "(**)",
+        r"v_c = \frac{2\pi \mu_0}{m \omega \omega_d} \text{ Im } \frac{s \sum k d e^{2 s \delta/3\omega}}"
+        r"{1 - e^{2\pi s/\omega}}, \quad \delta = \sqrt{\frac{4\pi d}{\omega\tau \Delta u_z}}",
+        "A slow material, ωτ ≫ 1, that gives the body one blow in a period; the sum is over the springs, of the"
+        " stiffness k and the greatest compression d (<code>mdr.laws.blow</code>).",
+    ),
+)
 
 
 def _rigid_checks(points: list[Point]) -> list[Check]:

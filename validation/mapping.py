@@ -51,7 +51,7 @@ def claim(effort: str) -> Claim:
             " (Section 2.2.2)"
         ),
         range=(
-            "flat punch, cone, paraboloid and r^4, depths from 20 pm to 40 µm, each also given as a mere"
+            "flat punch, cone, paraboloid and r^4, depths from 2·10⁻⁵ to 40 µm, each also given as a mere"
             " function f(r); every other shape of the catalogue, with flat faces, caps and corners, also given by"
             " points and by a curve of force; spring arrays for Δu_z/u_z0 from 10^-9 to 2, with"
             f" {counts[0]} to {counts[-1]} springs."
@@ -385,6 +385,9 @@ def _pressure_figure() -> Figure:
     )
 
 
+TALLEST = 3.2  #: pressure over its mean up to which it is drawn
+
+
 def _catalogue_figure(sunk: dict[str, Array]) -> Figure:
     import matplotlib.pyplot as plt
 
@@ -392,7 +395,7 @@ def _catalogue_figure(sunk: dict[str, Array]) -> Figure:
 
     r = np.linspace(0.0, 1.0, 201)
     with style():
-        fig, axes = plt.subplots(3, 4, figsize=(8.2, 6.2), sharex=True, sharey=True)
+        fig, axes = plt.subplots(3, 4, figsize=(9.6, 8.0), sharex=True, sharey=True)
         for ax, (shape, indenter) in zip(axes.flat, CATALOGUE.items(), strict=True):
             d = depth_of(indenter)
             a = float(indenter.contact_radius(d))
@@ -401,19 +404,23 @@ def _catalogue_figure(sunk: dict[str, Array]) -> Figure:
             mean = float(indenter.force(d, E_STAR)) / (np.pi * a**2)
             ax.fill_between(r, f - 1, 0, color="0.88", lw=0)
             ax.plot(r, f - 1, color="0.3", lw=1.2)
-            ax.plot(PLACES / RADIUS, -sunk[shape] / d, "o", mfc="white", mec=COLOURS[1], ms=4.5)
-            ax.plot(r, p / mean, color=COLOURS[0])
+            ax.plot(PLACES / RADIUS, -sunk[shape] / d, "o", mfc="white", mec=COLOURS[1], ms=4.5, clip_on=False)
+            shown = p / mean < TALLEST
+            ax.plot(r, np.where(shown, p / mean, np.nan), color=COLOURS[0])
+            for peak in r[1:-1][~shown[1:-1] & (p[1:-1] >= p[:-2]) & (p[1:-1] >= p[2:])]:
+                ax.plot(peak, TALLEST, "^", color=COLOURS[0], ms=6)
             ax.axhline(0.0, color="0.4", lw=0.8)
             ax.set_title(shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$"), fontsize="medium")
-        axes[0, 0].set(xlim=(0, 1.02), ylim=(-1.5, 3.0), yticks=[-1, 0, 1, 2, 3])
+        axes[0, 0].set(xlim=(0, 1.05), ylim=(-1.5, TALLEST + 0.3), yticks=[-1, 0, 1, 2, 3])
         axes[0, 0].set_xticks([0, 0.5, 1], ["0", "0.5", "1"])
         for ax in axes[-1]:
             ax.set_xlabel("$r/a$")
         left = axes[0, 0]
         left.plot([], [], color=COLOURS[0], label="pressure over its mean")
+        left.plot([], [], "^", color=COLOURS[0], ms=6, label="infinite")
         left.plot([], [], color="0.3", lw=1.2, label="indenter, depth over $d$")
         left.plot([], [], "o", mfc="white", mec=COLOURS[1], ms=4.5, label="half-space under that pressure")
-        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return Figure(
         "catalogue",
         "Every other shape of the library, pressed until it touches over a disc of radius a. Above the line the"

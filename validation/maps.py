@@ -23,6 +23,7 @@ import mdr
 from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
+from validation.words import number, span
 
 Point = tuple[mdr.SlidingContact, mdr.MeasuredVelocity]
 
@@ -62,12 +63,13 @@ def claim(effort: str) -> Claim:
             " from 0.05 to 1.6, the contact kept and lost."
         ),
         measured=(
-            f"v_c of a body lies between {low:.2g} and {high:.2g} of Eq. (1), by frequency more than by anything"
+            f"v_c of a body lies between {number(low)} and {number(high)} times Eq. (1), by frequency more than by"
+            " anything"
             " else. Friction rises along every line of velocity, from its static value to μ_0, which it"
             " reaches at the full-slip v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at"
             f" Eq. (15) for small ones and at down to {least:.2f} of it for large. To halve friction at rest takes an"
-            f" amplitude of {min(half.at_rest for half in halves):.2g} to {max(half.at_rest for half in halves):.2g} of"
-            f" the depth; no amplitude halves it beyond {min(furthest):.2f} to {max(furthest):.2f} v_c (four shapes, ωτ"
+            f" amplitude of {span((half.at_rest for half in halves), 2)} of"
+            f" the depth; no amplitude halves it beyond {span(furthest, 2)} v_c (four shapes, ωτ"
             f" from 0 to {max(half.T for half in halves):g}, rigid pull)."
         ),
         verdict="holds",

@@ -24,6 +24,7 @@ from mdr.normal.indentation import Indentation, indent
 from mdr.plots import COLOURS, style
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
 from validation.report import Check, Claim, Figure
+from validation.words import ranged, span
 
 P = 20e-3  #: duration of a press [s]
 LOAD = 0.1  #: of the creep test [N]
@@ -125,17 +126,16 @@ def claim(effort: str) -> Claim:
     worst = max(float(c.got or 0) for c in checks if "force" in c.name and "press" in c.name)
     left = [100 * float(ting.u(ting.end)) / DEPTH for _, ting in presses.values()]
     times = sorted({T for _, _, T in presses})
-    slow = f"{times[0]:g}" if len(times) == 1 else f"from {times[0]:g} to {times[-1]:g}"
     return Claim(
         name="normal_contact",
         title="Springs with memory stand for a half-space with memory",
         quote="",
         range=f"creep over ten decades of time and relaxation, flat punch, cone and paraboloid, {', '.join(BODIES)}; "
         f"press and release of cone and paraboloid on Kelvin body and standard solid, relaxation times "
-        f"{slow} of the duration",
+        f"{ranged(times).removeprefix('= ')} of the duration",
         measured=f"Creep agrees with the closed forms to rounding, and the springs carry the load under which it "
         f"happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends while the "
-        f"indenter is still {min(left):.0f} to {max(left):.0f} % of the peak depth below the old surface.",
+        f"indenter is still {span(left, 2)} % of the peak depth below the old surface.",
         verdict="holds",
         sentence="Releasing each spring where its own force vanishes reproduces Lee and Radok's growing and Ting's "
         "retreating contact: loads, contact radii and the end of contact.",

@@ -19,7 +19,7 @@ from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
 
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
 SHOWN = 0.3  #: alpha of the figure
@@ -78,6 +78,24 @@ def claim(effort: str) -> Claim:
             *_order_checks(law, orders),
         ),
         figures=(_figure(law),),
+        equations=(
+            Equation(
+                "ψ",
+                r"\psi(\hat{v}) = \frac{1}{2\pi} \left[ \sin \varphi_2 - \sin \varphi_1 - (\varphi_2 - \varphi_1)"
+                r" \cos \varphi_1"
+                r" - \frac{\hat{v}}{2} (\varphi_2 - \varphi_1)^2 \right]",
+                "Lost by a single spring, v̂ = v_0/v_c. It sticks from φ_1 = π + arcsin v̂ until cos φ_2 = cos φ_1 + v̂"
+                " (φ_2 − φ_1).",
+            ),
+            Equation(
+                "",
+                r"\left( 1 - \frac{\mu}{\mu_0} \right) \frac{\langle F_N \rangle}{k_{z,c} \Delta u_z} ="
+                r" \psi(\hat{v}) \left[ 1 +"
+                r" C(\hat{v}) \frac{\alpha}{n} \right]",
+                "The first two orders of any shape f ~ <i>r</i>^n; C is −1/4 at rest and 0 at v_c"
+                " (<code>mdr.laws.edge_band</code>).",
+            ),
+        ),
     )
 
 

@@ -19,6 +19,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss
 from validation.report import Check, Claim, Figure
+from validation.words import span
 
 LEVELS = {
     "steps": tuple(round(64 * 16 ** (i / 16)) for i in range(17)),
@@ -152,7 +153,7 @@ def claim(effort: str) -> Claim:
         f"damper, elastic and ωτ = 1, "
         f"{VELOCITIES[effort]} or more velocities from 0.2 to 0.9 v_c; {_span('steps')}, {_span('springs')}; the bound "
         f"also on bodies {', '.join(HARD)}",
-        measured=f"Observed orders {min(orders):.2f} to {max(orders):.2f}. With default knobs the true error is at "
+        measured=f"Observed orders {span(orders)}. With default knobs the true error is at "
         f"most "
         f"{100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
         verdict="holds",
@@ -193,7 +194,7 @@ def _figure(studies: list[Study]) -> Figure:
         "orders",
         "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and "
         "against the springs, right. "
-        f"The least-squares lines have the slopes of the legends, {min(orders):.2f} to {max(orders):.2f}: second order "
+        f"The least-squares lines have the slopes of the legends, {span(orders)}: second order "
         "(dashed) or better, up to the scatter of the kinks.",
         fig,
         "Two log-log plots of errors that fall with the second or a higher power of the resolution.",

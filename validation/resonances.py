@@ -31,6 +31,7 @@ from mdr.tools.progress import progress
 from validation.cases import contact, loss
 from validation.measured import TOLERANCE
 from validation.report import Check, Claim, Figure
+from validation.words import listed, percent
 
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
 MULTIPLES = (1, 2, 3, 4, 5)
@@ -104,8 +105,7 @@ def claim(effort: str) -> Claim:
         ),
         range=(
             f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c;"
-            f" ωτ = {', '.join(f'{T:g}' for T in sorted({T for _, T, _ in known}))};"
-            f" ω_0/ω = {', '.join(str(n) for n in sorted({n for _, _, n in known}))};"
+            f" ωτ = {listed(sorted({T for _, T, _ in known}))}; ω_0/ω = {listed(sorted({n for _, _, n in known}))};"
             f" without damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15)."
         ),
         measured=(
@@ -113,8 +113,9 @@ def claim(effort: str) -> Claim:
             " paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is an"
             " n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
             " velocity, however high, the COF stays at 1 − |F_n|/F_0 of μ_0. "
-            + "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: {_percent(share(s, T, n))}" for s, T, n in driven)
-            + " less than μ_0. This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
+            + "It is lower than μ_0 by "
+            + "; ".join(f"{percent(share(*knobs))} ({_name(knobs)})" for knobs in driven)
+            + ". This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
             " With a damper of 1 % there is a critical velocity again, that of full slip with all"
             f" harmonics; it is off Eq. (15) by up to {100 * ((worst[1][0] or np.nan) - 1):+.0f} % ({_name(worst[0])})."
             + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
@@ -136,10 +137,6 @@ def claim(effort: str) -> Claim:
 def _name(knobs: tuple[str, float, int]) -> str:
     shape, T, n = knobs
     return f"{shape}, {loss(T)}, ω_0 = {n}ω"
-
-
-def _percent(value: float) -> str:
-    return f"{100 * value:.2g} %"
 
 
 def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | None, float, str]:
@@ -240,31 +237,29 @@ def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:
         fig, ax = plt.subplots(figsize=(7.2, 4.6))
         for knobs in shown:
             shape, T, n = knobs
-            colour, marker = LOOKS[shape]
-            ax.plot(velocities, [reduction(shape, T, n, float(v))[0] for v in velocities], marker, color=colour, ms=5)
-            ax.axhline(share(*knobs), color=colour, lw=1.2, ls="-" if shape == "flat punch" else "--")
-            name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$"
-            at = (1.0, share(*knobs))
-            ax.annotate(
-                name, at, (6, 0), ("axes fraction", "data"), "offset points", color=colour, va="center", fontsize=9
-            )
+            colour, _ = LOOKS[shape]
+            over = np.array([reduction(shape, T, n, float(v))[0] for v in velocities]) / share(*knobs)
+            name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$: $|F_n|/F_0$ = {percent(share(*knobs))}"
+            ax.plot(velocities, over, "os^vD"[n - 1], ms=6, mfc="w", color=colour, label=name)
+        ax.axhline(1.0, color="0.3", lw=1.0)
         ax.set(
             xscale="log",
-            yscale="log",
             xlim=(1.2, 1.25 * max(speeds)),
+            ylim=(0.98, None),
             xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)",
-            ylabel=r"$1 - \mu/\mu_0$",
+            ylabel=r"$(1 - \mu/\mu_0)$ over $|F_n|/F_0$",
         )
+        ax.legend(loc="upper right")
         ax.set_xticks([2, 5, 10, 20, 50, 100][: 4 if len(speeds) == 1 else 6])
         ax.xaxis.set_major_formatter("{x:g}")
         ax.minorticks_off()
     return Figure(
         "plateau",
         "Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs"
-        " (symbols). It does not come back to μ_0: the reduction stays at |F_n|/F_0 (lines), the share of the harmonic"
-        " of the normal force that drives the body, and comes down to it like v^(−1/2).",
+        " (symbols). It does not come back to μ_0: what is missing comes down to |F_n|/F_0, the share of the harmonic"
+        " of the normal force that drives the body, like v_0^{−1/2}, and stays there.",
         fig,
-        "Log-log plot of the reduction of friction over velocity, flat at the level of the driving harmonic.",
+        "Reduction of friction over the share of the driving harmonic, falling to one with the velocity.",
     )
 
 
@@ -301,7 +296,7 @@ def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
         "Critical velocity in full slip over the natural frequency of the body. The punch has the one pole of Eq. (15);"
         " the paraboloid has one at every whole multiple, the narrower the higher, and wider where the material"
         " dissipates and the force is less sinusoidal. A damper of 1 % (dotted) leaves the first two. Symbols:"
-        " measured, with damper.",
+        f" measured, with damper{', elastic only' if effort == 'quick' else ''}.",
         fig,
         "Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch.",
     )

@@ -23,7 +23,7 @@ from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critic
 from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
 from validation.measured import SHARP, worst
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
 
 Measured = dict[tuple[float, float], dict[str, tuple[float | None, float]]]  #: alpha, T: shape: runs, full slip
 
@@ -93,7 +93,27 @@ def claim(effort: str) -> Claim:
         ),
         checks=(*_velocity_checks(found, tapped), *_march_checks(marched), *_end_checks()),
         figures=(_curve_figure(), _end_figure()),
+        equations=_EQUATIONS,
     )
+
+
+_EQUATIONS = (
+    Equation(
+        "closed form",
+        r"1 - \frac{\mu}{\mu_0} = \frac{\Delta u_z}{2\pi \langle F_N \rangle} \int k_{z,c}(\theta) D(\theta)"
+        r" \left[ T + \frac{\sigma}{1 - E} \right] d\theta, \quad E = e^{-(2\pi - \sigma)/T}, \quad"
+        r" D = -\sin \theta - \hat{v} + E (\hat{v} + \sin b)",
+        "COF under a rigid pull, v̂ = v_0/v_c with v_c of Eq. (1), T = ωτ. A spring touches at the phase θ and sticks"
+        " until b = θ + σ, where T (v̂ + sin b)(1 − E) = cos b − cos θ − v̂ σ; over all θ with D > 0 and σ > 0.",
+    ),
+    Equation(
+        "its end",
+        r"1 - \frac{\mu}{\mu_0} \to \frac{9}{4\pi} \frac{k_{z,c} \Delta u_z}{\langle F_N \rangle} (1 - \hat{v})^2"
+        r" \text{ elastic}, \quad"
+        r" \frac{2 \sqrt{2} T}{3\pi} \frac{k_{z,c} \Delta u_z}{\langle F_N \rangle} (1 - \hat{v})^{3/2} \text{ Kelvin}",
+        "As v_0 → v_c, with the stiffness at the instant when the depth grows fastest.",
+    ),
+)
 
 
 # --- checks of v_c ---

@@ -39,7 +39,8 @@ def claim(effort: str) -> Claim:
         ),
         range=(
             "Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of"
-            " μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation, four phases, both ways; and two"
+            " μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation,"
+            f" {'two' if quick else 'four'} phases, both ways; and two"
             " of them in three dimensions."
         ),
         measured=(

@@ -24,6 +24,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from validation.cases import contact
 from validation.report import Check, Claim, Figure
+from validation.words import listed, ranged
 
 ALPHA = 0.1
 DAMPING = 0.05  # c_x/(2 sqrt(k_x m))
@@ -126,11 +127,11 @@ def claim(effort: str) -> Claim:
         "Numerical experiments show that in this case, the coefficient of friction reaches a plateau (which is less "
         "than mu_0) at fairly "
         "low sliding velocities and does not change thereafter. — Section 1, Eq. (2); with a Kelvin contact, Eq. (15)",
-        range=f"flat punch in contact throughout, α = {ALPHA:g}, k_x = k_{{x,c}}, mω²/k_x from "
-        f"{min(SWEEP[effort]):g} to {max(SWEEP[effort]):g}, "
-        f"ωτ = {', '.join(f'{T:g}' for T in materials)}; damper c_x of {100 * DAMPING:g} % of critical, and "
-        f"none".replace("{x,c}", "x,c"),
-        measured=f"The measured v_c follows Eq. (15), with c_x beside k_x, to {worst:.1e} through pole and zero. "
+        range=f"flat punch in contact throughout, α = {ALPHA:g}, k_x = k_x,c, mω²/k_x "
+        f"{f'= {listed(SWEEP[effort])}' if effort == 'quick' else ranged(SWEEP[effort])}, "
+        f"ωτ = {listed(materials)}; damper c_x of {100 * DAMPING:g} % of critical, and none",
+        measured=f"The measured v_c follows Eq. (15), with c_x beside k_x, to {worst:.1e} "
+        f"{'beside' if effort == 'quick' else 'through'} pole and zero. "
         f"Undamped at the zero an elastic "
         "contact has v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). "
         "Undamped on the pole no "

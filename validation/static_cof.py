@@ -23,7 +23,7 @@ from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
 from mdr.tools.arrays import Array
 from validation.cases import contact
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
 
 QUICK = (
     ("flat punch", 0.2, 0.0),
@@ -97,6 +97,28 @@ def claim(effort: str) -> Claim:
         ),
         checks=tuple(checks),
         figures=(_figure(approaches),),
+        equations=(
+            Equation(
+                "",
+                r"\mu(v_0 \to 0) = \mu_0 \frac{\min F_N}{\langle F_N \rangle}",
+                "Eq. (7) for any shape and normal force.",
+            ),
+            Equation(
+                "elastic",
+                r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{2 \hat{v}}{\pi} \frac{\Delta u_z}{\langle F_N \rangle}"
+                r" \int_0^{\pi} \varphi"
+                r" k_{z,c}(u_{z0} + \Delta u_z \cos \varphi) d\varphi",
+                "The law of the rise, v̂ = v_0/v_c.",
+            ),
+            Equation(
+                "Kelvin",
+                r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{R^{1/3}}{2} (3\pi \omega\tau \hat{v})^{2/3} k_{z,c}(u_{z0} -"
+                r" R \Delta u_z)"
+                r" \frac{\Delta u_z}{\langle F_N \rangle}, \quad R = \sqrt{1 + (\omega\tau)^2}",
+                "The same where the core stays pressed. For a punch that is lost, see"
+                " <code>mdr.laws.rise_of_lost_punch</code>.",
+            ),
+        ),
     )
 
 

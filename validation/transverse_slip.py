@@ -14,6 +14,7 @@ from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space.friction import Knobs, in_three_dimensions, of_springs
 from validation.report import Check, Claim, Figure
+from validation.words import listed, number, span
 
 ALPHA, FRICTION = 0.3, 0.3
 VELOCITIES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 2.0)  # over Eq. (1)
@@ -76,15 +77,16 @@ def claim(effort: str) -> Claim:
     velocities = (0.6, 1.6) if quick else VELOCITIES
     found = [losses(nu, v, knobs) for nu in (POISSON[1:2] if quick else POISSON) for v in velocities]
     itself = max(abs(one.by_itself) for one in found)
-    below = [one.by_coupling / one.coupled for one in found if one.nu < 0.5 and 0.3 < one.v < 0.9]
+    some = [one for one in found if one.nu < 0.5 and 0.3 < one.v < 0.9]
+    below = [one.by_coupling / one.coupled for one in some]
     error = errors(knobs)
     return Claim(
         name="transverse_slip",
         title="Slip across the pull matters where coupling does, and not otherwise",
         quote="",
         range=(
-            f"paraboloid, ν = {', '.join(f'{nu:g}' for nu in sorted({one.nu for one in found}))}, μ_0 = {FRICTION},"
-            f" Δu_z/u_z0 = {ALPHA}, v_0/v_c from {velocities[0]:g} to {velocities[-1]:g}; {knobs.cells}² cells,"
+            f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
+            f" v_0/v_c = {listed(velocities)}; {knobs.cells}² cells,"
             f" {knobs.steps} steps a period; at ν = 0.3 and {CHECKED:g} v_c half the steps and half the cells change"
             f" the losses by up to {error['coupled']:.0e}, what slip across does with coupling by"
             f" {error['by_coupling']:.0e}"
@@ -93,15 +95,16 @@ def claim(effort: str) -> Claim:
         measured=(
             f"Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0: what"
             " Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts."
-            f" From 0.4 to 0.8 v_c up to {100 * max(below):.0f} % of it come from slip across the pull; the"
+            f" At {span([one.v for one in some])} v_c up to {100 * max(below):.0f} % of it come from slip across the"
+            " pull; the"
             " rest would be there without, as the leading and the trailing half are rubbed along the pull in opposite"
             " senses. Above the end of stick all of it is slip across the pull, which turns friction aside: with"
             " slip along the pull only, friction there is full."
         ),
         verdict="holds if β = 0",
         sentence=(
-            f"Without coupling slip across changes the COF of a paraboloid by {itself:.0e} of μ_0 at most; with it, it"
-            " makes a part of the loss below v_c and all of it above the end of stick."
+            f"Without coupling slip across changes the COF of a paraboloid by {number(itself, 1)} of μ_0 at most; with"
+            " it, it makes a part of the loss below v_c and all of it above the end of stick."
         ),
         checks=_checks(found),
         figures=(_figure(found),),
@@ -123,26 +126,37 @@ def _checks(found: list[Losses]) -> tuple[Check, ...]:
     )
 
 
+_FEW = (
+    "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three dimensions."
+    " Squares: with tractions and slip along the pull only, less below and nothing above. Crosses: without coupling."
+)
+
+
 def _figure(found: list[Losses]) -> Figure:
     """Loss with and without slip across."""
     import matplotlib.pyplot as plt
 
     with style():
         fig, ax = plt.subplots(figsize=(6.4, 4.0))
+        few = len({one.v for one in found}) < 3  # no line through two points
         for nu, colour in zip(sorted({one.nu for one in found if one.nu < 0.5}), COLOURS, strict=False):
             own = [one for one in found if one.nu == nu]
             v = [one.v for one in own]
-            ax.plot(v, [one.coupled for one in own], "o-", color=colour, label=rf"$\nu = {nu:g}$")
-            ax.plot(
-                v, [one.along for one in own], "s--", mfc="w", color=colour, label="the same, slip along the pull only"
-            )
-            ax.plot(v, [one.uncoupled for one in own], ":", color=colour, label="the same, without coupling")
+            for of, mark, line, label in (
+                ("coupled", "o", "-", rf"$\nu = {nu:g}$"),
+                ("along", "s", "--", "the same, slip along the pull only"),
+                ("uncoupled", "x" if few else "", ":", "the same, without coupling"),
+            ):
+                look = {"marker": mark, "ls": "" if few else line, "mfc": colour if of == "coupled" else "w"}
+                ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
         ax.set_xlabel("$v_0$ over Eq. (1)")
         ax.set_ylabel(r"(springs $-$ 3D)/$\mu_0$")
         ax.legend()
     return Figure(
         name="loss",
-        caption="What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
+        caption=_FEW
+        if few
+        else "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
         " only, which stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by"
         " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing.",
         drawing=fig,

@@ -18,6 +18,7 @@ from validation.half_space import tables
 from validation.half_space.friction import Knobs
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Figure
+from validation.words import number
 
 KEPT, LOST = 0.3, 1.5  # du_z/u_z0
 TIMES = (0.0, 1.0)
@@ -64,7 +65,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence=(
             "Where pressure and friction do not act on each other, the springs have the friction of the half-space, to"
-            f" {worst:.0e} of μ_0."
+            f" {number(worst, 1)} of μ_0."
         ),
         checks=checks,
         figures=(_figure(rows),),

@@ -50,7 +50,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Claim, Equation, Figure
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
 SYSTEMS = {"quick": 6, "full": 60, "long": 200}
@@ -280,6 +280,18 @@ def claim(effort: str) -> Claim:
         "velocity; so there is one v_c. Hysteresis in an experiment is the mark of something else.",
         checks=(*_distance_checks(found), *_end_checks(found), *_curve_checks(curves, effort), *_sweep_checks()),
         figures=(_distance_figure(), _sweep_figure()),
+        equations=(
+            Equation(
+                "D",
+                r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta"
+                r" \dot{e}^2, \quad D ="
+                r" \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta e^2"
+                r" \right]",
+                "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull"
+                " P, the"
+                " body u and the extensions e of the springs. With δv = 0 it never grows.",
+            ),
+        ),
     )
 
 

@@ -24,8 +24,9 @@ from pathlib import Path
 from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
-from validation import CLAIMS
-from validation.report import Claim, markup, plain
+from validation import CLAIMS, words
+from validation.report import Claim
+from validation.typeset import markup, plain
 
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "docs" / "checks.json"
@@ -33,7 +34,6 @@ CONSTRAINTS = Path(__file__).with_name("constraints.txt")
 
 _NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
 _TABLE = re.compile(r"(<!--= verdicts :: ([\w, ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 #: what a mark takes of the checks that it names
 _TAKEN: dict[str, Callable[[Sequence[dict[str, Any]]], float]] = {
@@ -112,13 +112,10 @@ def formatted(value: float, digits: str, style: str = "") -> str:
     """A number with so many significant digits, small and large ones as powers of ten."""
     if style == "%":
         return f"{formatted(100 * value, digits)} %"
-    if value == 0 or 1e-3 <= abs(value) < 1e5:
-        plain = f"{value:.{digits}g}"
-        return (f"{float(plain):.0f}" if "e" in plain else plain).replace("-", "−")
-    mantissa, exponent = f"{value:.{int(digits) - 1}e}".split("e")
-    if style == "tex":
+    if style == "tex" and value and not 1e-3 <= abs(value) < 1e5:
+        mantissa, exponent = f"{value:.{int(digits) - 1}e}".split("e")
         return rf"${mantissa} \times 10^{{{int(exponent)}}}$"
-    return f"{mantissa.replace('-', '−')}·10{str(int(exponent)).translate(_RAISED)}"
+    return words.number(value, int(digits))
 
 
 def verdict_table(record: dict[str, Any], names: Sequence[str]) -> str:

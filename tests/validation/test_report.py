@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -18,7 +19,9 @@ import pytest
 
 import validation
 import validation.__main__ as command
-from validation.report import Check, Claim, Figure, Part, html_page, markup, number, text_table, write_report
+from validation.page import html_page, write_report
+from validation.page.answer import answers
+from validation.report import Check, Claim, Equation, Figure, Part, text_table
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -143,14 +146,14 @@ def test_page_is_well_formed_and_needs_nothing_else():
     ]
     page = html_page(claims, "quick")
     tags = Tags(page)
-    assert not re.search(r"https?:|//[a-z]|<script|url\(", re.sub(r"base64,[^\"]*", "", page))
+    assert not re.search(r"https?:|//[a-z]|<script src|url\(", re.sub(r"base64,[^\"]*", "", page))
     assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in tags.links)
     assert {link[1:] for link in tags.links if link.startswith("#")} <= set(tags.ids)
     assert len(tags.ids) == len(set(tags.ids))
     assert str(ROOT) not in page
     assert "4 of 4 checks held" in page
     assert "--quick" in page
-    assert page.index('id="glance"') < page.index("<section")
+    assert page.index("<header id=answer>") < page.index('id="glance"') < page.index("<section")
     assert page.count("<img") == page.count("<label class=enlarge><input type=checkbox") == 2
 
 
@@ -171,11 +174,12 @@ def test_a_failed_check_is_told_everywhere(tmp_path):
 def test_checks_are_folded_unless_one_failed():
     failed = made_up_claim("map", checks=[Check("a", 1, 1, 0, "w"), Check("b", 2, 1, 0, "w")])
     page = html_page([made_up_claim(), failed])
-    assert re.findall("<details.*</summary>", page) == [
+    assert re.findall("<details.*checks held</summary>", page) == [
         "<details><summary>2 of 2 checks held</summary>",
         "<details open><summary>1 of 2 checks held</summary>",
     ]
-    assert page.count("</details>") == 2
+    assert '<details class=claim id="pull"><summary>' in page
+    assert '<details class=claim id="map" open><summary>' in page
 
 
 def test_a_claim_with_parts_shows_each_with_its_evidence():
@@ -193,8 +197,8 @@ def test_a_claim_with_parts_shows_each_with_its_evidence():
     assert [one for one in tags.ids if one.startswith(("pull", "glance"))] == [
         "glance", "pull", "pull-shape", "pull-depth", "pull-curve"
     ]  # fmt: skip
-    assert page.count("<section") == 1
-    assert re.findall("<details.*</summary>", page) == [
+    assert page.count("<details class=claim") == 1
+    assert re.findall("<details.*checks held</summary>", page) == [
         "<details><summary>1 of 1 checks held</summary>",
         "<details open><summary>0 of 1 checks held</summary>",
     ]
@@ -218,39 +222,61 @@ def test_checks_json_has_exactly_the_promised_keys(tmp_path):
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("v_c < 1", "<i>v</i><sub>c</sub> &lt; 1"),
-        ("mu_0 Δu_z/u_z0", "<i>μ</i><sub>0</sub> Δ<i>u</i><sub>z</sub>/<i>u</i><sub>z0</sub>"),
-        ("k_x,c, rigid_pull, at_most", "<i>k</i><sub>x,c</sub>, rigid_pull, at_most"),
-        ("T = ωτ in 5 μm", "T = <i>ωτ</i> in 5 μm"),
-        ("α^2 10^-5 x^{1/2}", "<i>α</i><sup>2</sup> 10<sup>−5</sup> x<sup>1/2</sup>"),
-        ("<b>a</b><script>", "<b>a</b>&lt;script&gt;"),
-    ],
-)
-def test_markup(text, expected):
-    assert markup(text) == expected
+def test_a_quick_run_is_marked_and_a_full_one_is_not():
+    quick, full = (html_page([made_up_claim()], effort) for effort in ("quick", "full"))
+    assert "<title>QUICK Does" in quick
+    assert quick.index("<h1>") < quick.index("<b>QUICK</b>") < quick.index("critical velocity")
+    assert "QUICK" not in full
+    part = html_page([made_up_claim("mapping")])
+    assert f"<b>PART</b> {len(validation.CLAIMS) - 1} of the {len(validation.CLAIMS)} claims" in part
 
 
-@pytest.mark.parametrize(
-    ("value", "tolerance", "expected"),
-    [
-        (0.0, 1e-9, "0"),
-        (1.0, 0.0, "1"),
-        (-0.123456789, 1e-4, "−0.123457"),
-        (0.123456789, 0.0, "0.1235"),
-        (1e-5, 1e-5, "10<sup>−5</sup>"),
-        (2.5e-5, 0.0, "2.5·10<sup>−5</sup>"),
-        (1.23e-17, 1e-12, "1.23·10<sup>−17</sup>"),
-        (3.2e12, 0.0, "3.2·10<sup>12</sup>"),
-        (None, 0.0, "none"),
-        (math.nan, 0.0, "not a number"),
-        (-math.inf, 0.0, "−∞"),
-    ],
-)
-def test_number(value, tolerance, expected):
-    assert number(value, tolerance) == expected
+def test_claims_stand_in_their_groups_and_the_navigation_links_to_each():
+    names = ("uncoupled", "mapping", "my_claim", "rigid_pull")
+    page = html_page([made_up_claim(name) for name in names])
+    order = [
+        page.index(f'<details class=claim id="{name}"') for name in ("mapping", "rigid_pull", "uncoupled", "my_claim")
+    ]
+    assert order == sorted(order)
+    navigation = page[page.index("<nav") : page.index("</nav>")]
+    assert all(f'href="#{name}" class=holds' in navigation for name in names)
+    assert "Other claims" in navigation
+    assert "Beyond the paper" not in navigation
+
+
+def test_the_answer_takes_its_numbers_from_the_checks_and_says_where_it_has_none():
+    kept = Check("measured v_c over Eq. (1), worst of 4 shapes: ωτ = 0 (contact kept)", 1 - 3e-6, 1, 1e-4, "w")
+    late = Check("measured v_c over Eq. (1), worst of 4 shapes: ωτ = 9 (back late)", 0.7, 0.7, 1e-4, "w")
+    punch = Check.at_most("flat punch, spring pull: worst |v_c/Eq. (15) − 1| of 9", 8.2e-6, 1e-4, "w")
+    claims = [made_up_claim("rigid_pull", checks=[kept, late]), made_up_claim("generalisation", checks=[punch])]
+    first, *others = answers(claims)
+    assert "agree to 3·10⁻⁶ with Eq. (1)" in first
+    assert "agree to 8.2·10⁻⁶." in first
+    assert [one.partition("</b>")[2] for one in others] == [": not asked in this run."] * 3
+    off = made_up_claim("generalisation", checks=[replace(punch, got=1e-3)])
+    assert answers([claims[0], off])[0].endswith("not confirmed, one check did not hold.")
+    assert answers([made_up_claim()]) == []
+
+
+def test_the_answer_names_checks_that_the_claims_have():
+    """Of the last full report, so that a check that is renamed does not silence the answer."""
+    record = json.loads((ROOT / "docs" / "checks.json").read_text(encoding="utf-8"))
+    number = {None: math.nan, "inf": math.inf}
+    checks = {claim["name"]: [] for claim in record["claims"]}
+    for one in record["checks"]:
+        got, expected = (number.get(one[key], one[key]) for key in ("got", "expected"))
+        side = one["why"][:8] if one["why"].startswith(("at most ", "at least")) else "within"
+        checks[one["claim"]].append(Check(one["name"], got, expected, one["tolerance"], "w", side.strip()))
+    claims = [made_up_claim(name, checks=some) for name, some in checks.items()]
+    assert [bool(re.search(r"not (asked|confirmed)", one)) for one in answers(claims)] == [False] * 4
+
+
+def test_an_equation_that_a_claim_names_is_on_the_page():
+    law = Equation("(*)", r"L = \frac{\lambda^2}{b}", "the law")
+    page = html_page([made_up_claim(equations=(law,))])
+    assert Tags(page)
+    assert "<mfrac><mrow><msup><mi>λ</mi><mn>2</mn></msup></mrow><mrow><mi>b</mi></mrow></mfrac>" in page
+    assert "<span class=tag>(*)</span>" in page
 
 
 CLAIM = """
@@ -349,8 +375,9 @@ def test_two_processes_write_the_same_bytes(claims):
 def test_the_command_itself_runs_claims_in_processes_of_their_own(tmp_path):
     package = tmp_path / "validation"
     package.mkdir()
-    for name in ("__init__.py", "__main__.py", "report.py", "written.py"):
+    for name in ("__init__.py", "__main__.py", "report.py", "written.py", "typeset.py", "words.py", "formula.py"):
         shutil.copy(ROOT / "validation" / name, package)
+    shutil.copytree(ROOT / "validation" / "page", package / "page")
     (tmp_path / "docs").mkdir()
     quoted = tmp_path / "docs" / "checks.json"
     quoted.write_text('{"claims": [{"name": "mapping", "verdict": "holds"}]}', encoding="utf-8")

@@ -19,7 +19,8 @@ from mdr.plots import style
 from mdr.tools.progress import progress
 from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, body, depth_of
 from validation.measured import TOLERANCE, Point, slope_at_zero
-from validation.report import Check, Figure, Part
+from validation.report import Check, Equation, Figure, Part
+from validation.words import counted
 
 NU = 0.5
 ALL: dict[str, mdr.Indenter] = {**SHAPES, **CATALOGUE}
@@ -60,13 +61,15 @@ def part(effort: str) -> Part:
         title="Shape: all of the handbook",
         quote="",
         range=(
-            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range; {len(points)} measured velocities"
+            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range;"
+            f" {counted(len(points), 'measured velocity')}"
             f" at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and the full-slip value under a body at α →"
             f" 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes, standard solid for"
             f" {'three' if quick else 'the curved ones'}."
         ),
         measured=(
-            "Rigid pull: Eq. (1) for every shape. Body: what a shape does to v_c at small amplitude is one number, the"
+            f"{'' if quick else 'Rigid pull: Eq. (1) for every shape. '}Body: what a shape does to v_c at small"
+            " amplitude is one number, the"
             " exponent s with which its stiffness changes about the mean depth. The deviation from Eq. (15) is C α s,"
             " with one C for all shapes, closed forms, sampled points and measured forces alike; a flat or hollow punch"
             " has none. For a standard solid C is another number, again the same for all shapes."
@@ -77,6 +80,14 @@ def part(effort: str) -> Part:
         ),
         checks=(*_measured_checks(points), *_order_checks(quick)),
         figures=(_figure(quick),),
+        equations=(
+            Equation(
+                "",
+                r"\frac{v_c}{v_c^{(15)}} - 1 \to C \alpha s, \quad s = \frac{d \ln k_{z,c}}{d \ln d}",
+                "As α → 0; C knows the material and the body, s the shape (<code>mdr.laws.first_order</code>,"
+                " <code>stiffness_exponent</code>).",
+            ),
+        ),
     )
 
 

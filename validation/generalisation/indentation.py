@@ -30,7 +30,8 @@ from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_
 from validation.generalisation import shapes as powers
 from validation.generalisation.shapes import PULLS, Point, measure
 from validation.measured import TOLERANCE
-from validation.report import Check, Figure, Part
+from validation.report import Check, Equation, Figure, Part
+from validation.words import counted, listed, number
 
 AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
 SHALLOW = 0.021 * DEPTH  # of the deepest amplitudes: alpha = 0.95
@@ -83,22 +84,32 @@ def part(effort: str) -> Part:
         "realistic contact geometry. — Section 3",
         range=f"{', '.join(shapes)}; an amplitude of {AMPLITUDE * 1e6:g} µm at depths from {SHALLOW * 1e6:.2g} to "
         f"{500 * SHALLOW * 1e6:.0f} µm under a rigid pull, and from {0.25 * DEPTH * 1e6:g} to {4 * DEPTH * 1e6:g} µm "
-        f"under one and the same mass, spring and damper; {len(points)} measured velocities, and slopes of the "
-        "full-slip value.",
+        f"under one and the same mass, spring and damper; {counted(len(points), 'measured velocity')}, "
+        "and slopes of the full-slip value.",
         measured="It is the formula that does not contain the depth, not v_c: the stiffness in Eq. (15) is that at the "
-        "mean depth. Over a factor of 16 in depth, at the same amplitude and body (ω_0 = 1.7 ω), v_c changes by a "
-        "factor of "
-        + ", ".join(f"{span:.4g} ({shape})" for shape, span in spans.items())
+        "mean depth. Over a factor of 16 in depth, at the same amplitude and body (ω_0 = 1.7 ω), v_c of the flat punch "
+        f"stays the same to {number(spans.pop('flat punch') - 1, 1)}, and changes by a factor of "
+        + listed(f"{span:.3g} ({shape})" for shape, span in spans.items())
         + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
         f"z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {laws.depth_sensitivity(stiff):.2g} for that body and "
         f"{laws.depth_sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: "
-        "under a rigid pull, for any shape, here over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface "
-        "that comes back late ends this); for a flat punch that keeps contact; and at the one depth "
+        f"under a rigid pull, for any shape, here {listed(rigid_shapes)} over a factor of 500 in depth and up to α = "
+        "0.95 at ωτ = 1 (a surface that comes back late ends this); for a flat punch that keeps contact; and at the"
+        " one depth "
         "at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in depth.",
         sentence="v_c does not depend on the depth for a rigid pull and for a flat punch that keeps contact; else as "
         "much as the stiffness k_x,c(u_z0) in Eq. (15) does, so to use Eq. (15) one has to know the depth.",
         checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
         figures=(_depth_figure(points, effort), _slope_figure()),
+        equations=(
+            Equation(
+                "",
+                r"\frac{d \ln v_c}{d \ln u_{z0}} = \frac{S}{n}, \quad S = \text{Re } \frac{-z k_{x,c}}{q - z"
+                r" k_{x,c}}, \quad"
+                r" z = 1 + i\omega\tau, \quad q = m\omega^2 - k_x - i c_x \omega",
+                "By how much v_c changes with the depth, from Eq. (15) (<code>mdr.laws.depth_sensitivity</code>).",
+            ),
+        ),
     )
 
 
@@ -187,8 +198,9 @@ def _depth_figure(points: list[Point], effort: str) -> Figure:
     return Figure(
         "depth",
         f"v_c over the mean depth at a fixed amplitude of {AMPLITUDE * 1e6:g} µm under one and the same spring, mass "
-        "and damper: Eq. (15) with the stiffness at that depth (lines) and measured (points; the right panel has them "
-        "in the full report). Eq. (15) is independent of the depth as far as k_x,c is: for the flat punch, and for all "
+        "and damper: Eq. (15) with the stiffness at that depth (lines) and measured (points"
+        f"{'; the right panel has them in the full report' if effort == 'quick' else ''}). Eq. (15) is independent"
+        " of the depth as far as k_x,c is: for the flat punch, and for all "
         "shapes under a rigid pull (dashed). Below its resonance the body amplifies and v_c grows with depth; a heavy "
         "body has one depth of least v_c, the same stiffness for every shape.",
         fig,

@@ -251,7 +251,7 @@ def _figure_of_loads(quick: bool) -> Figure:
         " stays on it. Elastic curved shapes leave it in second order; the sharper the shape, the more its stiffness"
         " falls while the load is low." + ("" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0."),
         fig,
-        "Panels of deviation in per cent over relative load amplitude for four shapes.",
+        "Panels of deviation in % over relative load amplitude for four shapes.",
     )
 
 

@@ -28,7 +28,8 @@ from mdr.plots import style
 from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Point, deviation
-from validation.report import Check, Figure, Part
+from validation.report import Check, Equation, Figure, Part
+from validation.words import counted, listed
 
 NU = 0.5
 RATIO = 3.0  # E_1/E_inf of the standard solid
@@ -73,7 +74,8 @@ def part(effort: str) -> Part:
         range=(
             f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
             " and without a dashpot) under random bodies; "
-            f"{len(chosen)} chosen materials ({', '.join(chosen)}) measured for {', '.join(shapes)} at 1 % amplitude."
+            f"{counted(len(chosen), 'chosen material')} ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 %"
+            " amplitude."
         ),
         measured=(
             "With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is for a"
@@ -88,6 +90,15 @@ def part(effort: str) -> Part:
         ),
         checks=tuple(checks),
         figures=figures,
+        equations=(
+            Equation(
+                "",
+                r"v_c = \mu_0 \omega \Delta u_z \left| \kappa + K_z(\omega) H(\omega) \right|, \quad K_z = 2 a"
+                r" E^*(\omega), \quad E^*(\omega) ="
+                r" E^*_{\infty} (1 + i\omega\tau) + \sum_j E^*_j \frac{i\omega\tau_j}{1 + i\omega\tau_j}",
+                "Any linear material with one Poisson’s ratio; for a Kelvin material this is Eq. (15).",
+            ),
+        ),
     )
 
 
@@ -270,14 +281,12 @@ def _figure_of_velocities(quick: bool) -> Figure:
         fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
         bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
         for ax, (title, groups) in zip(axes, bodies, strict=True):
-            for materials, colour, label in (
-                (solid, "C0", "standard solid"),
-                (kelvin, "C1", "Kelvin, same first loss"),
+            for materials, look, label in (
+                (solid, {"color": "C0"}, "standard solid"),
+                (kelvin, {"color": "0.15", "ls": "-."}, "Kelvin, same first loss"),
             ):
                 cases = [contact("flat punch", material, 0.01, groups) for material in materials]
-                ax.semilogx(
-                    times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], color=colour, label=label
-                )
+                ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
             for material, ls, label in (
                 (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
                 (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
@@ -297,7 +306,7 @@ def _figure_of_velocities(quick: bool) -> Figure:
         "velocities",
         "Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that"
         " of the long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the"
-        " same loss at low frequency (orange) has no such end and rises without bound.",
+        " same loss at low frequency (chain line) has no such end and rises without bound.",
         fig,
         "Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body.",
     )

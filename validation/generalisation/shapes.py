@@ -30,6 +30,7 @@ from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, 
 from validation.measured import TOLERANCE, Measured, slope_at_zero
 from validation.measured import deviation as deviation_of
 from validation.report import Check, Figure, Part
+from validation.words import counted, listed, number, ranged
 
 PULLS: dict[str, dict[str, Any]] = {
     "rigid pull": {},
@@ -143,6 +144,7 @@ def part(effort: str) -> Part:
     """Measure the grid, fit the powers, map the first order."""
     points = [measure(*knobs) for knobs in progress(grid(effort), "shapes")]
     fields = first_order_map(effort)
+    rigid = [p for p in points if p.pull == "rigid pull"]
     springs = [p for p in points if p.pull != "rigid pull" and p.shape != "flat punch"]
     far = max(springs, key=lambda p: abs(p.deviation))
     small = max((p for p in springs if p.alpha == 0.02), key=lambda p: abs(p.deviation))
@@ -150,15 +152,16 @@ def part(effort: str) -> Part:
         name="shapes",
         title="Shape: a punch, a cone, a paraboloid and r^4",
         quote="",
-        range=f"{', '.join(dict.fromkeys(p.shape for p in points))}; α = "
-        f"{', '.join(f'{a:g}' for a in sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths "
-        f"{', '.join(f'{d * 1e6:g}' for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and "
+        range=f"{listed(shape for shape in SHAPES if shape in {p.shape for p in points})}; α = "
+        f"{listed(sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths "
+        f"{listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and "
         f"damper; rigid pull, ω_0 = 1.7 ω and 0.6 ω; "
-        f"{len(points)} measured velocities. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and ωτ = "
+        f"{counted(len(points), 'measured velocity')}. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and"
+        " ωτ = "
         f"{LOSSES[0]:g} … {LOSSES[1]:g}",
-        measured=f"Rigid pull: Eq. (1) for every shape, depth, amplitude and relaxation time tested, to "
-        f"{_worst(points, 'rigid pull'):.1e}; each of these contacts exists when its depth grows fastest, as α ≤ "
-        f"{max(p.alpha for p in points):g} and ωτ ≤ {max(p.T for p in points):g}. Spring pull: Eq. (15) for the flat "
+        measured=f"Rigid pull: Eq. (1) for every shape, depth, amplitude and relaxation time tested "
+        f"({_tested(rigid)}), to {_worst(points, 'rigid pull'):.1e}; each of these contacts exists when its depth "
+        "grows fastest. Spring pull: Eq. (15) for the flat "
         f"punch; for curved shapes it is the limit of small amplitude. For small α the deviation is proportional to α "
         f"times the exponent of the stiffness k_zc ∝ d^{{1/n}}, with one factor for all shapes (elastic and undamped: "
         f"to α^2); for large α it turns back and may change its sign. Farthest off: {100 * far.deviation:+.1f} % "
@@ -169,6 +172,12 @@ def part(effort: str) -> Part:
         checks=(*_measured_checks(points), *_power_checks(), *_map_checks()),
         figures=(_glance(points, effort), _powers(effort), _map_figure(*fields)),
     )
+
+
+def _tested(points: list[Point]) -> str:
+    """Shapes, losses and amplitudes of some points."""
+    shapes = listed(shape for shape in SHAPES if shape in {p.shape for p in points})
+    return f"{shapes}, {listed(loss(T) for T in sorted({p.T for p in points}))}, α {ranged(p.alpha for p in points)}"
 
 
 def _worst(points: list[Point], pull: str) -> float:
@@ -290,6 +299,7 @@ def _glance(points: list[Point], effort: str) -> Figure:
         (r"spring pull, $\omega\tau$ = 1", 1.0, "stiff spring"),
     )
     alphas = np.geomspace(0.01, 0.7, 30 if effort == "quick" else 80)
+    rigid, springs = ([p for p in points if (p.pull == "rigid pull") is side] for side in (True, False))
     with style():
         fig, axes = plt.subplots(1, 3, sharey=True, figsize=(9.6, 4.6))
         for ax, (title, T, pull) in zip(axes, panels, strict=True):
@@ -322,13 +332,12 @@ def _glance(points: list[Point], effort: str) -> Figure:
         fig.legend(handles=handles, loc="outside lower center", ncols=4)
     return Figure(
         "glance",
-        "Does Eq. (15) hold for general contacts? Points: critical velocities measured with arrays of springs that "
-        "each stick, slip and lift on their own, over Eq. (15) with the "
-        "contact stiffness at the mean depth. Lines: the full-slip condition with all harmonics of the normal force. "
-        f"Under a rigid pull (points of one amplitude side by side; ωτ = 0 and 1, all depths) all shapes lie on 1 up "
-        f"to the α = {max(ALPHAS):g} tested; under a spring and a mass (ω_0 = 1.7 ω, damper 5 % of critical) only the "
-        f"flat punch does. The others tend to 1 in proportion to α as it becomes small; for large α the cone turns "
-        f"back and crosses 1. Spring pulls at a depth of {DEPTH * 1e6:g} µm.",
+        "Points: critical velocities measured with arrays of springs, over Eq. (15) with the contact "
+        "stiffness at the mean depth. Lines: the full-slip condition. Under a rigid pull "
+        f"({_tested(rigid)}; points of one amplitude side by side) all lie on 1. Under a spring and a mass (ω_0 = "
+        f"1.7 ω, damper 5 % of critical, {DEPTH * 1e6:g} µm deep) only the flat punch does; the other lines tend to "
+        "1 in proportion to α as it becomes small, and for large α that of the cone turns back and crosses 1."
+        + (f" Measured under a spring were {_tested(springs)}, not all combined." if effort == "quick" else ""),
         fig,
         "Three panels of measured critical velocity over Eq. (15) against amplitude: all on one for a rigid pull, "
         "falling away from one for curved shapes under a spring pull, the cone rising again at large amplitude.",
@@ -398,9 +407,10 @@ def _map_figure(ratios: Array, losses: Array, C: Array) -> Figure:
         "(n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four "
         "times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies "
         "near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: "
-        f"α = {reach[row, column]:.1e} at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials under "
+        f"α = {number(reach[row, column])} at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials"
+        " under "
         "heavy bodies, ω_0 < ω, are the best. Along thin bright lines C changes its sign, and the next order decides.",
         fig,
-        "Map of the amplitude at which Eq. (15) is off by one per cent, over natural frequency and relaxation time: "
+        "Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: "
         "dark for slow materials and near twice the frequency.",
     )
