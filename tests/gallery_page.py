@@ -14,9 +14,9 @@ PIXELS, COLOURS = 4e5, 32  #: of a picture, about, and how many
 
 
 def names() -> list[str]:
-    """Scripts in the order of the page: those about all shapes first."""
-    first = ["gallery", "depths"]
-    return first + sorted({path.stem for path in SCRIPTS.glob("*.py")} - set(first))
+    """Scripts in the order of the page: those about all shapes last, whose small pictures want a full screen."""
+    last = ["depths", "gallery"]
+    return sorted({path.stem for path in SCRIPTS.glob("*.py")} - set(last)) + last
 
 
 def entry(name: str) -> str:
