@@ -1,5 +1,5 @@
 """The command line: `mdr velocity`, `curve`, `measure` and `verdict` of a case file, `mdr sweep` of a study file,
-`mdr shapes` and `mdr case` to begin with.
+`mdr explore` in the browser, `mdr shapes` and `mdr case` to begin with.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input; 130 interrupted. Results go to standard output (with --json one JSON object: what is undefined is null,
@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import mdr
-from mdr.commands import begin, curve, judge, sweep, velocity
+from mdr.commands import begin, curve, explore, judge, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import CaseFileError, read_case
 
@@ -88,6 +88,7 @@ def parser() -> argparse.ArgumentParser:
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)
     sweep.add_options(command)
+    explore.add_options(_command(commands, "explore", explore.explore, "a page in the browser to try a case with sliders"))
     named = "the shapes, materials and motions that a file can name, and their keys"
     _command(commands, "shapes", begin.shapes, named)
     begin.add_options(_command(commands, "case", begin.case, "a commented case file to begin with"))

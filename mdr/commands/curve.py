@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import (
     DONE,
     FAILED,
@@ -24,7 +24,6 @@ from mdr.commands.output import (
 )
 from mdr.commands.velocity import Ends
 from mdr.files.case_files import write_case
-from mdr.normal.resolved import resolved
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented
 
@@ -73,15 +72,6 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
         reasons = "".join(f"\n  {why}" for why in dict.fromkeys(_loose_ends(found)))
         return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}", FAILED)
     return DONE
-
-
-def velocity_scale(case: SlidingContact) -> float:
-    """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero."""
-    v_c = critical_velocity(case)
-    if math.isfinite(v_c) and v_c > 0:
-        return v_c
-    known = resolved(case)
-    return known.pace if math.isfinite(known.pace) else known.unit_velocity
 
 
 def _points(text: str) -> int:

@@ -1,0 +1,72 @@
+"""One control on the page: name and meaning, a box to type in, a slider, and below it why a value was refused."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from html import escape
+from typing import Any
+
+import panel as pn
+
+from mdr.explorer.controls import Control
+from mdr.explorer.links import number
+from mdr.explorer.state import State
+
+Change = Callable[[str, Any], str]  #: sets a path to a value; the answer is why it was refused, or ""
+REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
+LABEL = "font-size:13px;line-height:1.25;"
+
+
+class Knob:
+    """The widgets of one control."""
+
+    def __init__(self, control: Control, change: Change) -> None:
+        self.control, self.change, self.showing = control, change, False
+        self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), sizing_mode="stretch_width")
+        if control.words:
+            self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, width=104, margin=(0, 5))
+        else:
+            self.box = pn.widgets.TextInput(value=control.text, width=104, margin=(0, 5), name="")
+        self.slider: Any = None
+        rows: list[Any] = [pn.Row(self._label(), self.box, sizing_mode="stretch_width", margin=(4, 0, 0, 0))]
+        if control.grid:
+            self.slider = pn.widgets.IntSlider(
+                start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,
+                sizing_mode="stretch_width", margin=(2, 10, 2, 8), height=14, name="", tags=[control.path],
+            )  # fmt: skip
+            self.slider.param.watch(self._moved, "value")
+            rows.append(self.slider)
+        self.box.tags = [control.path]
+        self.box.param.watch(self._typed, "value")
+        self.view = pn.Column(*rows, self.words, sizing_mode="stretch_width", margin=0)
+
+    def show(self, state: State) -> None:
+        """Stand at the value of a state."""
+        before, self.control = self.control, self.control.of(state)
+        self.showing = True
+        self.box.value = self.control.value if self.control.words else self.control.text
+        if self.slider is not None:
+            if self.control.grid != before.grid:
+                self.slider.end = len(self.control.grid) - 1
+            self.slider.value = self.control.place
+        self.showing = False
+        self.words.visible = False
+
+    def _label(self) -> Any:
+        facts = self.control.facts
+        unit = f" [{escape(facts.unit)}]" if facts.unit not in ("", "-") else ""
+        text = f'<b>{escape(self.control.name)}</b>{unit}<br><span style="color:#666">{escape(facts.meaning)}</span>'
+        return pn.pane.HTML(text, styles={"font-size": "12.5px", "line-height": "1.3"}, margin=(0, 5), sizing_mode="stretch_width")
+
+    def _moved(self, event: Any) -> None:
+        if not self.showing:
+            self._set(self.control.grid[event.new])
+
+    def _typed(self, event: Any) -> None:
+        if not self.showing and event.new != self.control.text:
+            self._set(event.new if self.control.words else number(event.new))
+
+    def _set(self, value: Any) -> None:
+        words = self.change(self.control.path, value)
+        self.words.object = f'<div style="{REFUSED}" class="refused">{escape(words)}</div>'
+        self.words.visible = bool(words)

@@ -1,0 +1,63 @@
+"""Work on the latest request only, in a thread beside the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from threading import Lock, Thread
+from typing import Generic, TypeVar
+
+Request = TypeVar("Request")
+Answer = TypeVar("Answer")
+
+
+class Superseded(Exception):
+    """A newer request has come."""
+
+
+class Latest(Generic[Request, Answer]):
+    """Answers requests one at a time. A newer one ends the work on an older one, whose answers are dropped.
+
+    `work(request, watch)` yields answers and calls `watch` now and then, which raises `Superseded`. `deliver(request,
+    answer)` is called in the thread of the work, with the exception where the work raised one and None at its end.
+    """
+
+    def __init__(
+        self,
+        work: Callable[[Request, Callable[[], None]], Iterable[Answer]],
+        deliver: Callable[[Request, Answer | Exception | None], None],
+    ) -> None:
+        self.work, self.deliver = work, deliver
+        self.lock = Lock()
+        self.waiting: list[Request] = []
+        self.busy = False
+
+    def ask(self, request: Request) -> None:
+        """Work on this request next, and on no older one."""
+        with self.lock:
+            self.waiting = [request]
+            if self.busy:
+                return
+            self.busy = True
+        Thread(target=self._run, daemon=True).start()
+
+    def _run(self) -> None:
+        while (request := self._next()) is not None:
+            try:
+                for answer in self.work(request[0], self._watch):
+                    self._watch()
+                    self.deliver(request[0], answer)
+                self.deliver(request[0], None)
+            except Superseded:
+                continue
+            except Exception as fault:  # whatever it is, the page says so and goes on
+                self.deliver(request[0], fault)
+
+    def _next(self) -> list[Request] | None:
+        with self.lock:
+            request, self.waiting = self.waiting, []
+            self.busy = bool(request)
+            return request or None
+
+    def _watch(self) -> None:
+        if self.waiting:
+            raise Superseded
