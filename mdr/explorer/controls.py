@@ -16,6 +16,7 @@ from mdr.case.contact import KINDS, as_given
 from mdr.case.in_plane import PLACES
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import velocity_scale
+from mdr.explorer.links import written
 from mdr.explorer.scales import group_values, scales_of
 from mdr.explorer.state import State
 from mdr.normal.vary import GROUPS
@@ -55,7 +56,7 @@ class Control:
         """The value as one types it."""
         if isinstance(self.value, tuple):
             return str([list(one) if isinstance(one, tuple) else one for one in self.value])
-        return f"{self.value:.6g}" if isinstance(self.value, float) else str(self.value)
+        return written(self.value) if isinstance(self.value, float) else str(self.value)
 
     def of(self, state: State) -> Control:
         """The control at the value of the state, on the same grid as long as that is on it."""

@@ -23,7 +23,8 @@ def swatches(*named: tuple[str, str]) -> str:
 
 SPRINGS_LEGEND = swatches(*((name, colour) for name, colour in MODES))
 FORCES_LEGEND = swatches(("F<sub>x</sub>", "#000000"), ("μ<sub>0</sub> F<sub>z</sub>, the limit", GREY))
-CURVE_LEGEND = swatches(("friction", COLOURS[0]), ("the run below", COLOURS[1]), ("v<sub>c</sub>", DARK))
+CURVE_LEGEND = swatches(("friction", COLOURS[0]), ("the run at v<sub>0</sub>", COLOURS[1]))
+CURVE_LEGEND += f'<span style="border-left:2px dotted {DARK};margin:0 6px 0 14px"></span>v<sub>c</sub>'
 BAND_LEGEND = swatches(("held at rest", COLOURS[2]))
 
 
@@ -97,7 +98,7 @@ class Figures:
         least = min(float(cof.min()), picture.run.cof, (1 - EMPTY) * mu_0)
         room = 0.06 * (mu_0 - least)
         _span(self.curve.y_range, least - room, max(mu_0, float(cof.max())) + room)
-        _span(self.curve.x_range, float(v[0] if both else -0.02 * v[-1]), float(v[-1]))
+        _span(self.curve.x_range, float(v[0] if both else -0.02 * v[-1]), 1.01 * float(v[-1]))
         self.curve.xaxis.axis_label = label
 
     def _show_forces(self, picture: Picture) -> None:
@@ -117,8 +118,8 @@ class Figures:
 def _figure(height: int, x_label: str, y_label: str, x_range: Any = None) -> Any:
     """An empty figure in the style of the project's plots."""
     made = figure(
-        height=height, sizing_mode="stretch_width", min_border_right=12, toolbar_location="above",
-        x_range=x_range or Range1d(0, 1), y_range=Range1d(0, 1), tools="box_zoom,reset,save",
+        height=height, sizing_mode="stretch_width", toolbar_location="right",
+        active_drag=None, x_range=x_range or Range1d(0, 1), y_range=Range1d(0, 1), tools="box_zoom,reset,save",
     )  # fmt: skip
     made.toolbar.logo = None
     made.outline_line_color = None

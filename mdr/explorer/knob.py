@@ -14,7 +14,12 @@ from mdr.explorer.state import State
 
 Change = Callable[[str, Any], str]  #: sets a path to a value; the answer is why it was refused, or ""
 REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
-LABEL = "font-size:13px;line-height:1.25;"
+
+
+def refused(words: str) -> str:
+    """What was refused and why, as HTML; empty where nothing was."""
+    lines = escape(words).replace("\n", "<br>")
+    return f'<div style="{REFUSED}" class="refused">{lines}</div>' if words else ""
 
 
 class Knob:
@@ -32,11 +37,11 @@ class Knob:
         if control.grid:
             self.slider = pn.widgets.IntSlider(
                 start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,
-                sizing_mode="stretch_width", margin=(2, 10, 2, 8), height=14, name="", tags=[control.path],
+                sizing_mode="stretch_width", margin=(2, 10, 2, 8), height=14, name="", css_classes=["slider", control.path],
             )  # fmt: skip
             self.slider.param.watch(self._moved, "value")
             rows.append(self.slider)
-        self.box.tags = [control.path]
+        self.box.css_classes = ["box", control.path]
         self.box.param.watch(self._typed, "value")
         self.view = pn.Column(*rows, self.words, sizing_mode="stretch_width", margin=0)
 
@@ -50,7 +55,7 @@ class Knob:
                 self.slider.end = len(self.control.grid) - 1
             self.slider.value = self.control.place
         self.showing = False
-        self.words.visible = False
+        self._say("")
 
     def _label(self) -> Any:
         facts = self.control.facts
@@ -63,10 +68,17 @@ class Knob:
             self._set(self.control.grid[event.new])
 
     def _typed(self, event: Any) -> None:
-        if not self.showing and event.new != self.control.text:
+        if self.showing:
+            return
+        if event.new == self.control.text:  # as it was, also after a refusal
+            self._say("")
+        else:
             self._set(event.new if self.control.words else number(event.new))
 
     def _set(self, value: Any) -> None:
-        words = self.change(self.control.path, value)
-        self.words.object = f'<div style="{REFUSED}" class="refused">{escape(words)}</div>'
-        self.words.visible = bool(words)
+        self._say(self.change(self.control.path, value))
+
+    def _say(self, words: str) -> None:
+        """Why a value was refused; nothing where it was not."""
+        if bool(words) or self.words.visible:
+            self.words.object, self.words.visible = refused(words), bool(words)

@@ -7,6 +7,8 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 from urllib.parse import urlencode
 
+import numpy as np
+
 from mdr.case.contact import as_given
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case, write_case
@@ -41,17 +43,28 @@ def python_of(state: State) -> str:
     case = as_given(state.case)
     parts = {one.name: getattr(case, one.name) for one in fields(case)}
     written = [f"    {name}={_called(part)}," for name, part in parts.items() if part is not None]
-    calls = f"curve = mdr.cof_curve(case, [{state.v_0!r}])  # m/s\nrun = mdr.slide(case, {state.v_0!r}, record=1)"
+    calls = f"curve = mdr.cof_curve(case, [{_called(state.v_0)}])  # m/s\nrun = mdr.slide(case, {_called(state.v_0)}, record=1)"
     return "\n".join(["import mdr", "", "case = mdr.SlidingContact(", *written, ")", calls]) + "\n"
+
+
+def written(value: float) -> str:
+    """A number to five digits, as one types it: 20e-6, 3e6, 0.05."""
+    power = 3 * int(np.floor(np.log10(abs(value)) / 3)) if value else 0
+    return f"{value:.5g}" if -3 <= power <= 3 else f"{value / 10.0**power:.5g}e{power}"
 
 
 def _called(value: Any) -> str:
     """A value, or the call that makes a record, without fields that have their default."""
+    if isinstance(value, float):
+        text = written(value)
+        return text if float(text) == value else repr(value)
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_called, value))}{',' if len(value) == 1 else ''})"
     if not is_dataclass(value):
         return repr(value)
     given = {one.name: getattr(value, one.name) for one in fields(value) if one.init}
     usual = {one.name: one.default for one in fields(value)}
-    told = [f"{name}={one!r}" for name, one in given.items() if one != usual[name]]
+    told = [f"{name}={_called(one)}" for name, one in given.items() if one != usual[name]]
     return f"mdr.{type(value).__name__}({', '.join(told)})"
 
 

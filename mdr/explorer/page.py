@@ -12,27 +12,34 @@ import panel as pn
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.explorer.controls import controls_of
 from mdr.explorer.figures import BAND_LEGEND, CURVE_LEGEND, FORCES_LEGEND, SPRINGS_LEGEND, Figures
-from mdr.explorer.knob import REFUSED, Knob
+from mdr.explorer.knob import Knob, refused
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import link_of, python_of, state_of
 from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
 from mdr.explorer.scales import group_values
 from mdr.explorer.state import State, kind_of, kinds_of
-from mdr.files.case_files import parse_case, write_case
+from mdr.files.case_files import parse_case
+from mdr.files.examples import example_file
 
 REFUSALS = (ValueError, TypeError, ArithmeticError, LookupError)
 TITLES = {"indenter": "Shape", "material": "Material", "oscillation": "Motion in depth", "pull": "Pull",
           "shake": "Shake in the plane"}  # fmt: skip
 HEADING = "font-weight:600;font-size:15px;"
 SMALL = "color:#666;font-size:12.5px;"
-#: wide: controls, curve, springs side by side; narrow: the curve stays in sight above the controls
+#: wide: controls, curve, springs side by side; narrow: one below the other, and the curve stays in sight
 LAYOUT = """
 :host { display: grid !important; gap: 8px 28px; align-items: start;
-        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-areas: "controls curve springs"; }
-@media (max-width: 1150px) { :host { grid-template-columns: 330px minmax(0, 1fr);
-        grid-template-areas: "controls curve" "controls springs"; } }
-@media (max-width: 720px) { :host { grid-template-columns: minmax(0, 1fr);
-        grid-template-areas: "curve" "controls" "springs"; } }
+        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-rows: auto auto 1fr;
+        grid-template-areas: "controls curve springs" "controls numbers springs" "controls files files"; }
+@media (max-width: 1150px) { :host {
+        grid-template-columns: 330px minmax(0, 1fr); grid-template-rows: auto auto auto 1fr;
+        grid-template-areas: "controls curve" "controls numbers" "controls springs" "controls files"; } }
+@media (max-width: 720px) { :host {
+        grid-template-columns: minmax(0, 1fr); grid-template-rows: auto;
+        grid-template-areas: "curve" "controls" "numbers" "springs" "files"; } }
+"""
+IN_SIGHT = """
+@media (max-width: 720px) { :host { position: sticky !important; top: 0; z-index: 5; background: white; } }
 """
 PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
 
@@ -58,29 +65,32 @@ class Page:
         self.link.jscallback(value="history.replaceState(null, '', location.pathname + '?' + cb_obj.value)")
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
-        self.alert.object = _refused(refusal)
+        self.alert.object = refused(refusal)
+        self.loaded = False
         self._take(state)
+        pn.state.onload(self._load)
 
     @property
     def view(self) -> Any:
         """All of it."""
         judge = pn.widgets.Button(name="Judge the closed form by simulation", button_type="primary", margin=(6, 5))
         judge.on_click(self._judge)
-        curve = pn.Column(
-            _html("Friction over velocity", HEADING), self.legend, self.figures.curve, self.status, self.numbers, judge,
-            self.said, styles={"grid-area": "curve"}, sizing_mode="stretch_width",
+        curve = _area(
+            "curve", _html("Friction over velocity", HEADING), self.legend, self.figures.curve, self.status,
+            stylesheets=[IN_SIGHT],
         )  # fmt: skip
-        springs = pn.Column(
+        numbers = _area("numbers", self.numbers, judge, self.said)
+        springs = _area(
+            "springs",
             _html("The springs over a period", HEADING), _html(SPRINGS_LEGEND, SMALL), self.figures.springs,
             _html("The forces over a period", HEADING), _html(FORCES_LEGEND, SMALL), self.figures.forces,
-            styles={"grid-area": "springs"}, sizing_mode="stretch_width",
         )  # fmt: skip
-        controls = pn.Column(self.held, self.parts[""], styles={"grid-area": "controls"}, sizing_mode="stretch_width")
+        controls = _area("controls", self.held, self.parts[""])
         for slot in KINDS:
             controls.extend([_html(TITLES[slot], HEADING + "margin-top:10px;"), self.kinds[slot], self.parts[slot]])
-        body = pn.Column(curve, controls, springs, stylesheets=[LAYOUT], sizing_mode="stretch_width")
+        body = pn.Column(curve, controls, numbers, springs, self._files(), stylesheets=[LAYOUT], sizing_mode="stretch_width")
         head = _html("<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration")
-        return pn.Column(head, self.alert, body, *self._files(), stylesheets=[PAGE], sizing_mode="stretch_width")
+        return pn.Column(head, self.alert, body, stylesheets=[PAGE], sizing_mode="stretch_width")
 
     # --- changes ---
 
@@ -101,9 +111,15 @@ class Page:
             self.built = built
         for knob in self.knobs.values():
             knob.show(state)
-        self.status.object = '<span class="late">computing …</span>'
         self.said.object = ""
-        self.pictures.ask(state)
+        if self.loaded:
+            self.status.object = f'<span style="{SMALL}" class="status">computing …</span>'
+            self.pictures.ask(state)
+
+    def _load(self) -> None:
+        """Compute only once the browser listens: what changes before may be lost on its way."""
+        self.loaded = True
+        self.pictures.ask(self.state)
 
     def _build(self, state: State) -> None:
         self.knobs = {}
@@ -118,7 +134,7 @@ class Page:
         """The choice of a kind of a part, and below it why it was refused."""
         choice = pn.widgets.Select(
             options=kinds_of(slot), value=kind_of(self.state.case, slot), sizing_mode="stretch_width", margin=(2, 5),
-            tags=[slot],
+            css_classes=["kind", slot],
         )  # fmt: skip
         words = _html("")
 
@@ -129,7 +145,7 @@ class Page:
                 self._take(self.state.with_kind(slot, event.new))
                 words.object = ""
             except REFUSALS as refusal:
-                words.object = _refused(f"{event.new}: {_told(refusal)}")
+                words.object = refused(f"{event.new}: {_told(refusal)}")
                 choice.value = kind_of(self.state.case, slot)
 
         choice.param.watch(chosen, "value")
@@ -150,7 +166,7 @@ class Page:
         if state is not self.state:
             return
         if isinstance(answer, Exception):
-            self.status.object = _refused(f"{_told(answer)}; the picture is that of before")
+            self.status.object = refused(f"{_told(answer)}; the picture is that of before")
         elif answer is not None:
             self._draw(answer)
         else:
@@ -162,7 +178,7 @@ class Page:
         self.legend.object = f'<span style="{SMALL}">{CURVE_LEGEND}{BAND_LEGEND if picture.band else ""}</span>'
         bound = f"error of friction ≤ {ACCURACY:g} μ<sub>0</sub>, where settled; hollow points are not"
         how = bound if picture.curve else "first sight, its error is not bounded yet"
-        self.status.object = f'<span style="{SMALL}">{how}</span>'
+        self.status.object = f'<span style="{SMALL}" class="status">{how}</span>'
         rows = "".join(
             f'<tr><td style="padding-right:14px">{name}</td><td style="padding-right:14px"><b>{value}</b></td>'
             f'<td style="color:#666">{meaning}</td></tr>'
@@ -172,7 +188,7 @@ class Page:
 
     def _write(self, state: State) -> None:
         """The texts of a state whose pictures are all there."""
-        self.toml.value, self.python.value, self.link.value = write_case(state.case), python_of(state), link_of(state)
+        self.toml.value, self.python.value, self.link.value = example_file(state.case), python_of(state), link_of(state)
 
     def _judge(self, _: Any) -> None:
         self.said.object = "computing the verdict, which takes some seconds …"
@@ -180,22 +196,22 @@ class Page:
 
     def _say(self, case: SlidingContact, answer: str | Exception | None) -> None:
         if answer is not None and case == self.state.case:
-            text = _refused(_told(answer)) if isinstance(answer, Exception) else escape(answer)
+            text = refused(_told(answer)) if isinstance(answer, Exception) else escape(answer)
             self.said.object = f'<div style="font-size:13px;line-height:1.5" class="verdict">{text}</div>'
 
     # --- files ---
 
-    def _files(self) -> list[Any]:
+    def _files(self) -> Any:
         case = pn.widgets.FileDownload(callback=lambda: StringIO(self.toml.value), filename="case.toml", label="Case (TOML)")
         curve = pn.widgets.FileDownload(callback=partial(self._svg, "curve"), filename="curve.svg", label="Curve (SVG)")
         run = pn.widgets.FileDownload(callback=partial(self._svg, "run"), filename="run.svg", label="Springs and forces (SVG)")
-        given: Any = pn.widgets.FileInput(accept=".toml", margin=(5, 10))
+        given: Any = pn.widgets.FileInput(accept=".toml", margin=5, css_classes=["upload", "case"])
         given.param.watch(lambda event: self._upload(given.filename, event.new), "value")
-        row = pn.FlexBox(case, curve, run, pn.Row(_html("Load a case:"), given), gap="6px")
+        row = pn.FlexBox(case, curve, run, pn.pane.HTML("load a case:", margin=(8, 0, 8, 12)), given, align_items="center")
         texts = pn.FlexBox(
-            *(pn.Column(text, _copy(text), styles={"flex": "1 1 420px"}) for text in (self.toml, self.python)), gap="12px"
+            *(pn.Column(text, _copy(text), styles={"flex": "1 1 340px"}) for text in (self.toml, self.python)), gap="12px"
         )
-        return [row, self.link, texts]
+        return _area("files", _html("To keep", HEADING), row, self.link, texts)
 
     def _upload(self, name: str | None, data: bytes | None) -> None:
         if data is None:
@@ -206,7 +222,7 @@ class Page:
             self._take(State.of(case))
             self.alert.object = ""
         except REFUSALS as refusal:
-            self.alert.object = _refused(_told(refusal))
+            self.alert.object = refused(_told(refusal))
 
     def _svg(self, what: str) -> BytesIO:
         """A figure of the project's plots."""
@@ -229,12 +245,18 @@ def page_of(case: SlidingContact) -> Any:
         return Page(State.of(case), _told(refusal)).view
 
 
+def _area(name: str, *parts: Any, **more: Any) -> Any:
+    """Parts one below the other, in an area of the layout."""
+    return pn.Column(*parts, styles={"grid-area": name}, sizing_mode="stretch_width", **more)
+
+
 def _html(text: str, style: str = "") -> Any:
     return pn.pane.HTML(f'<span style="{style}">{text}</span>' if style else text, margin=(2, 5), sizing_mode="stretch_width")
 
 
 def _code(name: str) -> Any:
-    style = ":host { --font: ui-monospace, monospace; } textarea { font-family: var(--font); font-size: 12.5px; }"
+    style = "textarea { font-family: ui-monospace, monospace; font-size: 12px; color: #222 !important;"
+    style += " opacity: 1 !important; white-space: pre; overflow-x: auto; }"
     return pn.widgets.TextAreaInput(name=name, rows=16, disabled=True, sizing_mode="stretch_width", stylesheets=[style])
 
 
@@ -242,10 +264,6 @@ def _copy(text: Any) -> Any:
     button = pn.widgets.Button(name="Copy", margin=(0, 10))
     button.jscallback(clicks="navigator.clipboard.writeText(text.value)", args={"text": text})
     return button
-
-
-def _refused(words: str) -> str:
-    return f'<div style="{REFUSED}" class="refused">{escape(words).replace(chr(10), "<br>")}</div>' if words else ""
 
 
 def _told(refusal: Exception) -> str:

@@ -32,7 +32,7 @@ class State:
     @classmethod
     def of(cls, case: SlidingContact) -> State:
         """The case and half of its velocity scale."""
-        return cls(case, V_0 * velocity_scale(case))
+        return cls(case, _first(case))
 
     @property
     def v_c(self) -> float | None:
@@ -90,7 +90,12 @@ class State:
         after = replace(self, case=case)
         if self.in_groups and self.v_c and after.v_c:
             after = replace(after, v_0=self.v_0 / self.v_c * after.v_c)
-        return after if case.is_shaken or after.v_0 > 0 else replace(after, v_0=V_0 * velocity_scale(case))
+        return after if case.is_shaken or after.v_0 > 0 else replace(after, v_0=_first(case))
+
+
+def _first(case: SlidingContact) -> float:
+    """Velocity [m/s] of a first run, to three digits."""
+    return float(f"{V_0 * velocity_scale(case):.3g}")
 
 
 def kinds_of(slot: str) -> list[str]:
