@@ -88,7 +88,9 @@ def parser() -> argparse.ArgumentParser:
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)
     sweep.add_options(command)
-    explore.add_options(_command(commands, "explore", explore.explore, "a page in the browser to try a case with sliders"))
+    explore.add_options(
+        _command(commands, "explore", explore.explore, "a page in the browser to try a case with sliders")
+    )
     named = "the shapes, materials and motions that a file can name, and their keys"
     _command(commands, "shapes", begin.shapes, named)
     begin.add_options(_command(commands, "case", begin.case, "a commented case file to begin with"))

@@ -17,7 +17,9 @@ INSTALL = (
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The case, the port, and whether a browser is opened."""
-    command.add_argument("case", metavar="case.toml", nargs="?", help="the case file (default: the example of mdr case)")
+    command.add_argument(
+        "case", metavar="case.toml", nargs="?", help="the case file (default: the example of mdr case)"
+    )
     command.add_argument("--port", type=_port, default=PORT, help=f"port, 0 for a free one (default: {PORT})")
     command.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
 
@@ -35,7 +37,9 @@ def explore(args: argparse.Namespace, _: None) -> int:
         server, address = server_of(case, args.port)
     except OSError as taken:
         reason = taken.strerror or taken
-        raise WrongInput(f"port {args.port} cannot be used ({reason}); give another, or --port 0 for a free one") from None
+        raise WrongInput(
+            f"port {args.port} cannot be used ({reason}); give another, or --port 0 for a free one"
+        ) from None
     server.start()
     if args.json:
         print_json(args, {"address": address}, case)

@@ -86,7 +86,12 @@ def _control(state: State, path: str, facts: Facts | None = None) -> Control:
     value = state.value(path)
     if isinstance(value, str):
         return Control(path, facts, value, words=PLACES if path.endswith(".at") else ())
-    return Control(path, facts, value, () if isinstance(value, tuple) else tuple(float(one) for one in _grid(state, path, facts, value)))
+    return Control(
+        path,
+        facts,
+        value,
+        () if isinstance(value, tuple) else tuple(float(one) for one in _grid(state, path, facts, value)),
+    )
 
 
 def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float]:

@@ -88,7 +88,11 @@ class Figures:
         self.points.data = {"v_0": v, "cof": cof, "fill": fill} if bounded else {"v_0": [], "cof": [], "fill": []}
         self.run.data = {"v_0": [state.v_0 * factor], "cof": [picture.run.cof]}
         held = [picture.band] if picture.band is not None else []
-        self.held.data = {"v_0": [0.0] * len(held), "low": [one.low for one in held], "high": [one.high for one in held]}
+        self.held.data = {
+            "v_0": [0.0] * len(held),
+            "low": [one.low for one in held],
+            "high": [one.high for one in held],
+        }
         both = state.case.is_shaken
         marks = [picture.v_c, -picture.v_c_back if picture.v_c_back is not None else np.nan]
         for span, at in zip(self.critical, marks, strict=True):

@@ -10,16 +10,10 @@ import panel as pn
 
 from mdr.explorer.controls import Control
 from mdr.explorer.links import number
+from mdr.explorer.look import refused
 from mdr.explorer.state import State
 
 Change = Callable[[str, Any], str]  #: sets a path to a value; the answer is why it was refused, or ""
-REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
-
-
-def refused(words: str) -> str:
-    """What was refused and why, as HTML; empty where nothing was."""
-    lines = escape(words).replace("\n", "<br>")
-    return f'<div style="{REFUSED}" class="refused">{lines}</div>' if words else ""
 
 
 class Knob:
@@ -29,7 +23,9 @@ class Knob:
         self.control, self.change, self.showing = control, change, False
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), sizing_mode="stretch_width")
         if control.words:
-            self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, width=104, margin=(0, 5))
+            self.box: Any = pn.widgets.Select(
+                options=list(control.words), value=control.value, width=104, margin=(0, 5)
+            )
         else:
             self.box = pn.widgets.TextInput(value=control.text, width=104, margin=(0, 5), name="")
         self.slider: Any = None
@@ -37,7 +33,8 @@ class Knob:
         if control.grid:
             self.slider = pn.widgets.IntSlider(
                 start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,
-                sizing_mode="stretch_width", margin=(2, 10, 2, 8), height=14, name="", css_classes=["slider", control.path],
+                sizing_mode="stretch_width", margin=(2, 10, 2, 8), height=14, name="",
+                css_classes=["slider", control.path],
             )  # fmt: skip
             self.slider.param.watch(self._moved, "value")
             rows.append(self.slider)
@@ -61,7 +58,9 @@ class Knob:
         facts = self.control.facts
         unit = f" [{escape(facts.unit)}]" if facts.unit not in ("", "-") else ""
         text = f'<b>{escape(self.control.name)}</b>{unit}<br><span style="color:#666">{escape(facts.meaning)}</span>'
-        return pn.pane.HTML(text, styles={"font-size": "12.5px", "line-height": "1.3"}, margin=(0, 5), sizing_mode="stretch_width")
+        return pn.pane.HTML(
+            text, styles={"font-size": "12.5px", "line-height": "1.3"}, margin=(0, 5), sizing_mode="stretch_width"
+        )
 
     def _moved(self, event: Any) -> None:
         if not self.showing:

@@ -43,8 +43,17 @@ def python_of(state: State) -> str:
     case = as_given(state.case)
     parts = {one.name: getattr(case, one.name) for one in fields(case)}
     written = [f"    {name}={_called(part)}," for name, part in parts.items() if part is not None]
-    calls = f"curve = mdr.cof_curve(case, [{_called(state.v_0)}])  # m/s\nrun = mdr.slide(case, {_called(state.v_0)}, record=1)"
-    return "\n".join(["import mdr", "", "case = mdr.SlidingContact(", *written, ")", calls]) + "\n"
+    calls = ["curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)"]
+    lines = [
+        "import mdr",
+        "",
+        "case = mdr.SlidingContact(",
+        *written,
+        ")",
+        f"v_0 = {_called(state.v_0)}  # m/s",
+        *calls,
+    ]
+    return "\n".join(lines) + "\n"
 
 
 def written(value: float) -> str:

@@ -25,7 +25,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import silent, time_limit
 
 ACCURACY = 1e-3  #: of the curve and the run, over mu_0
-POINTS = 15  #: of a curve on each side of zero
+POINTS = 13  #: of a curve on each side of zero
 LEAST = 0.004  #: of the velocity scale: beside zero, where friction of a shaken contact jumps
 UP_TO, FARTHEST = 1.35, 3.0  #: of that scale: end of the curve, and where it ends if v_0 lies beyond
 FIRST = (48, 128)  #: springs and steps of the curve without a bound

@@ -14,7 +14,7 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.explorer.scales import group_values, scales_of
 from mdr.files.case_files import nameable
-from mdr.files.examples import PULLS, SHAKES, STILL, example
+from mdr.files.examples import PULLS, STILL, example
 from mdr.normal.vary import GROUPS, case_at
 from mdr.tools.checks import finite, positive
 
@@ -61,14 +61,14 @@ class State:
 
     def with_kind(self, slot: str, name: str) -> State:
         """The state with another kind of a part; what it shares with the one before keeps its value."""
+        case: Any = as_given(self.case)
         if name == STILL:
-            return self._with(replace(as_given(self.case), **{slot: None}))
-        case, scales = as_given(self.case), scales_of(self.case)
-        old, new = getattr(case, slot), _example(slot, name)
-        known = {**scales, **({one.name: getattr(old, one.name) for one in fields(old)} if is_dataclass(old) else {})}
+            return self._with(replace(case, **{slot: None}))
+        old, new, known = getattr(case, slot), _example(slot, name), scales_of(case)
+        known |= {one.name: getattr(old, one.name) for one in fields(old)} if is_dataclass(old) else {}
         shared = {one.name: known[one.name] for one in fields(new) if one.init and one.name in known}
         if slot == "oscillation" and not new.omega and case.shake is None:
-            case = replace(case, shake=replace(SHAKES["InPlaneOscillation"], omega=case.omega, du_x=scales["du_x"]))  # type: ignore[call-arg]
+            case = self.with_kind("shake", "InPlaneOscillation").case
         try:
             return self._with(replace(case, **{slot: replace(new, **shared)}))
         except (TypeError, ValueError):  # what has the same name may mean another thing
@@ -121,4 +121,3 @@ def _has_example(slot: str, name: str) -> bool:
         return _example(slot, name) is not None
     except ValueError:  # a class of a user's own
         return False
-

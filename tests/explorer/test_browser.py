@@ -1,24 +1,17 @@
 """The explorer in a real browser: chromium without a window, driven by its driver, against `mdr explore` itself."""
 
 import http.client
-import importlib.util
-import json
 import os
-import re
-import shutil
 import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from chromium import PATIENCE, Browser, chromium, explorer, lacking, named
 
 import mdr
 
 REQUIRED = os.environ.get("MDR_BROWSER") == "required"  #: a browser that is missing is then a failure
-PATIENCE = 30.0  #: s, for a machine that is busy
 CASE = mdr.SlidingContact(
     mdr.FlatPunch(a=1e-3),
     mdr.Elastic(E=3e6, nu=0.5),
@@ -26,22 +19,6 @@ CASE = mdr.SlidingContact(
     oscillation=mdr.NormalOscillation(u_z0=20e-6, du_z=10e-6, omega=300.0),
     pull=mdr.SpringPull(k_x=2e4, m=0.05, c_x=4.0),
 )
-#: every element that a selector finds, also inside shadow roots
-FIND = """
-const found = [], selector = arguments[0];
-(function walk(root) {
-  for (const one of root.querySelectorAll('*')) {
-    if (one.matches(selector)) found.push(one);
-    if (one.shadowRoot) walk(one.shadowRoot);
-  }
-})(document);
-"""
-
-
-def lacking():
-    """What is not installed of all that a test in a browser takes."""
-    modules = [name for name in ("panel", "bokeh", "selenium") if importlib.util.find_spec(name) is None]
-    return modules + [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
 
 
 @pytest.fixture(scope="module")
@@ -51,112 +28,14 @@ def server(tmp_path_factory):
         (pytest.fail if REQUIRED else pytest.skip)(f"no test in a browser without {', '.join(missing)}")
     path = tmp_path_factory.mktemp("explorer") / "case.toml"
     path.write_text(mdr.write_case(CASE), encoding="utf-8")
-    command = [sys.executable, "-m", "mdr", "explore", str(path), "--port", "0", "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        line = process.stdout.readline()
-        try:
-            yield re.search(r"http://\S+", line)[0], process
-        finally:
-            if process.poll() is None:
-                process.kill()
-
-
-class Browser:
-    """One page of the explorer."""
-
-    def __init__(self, driver, address, folder):
-        self.driver, self.address, self.folder = driver, address, folder
-        self.open()
-
-    def open(self, query=""):
-        self.driver.get(f"{self.address}{query}")
-        self.until(lambda: self.shown().startswith("error of friction"))
-
-    def until(self, true):
-        """Wait until something is so, and return it."""
-        end = time.monotonic() + PATIENCE
-        while time.monotonic() < end:
-            if answer := true():
-                return answer
-            time.sleep(0.02)
-        raise AssertionError(f"not so after {PATIENCE:g} s: {self.shown()}")
-
-    def find(self, selector):
-        return self.driver.execute_script(FIND + "return found", selector)
-
-    def inside(self, selector, part):
-        """A part of a widget, in its shadow."""
-        script = "return arguments[0].shadowRoot.querySelector(arguments[1])"
-        return self.until(lambda: self.driver.execute_script(script, self.find(selector)[0], part))
-
-    def text(self, selector):
-        """Words of all elements that are not hidden."""
-        return self.driver.execute_script(FIND + "return found.map(one => one.innerText).filter(Boolean)", selector)
-
-    def shown(self):
-        """What the page says of its curve."""
-        return " ".join(self.text(".status"))
-
-    def curve(self):
-        """Friction over velocity, as drawn."""
-        return self.driver.execute_script("return [...Bokeh.documents[0].get_model_by_name('curve').data.cof]")
-
-    def value(self, path):
-        return self.inside(named("box", path), "input").get_attribute("value")
-
-    def type(self, path, text):
-        from selenium.webdriver.common.keys import Keys
-
-        box = self.inside(named("box", path), "input")
-        box.clear()
-        box.send_keys(text + Keys.ENTER)
-
-    def move(self, path, steps):
-        from selenium.webdriver.common.keys import Keys
-
-        self.inside(named("slider", path), ".noUi-handle").send_keys(Keys.ARROW_RIGHT * steps)
-
-    def state(self):
-        """The query of the address, which carries the state of the last picture."""
-        return self.driver.execute_script("return location.search")
-
-    def button(self, label):
-        next(one for one in self.find("button, a") if label in one.text).click()
-
-    def errors(self):
-        return [line["message"] for line in self.driver.get_log("browser") if line["level"] == "SEVERE"]
-
-    def requests(self):
-        """Addresses of all that the page asked for."""
-        for line in self.driver.get_log("performance"):
-            message = json.loads(line["message"])["message"]
-            if message["method"] == "Network.requestWillBeSent":
-                yield message["params"]["request"]["url"]
-            elif message["method"] == "Network.webSocketCreated":
-                yield message["params"]["url"]
-
-
-def named(kind, path):
-    return f"[class~='{kind}'][class~='{path}']"
+    with explorer(path) as running:
+        yield running
 
 
 @pytest.fixture(scope="module")
 def browser(server, tmp_path_factory):
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-
     folder = tmp_path_factory.mktemp("chromium")
-    options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which("chromium")
-    for flag in (
-        "headless=new", "no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
-        "disable-component-update", "disable-sync", "disable-dev-shm-usage", "window-size=1400,1300",
-        f"user-data-dir={folder / 'profile'}",
-    ):  # fmt: skip
-        options.add_argument(f"--{flag}")
-    options.add_experimental_option("prefs", {"download.default_directory": str(folder)})
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    with webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver"))) as driver:
+    with chromium(folder) as driver:
         yield Browser(driver, server[0], folder)
 
 
@@ -257,7 +136,9 @@ def test_it_listens_on_this_machine_alone(server):
     address = urlsplit(server[0])
     tables = [Path("/proc/net/tcp"), Path("/proc/net/tcp6")]
     rows = [line.split() for table in tables if table.exists() for line in table.read_text().splitlines()[1:]]
-    listening = {row[1].split(":")[0] for row in rows if int(row[1].split(":")[1], 16) == address.port and row[3] == "0A"}
+    listening = {
+        row[1].split(":")[0] for row in rows if int(row[1].split(":")[1], 16) == address.port and row[3] == "0A"
+    }
     assert listening == {"0100007F"}
     upgrade = {
         "Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",

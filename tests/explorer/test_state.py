@@ -64,7 +64,7 @@ def test_a_wrong_link_says_what_is_wrong():
 def test_script_and_file_make_the_case(state):
     names = {}
     exec(python_of(state).partition("curve =")[0], names)
-    assert names["case"] == state.case
+    assert (names["case"], names["v_0"]) == (state.case, state.v_0)
     assert mdr.parse_case(example_file(state.case)) == state.case
 
 
