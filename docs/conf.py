@@ -15,7 +15,7 @@ author = copyright = "The mdr-friction developers"
 version = release = version_of("mdr-friction")
 
 PAGES = {  #: in the order of the navigation, under their headings
-    "Guide": ["tutorial", "springs", "shaken", "own_data", "studies", "extending", "report"],
+    "Guide": ["tutorial", "explorer", "springs", "shaken", "own_data", "studies", "extending", "report"],
     "Physics": ["theory", "limits"],
     "Reference": ["api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
 }

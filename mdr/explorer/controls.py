@@ -54,9 +54,7 @@ class Control:
     @property
     def text(self) -> str:
         """The value as one types it."""
-        if isinstance(self.value, tuple):
-            return str([list(one) if isinstance(one, tuple) else one for one in self.value])
-        return written(self.value) if isinstance(self.value, float) else str(self.value)
+        return _typed(self.value)
 
     def of(self, state: State) -> Control:
         """The control at the value of the state, on the same grid as long as that is on it."""
@@ -79,6 +77,12 @@ def controls_of(state: State) -> dict[str, list[Control]]:
         found[slot] = [_control(state, path) for path in groups if GROUPS[path].startswith(f"{slot}.")]
         found[slot] += [_control(state, f"{slot}.{one.name}", facts_of(one)) for one in free]
     return found
+
+
+def _typed(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_typed, value))}]"
+    return written(value) if isinstance(value, float) else str(value)
 
 
 def _control(state: State, path: str, facts: Facts | None = None) -> Control:

@@ -22,14 +22,15 @@ class Knob:
     def __init__(self, control: Control, change: Change) -> None:
         self.control, self.change, self.showing = control, change, False
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), sizing_mode="stretch_width")
+        listed = isinstance(control.value, tuple)
+        size: dict[str, Any] = {"sizing_mode": "stretch_width"} if listed else {"width": 104}
         if control.words:
-            self.box: Any = pn.widgets.Select(
-                options=list(control.words), value=control.value, width=104, margin=(0, 5)
-            )
+            self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, margin=(0, 5), **size)
         else:
-            self.box = pn.widgets.TextInput(value=control.text, width=104, margin=(0, 5), name="")
+            self.box = pn.widgets.TextInput(value=control.text, margin=(0, 5), name="", **size)
         self.slider: Any = None
-        rows: list[Any] = [pn.Row(self._label(), self.box, sizing_mode="stretch_width", margin=(4, 0, 0, 0))]
+        head = pn.Column if listed else pn.Row
+        rows: list[Any] = [head(self._label(), self.box, sizing_mode="stretch_width", margin=(4, 0, 0, 0))]
         if control.grid:
             self.slider = pn.widgets.IntSlider(
                 start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,

@@ -11,6 +11,7 @@ REFUSALS = (ValueError, TypeError, ArithmeticError, LookupError)  #: what a wron
 HEADING = "font-weight:600;font-size:15px;"
 SMALL = "color:#666;font-size:12.5px;"
 REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
+CELL = "padding-right:14px;white-space:nowrap;vertical-align:top"
 #: wide: controls, curve, springs side by side; narrow: one below the other, and the curve stays in sight
 LAYOUT = """
 :host { display: grid !important; gap: 8px 28px; align-items: start;
@@ -53,9 +54,9 @@ def told(refusal: Exception) -> str:
 
 def table(rows: list[tuple[str, str, str]]) -> str:
     """Name, value and meaning, one row each."""
+    styles = (CELL, CELL + ";font-weight:600", "color:#666")
     cells = "".join(
-        f'<tr><td style="padding-right:14px">{name}</td><td style="padding-right:14px"><b>{value}</b></td>'
-        f'<td style="color:#666">{meaning}</td></tr>'
-        for name, value, meaning in rows
+        "".join(["<tr>", *(f'<td style="{style}">{one}</td>' for style, one in zip(styles, row, strict=True)), "</tr>"])
+        for row in rows
     )
     return f'<table style="font-size:13px;line-height:1.5">{cells}</table>'

@@ -74,7 +74,13 @@ class Picture:
         if self.v_c_back is not None:
             rows.append(("v_c, other way", told(self.v_c_back, "m/s"), "the same, pulled the other way"))
         if self.band is not None:
-            rows.append(("band", f"{self.band.low:.4g} to {self.band.high:.4g}", "F_x over F_z that it holds at rest"))
+            rows.append(
+                (
+                    "band",
+                    f"{self.band.low:.4g} to {self.band.high:.4g}",
+                    "mean F_x over F_z that it holds at rest, held rigidly",
+                )
+            )
         elif not self.state.case.is_shaken:
             rows.append(("COF at rest", f"{self.cof[0]:.4g}", "limit of friction as v_0 → 0"))
         end = "" if run.settled else ", not settled"
