@@ -2,8 +2,9 @@
 
 `python tests/time_of_explorer.py [moves]` prints median and 95 % of them in ms, of three cases. A move is another value
 of one slider, once the picture of the move before is there. "first" is the curve without a bound on its error, with the
-run; "bounded" the curve that replaces it. In the browser the clock runs in the page, from the value to the frame after
-the one that draws.
+run; "bounded" the curve that replaces it, begun after a rest (page.REST). Data are timed without that rest, and in
+brackets by the time of the processor, which other work on the machine does not change. In the browser the clock runs in
+the page, from the value to the frame after the one that draws.
 """
 
 import sys
@@ -49,13 +50,14 @@ def places(control, moves):
 
 
 def in_model(case, moves):
-    """Seconds (moves, 2) from a value to the data of both pictures."""
+    """Milliseconds (moves, 4) from a value to the data of both pictures, by the clock and of the processor."""
     state, times = State.of(case), []
     control = next(one for one in controls_of(state)["oscillation"] if one.path == PATH)
     for place in places(control, moves):
-        begin = time.perf_counter()
+        begin = np.array([time.perf_counter(), time.thread_time()])
         state = state.changed(PATH, control.grid[place])
-        times.append([time.perf_counter() - begin for _ in pictures_of(state)])
+        ends = [np.array([time.perf_counter(), time.thread_time()]) - begin for _ in pictures_of(state)]
+        times.append(np.array(ends).T.ravel())
     return 1e3 * np.array(times)
 
 
@@ -75,14 +77,17 @@ def in_browser(case, moves, folder):
 
 
 def main(moves=50):
-    print(f"{'ms':<18} {'data: first':>20} {'bounded':>16} {'browser: first':>20} {'bounded':>16}")
+    print(f"{'ms: median, 95 %':<18}{'data: first':>20}{'bounded':>20}{'browser: first':>16}{'bounded':>16}")
     for name, case in CASES.items():
         in_model(case, 2)  # compiled code is loaded
         with tempfile.TemporaryDirectory() as folder:
             both = np.hstack([in_model(case, moves), in_browser(case, moves, Path(folder))])
         middle, most = np.median(both, axis=0), np.percentile(both, 95, axis=0)
-        cells = [f"{one:7.0f}, 95 % {two:4.0f}" for one, two in zip(middle, most, strict=True)]
-        print(f"{name:<18} {cells[0]:>20} {cells[1]:>16} {cells[2]:>20} {cells[3]:>16}", flush=True)
+        first, bounded, cpu_first, cpu_bounded, *drawn = [
+            f"{a:.0f}, {b:.0f}" for a, b in zip(middle, most, strict=True)
+        ]
+        cells = f"{f'{first} ({cpu_first})':>20}{f'{bounded} ({cpu_bounded})':>20}"
+        print(f"{name:<18}{cells}{drawn[0]:>16}{drawn[1]:>16}", flush=True)
 
 
 if __name__ == "__main__":

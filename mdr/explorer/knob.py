@@ -16,6 +16,12 @@ from mdr.explorer.state import State
 Change = Callable[[str, Any], str]  #: sets a path to a value; the answer is why it was refused, or ""
 
 
+class Slider(pn.widgets.IntSlider):  # type: ignore[misc]
+    """A slider whose value is taken almost at once."""
+
+    _debounce = 5  # ms in which moves are gathered, 50 in Panel
+
+
 class Knob:
     """The widgets of one control."""
 
@@ -32,7 +38,7 @@ class Knob:
         head = pn.Column if listed else pn.Row
         rows: list[Any] = [head(self._label(), self.box, sizing_mode="stretch_width", margin=(4, 0, 0, 0))]
         if control.grid:
-            self.slider = pn.widgets.IntSlider(
+            self.slider = Slider(
                 start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,
                 sizing_mode="stretch_width", margin=(2, 10, 2, 8), height=14, name="",
                 css_classes=["slider", control.path],

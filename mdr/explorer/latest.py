@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from threading import Lock, Thread
+from threading import Event, Lock, Thread
 from typing import Generic, TypeVar
 
 Request = TypeVar("Request")
@@ -19,15 +19,17 @@ class Latest(Generic[Request, Answer]):
 
     `work(request, watch)` yields answers and calls `watch` now and then, which raises `Superseded`. `deliver(request,
     answer)` is called in the thread of the work, with the exception where the work raised one and None at its end.
+    After each answer the work rests for `rest` seconds, so that the page can show it, and a newer request come.
     """
 
     def __init__(
         self,
         work: Callable[[Request, Callable[[], None]], Iterable[Answer]],
         deliver: Callable[[Request, Answer | Exception | None], None],
+        rest: float = 0.0,
     ) -> None:
-        self.work, self.deliver = work, deliver
-        self.lock = Lock()
+        self.work, self.deliver, self.rest = work, deliver, rest
+        self.lock, self.newer = Lock(), Event()
         self.waiting: list[Request] = []
         self.busy = False
 
@@ -35,6 +37,7 @@ class Latest(Generic[Request, Answer]):
         """Work on this request next, and on no older one."""
         with self.lock:
             self.waiting = [request]
+            self.newer.set()
             if self.busy:
                 return
             self.busy = True
@@ -46,6 +49,8 @@ class Latest(Generic[Request, Answer]):
                 for answer in self.work(request[0], self._watch):
                     self._watch()
                     self.deliver(request[0], answer)
+                    self.newer.wait(self.rest)
+                self._watch()
                 self.deliver(request[0], None)
             except Superseded:
                 continue
@@ -55,6 +60,7 @@ class Latest(Generic[Request, Answer]):
     def _next(self) -> list[Request] | None:
         with self.lock:
             request, self.waiting = self.waiting, []
+            self.newer.clear()
             self.busy = bool(request)
             return request or None
 

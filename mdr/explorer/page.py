@@ -20,6 +20,7 @@ from mdr.explorer.look import HEADING, IN_SIGHT, LAYOUT, PAGE, REFUSALS, SMALL, 
 from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 
+REST = 0.1  #: s between the first sight of a curve and the work on a better one
 FIRST_SIGHT = "first sight, its error is not bounded yet"
 BOUNDED = f"error of friction ≤ {ACCURACY:g} μ<sub>0</sub>, where settled; hollow points are not"
 
@@ -31,7 +32,7 @@ class Page:
         self.state, self.document, self.loaded = state, pn.state.curdoc, False
         self.alert, self.status, self.numbers, self.said, self.legend = (html() for _ in range(5))
         self.figures, self.keep = Figures(), Keep(self._load, self._refuse)
-        self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
+        self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show), REST)
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
         self.board = Board(state, self.change, self.choose, self._hold)
         self._refuse(refusal)

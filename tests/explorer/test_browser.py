@@ -125,6 +125,13 @@ def test_the_case_is_downloaded_and_loaded_again(browser):
     assert browser.value("indenter.a") == "0.002"
 
 
+def test_figures_are_downloaded(browser):
+    for label, name in (("Curve (SVG)", "curve.svg"), ("Springs and forces (SVG)", "run.svg")):
+        browser.button(label)
+        path = browser.folder / name
+        browser.until(lambda path=path: path.exists() and path.read_bytes().endswith(b"</svg>\n"))
+
+
 def test_the_verdict_when_asked(browser):
     browser.button("Judge")
     said = browser.until(lambda: [line for line in browser.text(".verdict") if line.startswith("Eq. (15)")])
