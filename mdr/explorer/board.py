@@ -46,15 +46,15 @@ class Board:
         """Stand at a state; `anew` also moves every grid there."""
         self.state, case = state, state.case
         kinds = [kind_of(case, slot) for slot in KINDS]
-        built = (state.in_groups, case.is_shaken, *kinds, *group_values(case))
+        built = (state.in_groups, state.v_c is None, case.is_shaken, *kinds, *group_values(case))
         if anew or self.built != built:
             self.built, self.knobs = built, {}
             for slot, controls in controls_of(state).items():
                 made = [Knob(one, self.change) for one in controls]
                 self.knobs |= {knob.control.path: knob for knob in made}
                 self.parts[slot].objects = [knob.view for knob in made]
-            for slot, kind in zip(KINDS, kinds, strict=True):
-                self.kinds[slot][0].value, self.kinds[slot][1].object = kind, ""
+        for slot, kind in zip(KINDS, kinds, strict=True):
+            self.kinds[slot][0].value, self.kinds[slot][1].object = kind, ""
         for knob in self.knobs.values():
             knob.show(state)
 

@@ -11,7 +11,7 @@ Answer = TypeVar("Answer")
 
 
 class Superseded(Exception):
-    """A newer request has come."""
+    """A newer request has come, or nobody waits for an answer any more."""
 
 
 class Latest(Generic[Request, Answer]):
@@ -31,7 +31,13 @@ class Latest(Generic[Request, Answer]):
         self.work, self.deliver, self.rest = work, deliver, rest
         self.lock, self.newer = Lock(), Event()
         self.waiting: list[Request] = []
-        self.busy = False
+        self.busy = self.dropped = False
+
+    def drop(self) -> None:
+        """Work on nothing more, until asked again."""
+        with self.lock:
+            self.waiting, self.dropped = [], self.busy
+            self.newer.set()
 
     def ask(self, request: Request) -> None:
         """Work on this request next, and on no older one."""
@@ -59,11 +65,11 @@ class Latest(Generic[Request, Answer]):
 
     def _next(self) -> list[Request] | None:
         with self.lock:
-            request, self.waiting = self.waiting, []
+            request, self.waiting, self.dropped = self.waiting, [], False
             self.newer.clear()
             self.busy = bool(request)
             return request or None
 
     def _watch(self) -> None:
-        if self.waiting:
+        if self.waiting or self.dropped:
             raise Superseded

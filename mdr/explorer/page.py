@@ -91,6 +91,7 @@ class Page:
         self.state = state
         self.board.show(state, anew)
         self.said.object = ""
+        self.verdicts.drop()
         if self.loaded:
             self._tell("computing …")
             self.pictures.ask(state)

@@ -174,8 +174,15 @@ def test_only_the_latest_request_is_answered():
     assert done.wait(10)
     assert answered == [("third", "third"), ("third", None)]
     done.clear()
+    begun.clear()
+    go.clear()
+    latest.ask("dropped")
+    begun.wait(10)
+    latest.drop()
+    go.set()
     latest.ask("wrong")
     assert done.wait(10)
+    assert [request for request, _ in answered] == ["third", "third", "wrong"]
     assert isinstance(answered[-1][1], ValueError)
 
 
