@@ -57,11 +57,12 @@ class Control:
         return _typed(self.value)
 
     def of(self, state: State) -> Control:
-        """The control at the value of the state, on the same grid as long as that is on it."""
+        """The control at the value of the state, on the same grid as long as that suits."""
         value = state.value(self.path)
-        if not self.grid or self.grid[0] <= value <= self.grid[-1]:
-            return replace(self, value=value)
-        return _control(state, self.path, self.facts)
+        known = not self.grid or self.grid[0] <= value <= self.grid[-1]
+        if self.path == "v_0":  # of a case whose velocity scale has moved
+            known &= 1.0 <= self.grid[-1] / velocity_scale(state.case) <= 3 * VELOCITIES_TO
+        return replace(self, value=value) if known else _control(state, self.path, self.facts)
 
 
 def controls_of(state: State) -> dict[str, list[Control]]:

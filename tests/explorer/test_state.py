@@ -102,6 +102,8 @@ def test_what_is_typed_beyond_the_grid_moves_it():
     state = State.of(CASES["body"]).changed("indenter.R", 7.0)
     control = controls_of(State.of(CASES["body"]))["indenter"][0].of(state)
     assert control.grid[control.place] == pytest.approx(7.0)
+    wild = State.of(CASES["body"]).changed("oscillation.du_z", 1.9e-5)  # v_c is ten times what it was
+    assert controls_of(State.of(CASES["body"]))[""][1].of(wild).grid[-1] > mdr.critical_velocity(wild.case)
 
 
 def test_groups_are_held_while_fields_change():
