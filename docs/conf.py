@@ -15,7 +15,7 @@ author = copyright = "The mdr-friction developers"
 version = release = version_of("mdr-friction")
 
 PAGES = {  #: in the order of the navigation, under their headings
-    "Guide": ["tutorial", "rig", "recipes", "questions", "gallery", "springs", "exercises"],
+    "Guide": ["tutorial", "explorer", "rig", "recipes", "questions", "gallery", "springs", "exercises"],
     "In depth": ["shaken", "own_data", "studies", "extending"],
     "Physics": ["claims", "theory", "limits", "report", "glossary"],
     "Reference": ["api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],

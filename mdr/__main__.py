@@ -1,5 +1,5 @@
 """The command line: `mdr velocity`, `run`, `curve`, `measure`, `verdict` and `fit` of a case file, `mdr sweep` of a
-study file, `mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
+study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -19,7 +19,7 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import begin, completion, curve, fit, judge, run, sweep, velocity
+from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
 from mdr.files.case_files import CaseFileError, read_case
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
@@ -119,6 +119,9 @@ def parser() -> argparse.ArgumentParser:
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)
     sweep.add_options(command)
+    explore.add_options(
+        _command(commands, "explore", explore.explore, "a page in the browser to try a case with sliders")
+    )
     named = "the shapes, materials and motions that a file can name, and their keys"
     _command(commands, "shapes", begin.shapes, named)
     begin.add_options(_command(commands, "case", begin.case, "a commented case file to begin with"))

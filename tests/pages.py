@@ -3,8 +3,8 @@
 What a block is, its language says; every language has its rule, and one without a rule is refused.
 
     python        run, in the names that the blocks above it left
-    sh            lines of mdr and sed, and validation --quick --only, are run; other commands are looked up among
-                  those that are run elsewhere
+    sh            lines of mdr and sed, and validation --quick --only, are run, but mdr explore is only understood;
+                  other commands are looked up among those that are run elsewhere
     toml          read as a case or as a study; one that is commented "# name.toml" in its first line is written there
     json          parsed
     text          what the block above it prints: the same words, and numbers to 1 in 1000
@@ -154,8 +154,11 @@ def captured() -> Iterator[io.StringIO]:
 
 def mdr_command(words: list[str]) -> str:
     """The command line, in this process, with > file and $VARIABLES; returns what it prints."""
-    from mdr.__main__ import main
+    from mdr.__main__ import main, parser
 
+    if words[0] == "explore":  # which serves until it is interrupted
+        parser().parse_args(words)
+        return ""
     target = None
     if ">" in words:
         words, target = words[: words.index(">")], words[words.index(">") + 1]

@@ -26,6 +26,7 @@ ORDER = (
     ("friction",),
     ("studies",),
     ("plots",),
+    ("explorer",),
     ("commands",),
 )
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}

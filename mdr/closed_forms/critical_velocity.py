@@ -9,7 +9,7 @@ from mdr.case.contact import SlidingContact
 from mdr.case.in_plane import sign_of
 from mdr.case.motion import LoadOscillation
 from mdr.closed_forms.paper import eq_1, eq_15, linear_critical_velocity
-from mdr.normal.resolved import at_rest
+from mdr.normal.resolved import at_rest, resolved
 
 
 def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
@@ -108,6 +108,15 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     n_omega = case.omega * np.arange(1, size + 1)
     H_n = np.asarray(pull.receptance(n_omega))
     return linear_critical_velocity(case.mu_0, case.omega, u_n, kappa, case.dynamic_stiffness(n_omega), H_n, X_n)
+
+
+def velocity_scale(case: SlidingContact) -> float:
+    """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero."""
+    v_c = critical_velocity(case)
+    if np.isfinite(v_c) and v_c > 0:
+        return v_c
+    known = resolved(case)
+    return known.pace if np.isfinite(known.pace) else known.unit_velocity
 
 
 def _depth_harmonics(case: SlidingContact) -> NDArray[np.complex128]:

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import (
     DONE,
     FAILED,
@@ -28,7 +29,6 @@ from mdr.commands.velocities import (
     let_values_be_negative,
     stand_in_of_v_c,
     velocity_in,
-    velocity_scale,
 )
 from mdr.commands.velocity import Ends
 

@@ -9,9 +9,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.commands.output import WrongInput
-from mdr.normal.resolved import resolved
 from mdr.tools.written import UNITS
 
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
@@ -59,15 +58,6 @@ def velocity_in(usual: str) -> Callable[[str], Velocity]:
         return Velocity(number * _UNITS[unit], unit == OF_V_C)
 
     return read
-
-
-def velocity_scale(case: SlidingContact) -> float:
-    """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero."""
-    v_c = critical_velocity(case)
-    if _is_scale(v_c):
-        return v_c
-    known = resolved(case)
-    return known.pace if math.isfinite(known.pace) else known.unit_velocity
 
 
 def stand_in_of_v_c(case: SlidingContact) -> str:

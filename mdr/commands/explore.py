@@ -1,0 +1,69 @@
+"""`mdr explore`: a page in the browser with the controls of a case and what they change."""
+
+from __future__ import annotations
+
+import argparse
+
+from mdr.case.contact import SlidingContact
+from mdr.commands.output import DONE, WrongInput, print_json
+from mdr.files.case_files import CaseFileError, read_case
+
+PORT = 5006
+INSTALL = (
+    "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
+    "python3 -m pip --python .venv install -e '.[explore]'"
+)
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """The case, the port, and whether a browser is opened."""
+    command.add_argument(
+        "case", metavar="case.toml", nargs="?", help="the case file (default: the example of mdr case)"
+    )
+    command.add_argument("--port", type=_port, default=PORT, help=f"port, 0 for a free one (default: {PORT})")
+    command.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
+
+
+def explore(args: argparse.Namespace, _: None) -> int:
+    """Serve the page on this machine alone, until Ctrl-C."""
+    case = _case(args.case)
+    try:
+        from mdr.explorer.server import server_of
+    except ModuleNotFoundError as missing:
+        if missing.name is None or missing.name.partition(".")[0] not in ("panel", "bokeh"):
+            raise
+        raise WrongInput(INSTALL.format(missing=missing)) from None
+    try:
+        server, address = server_of(case, args.port)
+    except OSError as taken:
+        reason = taken.strerror or taken
+        raise WrongInput(
+            f"port {args.port} cannot be used ({reason}); give another, or --port 0 for a free one"
+        ) from None
+    server.start()
+    if args.json:
+        print_json(args, {"address": address}, case)
+    else:
+        print(f"mdr explore: {address} on this machine alone; end it with Ctrl-C", flush=True)
+    if not args.no_browser:
+        server.show("/")
+    try:
+        server.io_loop.start()
+    except KeyboardInterrupt:  # how it is meant to end
+        server.stop()
+    return DONE
+
+
+def _case(path: str | None) -> SlidingContact:
+    from mdr.files.examples import example
+
+    try:
+        return read_case(path) if path is not None else example()
+    except CaseFileError as fault:
+        raise WrongInput(str(fault)) from None
+
+
+def _port(text: str) -> int:
+    if not text.isascii() or not text.isdigit() or int(text[:9]) > 65535:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 65535, got {text!r}")
+    return int(text)

@@ -1,0 +1,141 @@
+"""What can be set in a state, and to which values: one control for each field, group or velocity.
+
+Unit and meaning are those of the field. A slider moves on a grid: a decade to both sides of the first value on a
+logarithmic scale, or the whole range where it has two ends. What is typed may lie beyond; the grid then moves there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mdr.case.contact import KINDS, as_given
+from mdr.case.in_plane import PLACES
+from mdr.case.units import facts_at
+from mdr.closed_forms.critical_velocity import velocity_scale
+from mdr.explorer.links import written
+from mdr.explorer.scales import group_values, scales_of
+from mdr.explorer.state import State
+from mdr.normal.vary import GROUPS
+from mdr.tools.checks import positive
+from mdr.tools.fields import Facts, Rule, facts_of
+
+POINTS = 200  #: of a grid, half of them on each side of the first value
+DECADE = 10.0  #: up and down from the first value
+GROUPS_FROM_TO = (1e-2, 10.0)
+VELOCITIES_TO = 1.5  #: of the velocity scale
+RATIOS = sorted({p / q for p in range(1, 5) for q in range(1, 5)})  #: of the frequency of a shake
+HIDDEN = ("du_y", "phi_y", "y_cos", "y_sin")  #: across the pull, where nothing may move
+
+
+@dataclass(frozen=True)
+class Control:
+    """One quantity that can be set."""
+
+    path: str
+    facts: Facts
+    value: Any
+    grid: tuple[float, ...] = ()  #: where a slider can stand, rising; empty where it has none
+    words: tuple[str, ...] = ()  #: what can be chosen, of a word
+
+    @property
+    def name(self) -> str:
+        """The field, without its part."""
+        return self.path if self.path in GROUPS else self.path.rpartition(".")[2]
+
+    @property
+    def place(self) -> int:
+        """Where on the grid the slider stands: the nearest value."""
+        return int(np.argmin(np.abs(np.array(self.grid) - self.value)))
+
+    @property
+    def text(self) -> str:
+        """The value as one types it."""
+        return _typed(self.value)
+
+    def of(self, state: State) -> Control:
+        """The control at the value of the state, on the same grid as long as that suits."""
+        value = state.value(self.path)
+        known = not self.grid or self.grid[0] <= value <= self.grid[-1]
+        if self.path == "v_0":  # of a case whose velocity scale has moved
+            known &= 1.0 <= self.grid[-1] / velocity_scale(state.case) <= 3 * VELOCITIES_TO
+        return replace(self, value=value) if known else _control(state, self.path, self.facts)
+
+
+def controls_of(state: State) -> dict[str, list[Control]]:
+    """The controls of a state, under the part that they belong to; "" are those of the contact as a whole."""
+    case = as_given(state.case)
+    groups = group_values(case) if state.in_groups else {}
+    taken = {GROUPS[path] for path in groups}
+    found = {"": [_control(state, "mu_0"), _control(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
+    for slot in KINDS:
+        part = getattr(case, slot)
+        own = [one for one in fields(part) if one.init] if is_dataclass(part) else []
+        free = [one for one in own if f"{slot}.{one.name}" not in taken and one.name not in HIDDEN]
+        found[slot] = [_control(state, path) for path in groups if GROUPS[path].startswith(f"{slot}.")]
+        found[slot] += [_control(state, f"{slot}.{one.name}", facts_of(one)) for one in free]
+    return found
+
+
+def _typed(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_typed, value))}]"
+    return written(value) if isinstance(value, float) else str(value)
+
+
+def _control(state: State, path: str, facts: Facts | None = None) -> Control:
+    facts = facts or facts_at(path)
+    value = state.value(path)
+    if isinstance(value, str):
+        return Control(path, facts, value, words=PLACES if path.endswith(".at") else ())
+    return Control(
+        path,
+        facts,
+        value,
+        () if isinstance(value, tuple) else tuple(float(one) for one in _grid(state, path, facts, value)),
+    )
+
+
+def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float]:
+    """Values of a slider, which the rule of the field accepts."""
+    name = path.rpartition(".")[2]
+    if path in ("v_0", "v_0/v_c"):
+        return _velocities(state, path, value)
+    if path in GROUPS:
+        low, high = GROUPS_FROM_TO
+        both = np.geomspace(min(low, abs(value) or low), max(high, abs(value)), POINTS + 1)
+        return _accepted(both, positive if path == "omega_0/omega" else facts_at(GROUPS[path]).rule, name)
+    if path == "shake.omega" and state.case.oscillation.omega:
+        return sorted({*(ratio * state.case.oscillation.omega for ratio in RATIOS), value})
+    if facts.unit == "rad" and _accepts(facts.rule, name, -1.0):
+        return np.linspace(-np.pi, np.pi, POINTS + 1)
+    if facts.unit == "-" and not _accepts(facts.rule, name, DECADE):  # a ratio with two ends
+        return _accepted(np.linspace(0.0, 1.0, POINTS + 1), facts.rule, name)
+    if value < 0 or (value == 0 and name == "u_z0"):
+        reach = DECADE * (abs(value) or scales_of(state.case)[name])
+        return np.linspace(-reach, reach, POINTS + 1)
+    middle = value or scales_of(state.case).get(name, 1.0)
+    return _accepted(middle * np.geomspace(1 / DECADE, DECADE, POINTS + 1), facts.rule, name)
+
+
+def _velocities(state: State, path: str, value: float) -> Iterable[float]:
+    """Pulling velocities of a slider: of both signs where something shakes in the plane."""
+    unit = 1.0 if path == "v_0/v_c" else velocity_scale(state.case)
+    top = max(VELOCITIES_TO * unit, abs(value))
+    return np.linspace(-top, top, POINTS + 1) if state.case.is_shaken else np.linspace(0, top, POINTS + 1)[1:]
+
+
+def _accepted(values: Iterable[float], rule: Rule | None, name: str) -> list[float]:
+    """The values that a rule accepts, to three digits, and zero where it is the least that it accepts."""
+    rounded = [*([] if _accepts(rule, name, -1.0) else [0.0]), *(float(f"{value:.3g}") for value in values)]
+    return sorted({value for value in rounded if _accepts(rule, name, value)})
+
+
+def _accepts(rule: Rule | None, name: str, value: float) -> bool:
+    try:
+        return rule is None or rule(name, value, "") is not None
+    except (TypeError, ValueError):
+        return False

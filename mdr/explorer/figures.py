@@ -1,0 +1,141 @@
+"""The figures of the page, in Bokeh: friction over velocity, springs over a period, forces over a period."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from bokeh.models import ColumnDataSource, LinearColorMapper, Range1d, Span
+from bokeh.plotting import figure
+
+from mdr.explorer.pictures import Picture
+from mdr.plots import COLOURS, MODES, periods_of, prefix
+
+GREY, DARK = "#bbbbbb", "#666666"
+EMPTY = 0.1  #: of mu_0: least height of the curve's axis
+
+
+def swatches(*named: tuple[str, str]) -> str:
+    """A legend as HTML: names and colours."""
+    box = "display:inline-block;width:12px;height:12px;border-radius:2px;margin:0 5px -1px 12px;border:1px solid #0002;"
+    return "".join(f'<span style="{box}background:{colour}"></span>{name}' for name, colour in named)
+
+
+SPRINGS_LEGEND = swatches(*((name, colour) for name, colour in MODES))
+FORCES_LEGEND = swatches(("F<sub>x</sub>", "#000000"), ("μ<sub>0</sub> F<sub>z</sub>, the limit", GREY))
+CURVE_LEGEND = swatches(("friction", COLOURS[0]), ("the run at v<sub>0</sub>", COLOURS[1]))
+CURVE_LEGEND += f'<span style="border-left:2px dotted {DARK};margin:0 6px 0 14px"></span>v<sub>c</sub>'
+BAND_LEGEND = swatches(("held at rest", COLOURS[2]))
+
+
+class Figures:
+    """Three figures and their data; `show` puts a picture into all of them."""
+
+    def __init__(self) -> None:
+        self.curve = _figure(320, "pulling velocity", "coefficient of friction μ")
+        self.forces = _figure(230, "time [periods]", "force")
+        self.springs = _figure(250, "time [periods]", "position of the spring x", x_range=self.forces.x_range)
+        self.forces.x_range.start, self.forces.x_range.end = 0.0, 1.0
+        self._draw_curve()
+        self._draw_forces()
+        self.modes = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []})
+        mapper = LinearColorMapper(palette=[colour for _, colour in MODES], low=-0.5, high=len(MODES) - 0.5)
+        self.springs.image("image", "x", "y", "dw", "dh", source=self.modes, color_mapper=mapper)
+
+    def _draw_curve(self) -> None:
+        self.line = ColumnDataSource({"v_0": [], "cof": []}, name="curve")
+        self.points = ColumnDataSource({"v_0": [], "cof": [], "fill": []})
+        self.held = ColumnDataSource({"v_0": [], "low": [], "high": []})
+        self.run = ColumnDataSource({"v_0": [], "cof": []})
+        self.limits = [Span(dimension="width", line_color=GREY, line_width=1) for _ in range(2)]
+        self.critical = [Span(dimension="height", line_color=DARK, line_dash="dotted") for _ in range(2)]
+        for span in (*self.limits, *self.critical):
+            self.curve.add_layout(span)
+        self.curve.segment("v_0", "low", "v_0", "high", source=self.held, line_width=6, color=COLOURS[2])
+        self.curve.line("v_0", "cof", source=self.line, line_width=2, color=COLOURS[0])
+        self.curve.scatter("v_0", "cof", source=self.points, size=5, fill_color="fill", line_color=COLOURS[0])
+        self.curve.scatter("v_0", "cof", source=self.run, size=11, color=COLOURS[1])
+
+    def _draw_forces(self) -> None:
+        self.over_time = ColumnDataSource({"t": [], "F_x": [], "low": [], "high": []})
+        self.forces.varea("t", "low", "high", source=self.over_time, color="#e9e9e9")
+        self.forces.line("t", "low", source=self.over_time, color=GREY, line_width=1.5)
+        self.forces.line("t", "high", source=self.over_time, color=GREY, line_width=1.5)
+        self.forces.line("t", "F_x", source=self.over_time, color="#000000", line_width=1.8)
+
+    def show(self, picture: Picture) -> None:
+        """Put a picture into the figures."""
+        self._show_curve(picture)
+        self._show_forces(picture)
+        factor, unit = prefix([picture.reach], "m")
+        reach = picture.reach * factor
+        self.modes.data = {"image": [picture.springs], "x": [0], "y": [0], "dw": [1], "dh": [reach]}
+        _span(self.springs.y_range, 0.0, reach)
+        self.springs.yaxis.axis_label = f"position of the spring x [{unit}]"
+
+    def _show_curve(self, picture: Picture) -> None:
+        state, mu_0 = picture.state, picture.state.case.mu_0
+        if state.in_groups and state.v_c:
+            factor, label = 1 / state.v_c, "pulling velocity v₀/v_c"
+        else:
+            factor, unit = prefix(picture.v_0, "m/s")
+            label = f"pulling velocity v₀ [{unit}]"
+        v, cof = picture.v_0 * factor, picture.cof
+        settled = np.ones(v.size, dtype=bool) if picture.curve is None else picture.curve.settled
+        bounded = picture.curve is not None
+        self.line.data = {"v_0": v, "cof": cof}
+        fill = np.where(settled, COLOURS[0], "#ffffff").tolist()
+        self.points.data = {"v_0": v, "cof": cof, "fill": fill} if bounded else {"v_0": [], "cof": [], "fill": []}
+        self.run.data = {"v_0": [state.v_0 * factor], "cof": [picture.run.cof]}
+        held = [picture.band] if picture.band is not None else []
+        self.held.data = {
+            "v_0": [0.0] * len(held),
+            "low": [one.low for one in held],
+            "high": [one.high for one in held],
+        }
+        both = state.case.is_shaken
+        marks = [picture.v_c, -picture.v_c_back if picture.v_c_back is not None else np.nan]
+        for span, at in zip(self.critical, marks, strict=True):
+            span.visible, span.location = bool(np.isfinite(at)), float(at * factor) if np.isfinite(at) else 0.0
+        for span, sign in zip(self.limits, (1, -1), strict=True):
+            span.visible, span.location = sign > 0 or both, sign * mu_0
+        least = min(float(cof.min()), picture.run.cof, (1 - EMPTY) * mu_0)
+        room = 0.06 * (mu_0 - least)
+        _span(self.curve.y_range, least - room, max(mu_0, float(cof.max())) + room)
+        _span(self.curve.x_range, float(v[0] if both else -0.02 * v[-1]), 1.01 * float(v[-1]))
+        self.curve.xaxis.axis_label = label
+
+    def _show_forces(self, picture: Picture) -> None:
+        run = picture.run
+        assert run.F_x is not None
+        assert run.F_z is not None
+        limit = picture.state.case.mu_0 * run.F_z
+        factor, unit = prefix(np.concatenate([run.F_x, limit]), "N")
+        turns = float(run.F_x.min()) < -1e-9 * float(limit.max())
+        low = (-limit if turns else run.F_x) * factor
+        self.over_time.data = {"t": periods_of(run), "F_x": run.F_x * factor, "low": low, "high": limit * factor}
+        top = 1.05 * float(limit.max()) * factor
+        _span(self.forces.y_range, -top if turns else 0.0, top)
+        self.forces.yaxis.axis_label = f"force [{unit}]"
+
+
+def _figure(height: int, x_label: str, y_label: str, x_range: Any = None) -> Any:
+    """An empty figure in the style of the project's plots."""
+    made = figure(
+        height=height, sizing_mode="stretch_width", toolbar_location="right",
+        active_drag=None, x_range=x_range or Range1d(0, 1), y_range=Range1d(0, 1), tools="box_zoom,reset,save",
+    )  # fmt: skip
+    made.toolbar.logo = None
+    made.outline_line_color = None
+    made.grid.grid_line_color = "#f0f0f0"
+    made.axis.minor_tick_line_color = None
+    made.axis.axis_label_text_font_style = "normal"
+    made.axis.axis_line_color = made.axis.major_tick_line_color = DARK
+    made.xaxis.axis_label, made.yaxis.axis_label = x_label, y_label
+    made.xaxis.ticker.desired_num_ticks = 5
+    return made
+
+
+def _span(axis: Any, start: float, end: float) -> None:
+    """What an axis spans, also after a reset."""
+    axis.update(start=start, end=end, reset_start=start, reset_end=end)

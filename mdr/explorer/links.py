@@ -1,0 +1,87 @@
+"""The state of the explorer as a link and as a Python script; and what is typed into it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+from urllib.parse import urlencode
+
+import numpy as np
+
+from mdr.case.contact import as_given
+from mdr.explorer.state import State
+from mdr.files.case_files import parse_case, write_case
+
+LONGEST = 8000  #: characters of a link; a longer one is cut by some programs
+
+
+def link_of(state: State) -> str:
+    """The state as a query string; empty where it would be too long, as with a measured profile."""
+    table, values = "", {}
+    for line in write_case(state.case).splitlines():
+        key, equals, value = line.partition(" = ")
+        if equals:
+            values[table + key] = value
+        elif line:
+            table = line.strip("[]") + "."
+    link = urlencode({**values, "v_0": repr(state.v_0), **({"groups": "true"} if state.in_groups else {})})
+    return link if len(link) <= LONGEST else ""
+
+
+def state_of(query: Mapping[str, str]) -> State:
+    """The state that a link carries. Raises CaseFileError, or ValueError, with what is wrong in it."""
+    keys = dict(query)
+    v_0, groups = keys.pop("v_0", ""), keys.pop("groups", "")
+    state = State.of(parse_case("\n".join(f"{key} = {value}" for key, value in keys.items()), "link"))
+    state = replace(state, in_groups=groups == "true")
+    return state.changed("v_0", number(v_0)) if v_0 else state
+
+
+def python_of(state: State) -> str:
+    """The state as a Python script."""
+    case = as_given(state.case)
+    parts = {one.name: getattr(case, one.name) for one in fields(case)}
+    written = [f"    {name}={_called(part)}," for name, part in parts.items() if part is not None]
+    calls = ["curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)"]
+    lines = [
+        "import mdr",
+        "",
+        "case = mdr.SlidingContact(",
+        *written,
+        ")",
+        f"v_0 = {_called(state.v_0)}  # m/s",
+        *calls,
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def written(value: float) -> str:
+    """A number to five digits, as one types it: 20e-6, 3e6, 0.05."""
+    power = 3 * int(np.floor(np.log10(abs(value)) / 3)) if value else 0
+    return f"{value:.5g}" if -3 <= power <= 3 else f"{value / 10.0**power:.5g}e{power}"
+
+
+def _called(value: Any) -> str:
+    """A value, or the call that makes a record, without fields that have their default."""
+    if isinstance(value, float):
+        text = written(value)
+        return text if float(text) == value else repr(value)
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_called, value))}{',' if len(value) == 1 else ''})"
+    if not is_dataclass(value):
+        return repr(value)
+    given = {one.name: getattr(value, one.name) for one in fields(value) if one.init}
+    usual = {one.name: one.default for one in fields(value)}
+    told = [f"{name}={_called(one)}" for name, one in given.items() if one != usual[name]]
+    return f"mdr.{type(value).__name__}({', '.join(told)})"
+
+
+def number(text: str) -> Any:
+    """What a text means, as in a case file: a number, a list or a word; the text itself where it is none of these."""
+    import tomllib
+
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except (ValueError, RecursionError):
+        return text

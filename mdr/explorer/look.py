@@ -1,0 +1,62 @@
+"""How the page looks: its layout, wide and narrow, and small pieces of HTML."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+import panel as pn
+
+REFUSALS = (ValueError, TypeError, ArithmeticError, LookupError)  #: what a wrong number or file raises
+HEADING = "font-weight:600;font-size:15px;"
+SMALL = "color:#666;font-size:12.5px;"
+REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
+CELL = "padding-right:14px;white-space:nowrap;vertical-align:top"
+#: wide: controls, curve, springs side by side; narrow: one below the other, and the curve stays in sight
+LAYOUT = """
+:host { display: grid !important; gap: 8px 28px; align-items: start;
+        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-rows: auto auto 1fr;
+        grid-template-areas: "controls curve springs" "controls numbers springs" "controls files files"; }
+@media (max-width: 1150px) { :host {
+        grid-template-columns: 330px minmax(0, 1fr); grid-template-rows: auto auto auto 1fr;
+        grid-template-areas: "controls curve" "controls numbers" "controls springs" "controls files"; } }
+@media (max-width: 720px) { :host {
+        grid-template-columns: minmax(0, 1fr); grid-template-rows: auto;
+        grid-template-areas: "curve" "controls" "numbers" "springs" "files"; } }
+"""
+IN_SIGHT = """
+@media (max-width: 720px) { :host { position: sticky !important; top: 0; z-index: 5; background: white; } }
+"""
+PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
+
+
+def area(name: str, *parts: Any, sheet: str = "") -> Any:
+    """Parts one below the other, in an area of the layout."""
+    return pn.Column(*parts, styles={"grid-area": name}, sizing_mode="stretch_width", stylesheets=[sheet])
+
+
+def html(text: str = "", style: str = "") -> Any:
+    """A line of HTML."""
+    text = f'<span style="{style}">{text}</span>' if style else text
+    return pn.pane.HTML(text, margin=(2, 5), sizing_mode="stretch_width")
+
+
+def refused(words: str) -> str:
+    """What was refused and why, as HTML; empty where nothing was."""
+    lines = escape(words).replace("\n", "<br>")
+    return f'<div style="{REFUSED}" class="refused">{lines}</div>' if words else ""
+
+
+def told(refusal: Exception) -> str:
+    """The words of a refusal."""
+    return str(refusal) or type(refusal).__name__
+
+
+def table(rows: list[tuple[str, str, str]]) -> str:
+    """Name, value and meaning, one row each."""
+    styles = (CELL, CELL + ";font-weight:600", "color:#666")
+    cells = "".join(
+        "".join(["<tr>", *(f'<td style="{style}">{one}</td>' for style, one in zip(styles, row, strict=True)), "</tr>"])
+        for row in rows
+    )
+    return f'<table style="font-size:13px;line-height:1.5">{cells}</table>'

@@ -1,0 +1,138 @@
+"""What is computed of a state: first a curve without a bound on its error, then one with; the forces and springs.
+
+Both come of the same functions as everywhere, with few points and a coarse accuracy, to be there at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
+from mdr.explorer.state import State
+from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
+from mdr.friction.shaken import HoldingBand, holding_band
+from mdr.friction.verdict import verdict
+from mdr.march.run import SlidingRun
+from mdr.march.slide import slide
+from mdr.normal.resolved import resolved
+from mdr.plots import edges_of, prefix
+from mdr.tools.arrays import Array
+from mdr.tools.progress import silent, time_limit
+
+ACCURACY = 1e-3  #: of the curve and the run, over mu_0
+POINTS = 13  #: of a curve on each side of zero
+LEAST = 0.004  #: of the velocity scale: beside zero, where friction of a shaken contact jumps
+UP_TO, FARTHEST = 1.35, 3.0  #: of that scale: end of the curve, and where it ends if v_0 lies beyond
+FIRST = (48, 128)  #: springs and steps of the curve without a bound
+RUN = (96, 256)  #: springs and steps of the run
+ROWS = 120  #: of the picture of the springs
+PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
+LONGEST_VERDICT = 120.0  #: s of computing, after which a verdict ends without a measurement
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What is shown of a state."""
+
+    state: State
+    run: SlidingRun
+    v_0: Array  #: velocities of the curve [m/s], (n,)
+    cof: Array  #: friction at them [-], (n,)
+    v_c: float  #: critical velocity in closed form [m/s]
+    v_c_back: float | None  #: the same the other way, None if nothing shakes in the plane
+    curve: CofCurve | None = None  #: with a bound on its error; None as long as it has none
+    band: HoldingBand | None = None  #: of a contact shaken in the plane
+
+    @property
+    def springs(self) -> NDArray[np.uint8]:
+        """Modes (ROWS, n_t) of the springs from the middle to `reach`, in equal rows."""
+        assert self.run.x is not None
+        assert self.run.state is not None
+        order = np.argsort(self.run.x)
+        rows = (np.arange(ROWS) + 0.5) / ROWS * self.reach
+        nearest = np.searchsorted(edges_of(self.run.x[order])[1:-1], rows)
+        return self.run.state[:, order[nearest]].T
+
+    @property
+    def reach(self) -> float:
+        """Position of the outermost spring [m]."""
+        assert self.run.x is not None
+        return float(self.run.x.max())
+
+    @property
+    def numbers(self) -> list[tuple[str, str, str]]:
+        """Name, value and meaning of what one reads off."""
+        run, known = self.run, resolved(self.state.case)
+        depth = known.working_depth
+        a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
+        rows = [("v_c", told(self.v_c, "m/s"), "critical velocity in closed form")]
+        if self.v_c_back is not None:
+            rows.append(("v_c, other way", told(self.v_c_back, "m/s"), "the same, pulled the other way"))
+        if self.band is not None:
+            rows.append(
+                (
+                    "band",
+                    f"{self.band.low:.4g} to {self.band.high:.4g}",
+                    "mean F_x over F_z that it holds at rest, held rigidly",
+                )
+            )
+        elif not self.state.case.is_shaken:
+            rows.append(("COF at rest", f"{self.cof[0]:.4g}", "limit of friction as v_0 → 0"))
+        end = "" if run.settled else ", not settled"
+        return [
+            *rows,
+            ("COF at v_0", f"{run.cof:.4g} ± {run.cof_error:.1g}{end}", "mean F_x over mean F_z of the run"),
+            ("stick", f"{100 * run.stick_share:.3g} %", "share of contact time, weighted by force"),
+            ("F_z", told(run.mean_F_z, "N"), "mean load"),
+            ("a", told(a, "m"), "contact radius at the mean depth"),
+        ]
+
+
+def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Iterator[Picture]:
+    """Pictures of a state, each better than the one before. `watch` may end the work by raising an error."""
+    case = state.case
+    with silent(watch), time_limit(PATIENCE):
+        run = slide(case, state.v_0, n_springs=RUN[0], steps_per_period=RUN[1], record=1, accuracy=ACCURACY)
+        v_0 = velocities_of(state)
+        watch()
+        cof = friction_without_bound(case, v_0, *FIRST)
+        back = critical_velocity(case, -1) if case.is_shaken else None
+        first = Picture(state, run, v_0, cof, critical_velocity(case), back)
+    yield first
+    with silent(watch), time_limit(PATIENCE):
+        curve = cof_curve(case, v_0, accuracy=ACCURACY)
+        second = replace(first, cof=curve.cof, curve=curve, band=holding_band(case) if case.is_shaken else None)
+    yield second
+
+
+def velocities_of(state: State) -> Array:
+    """Velocities [m/s] of the curve: to a little beyond v_c, or to the run; both ways where something shakes."""
+    share = np.linspace(0, 1, POINTS)
+    if not state.case.is_shaken:
+        return share * _end(state, velocity_scale(state.case))
+    share[0] = LEAST
+    back = _end(state, velocity_scale(state.case.mirrored))
+    return np.concatenate([-back * share[::-1], _end(state, velocity_scale(state.case)) * share])
+
+
+def _end(state: State, scale: float) -> float:
+    return min(max(UP_TO * scale, 1.1 * abs(state.v_0)), FARTHEST * scale)
+
+
+def told(value: float, unit: str) -> str:
+    """A number with the prefix that suits it; "infinite" where it is."""
+    if not np.isfinite(value):
+        return "infinite"
+    factor, named = prefix([value], unit)
+    return f"{value * factor:.4g} {named}"
+
+
+def verdict_of(case: SlidingContact, watch: Callable[[], None] = lambda: None) -> Iterator[str]:
+    """The sentence on how good the closed form is for a case."""
+    with silent(watch):
+        yield str(verdict(case, limit_s=LONGEST_VERDICT))

@@ -1,0 +1,196 @@
+"""What is explored, without a browser: every kind of every part, links, scripts, controls, pictures, threads."""
+
+import threading
+from dataclasses import fields, replace
+from urllib.parse import parse_qsl
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+import mdr
+from mdr.case.contact import KINDS
+from mdr.case.units import facts_at
+from mdr.explorer.controls import HIDDEN, controls_of
+from mdr.explorer.latest import Latest, Superseded
+from mdr.explorer.links import link_of, number, python_of, state_of, written
+from mdr.explorer.pictures import ROWS, pictures_of
+from mdr.explorer.scales import group_values
+from mdr.explorer.state import State, kind_of, kinds_of
+from mdr.files.examples import example, example_file
+from mdr.normal.vary import GROUPS
+
+CASES = {
+    "rigid": example(pull="RigidPull"),
+    "body": example(),
+    "load": example(motion="LoadOscillation", material="Prony"),
+    "oblique": example(shake="InPlaneOscillation"),
+    "constant": example(motion="ConstantDepth", pull="RigidPull"),
+    "series": example(motion="PeriodicMotion", shake="InPlaneMotion", material="Elastic"),
+}
+
+
+@pytest.fixture(params=CASES.values(), ids=CASES)
+def state(request):
+    return State.of(request.param)
+
+
+def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
+    body = State.of(CASES["body"])
+    for slot in KINDS:
+        for kind in kinds_of(slot):
+            after = body.with_kind(slot, kind)
+            assert kind_of(after.case, slot) == kind
+            if slot == "material" and kind != "ElasticPair":
+                assert after.case.material.nu == body.case.material.nu
+    assert body.with_kind("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
+    heavy = body.with_kind("oscillation", "LoadOscillation").case
+    assert_allclose(mdr.resolved(heavy).working_depth, body.case.working_depth, rtol=0.05)  # two digits of the load
+
+
+def test_a_link_carries_the_state(state):
+    grouped = replace(state, in_groups=True)
+    for one in (state, grouped):
+        assert state_of(dict(parse_qsl(link_of(one)))) == one
+
+
+def test_a_wrong_link_says_what_is_wrong():
+    with pytest.raises(mdr.CaseFileError, match="did you mean Cone"):
+        state_of({"mu_0": "0.4", "indenter.shape": '"Kone"'})
+    with pytest.raises(ValueError, match="v_0 must be positive"):
+        state_of(dict(parse_qsl(link_of(State.of(CASES["body"])))) | {"v_0": "-1"})
+
+
+def test_script_and_file_make_the_case(state):
+    names = {}
+    exec(python_of(state).partition("curve =")[0], names)
+    assert (names["case"], names["v_0"]) == (state.case, state.v_0)
+    assert mdr.parse_case(example_file(state.case)) == state.case
+
+
+@pytest.mark.parametrize("value", [20e-6, 3e6, 0.05, 314.16, -2e-6, 0.0, 1e-3, 12345.0, 1e-30, 1e30])
+def test_numbers_are_written_as_one_types_them(value):
+    assert number(written(value)) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("in_groups", [False, True], ids=["SI", "groups"])
+def test_every_field_has_a_control_with_its_unit_and_meaning(state, in_groups):
+    state = replace(state, in_groups=in_groups)
+    found = [control for controls in controls_of(state).values() for control in controls]
+    for control in found:
+        assert control.facts.meaning
+        if control.path in GROUPS:
+            assert control.facts == facts_at(control.path)
+        if control.grid:
+            assert list(control.grid) == sorted(set(control.grid))
+            assert control.grid[0] <= control.value <= control.grid[-1]
+            assert state.changed(control.path, control.value).case.mu_0 == state.case.mu_0
+    given = {
+        f"{slot}.{field.name}"
+        for slot in KINDS
+        if getattr(state.case, slot)
+        for field in fields(getattr(state.case, slot))
+        if field.name not in HIDDEN
+    }
+    groups = {GROUPS[path] for path in group_values(state.case)} if in_groups else set()
+    paths = {control.path for control in found}
+    assert given - groups <= paths
+    assert not groups & paths
+
+
+def test_what_is_typed_beyond_the_grid_moves_it():
+    state = State.of(CASES["body"]).changed("indenter.R", 7.0)
+    control = controls_of(State.of(CASES["body"]))["indenter"][0].of(state)
+    assert control.grid[control.place] == pytest.approx(7.0)
+    wild = State.of(CASES["body"]).changed("oscillation.du_z", 1.9e-5)  # v_c is ten times what it was
+    assert controls_of(State.of(CASES["body"]))[""][1].of(wild).grid[-1] > mdr.critical_velocity(wild.case)
+
+
+def test_groups_are_held_while_fields_change():
+    state = replace(State.of(CASES["oblique"]), in_groups=True)
+    before, ratio = group_values(state.case), state.value("v_0/v_c")
+    for path, value in (("material.E", 1e6), ("oscillation.u_z0", 3e-5), ("oscillation.omega", 500.0), ("mu_0", 0.3)):
+        state = state.changed(path, value)
+        assert group_values(state.case) == pytest.approx(before, rel=1e-9)
+        assert state.value("v_0/v_c") == pytest.approx(ratio, rel=1e-9)
+    after = state.changed("alpha", 0.2)
+    assert after.case.alpha == pytest.approx(0.2)
+
+
+def test_a_shake_follows_the_frequency_of_the_oscillation():
+    after = State.of(CASES["oblique"]).changed("oscillation.omega", 100.0)
+    assert after.case.shake.omega == 100.0
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "words"),
+    [
+        ("indenter.R", -1.0, "R must be positive"),
+        ("oscillation.u_z0", -1.0, "never touches"),
+        ("material.nu", 0.7, "nu must lie"),
+        ("v_0", 0.0, "v_0 must be positive"),
+        ("v_0", float("nan"), "v_0 must be a finite number"),
+        ("mu_0", 10**400, "mu_0 must be a finite number"),
+    ],
+)
+def test_what_records_refuse_is_refused_in_their_words(path, value, words):
+    with pytest.raises(ValueError, match=words):
+        State.of(CASES["body"]).changed(path, value)
+
+
+def test_pictures_are_those_of_the_library(state):
+    first, last = pictures_of(state)
+    assert first.curve is None
+    exact = mdr.cof_curve(state.case, last.v_0[::7])
+    assert_allclose(last.cof[::7], exact.cof, atol=1e-3 * state.case.mu_0)
+    assert_allclose(first.cof[::7], exact.cof, atol=0.05 * state.case.mu_0)  # no bound: a first sight
+    assert abs(last.run.cof - mdr.slide(state.case, state.v_0).cof) <= 1e-3 * state.case.mu_0
+    assert last.springs.shape == (ROWS, last.run.steps_per_period)
+    assert_array_equal(np.unique(last.springs), np.unique(last.run.state))
+    assert (last.band is not None) == state.case.is_shaken
+    assert all(name and value and meaning for name, value, meaning in last.numbers)
+
+
+def test_only_the_latest_request_is_answered():
+    begun, go, answered, done = threading.Event(), threading.Event(), [], threading.Event()
+
+    def work(request, watch):
+        begun.set()
+        go.wait(10)
+        watch()
+        if request == "wrong":
+            raise ValueError(request)
+        yield request
+
+    def deliver(request, answer):
+        answered.append((request, answer))
+        if answer is None or isinstance(answer, Exception):
+            done.set()
+
+    latest = Latest(work, deliver)
+    latest.ask("first")
+    begun.wait(10)
+    for request in ("second", "third"):
+        latest.ask(request)
+    go.set()
+    assert done.wait(10)
+    assert answered == [("third", "third"), ("third", None)]
+    done.clear()
+    begun.clear()
+    go.clear()
+    latest.ask("dropped")
+    begun.wait(10)
+    latest.drop()
+    go.set()
+    latest.ask("wrong")
+    assert done.wait(10)
+    assert [request for request, _ in answered] == ["third", "third", "wrong"]
+    assert isinstance(answered[-1][1], ValueError)
+
+
+def test_a_picture_is_dropped_on_the_way():
+    def watch():
+        raise Superseded
+
+    with pytest.raises(Superseded):
+        list(pictures_of(State.of(CASES["body"]), watch))
