@@ -11,6 +11,7 @@ REFUSALS = (ValueError, TypeError, ArithmeticError, LookupError)  #: what a wron
 HEADING = "font-weight:600;font-size:15px;"
 SMALL = "color:#666;font-size:12.5px;"
 REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
+DOUBTED = "color:#6b4e00;background:#fff6dc;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
 CELL = "padding-right:14px;white-space:nowrap;vertical-align:top"
 #: wide: controls, curve, springs side by side; narrow: one below the other, and the curve stays in sight
 LAYOUT = """
@@ -45,6 +46,11 @@ def refused(words: str) -> str:
     """What was refused and why, as HTML; empty where nothing was."""
     lines = escape(words).replace("\n", "<br>")
     return f'<div style="{REFUSED}" class="refused">{lines}</div>' if words else ""
+
+
+def doubted(words: str) -> str:
+    """What is unlikely, as HTML."""
+    return f'<div style="{DOUBTED}margin-top:4px" class="doubted">{escape(words)}</div>'
 
 
 def told(refusal: Exception) -> str:

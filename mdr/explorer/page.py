@@ -16,7 +16,7 @@ from mdr.explorer.figures import BAND_LEGEND, CURVE_LEGEND, FORCES_LEGEND, SPRIN
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
-from mdr.explorer.look import HEADING, IN_SIGHT, LAYOUT, PAGE, REFUSALS, SMALL, area, html, refused, table, told
+from mdr.explorer.look import HEADING, IN_SIGHT, LAYOUT, PAGE, REFUSALS, SMALL, area, doubted, html, refused, table, told
 from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 
@@ -122,7 +122,7 @@ class Page:
         self.keep.picture = picture
         self.figures.show(picture)
         self.legend.object = f'<span style="{SMALL}">{CURVE_LEGEND}{BAND_LEGEND if picture.band else ""}</span>'
-        self.numbers.object = table(picture.numbers)
+        self.numbers.object = table(picture.numbers) + "".join(map(doubted, picture.doubts))
         self._tell(BOUNDED if picture.curve else FIRST_SIGHT)
 
     def _tell(self, status: str) -> None:

@@ -20,6 +20,7 @@ from mdr.friction.verdict import verdict
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
+from mdr.normal.rig import plausibility
 from mdr.plots import edges_of, prefix
 from mdr.tools.arrays import Array
 from mdr.tools.progress import silent, time_limit
@@ -63,6 +64,11 @@ class Picture:
         """Position of the outermost spring [m]."""
         assert self.run.x is not None
         return float(self.run.x.max())
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is unlikely of the case, in sentences."""
+        return plausibility(self.state.case)
 
     @property
     def numbers(self) -> list[tuple[str, str, str]]:

@@ -194,3 +194,9 @@ def test_a_picture_is_dropped_on_the_way():
 
     with pytest.raises(Superseded):
         list(pictures_of(State.of(CASES["body"]), watch))
+
+
+def test_what_is_unlikely_is_said_beside_the_numbers():
+    case = replace(example(), oscillation=mdr.NormalOscillation(u_z0=2e-6, du_z=20e-6, omega=300.0))
+    picture = next(pictures_of(State.of(case)))
+    assert picture.doubts == mdr.plausibility(case) != ()
