@@ -16,7 +16,20 @@ from mdr.explorer.figures import BAND_LEGEND, CURVE_LEGEND, FORCES_LEGEND, SPRIN
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
-from mdr.explorer.look import HEADING, IN_SIGHT, LAYOUT, PAGE, REFUSALS, SMALL, area, doubted, html, refused, table, told
+from mdr.explorer.look import (
+    HEADING,
+    IN_SIGHT,
+    LAYOUT,
+    PAGE,
+    REFUSALS,
+    SMALL,
+    area,
+    doubted,
+    html,
+    refused,
+    table,
+    told,
+)
 from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 
