@@ -76,7 +76,8 @@ def _read(args: argparse.Namespace) -> Any:
     """What the file describes; what is unlikely of it is said on standard error. PYTHONWARNINGS=ignore silences it."""
     with warnings.catch_warnings(record=True) as said:
         case = args.read(args.case)
-        for doubt in plausibility(case) if isinstance(case, SlidingContact) else ():
+        base = case if isinstance(case, SlidingContact) else getattr(case, "case", None)  # of a study
+        for doubt in plausibility(base) if base is not None else ():
             warn_outside(doubt)
     for one in said:
         complain(f"warning: {one.message}", DONE)

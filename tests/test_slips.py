@@ -23,7 +23,7 @@ SLIPS = {
     "Paraboloid(None)": "got None",
     "Paraboloid(r=5e-3)": "Paraboloid takes no r; did you mean R?",
     "FlatPunch()": "missing 1 required positional argument: 'a'",
-    "Cone(45)": "of degrees, np.deg2rad",
+    "Cone(45)": "45 degrees are 0.785",
     'Cone("1°")': "theta must be a real number",
     "Profile([0, 1, 2])": "f must be a function of the radius",
     "SampledProfile([0, 1e-3], [0, 1e-5])": "at least 6 numbers",

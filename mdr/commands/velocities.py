@@ -31,7 +31,7 @@ class Velocity(NamedTuple):
         """The velocity [m/s] for a case. Raises WrongInput for a multiple where v_c is infinite or zero."""
         if not self.of_v_c:
             return self.number
-        v_c = critical_velocity(case)
+        v_c = critical_velocity(case, -1 if self.number < 0 else 1)
         if not _is_scale(v_c):
             raise WrongInput(f"{self.number:g}v_c: v_c is {_called(v_c)} here; give the velocity in m/s")
         return self.number * v_c

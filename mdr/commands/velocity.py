@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
-from mdr.normal.doubts import depth_in_doubt, edge
+from mdr.normal.doubts import depth_in_doubt, edge, frequencies
 from mdr.normal.resolved import resolved
 
 if TYPE_CHECKING:
@@ -76,24 +76,32 @@ def _shaken(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE
 
 
+NOT_KNOWN = "not known"  #: the meaning then says why
+
+
 class Size(NamedTuple):
     """The numbers by which a mistake in a case file shows: how large, how steep, how loaded, how stiff."""
 
     contact_radius: float  #: [m]
     edge_slope: float
-    load: float  #: [N], at the mean depth
+    mean_load: float  #: [N], over the period
     k_zc: float  #: [N/m]
     k_xc: float  #: [N/m]
     omega_0_over_omega: float | None  #: None of a rigid pull, infinite of a body without mass
+    at_depth: float  #: of radius, slope and stiffnesses [m]: the mean one, of tapping the greatest
 
     @classmethod
     def of(cls, known: SlidingContact) -> Size:
         """Those of a case of known depth."""
+        from mdr.closed_forms.full_slip import mean_normal_force
+
         d, E_star = depth_in_doubt(known), known.material.E_star
         a, slope = edge(known.indenter, d)
         k_zc = float(known.indenter.stiffness(d, E_star))
-        ratio = None if known.pull.is_rigid else known.pull.omega_0 / known.omega
-        return cls(a, slope, float(known.indenter.force(d, E_star)), k_zc, k_zc / known.material.mindlin_ratio, ratio)
+        ratios = [known.pull.omega_0 / one for one in frequencies(known)]
+        ratio = None if known.pull.is_rigid else min(ratios, key=lambda one: abs(math.log(one)))
+        k_xc = k_zc / known.material.mindlin_ratio
+        return cls(a, slope, mean_normal_force(known), k_zc, k_xc, ratio, d)
 
     @property
     def values(self) -> dict[str, Any]:
@@ -106,12 +114,12 @@ class Size(NamedTuple):
         ratio = self.omega_0_over_omega
         body = "rigid" if ratio is None else "no mass" if math.isinf(ratio) else f"{ratio:.6g}"
         return [
-            ("radius", f"{self.contact_radius:.6g} m", "of the contact at the mean depth"),
+            ("radius", f"{self.contact_radius:.6g} m", f"of the contact at the depth of {self.at_depth:.4g} m"),
             ("slope", f"{self.edge_slope:.6g}", "of the shape at the edge of the contact; well below 1"),
-            ("load", f"{self.load:.6g} N", "at the mean depth"),
+            ("load", f"{self.mean_load:.6g} N", "mean normal force over a period"),
             ("k_zc", f"{self.k_zc:.6g} N/m", "normal stiffness of the contact"),
             ("k_xc", f"{self.k_xc:.6g} N/m", "tangential stiffness of the contact"),
-            ("body", body, "its natural frequency over that of the oscillation, omega_0/omega"),
+            ("body", body, "natural frequency of the body over that of the vibration, omega_0/omega"),
         ]
 
 
@@ -149,13 +157,15 @@ class Ends(NamedTuple):
     def rows(self) -> list[tuple[str, str, str]]:
         """The same in words."""
         band, blocked, free = self
-        one = "a band" if blocked is None else blocked if isinstance(blocked, str) else f"{blocked:.6g}"
-        velocity = free if isinstance(free, str) else f"{free:.6g} m/s"
+        one = "a band" if blocked is None else NOT_KNOWN if isinstance(blocked, str) else f"{blocked:.6g}"
+        at_rest = blocked if isinstance(blocked, str) else "mean F_x over mean F_z where the pull stands still"
+        velocity = NOT_KNOWN if isinstance(free, str) else f"{free:.6g} m/s"
+        unloaded = free if isinstance(free, str) else "velocity at which it runs by itself, without a load"
         held = f"{band.high:.6g} alone" if band.is_one_number else f"{band.low:.6g} to {band.high:.6g}"
         return [
             ("band", held, "mean F_x over mean F_z that it holds at rest, held rigidly"),
-            ("blocked", one, "mean F_x over mean F_z where the pull stands still"),
-            ("no load", velocity, "velocity at which nothing holds it back"),
+            ("blocked", one, at_rest),
+            ("no load", velocity, unloaded),
         ]
 
 

@@ -209,6 +209,7 @@ def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
 def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequence[str] = ()) -> SlidingContact:
     """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
     known = _top_level()
+    axes = content.get("axes") or {}
     content = {key: value for key, value in content.items() if key not in beside}
     if "axes" in content:
         raise fault_error(source, [STUDY])
@@ -224,7 +225,8 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     if faults := [*faults, *refused, *whole]:
         raise fault_error(source, faults)
     assert isinstance(case, SlidingContact)
-    _ask_for_mass(case, content["oscillation"])
+    if "oscillation.m_z" not in axes:
+        _ask_for_mass(case, content["oscillation"])
     return case
 
 
@@ -273,6 +275,8 @@ def _depth_under_load(tables: Mapping[str, Any], parts: Mapping[str, Any]) -> tu
     if {"indenter", "material"} <= set(parts):
         rests, faults = _tried(rest_under_load, given, parts["indenter"], parts["material"])
         found = rests or found
+    if faults:
+        found = {key: value for key, value in found.items() if key not in ("F_z0", "dF_z", "m_z")}
     return {**tables, "oscillation": found}, [f"[oscillation] {fault}" for fault in faults]
 
 
@@ -405,7 +409,8 @@ class _Table:
         if record is SpringPull:
             return {"k_x": "leave [pull] out for a rigid pull"}
         known = SPELLINGS.get(self.name, {})
-        return {one.key: f"or give {alias} [{one.unit}]" for alias, one in known.items()}
+        depth = {"u_z0": "or give load [N]"} if record is NormalOscillation else {}
+        return {one.key: f"or give {alias} [{one.unit}]" for alias, one in known.items()} | depth
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""

@@ -141,6 +141,9 @@ def profile_points(
     return r, f
 
 
+FARTHEST_ORIGIN = 3.0  #: first depth over the widest step, to which the point (0, 0) is added
+
+
 def force_points(path: str | PathLike[str], units: Words, columns: Words, touch: float | None) -> tuple[Array, Array]:
     """Depths [m] from the first touch, and forces [N] at them, both from 0."""
     table = read_table(path, FORCE, units, columns)
@@ -156,6 +159,8 @@ def force_points(path: str | PathLike[str], units: Words, columns: Words, touch:
         d, F = d[d >= touch] - touch, F[d >= touch]
     if d.size and d[0] < 0:
         raise table.fault(f"d = {d[0]:.6g} m is above the surface; give the depth of the first touch as touch=")
+    if d.size > 1 and d[0] > FARTHEST_ORIGIN * float(np.diff(d).max()):
+        raise table.fault(f"the first d is {d[0]:.6g} m, far from 0; give the depth of the first touch as touch=")
     if d.size and d[0] > 0:
         d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)
     return d, F

@@ -1,7 +1,7 @@
 """Other spellings of a case file's keys: what rigs are set to, in the units that people have.
 
     [indenter]     theta_deg = 1.5     for theta [rad]
-    [material]     tan_delta = 0.2     for tau [s]: the loss tangent at the frequency of the file
+    [material]     tan_delta = 0.2     for tau [s] of a KelvinVoigt: the loss tangent at the frequency of the file
     [oscillation]  frequency = 50      for omega [rad/s], in Hz; so in [shake]
     [oscillation]  load = 1.0          for F_z0 [N]; with du_z, for u_z0: the depth at which this load rests
 
@@ -76,11 +76,15 @@ def respelled(name: str, content: Mapping[str, Any]) -> tuple[dict[str, Any], li
         if key in out:
             faults.append(f"{alias} and {key} say the same: give one of them")
             continue
-        omega = _omega(content) if key == "tau" else 1.0
-        if omega is None:
-            faults.append(f"{alias} needs a frequency: give it in [oscillation] or [shake]")
+        if key == "tau" and out.get("model") != "KelvinVoigt":
+            faults.append(f'{alias} is of model = "KelvinVoigt" alone, whose E then is the storage modulus')
+            continue
+        omega = 1.0
+        if key == "tau":
+            omega, fault = _omega(content)
+            faults += [fault] if fault else []
         try:
-            out[key] = convert(value, omega or 1.0)
+            out[key] = convert(value, omega)
         except (TypeError, ValueError) as refusal:
             faults.append(str(refusal))
             out[key] = 0.5  # within the rule of every field above
@@ -93,6 +97,10 @@ def as_written(name: str, table: Mapping[str, Any], content: Mapping[str, Any], 
     return {back.get(key, key) if key not in keys else key: value for key, value in table.items()}
 
 
+#: of an oscillating load; beside du_z they are none
+_OF_LOADS = ("F_z0", "dF_z", "m_z")
+
+
 def rest_under_load(table: Mapping[str, Any], indenter: Indenter, material: Material) -> dict[str, Any]:
     """A table [oscillation] with load and du_z, where the depth at which this load rests stands for it.
 
@@ -100,6 +108,11 @@ def rest_under_load(table: Mapping[str, Any], indenter: Indenter, material: Mate
     """
     out = dict(table)
     load = positive("load", out.pop("load"), "mean load in N")
+    if beside := [key for key in _OF_LOADS if key in out]:
+        raise ValueError(
+            f"load beside du_z is that of a prescribed depth, and {beside[0]} belongs to an oscillating load: give one "
+            "of du_z and dF_z"
+        )
     if "u_z0" in out:
         raise ValueError("load and u_z0 say the same: give one of them")
     return {**out, "u_z0": static_depth(indenter, material, load)}
@@ -121,16 +134,21 @@ def _asks_for_depth(name: str, table: Mapping[str, Any], alias: str) -> bool:
     return name == "oscillation" and alias == "load" and "du_z" in table
 
 
-def _omega(content: Mapping[str, Any]) -> float | None:
-    """Angular frequency [rad/s] of the file, of the oscillation before that of a shake; None where it has none."""
+def _omega(content: Mapping[str, Any]) -> tuple[float, str]:
+    """Angular frequency [rad/s] of the file, and what is wrong where it has none or two."""
+    found = set()
     for table in (content.get("oscillation"), content.get("shake")):
         if not isinstance(table, dict):
             continue
         try:
             if "frequency" in table:
-                return _frequency(table["frequency"], 1.0)
+                found.add(_frequency(table["frequency"], 1.0))
             if "omega" in table:
-                return positive("omega", table["omega"])
+                found.add(positive("omega", table["omega"]))
         except (TypeError, ValueError):
-            return 1.0  # refused by its own rule
-    return None
+            return 1.0, ""  # refused by its own rule
+    if not found:
+        return 1.0, "tan_delta needs a frequency: give it in [oscillation] or [shake]"
+    if max(found) > (1 + 1e-9) * min(found):
+        return 1.0, "tan_delta belongs to one frequency, and [oscillation] and [shake] have two: give tau"
+    return found.pop(), ""

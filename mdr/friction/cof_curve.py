@@ -53,6 +53,7 @@ class CofCurve(Summarised, ArrayRecord):
     static_cof: float  #: limit v_0 -> +0 [-]
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
     v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
+    static_cof_back: float | None = None  #: limit v_0 -> -0 [-] where velocities of both signs are asked for
 
     def _summary(self) -> Summary:
         n, settled = self.v_0.size, int(self.settled.sum())
@@ -179,10 +180,12 @@ def cof_curve(
             "nothing shakes in the plane"
         )
     asked = velocities if np.any(velocities == 0) else np.append(velocities, 0.0)
-    if method is None and has_closed_form(case):
-        columns = _closed_form(case, asked)
-    else:
-        columns = _marched(case, asked, (n_springs, steps_per_period, accuracy))
+    is_closed, knobs = method is None and has_closed_form(case), (n_springs, steps_per_period, accuracy)
+    columns = _closed_form(case, asked) if is_closed else _marched(case, asked, knobs)
+    back = None
+    if case.is_shaken and np.any(velocities < 0):
+        rest, mirrored = np.zeros(1), case.mirrored
+        back = -float((_closed_form(mirrored, rest) if is_closed else _from_rest_on(mirrored, rest, knobs))[0][0])
     (cof, error, settled, sticks, why), n = columns, velocities.size
     return CofCurve(
         v_0=velocities,
@@ -195,6 +198,7 @@ def cof_curve(
         static_cof=float(cof[np.argmax(asked == 0)]),
         why=tuple(why[:n].tolist()),
         v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
+        static_cof_back=back,
     )
 
 

@@ -20,6 +20,7 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
+from mdr.normal.resolved import at_rest
 from mdr.tools.arrays import Array
 from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
@@ -151,6 +152,7 @@ def fit(
     from scipy.optimize import least_squares
 
     case = as_given(case)
+    at_rest(case)  # warns of what is unlikely
     if not isinstance(data, FrictionData):
         raise TypeError(f"data must be FrictionData, as read_friction_data gives, got {short(repr(data))}")
     if not 0 < confidence < 1:

@@ -18,6 +18,7 @@ from os import PathLike
 import numpy as np
 
 from mdr.files.measurements import read_table
+from mdr.normal.doubts import GREATEST_MU_0, warn_outside
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_table import Column
@@ -52,6 +53,10 @@ class FrictionData(Summarised, ArrayRecord):
         for name in columns:
             object.__setattr__(self, name, getattr(self, name)[order])
         super().__post_init__()
+        if np.max(self.cof) > GREATEST_MU_0:
+            warn_outside(
+                f"a COF of {np.max(self.cof):.4g} is more than {GREATEST_MU_0:g}: is it in per cent, or a force?"
+            )
 
     def _summary(self) -> Summary:
         error = "not known" if self.error is None else span(self.error)

@@ -23,7 +23,8 @@ DEEPEST = 1.0  #: depth over contact radius, of a face without slope
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
 GREATEST_MU_0 = 2.0
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
-GREATEST_RATIO = 1e4  #: stiffness of the spring over that of the contact, and the other way round
+STIFFEST = 1e4  #: stiffness of the spring over that of the contact
+SOFTEST = 1e-6  #: the same; metals on a soft spring, or a tip on its cantilever, are at 1e-4 to 1e-5
 LIGHTEST = 100.0  #: natural frequency of the body over that of the oscillation
 
 
@@ -63,6 +64,12 @@ def depth_in_doubt(known: SlidingContact) -> float:
     return known.working_depth if known.working_depth > 0 else known.u_z_max
 
 
+def frequencies(known: SlidingContact) -> list[float]:
+    """Angular frequencies [rad/s] of the oscillation and of the shake, of those that move."""
+    shaken = [known.shake.omega] if known.shake is not None and known.is_shaken else []
+    return [one for one in [known.oscillation.omega, *shaken] if one > 0]
+
+
 @remembered(maxsize=256)
 def edge(indenter: Indenter, d: float) -> tuple[float, float]:
     """Radius a [m] of the contact at the depth d [m], and the slope |f'(a)| [-] of the shape there, from within."""
@@ -89,7 +96,7 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
 
 
 def _of_motion(known: SlidingContact) -> Iterator[str]:
-    if known.oscillation.knows_depth and known.alpha > GREATEST_ALPHA:
+    if known.oscillation.knows_depth and known.working_depth > 0 and known.alpha > GREATEST_ALPHA:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
             f"u_z0 = {known.cycle.u_z0:.4g} m), so that the contact is open most of the time: are the two swapped?"
@@ -99,9 +106,10 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
 
 
 def _of_material(known: SlidingContact) -> Iterator[str]:
-    if known.T > GREATEST_T and not known.material.contact_arms:
+    T = max(frequencies(known)) * known.material.tau
+    if T > GREATEST_T and not known.material.contact_arms:
         yield (
-            f"omega tau = {known.T:.3g} is the loss tangent of this Kelvin body, and that of rubber is below 3: is tau "
+            f"omega tau = {T:.3g} is the loss tangent of this Kelvin body, and that of rubber is below 3: is tau "
             "in ms, or omega far beyond the measurement of tau? A material with arms (Prony) stays bounded there"
         )
 
@@ -111,20 +119,20 @@ def _of_pull(known: SlidingContact) -> Iterator[str]:
         return
     m, _, k_x = known.pull.coefficients
     ratio = k_x / (known.k_xc or known.indenter.stiffness(depth_in_doubt(known), known.material.G_star))
-    if ratio > GREATEST_RATIO:
+    if ratio > STIFFEST:
         yield (
             f"the spring of the pull is {ratio:.3g} times as stiff as the contact, which is as good as a rigid pull: "
             "is the modulus in MPa, or k_x in a wrong unit?"
         )
-    if ratio < 1 / GREATEST_RATIO:
+    if ratio < SOFTEST:
         yield (
             f"the contact is {1 / ratio:.3g} times as stiff as the spring of the pull: is k_x in N/mm, or the modulus "
             "in a wrong unit?"
         )
-    light = known.pull.omega_0 / known.omega
+    light = known.pull.omega_0 / max(frequencies(known))
     if m > 0 and light > LIGHTEST:
         yield (
-            f"the natural frequency of the body is {light:.3g} times that of the oscillation, so that its mass, "
+            f"the natural frequency of the body is {light:.3g} times that of the vibration, so that its mass, "
             f"{m:.4g} kg, has no effect: is it in the right unit?"
         )
 

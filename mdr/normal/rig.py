@@ -179,14 +179,15 @@ def rig(
     k_x : float, optional
         Stiffness of the spring that pulls [N/m]. None: a rigid pull.
     m : float, optional
-        Mass of the sled [kg]; must be given with k_x, 0 for a body without inertia.
+        Mass of the sled [kg]; must be given with k_x, 0 for a body without inertia. Under a rigid pull it is of use
+        for a load that rides on it alone.
     c_x : float
         Damping beside the spring [N s/m].
     load_rides : bool, optional
         Whether an oscillating load presses on the sled, so that the sled's mass moves in the normal direction too. Must
-        be said where there are both.
+        be said where there are both, and only there. `load` then is all that presses, the weight of the sled included.
     shake : Shake, optional
-        Motion in the plane besides the pull.
+        Motion in the plane besides the pull; where nothing else vibrates, at this frequency.
     density : float, optional
         Density [kg/m³] of the half-space. With it a vibration is warned of whose shear waves are not much longer than
         the contact, as the springs are quasi-static.
@@ -210,13 +211,13 @@ def rig(
     >>> import mdr
     >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
     >>> case = mdr.rig(
-    ...     ball, rubber, 0.8, frequency=50, load_grams=100, load_amplitude=0.1, tan_delta=0.2,
+    ...     ball, rubber, 0.8, frequency=50, load_grams=300, load_amplitude=0.1, tan_delta=0.2,
     ...     k_x=5e3, m=0.2, load_rides=True,
     ... )
     >>> case.oscillation
-    LoadOscillation(F_z0=0.980665, dF_z=0.1, omega=314.1592653589793, m_z=0.2)
+    LoadOscillation(F_z0=2.941995, dF_z=0.1, omega=314.1592653589793, m_z=0.2)
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
-    0.00204 m/s
+    0.00215 m/s
     """
     omega = 2 * math.pi * positive("frequency", frequency, "in Hz")
     material = _lossy(material, tan_delta, omega)
@@ -227,15 +228,13 @@ def rig(
     if len(amplitudes) > 1:
         raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
     pull = _pull(k_x, m, c_x)
-    moved = not_negative("m", m, "mass in kg") if m is not None else 0.0
-    if load_amplitude is not None and moved > 0 and load_rides is None:
+    m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
+    if not amplitudes and (shake is None or not math.isclose(shake.omega, omega, rel_tol=1e-9)):
         raise ValueError(
-            f"does the oscillating load press on the sled of m = {moved:.6g} kg? Say load_rides=True, and the sled "
-            "moves in the normal direction with its mass, or load_rides=False, and the load moves no mass"
+            f"nothing vibrates at the frequency of {frequency:.6g} Hz: give one of {', '.join(given)}, or a shake in "
+            f"the plane with omega = 2 pi frequency = {omega:.9g} rad/s"
         )
-    motion = _motion(indenter, material, F_z0, amplitudes, omega, moved if load_rides else 0.0)
-    if not amplitudes and shake is None:
-        raise ValueError(f"nothing vibrates: give one of {', '.join(given)}, or a shake in the plane")
+    motion = _motion(indenter, material, F_z0, amplitudes, omega, m_z)
     case = SlidingContact(indenter, material, mu_0, motion, pull, shake)
     if density is not None:
         _warn_of_waves(case, positive("density", density, "in kg/m³"))
@@ -270,6 +269,30 @@ def _pull(k_x: float | None, m: float | None, c_x: float) -> Pull:
     if k_x is None and not_negative("c_x", c_x, "in N s/m") > 0:
         raise ValueError("c_x is the damper beside a spring: give k_x in N/m too, or leave c_x out for a rigid pull")
     return RigidPull() if k_x is None else SpringPull(k_x, m, c_x)  # type: ignore[arg-type]
+
+
+def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rigid: bool, F_z0: float) -> float:
+    """The mass [kg] that moves in the normal direction."""
+    if rides is not None and not isinstance(rides, bool):
+        raise TypeError(f"load_rides must be True or False, got {rides!r}")
+    moved = not_negative("m", m, "mass in kg") if m is not None else 0.0
+    if rides is not None and not oscillates:
+        raise ValueError("load_rides is about an oscillating load: give load_amplitude too, or leave it out")
+    if rides and moved == 0:
+        raise ValueError("load_rides=True: give the mass m of the sled on which the load rides, in kg")
+    if oscillates and moved > 0 and rides is None:
+        raise ValueError(
+            f"does the oscillating load press on the sled of m = {moved:.6g} kg? Say load_rides=True, and the sled "
+            "moves in the normal direction with its mass, or load_rides=False, and the load moves no mass"
+        )
+    if is_rigid and moved > 0 and not rides:
+        raise ValueError("m has no effect under a rigid pull: give k_x in N/m too, or leave m out")
+    if rides and moved * GRAVITY > F_z0:
+        warn_outside(
+            f"the weight of the sled, {moved * GRAVITY:.4g} N, is more than the load of {F_z0:.4g} N that rides on it: "
+            "the load is all that presses, the weight of the sled included"
+        )
+    return moved if rides else 0.0
 
 
 def _motion(

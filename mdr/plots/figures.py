@@ -326,7 +326,7 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
     error = np.nan_to_num(np.asarray(curve.cof_error) / scale[1], posinf=0.0)
     settled = np.asarray(curve.settled, dtype=bool)
     static = curve.static_cof / scale[1]
-    ax.plot(v, mu, color=colour, label=label, zorder=2)
+    ax.plot(*_line(curve, v, mu, scale[1]), color=colour, label=label, zorder=2)
     size = 4.5 if len(v) <= 60 else 3.0
     ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
     ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
@@ -336,6 +336,17 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
     if np.isfinite(static) and np.min(curve.v_0) >= 0:
         reach = 0.15 * float(np.max(v, initial=0.0))
         ax.plot([0.0, reach], [static, static], color=colour, linewidth=1.2, linestyle="--", zorder=1)
+
+
+def _line(curve: Any, v: "NDArray[Any]", mu: "NDArray[Any]", scale: float) -> "tuple[NDArray[Any], NDArray[Any]]":
+    """The line through the points; at rest, of a curve of both ways, upright from one limit to the other."""
+    if curve.static_cof_back is None:
+        return v, mu
+    order = np.argsort(v)
+    v, mu = v[order], mu[order]
+    back, forward = v < 0, v > 0
+    at_rest = np.array([curve.static_cof_back, curve.static_cof]) / scale
+    return np.concatenate([v[back], [0.0, 0.0], v[forward]]), np.concatenate([mu[back], at_rest, mu[forward]])
 
 
 def _curve_legend(ax: "Axes", settled: bool, both: bool) -> None:

@@ -36,6 +36,7 @@ LABELS = {
 }  #: how quantities are written in figures; any other by its name
 LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
 N_LEVELS = 6  #: of a map, at most about so many contours
+PLATEAU = 0.01  #: of the range of a map, in which no contour is drawn at either end
 MOST_LABELS = 10  #: values of a family that are named one by one
 
 
@@ -69,7 +70,8 @@ def _contours(study: Study, quantity: str, levels: Sequence[float] | None) -> di
         from matplotlib.ticker import MaxNLocator
 
         low, high = _limits(study[quantity], log=False)
-        levels = [float(level) for level in MaxNLocator(N_LEVELS).tick_values(low, high) if low < level < high]
+        rim = PLATEAU * (high - low)  # on a plateau at an end a contour would follow rounding
+        levels = [float(one) for one in MaxNLocator(N_LEVELS).tick_values(low, high) if low + rim < one < high - rim]
     return {"levels": levels} if len(levels) else {}
 
 

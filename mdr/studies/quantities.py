@@ -148,7 +148,8 @@ def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) 
         if name in paths:
             raise ValueError(f"{name} is an axis of the study already; leave it out of quantities")
     if not any(path in VELOCITIES for path in paths) and (moving := [one.name for one in found if one.per_velocity]):
-        raise ValueError(f'{", ".join(moving)} need a velocity: give an axis "v_0" [m/s] or "v_0/v_c"')
+        asks = "needs" if len(moving) == 1 else "need"
+        raise ValueError(f'{" and ".join(moving)} {asks} a velocity: give an axis "v_0" [m/s] or "v_0/v_c"')
     return found
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from numbers import Integral
 from os import PathLike, fsdecode
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
+from mdr.normal.resolved import at_rest
 from mdr.studies.axes import read_axes
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
@@ -96,6 +98,8 @@ def sweep(
     ((2, 2), True)
     """
     case = as_given(case)
+    with suppress(ValueError):  # the base case may be one that cannot be; its points say so themselves
+        at_rest(case)  # warns of what is unlikely
     axes_read = read_axes(case, axes)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:

@@ -72,6 +72,8 @@ class Record:
         """Refuse a keyword that is no argument, with the nearest one, or the constructor that takes it."""
         if unknown := given.keys() - getattr(cls, "__dataclass_fields__", given).keys():
             known = signature(cls.__init__).parameters
+            if any(one.kind is one.VAR_KEYWORD for one in known.values()):
+                unknown = set()
             for name in sorted(unknown - known.keys()):
                 raise TypeError(f"{cls.__name__} takes no {name}; {_taken_by(cls, name) or offer(name, [*known][1:])}")
         return super().__new__(cls)

@@ -13,14 +13,20 @@ mu_0 = 0.5
 shape = "{shape}"
 {slope}
 [material]
-model = "KelvinVoigt"
+model = "{model}"
 E = 3e6
 nu = 0.5
 {loss}
 [oscillation]
 {motion}
 """
-PLAIN = {"shape": "Cone", "slope": "theta = 0.02", "loss": "tau = 1e-3", "motion": "u_z0=2e-5\ndu_z=2e-6\nomega=300"}
+PLAIN = {
+    "model": "KelvinVoigt",
+    "shape": "Cone",
+    "slope": "theta = 0.02",
+    "loss": "tau = 1e-3",
+    "motion": "u_z0=2e-5\ndu_z=2e-6\nomega=300",
+}
 OMEGA = 2 * math.pi * 50
 
 
@@ -32,7 +38,7 @@ def test_degrees_hertz_and_loss_tangents():
     case = read(slope="theta_deg = 1.5", loss="tan_delta = 0.2", motion="frequency = 50\nu_z0 = 2e-5\ndu_z = 2e-6")
     assert case.indenter.theta == math.radians(1.5)
     assert case.oscillation.omega == OMEGA
-    assert case.material.tau == 0.2 / OMEGA
+    assert float(case.material.loss_tangent(OMEGA)) == pytest.approx(0.2, rel=1e-15)
 
 
 def test_a_load_with_its_own_amplitude_is_an_oscillating_load():
@@ -57,6 +63,13 @@ REFUSED = [
     ({"slope": ""}, "theta is missing; or give theta_deg"),
     ({"shape": "Paraboloid", "slope": "theta_deg = 2"}, "theta_deg is no key of Paraboloid"),
     ({"loss": "tan_delta = true"}, "tan_delta must be"),
+    (
+        {"model": "Prony", "loss": "E_inf = 1e6\narms = [[2e6, 1e-3]]\ntan_delta = 0.2"},
+        'of model = "KelvinVoigt" alone',
+    ),
+    ({"motion": "omega=300\nu_z0=1e-5\ndu_z=1e-6\n[shake]\nomega=200\ndu_x=1e-6", "loss": "tan_delta=0.2"}, "have two"),
+    ({"motion": "omega=300\ndu_z=1e-6\ndF_z=1e-6\nload=1"}, "dF_z belongs to an oscillating load"),
+    ({"motion": "omega=300\ndu_z=1e-6"}, "u_z0 is missing; or give load [N]"),
     ({"loss": ""}, "tau is missing; or give tan_delta"),
     ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "tan_delta needs a frequency"),
     ({"motion": "f = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "f is no key of NormalOscillation; did you mean frequency"),

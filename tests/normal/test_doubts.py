@@ -28,7 +28,7 @@ ABSURD = {
         "slope",
     ),
     "tau in ms": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1.0)}, "tau in ms"),
-    "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=2e-2, m=0.1)}, "k_x in N/mm"),
+    "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=1e-3, m=0.1)}, "k_x in N/mm"),
     "a mass in wrong units": ({"pull": mdr.SpringPull(k_x=2e4, m=1e-6)}, "mass"),
 }
 
@@ -61,6 +61,33 @@ def test_it_is_said_of_what_a_user_asks_and_not_of_what_the_package_asks_itself(
         mdr.slide(steep, 1e-3, n_periods=1)
         mdr.cof_curve(replace(steep, pull=mdr.RigidPull(), material=mdr.Elastic(3e9, 0.5)), [1e-3, 2e-3])
     assert [one.filename for one in said if "slope" in str(one.message)] == [__file__] * (len(doors) + 2)
+
+
+def test_two_frequencies_are_each_their_own():
+    """The frequency after which both repeat, here 10 Hz, is that of neither."""
+    shake = mdr.InPlaneOscillation(omega=USUAL.omega * 16 / 15, du_x=1e-6)
+    assert doubts_of(replace(USUAL, shake=shake, pull=mdr.SpringPull(k_x=1e5, m=0.01))) == ()
+    lossy = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=0.02)  # omega tau = 6.3, and 0.4 at the common frequency
+    assert "omega tau = 6.7" in doubts_of(replace(USUAL, shake=shake, material=lossy))[0]
+
+
+STEEL = mdr.Elastic(E=2.1e11, nu=0.3)
+
+
+def test_metal_on_a_soft_spring_and_tapping_from_the_surface_are_usual():
+    assert doubts_of(replace(USUAL, material=STEEL, pull=mdr.SpringPull(k_x=1e3, m=0.1))) == ()
+    assert doubts_of(replace(USUAL, oscillation=mdr.NormalOscillation(0.0, 2e-6, USUAL.omega))) == ()
+
+
+def test_studies_and_fits_warn_of_their_base_case():
+    absurd = replace(USUAL, mu_0=50.0, material=mdr.Elastic(3e6, 0.5), pull=mdr.RigidPull())
+    with pytest.warns(mdr.PlausibilityWarning, match="percentage"):
+        mdr.sweep(absurd, {"v_0": [1.0]}, n_springs=32, steps_per_period=32)
+    data = mdr.FrictionData([1e-3, 2e-3, 3e-3], [0.4, 0.45, 0.5])
+    with pytest.warns(mdr.PlausibilityWarning, match="percentage"):
+        mdr.fit(absurd, data, ["mu_0"])
+    with pytest.warns(mdr.PlausibilityWarning, match="in per cent"):
+        mdr.FrictionData([1e-3], [40.0])
 
 
 def test_it_can_be_silenced():

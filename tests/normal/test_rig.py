@@ -24,9 +24,10 @@ def test_load_and_depth_are_inverse(shape):
 
 
 def test_a_load_amplitude_makes_an_oscillating_load():
-    case = rig(load_amplitude=0.1, k_x=2e4, m=0.2, c_x=1.0, load_rides=True)
-    assert case.oscillation == mdr.LoadOscillation(1.0, 0.1, OMEGA, m_z=0.2)
-    assert case.pull == mdr.SpringPull(2e4, 0.2, 1.0)
+    case = rig(load_amplitude=0.1, k_x=2e4, m=0.1, c_x=1.0, load_rides=True)
+    assert case.oscillation == mdr.LoadOscillation(1.0, 0.1, OMEGA, m_z=0.1)
+    assert case.pull == mdr.SpringPull(2e4, 0.1, 1.0)
+    assert rig(load_amplitude=0.1, m=0.1, load_rides=True).oscillation.m_z == 0.1
     assert rig(load_amplitude=0.1, k_x=2e4, m=0.2, load_rides=False).oscillation.m_z == 0.0
 
 
@@ -63,6 +64,10 @@ REFUSED = [
     ({"load_amplitude": 0.1, "c_x": 2.0}, "give k_x"),
     ({"load_amplitude": 0.1, "k_x": 2e4, "m": 0.2}, "Say load_rides=True"),
     ({"load_amplitude": 0.1, "m": 0.2}, "Say load_rides=True"),
+    ({"load_amplitude": 0.1, "load_rides": True}, "give the mass m of the sled"),
+    ({"load_amplitude": 0.1, "m": 0.1, "load_rides": False}, "m has no effect under a rigid pull"),
+    ({"depth_amplitude": 1e-6, "k_x": 2e4, "m": 0.1, "load_rides": True}, "is about an oscillating load"),
+    ({"shake": mdr.InPlaneOscillation(2 * OMEGA, 1e-6)}, "nothing vibrates at the frequency of 50 Hz"),
     ({"load_amplitude": 2.0}, "must be less than F_z0"),
     ({"depth_amplitude": float("nan")}, "depth_amplitude must be"),
     ({"load": 1e6, "depth_amplitude": 1e-6}, "carries on this material"),
@@ -79,6 +84,13 @@ def test_what_is_missing_twice_or_wrong_is_refused_in_words(given, words):
 def test_a_loss_tangent_beside_a_material_that_has_one_is_refused():
     with pytest.raises(TypeError, match="tan_delta turns an Elastic"):
         mdr.rig(BALL, mdr.KelvinVoigt(3e6, 0.5, 1e-3), 0.8, frequency=50, load=1.0, load_amplitude=0.1, tan_delta=0.1)
+
+
+def test_a_sled_heavier_than_its_load_is_warned_of():
+    with pytest.warns(mdr.PlausibilityWarning, match=r"weight of the sled, 1\.961 N, is more than the load of 1 N"):
+        rig(load_amplitude=0.1, k_x=2e4, m=0.2, load_rides=True)
+    with pytest.raises(TypeError, match="True or False"):
+        rig(load_amplitude=0.1, k_x=2e4, m=0.1, load_rides="no")
 
 
 def test_short_waves_are_warned_of():

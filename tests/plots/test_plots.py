@@ -36,6 +36,7 @@ def made_up_curve(v_c=0.04, static=0.3, **changes):
         v_c=v_c,
         mu_0=0.5,
         static_cof=static,
+        static_cof_back=None,
     )
     return SimpleNamespace(**{**vars(curve), **changes})
 

@@ -74,8 +74,8 @@ def test_no_critical_velocity_is_a_reason(monkeypatch):
     [
         (["coef"], ["v_0"], ValueError, "coef is no quantity of the catalogue; did you mean cof?"),
         (["zzz"], ["v_0"], ValueError, "there are v_c, full_slip_v_c"),
-        (["cof"], ["mu_0"], ValueError, 'cof need a velocity: give an axis "v_0" [m/s] or "v_0/v_c"'),
-        ([Quantity("own", "-", depth, per_velocity=True)], ["mu_0"], ValueError, "own need a velocity"),
+        (["cof"], ["mu_0"], ValueError, 'cof needs a velocity: give an axis "v_0" [m/s] or "v_0/v_c"'),
+        ([Quantity("own", "-", depth, per_velocity=True)], ["mu_0"], ValueError, "own needs a velocity"),
         (["v_c", "v_c"], ["mu_0"], ValueError, "quantities has v_c twice"),
         (["T"], ["T"], ValueError, "T is an axis of the study already"),
         ([], ["mu_0"], ValueError, "quantities must name at least one"),

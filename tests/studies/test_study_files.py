@@ -104,7 +104,7 @@ def test_what_is_left_out_is_the_default():
             "[axes] mu_0 has the value 0.1 twice; give each once",
             "[axes] v_0 must not be negative, got -1.0; 0 is the static limit",
         ]),
-        (['"mu_0" = [0.1]'], ['cof need a velocity: give an axis "v_0" [m/s] or "v_0/v_c"']),
+        (['"mu_0" = [0.1]'], ['cof needs a velocity: give an axis "v_0" [m/s] or "v_0/v_c"']),
         (['"v_0" = [1]', 'quantities = ["coff", "stick"]'], [
             "coff is no quantity of the catalogue; did you mean cof?",
             "stick is no quantity of the catalogue; did you mean stick_share?",
