@@ -1,7 +1,7 @@
 """Ball with a worn cap: which relaxation time of its rubber lets a vibrating floor set a slider free best?
 
-A glide of 0.2 kg stands on three rubber buttons, balls of 5 mm worn to a cap of 40 mm, and is pulled by a spring, while
-the floor shakes it at 50 Hz. The rubber is a standard linear solid: 1 MPa in the long run, 4 MPa at once, with a
+A slider of 0.2 kg stands on three rubber buttons, balls of 5 mm worn to a cap of 40 mm. A spring pulls it, while the
+floor shakes it at 50 Hz. The rubber is a standard linear solid: 1 MPa in the long run, 4 MPa at once, with a
 relaxation time tau_1 that temperature moves by decades. As tau_1 grows, its stiffness K_z(omega) = 2a E*(omega) runs
 along a half circle from the soft to the hard one, with the most loss at the top; and Eq. (15) is a distance to it,
 
@@ -17,19 +17,19 @@ import mdr
 
 omega, mu_0, v_0 = 2 * np.pi * 50, 0.7, 1.2e-3
 button = mdr.CappedParaboloid(R1=40e-3, R2=5e-3, b=0.6e-3)
-tapping = mdr.NormalOscillation(u_z0=60e-6, du_z=8e-6, omega=omega)
-glide = mdr.SpringPull(k_x=3e3, m=0.2 / 3, c_x=5.0)  # a button's share
+vibration = mdr.NormalOscillation(u_z0=60e-6, du_z=8e-6, omega=omega)
+body = mdr.SpringPull(k_x=3e3, m=0.2 / 3, c_x=5.0)  # a button's share
 
 
-def slider(tau_1, pull=glide):
+def slider(tau_1, pull=body):
     """A button of the rubber whose relaxation time is tau_1."""
-    return mdr.SlidingContact(button, mdr.StandardLinearSolid(1e6, 3e6, tau_1, nu=0.5), mu_0, tapping, pull)
+    return mdr.SlidingContact(button, mdr.StandardLinearSolid(1e6, 3e6, tau_1, nu=0.5), mu_0, vibration, pull)
 
 
 times = np.geomspace(1e-2, 1e2, 49) / omega
 v_c = np.array([mdr.critical_velocity(slider(tau_1)) for tau_1 in times])
 K_z = 2 * button.contact_radius(60e-6) * np.array([slider(tau_1).material.dynamic_modulus(omega) for tau_1 in times])
-kappa_A = -slider(1.0).material.mindlin_ratio / glide.receptance(omega)
+kappa_A = -slider(1.0).material.mindlin_ratio / body.receptance(omega)
 eq_1 = mdr.critical_velocity(slider(1.0, mdr.RigidPull()))
 best = times[np.argmax(v_c)]
 some = np.array([0.01, 0.2, 1.0, 4.0, 100]) / omega
@@ -38,7 +38,7 @@ cof = np.array([mdr.slide(slider(tau_1), v_0, n_springs=64, steps_per_period=256
 
 
 def figure():
-    """The half circle of K_z; v_c over the relaxation time; and the COF at rest and at the speed of the glide."""
+    """Half circle of the dynamic stiffness K_z; v_c over the relaxation time; COF of the slider at rest and at v_0."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
@@ -46,7 +46,7 @@ def figure():
     with style():
         fig, (circle, left, right) = plt.subplots(1, 3, figsize=(12.5, 4))
         circle.plot(1e-3 * K_z.real, 1e-3 * K_z.imag, color=COLOURS[0], label="$K_z$, from fast to slow rubber")
-        circle.plot(1e-3 * kappa_A.real, 1e-3 * kappa_A.imag, "k^", label=r"$\kappa A$ of the glide")
+        circle.plot(1e-3 * kappa_A.real, 1e-3 * kappa_A.imag, "k^", label=r"$\kappa A$ of the slider")
         far = K_z[np.argmax(v_c)]
         line = 1e-3 * np.array([kappa_A, far])
         circle.plot(line.real, line.imag, ":", color="0.4", label="greatest distance")
@@ -56,7 +56,7 @@ def figure():
         left.axhline(1e3 * eq_1, color="0.4", ls="--", label="rigid pull: Eq. (1)")
         left.semilogx(omega * times, 1e3 * v_c, label="Eq. (15)")
         left.semilogx(omega * some, 1e3 * full, "o", color=COLOURS[0], label="all harmonics of $F_N$")
-        left.axhline(1e3 * v_0, color=COLOURS[1], lw=1, label="speed of the glide")
+        left.axhline(1e3 * v_0, color=COLOURS[1], lw=1, label=f"$v_0$ of the slider, {1e3 * v_0:g} mm/s")
         left.set(title="greatest for a rubber in between", ylabel="$v_c$ [mm/s]", ylim=(0, None))
         right.axhline(mu_0, color="0.4", lw=0.8, label=r"full slip: $\mu_0$")
         right.semilogx(omega * some, cof, "o-", color=COLOURS[1], label=f"at {1e3 * v_0:g} mm/s")

@@ -39,7 +39,7 @@ wave_over_radius = np.sqrt(skin.E_inf / 3 / 1000) / 150 / float(finger.contact_r
 
 
 def figure():
-    """COF over speed of two touches, and how COF at rest and v_c depend on the load."""
+    """COF over the speed of a light and a firm touch, and v_c over the load."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style

@@ -15,19 +15,19 @@ import numpy as np
 
 import mdr
 
-tapping = mdr.NormalOscillation(u_z0=50e-6, du_z=15e-6, omega=2 * np.pi * 100)
+vibration = mdr.NormalOscillation(u_z0=50e-6, du_z=15e-6, omega=2 * np.pi * 100)
 pull = mdr.SpringPull(k_x=2e3, m=0.2)  # a foot's share of the machine
 
 
-def foot(T, du_z=tapping.du_z):
+def foot(T, du_z=vibration.du_z):
     """One foot of a rubber of 3 MPa whose loss tangent is T at the frequency of the table."""
-    rubber = mdr.KelvinVoigt.from_loss_tangent(E=3e6, nu=0.5, tan_delta=T, omega=tapping.omega)
-    return mdr.SlidingContact(mdr.FlatPunch(a=5e-3), rubber, 0.8, replace(tapping, du_z=du_z), pull)
+    rubber = mdr.KelvinVoigt.from_loss_tangent(E=3e6, nu=0.5, tan_delta=T, omega=vibration.omega)
+    return mdr.SlidingContact(mdr.FlatPunch(a=5e-3), rubber, 0.8, replace(vibration, du_z=du_z), pull)
 
 
 loss_tangents = (0.0, 0.3, 1.0, 3.0)
 v_c = [mdr.critical_velocity(foot(T)) for T in loss_tangents]  # Eq. (15)
-lost_above = [tapping.u_z0 / np.hypot(1, T) for T in loss_tangents]  # amplitude at which Eq. (5) ends
+lost_above = [vibration.u_z0 / np.hypot(1, T) for T in loss_tangents]  # amplitude at which Eq. (5) ends
 shares = np.r_[0, np.geomspace(0.02, 0.08, 3), np.linspace(0.16, 0.94, 8), 1.15]  # of v_c; steep near 0
 curves = [mdr.cof_curve(foot(T), v * shares) for T, v in zip(loss_tangents, v_c, strict=True)]
 static = [curve.static_cof for curve in curves]  # Eq. (7)
@@ -47,7 +47,7 @@ def figure():
             look = {"color": colour, "ms": 6 - i, "lw": 2.8 - 0.4 * i}  # thinner on top: two curves nearly agree
             left.plot(1e3 * curves[i].v_0, curves[i].cof, "-", label=rf"$T = {T:g}$", **look)
             left.plot(1e3 * v_c[i], 0.82, "v", color=colour)
-            amplitude = [0, tapping.du_z, lost_above[i], beyond[i]]  # straight in between
+            amplitude = [0, vibration.du_z, lost_above[i], beyond[i]]  # straight in between
             cof = [0.8, static[i], 0, at_rest_beyond[i]]
             right.plot(np.multiply(amplitude, 1e6), cof, "o-", clip_on=False, **look)
         left.set(
@@ -55,8 +55,8 @@ def figure():
         )
         left.set(ylabel=r"coefficient of friction $\mu$", ylim=(0, 0.86), xlim=(0, None))
         left.legend(loc="lower right", title="loss tangent")
-        right.axvline(1e6 * tapping.du_z, color="0.4", ls=":")
-        right.annotate("this table", (1e6 * tapping.du_z, 0.82), (4, 0), textcoords="offset points")
+        right.axvline(1e6 * vibration.du_z, color="0.4", ls=":")
+        right.annotate("this table", (1e6 * vibration.du_z, 0.82), (4, 0), textcoords="offset points")
         right.set(title="at rest: friction is gone where contact is lost", xlabel=r"amplitude $\Delta u_z$ [µm]")
         right.set(xlim=(0, None))
     return fig

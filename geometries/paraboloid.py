@@ -20,8 +20,8 @@ v_0 = 10e-3
 
 def slider(f, pull=body):
     """The tip shaken at f [Hz]."""
-    tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=3e-6, omega=2 * np.pi * f)
-    return mdr.SlidingContact(mdr.Paraboloid(R=2e-3), rubber, 0.7, tapping, pull)
+    vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=3e-6, omega=2 * np.pi * f)
+    return mdr.SlidingContact(mdr.Paraboloid(R=2e-3), rubber, 0.7, vibration, pull)
 
 
 f_0 = np.sqrt(body.k_x / body.m) / (2 * np.pi)  # pole

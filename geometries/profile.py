@@ -13,7 +13,7 @@ import mdr
 
 R, reach, mu_0, omega = 20e-3, 1.4e-3, 0.5, 2 * np.pi * 200
 rubber, body = mdr.Elastic(E=4e6, nu=0.5), mdr.SpringPull(k_x=4e3, m=8e-3, c_x=3.0)
-ball, tapping = mdr.Paraboloid(R), mdr.NormalOscillation(u_z0=50e-6, du_z=10e-6, omega=omega)
+ball, vibration = mdr.Paraboloid(R), mdr.NormalOscillation(u_z0=50e-6, du_z=10e-6, omega=omega)
 
 
 def turned(n):
@@ -25,7 +25,7 @@ def turned(n):
 
 def contact(indenter, pull=body):
     """An indenter on the rubber."""
-    return mdr.SlidingContact(indenter, rubber, mu_0, tapping, pull)
+    return mdr.SlidingContact(indenter, rubber, mu_0, vibration, pull)
 
 
 shapes = {n: turned(n) for n in (1, 2, 4)}
@@ -38,7 +38,7 @@ full_of_ball = mdr.full_slip_critical_velocity(contact(ball))
 
 def force(indenter):
     """Force at the mean depth [N]."""
-    return float(indenter.force(tapping.u_z0, rubber.E_star))
+    return float(indenter.force(vibration.u_z0, rubber.E_star))
 
 
 errors = {  # of force, COF and v_c
@@ -67,9 +67,9 @@ def figure():
         left.annotate("$f(r)$", (1.2, 36), (4, -14), textcoords="offset points")
         left.set(title="2 facets; dotted: the ball", xlabel="$r$, $x$ [mm]", ylabel="height [µm]")
         for n, colour in ((2, COLOURS[0]), (4, COLOURS[2])):
-            p = shapes[n].pressure(r, tapping.u_z0, rubber.E_star)
+            p = shapes[n].pressure(r, vibration.u_z0, rubber.E_star)
             middle.plot(1e3 * r, 1e-3 * p, color=colour, lw=1.2, label=f"{n} facets")
-        middle.plot(1e3 * r, 1e-3 * ball.pressure(r, tapping.u_z0, rubber.E_star), "k:", label="ball")
+        middle.plot(1e3 * r, 1e-3 * ball.pressure(r, vibration.u_z0, rubber.E_star), "k:", label="ball")
         middle.set(title="corners press hard ...", xlabel="$r$ [mm]", ylabel="$p$ [kPa]", ylim=(0, 350))
         middle.legend()
         n = np.array(list(errors))

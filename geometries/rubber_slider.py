@@ -87,9 +87,9 @@ def figure(table=coarse):
         fig, axes = plt.subplots(1, 2, sharey=True, figsize=(10, 4.4))
         for ax, (values, levels, title, norm) in zip(axes, shown, strict=True):
             look = {"levels": levels, "norm": norm, "extend": "max"}
-            ax.contourf(frequency, amplitude, values.T, cmap="viridis", alpha=0.8, **look)
+            areas = ax.contourf(frequency, amplitude, values.T, cmap="viridis", alpha=0.8, **look)
             lines = ax.contour(frequency, amplitude, values.T, levels=levels, colors="k", linewidths=0.7)
-            ax.clabel(lines, fmt="%g", fontsize=9, zorder=1)
+            fig.colorbar(areas, ax=ax, format="%g", pad=0.02).add_lines(lines)
             ax.fill_between(frequency, amplitude[0], 1e6 * least_amplitude(table), color="white", zorder=2)
             ax.plot(frequency, 1e6 * least_amplitude(table), color=COLOURS[1], linewidth=2.2, label="half at rest")
             ax.set(title=title, xscale="log", xlabel="frequency [Hz]")

@@ -16,7 +16,7 @@ r = np.linspace(0, 1.6e-3, 33)
 edge = float(r[10])  # of the cap, 0.5 mm
 rubber, mu_0, body = mdr.Elastic(E=3e6, nu=0.5), 0.7, mdr.SpringPull(k_x=4e3, m=0.05, c_x=4.0)
 u_z0, du_z = 40e-6, 8e-6
-tapping = mdr.NormalOscillation(u_z0, du_z, omega=2 * np.pi * 80)
+vibration = mdr.NormalOscillation(u_z0, du_z, omega=2 * np.pi * 80)
 rng = np.random.default_rng(seed=11)
 
 
@@ -33,7 +33,7 @@ def measured(noise):
 
 def predictions(indenter):
     """Force [N], v_c [m/s] and COF at rest of an indenter."""
-    case = mdr.SlidingContact(indenter, rubber, mu_0, tapping, body)
+    case = mdr.SlidingContact(indenter, rubber, mu_0, vibration, body)
     return float(indenter.force(u_z0, rubber.E_star)), mdr.critical_velocity(case), mdr.static_cof(case)
 
 

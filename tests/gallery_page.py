@@ -5,12 +5,14 @@ draws theirs alone. The text above the first entry of the page is kept.
 """
 
 import ast
+import re
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PAGE, PICTURES, SCRIPTS = ROOT / "docs" / "gallery.md", ROOT / "docs" / "figures" / "gallery", ROOT / "geometries"
 PIXELS, COLOURS = 4e5, 32  #: of a picture, about, and how many
+SYMBOL = re.compile(r"\b\w_\w\b|\b[fg]\([rx]\)")  #: v_c or g(x) in a caption
 
 
 def names() -> list[str]:
@@ -25,9 +27,10 @@ def entry(name: str) -> str:
     title, _, question = (ast.get_docstring(tree) or "").splitlines()[0].partition(": ")
     figure = next(one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name == "figure")
     shown = (ast.get_docstring(figure) or "").splitlines()[0]
+    caption = SYMBOL.sub(r"$\g<0>$", shown)
     return (
         f"## {title}\n\n{question[0].upper()}{question[1:]}\n\n"
-        f"![{shown}](figures/gallery/{name}.png)\n\n*{shown}* [{name}.py](../geometries/{name}.py)\n"
+        f"![{shown}](figures/gallery/{name}.png)\n\n*{caption}* [{name}.py](../geometries/{name}.py)\n"
     )
 
 

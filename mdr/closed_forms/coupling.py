@@ -48,9 +48,9 @@ def radial_rub(case: SlidingContact) -> float:
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
-    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
     >>> print(f"{mdr.radial_rub(case):.3f}")
     0.374
     """
@@ -87,9 +87,9 @@ def coupled_critical_velocity(case: SlidingContact) -> float:
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
-    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
     >>> print(f"{mdr.coupled_critical_velocity(case):.3g} m/s, without coupling {mdr.critical_velocity(case):.3g} m/s")
     0.000401 m/s, without coupling 0.000291 m/s
     """
@@ -126,9 +126,9 @@ def coupling_loss(case: SlidingContact) -> float:
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
-    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
     >>> print(f"{mdr.coupling_loss(case):.2g}")
     0.0051
     """

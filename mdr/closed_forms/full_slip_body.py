@@ -85,10 +85,10 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> slider = mdr.SpringPull(k_x=2e4, m=0.05)
     >>> rubber = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, 0.4, oscillation=tapping, pull=slider)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, 0.4, oscillation=vibration, pull=slider)
     >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
     0.000516 m/s
     """

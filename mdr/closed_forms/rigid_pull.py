@@ -97,8 +97,8 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     --------
     >>> import mdr
     >>> from mdr.closed_forms.rigid_pull import average_friction
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, vibration)
     >>> print(average_friction(case, [0.3e-3, 0.6e-3]).cof.round(4))
     [0.3672 0.3976]
     """
@@ -125,8 +125,8 @@ def near_critical(case: SlidingContact) -> Asymptote:
     --------
     >>> import mdr
     >>> from mdr.closed_forms.rigid_pull import near_critical
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, vibration)
     >>> law = near_critical(case)
     >>> print(f"{law.coefficient:.3g} times the power {law.power:.3g}")
     0.213 times the power 2
@@ -148,8 +148,8 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     --------
     >>> import mdr
     >>> from mdr.closed_forms.rigid_pull import small_velocity
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, vibration)
     >>> law = small_velocity(case)
     >>> print(f"{law.coefficient:.3g} times the power {law.power:.3g}")
     0.895 times the power 1

@@ -159,9 +159,9 @@ def cof_curve(
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> rubber = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), rubber, mu_0=0.4, oscillation=vibration)
     >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
     array([0.319, 0.364, 0.398, 0.4  ])
     """

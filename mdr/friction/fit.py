@@ -141,9 +141,9 @@ def fit(
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.5, oscillation=tapping)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.5, oscillation=vibration)
     >>> data = mdr.FrictionData(v_0=[1e-4, 2e-4, 4e-4], cof=[0.365, 0.388, 0.4])
     >>> found = mdr.fit(case, data, ["mu_0"], bounds={"mu_0": (0.1, 1.0)})
     >>> print(f"{found.values['mu_0']:.2f}")

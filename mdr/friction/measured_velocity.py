@@ -155,9 +155,9 @@ def measure_critical_velocity(
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
     >>> found = mdr.measure_critical_velocity(case)
     >>> print(f"{found.v_c:.3g} m/s, {found.kind}; Eq. (1) gives {mdr.critical_velocity(case):.3g} m/s")
     0.00036 m/s, end of stick; Eq. (1) gives 0.00036 m/s

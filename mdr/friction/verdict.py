@@ -135,9 +135,9 @@ def verdict(
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
     >>> found = mdr.verdict(case)
     >>> found.good, found.holds, found.formula
     (True, True, 'Eq. (1)')

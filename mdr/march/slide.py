@@ -87,9 +87,9 @@ def slide(
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
     >>> run = mdr.slide(case, 1e-4, n_springs=64, steps_per_period=256)
     >>> f"{run.cof:.3f}", run.settled
     ('0.365', True)

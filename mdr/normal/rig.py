@@ -127,8 +127,8 @@ def plausibility(case: SlidingContact) -> tuple[str, ...]:
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=2e-6, du_z=20e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, tapping)
+    >>> vibration = mdr.NormalOscillation(u_z0=2e-6, du_z=20e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, vibration)
     >>> for doubt in mdr.plausibility(case):
     ...     print(doubt)
     the amplitude of the depth is 10 times the mean depth ...

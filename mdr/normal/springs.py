@@ -33,8 +33,8 @@ class SpringArray(Summarised, ArrayRecord):
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, vibration)
     >>> springs = mdr.SpringArray.of(case, n_springs=64)
     >>> print(f"{springs.normal_force(20e-6, 20e-6):.4f} N, in closed form {case.indenter.force(20e-6, 4e6):.4f} N")
     0.0802 N, in closed form 0.0802 N

@@ -35,8 +35,8 @@ class Quantity:
     --------
     >>> import mdr
     >>> radius = mdr.Quantity("a", "m", lambda case: case.indenter.contact_radius(case.oscillation.u_z0))
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, tapping)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, vibration)
     >>> mdr.sweep(case, {"oscillation.u_z0": [10e-6, 20e-6]}, quantities=(radius,))["a"].round(6)
     array([0.000501, 0.001002])
     """

@@ -35,9 +35,9 @@ def read_study(path: str | PathLike[str]) -> Study:
     Examples
     --------
     >>> import mdr
-    >>> tapping = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=tapping)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
     >>> mdr.sweep(case, {"alpha": [0.05, 0.1]}, quantities=["v_c"]).to_netcdf("study.nc")
     >>> mdr.read_study("study.nc")["v_c"].round(5)
     array([0.00018, 0.00036])
