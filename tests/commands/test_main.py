@@ -565,3 +565,11 @@ def test_what_a_shaken_contact_holds_at_rest_is_told_to_machines(capsys, punch):
         band = mdr.holding_band(case)
         assert told["holding_band"] == [band.low, band.high]
         assert {"blocked_cof", "no_load_velocity", "other_way"} <= set(told)
+
+
+def test_a_multiple_of_v_c_the_other_way_is_of_that_ways_own(capsys, punch):
+    case = replace(read_case(punch), shake=mdr.InPlaneOscillation(omega=100.0, du_x=2e-7))
+    Path(punch).write_text(write_case(case), encoding="utf-8")
+    assert main(["run", punch, "--json", "--accuracy", "1e-3", "--v-0", "-0.5v_c"]) == 0
+    told = strict_json(capsys.readouterr().out)
+    assert told["v_0"] == pytest.approx(-0.5 * mdr.critical_velocity(case, -1), rel=1e-12)

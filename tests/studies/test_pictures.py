@@ -245,3 +245,13 @@ def test_an_axis_of_one_value_is_left_out_and_texts_alone_have_no_picture(flat):
     shapes = mdr.sweep(CASE, {"indenter": [mdr.Paraboloid(R=5e-3), mdr.Cone(theta=0.05)]}, quantities=("v_c",))
     with pytest.raises(ValueError, match="no axis of numbers"):
         shapes.plot()
+
+
+def test_no_contour_follows_the_rounding_of_a_plateau():
+    """Above v_c friction is mu_0 but for rounding, and 0.5 would be a round level."""
+    study = mdr.sweep(CASE, {"alpha": [0.3, 0.6], "v_0/v_c": [0.2, 0.8, 1.2, 1.4]}, n_springs=64, steps_per_period=128)
+    top = float(study["cof"].max())
+    lines = [one for one in study.plot().axes[0].collections if isinstance(one, mpl.contour.ContourSet)]
+    levels = np.concatenate([one.levels for one in lines])
+    assert levels.size
+    assert levels.max() < top - 0.005 * (top - float(study["cof"].min()))
