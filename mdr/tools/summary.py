@@ -10,6 +10,7 @@ import numpy as np
 
 Row = tuple[str, str, str]  #: name, value, meaning
 LEFT = 'style="text-align: left"'  #: notebooks set cells to the right
+UNKNOWN = 0.1  #: of a number: an error above it is no reason to show fewer digits
 MOST_DIGITS = 8  #: behind the point, of a number with an error
 
 
@@ -79,8 +80,8 @@ def span(values: Any, unit: str = "") -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """A number with its error, rounded to what the error leaves of it."""
+    """A number with its error, rounded to what the error leaves of it, to three digits at least."""
     if not np.isfinite(error) or error <= 0:
         return number(value)
-    digits = int(np.clip(1 - np.floor(np.log10(error)), 0, MOST_DIGITS))
+    digits = int(np.clip(1 - np.floor(np.log10(min(error, UNKNOWN * abs(value) or error))), 0, MOST_DIGITS))
     return f"{value:.{digits}f} +- {error:.1e}"

@@ -309,3 +309,9 @@ def test_a_measured_shape_slides(shape):
     case = mdr.SlidingContact(shape, mdr.Elastic(E=3e6, nu=0.5), 0.5, oscillation)
     springs = mdr.SpringArray.of(case, 64)
     assert_allclose(springs.normal_force(2.2e-5, 2e-5), shape.force(2.2e-5, case.material.E_star), rtol=1e-9)
+
+
+def test_noise_greater_than_the_profile_is_refused():
+    r = np.linspace(0, 1e-3, 12)
+    with pytest.raises(ValueError, match=r"smoothing = 0.02 m is the noise of the heights, which differ by 1e-05 m"):
+        mdr.SampledProfile(r, 10 * r**2, smoothing=0.02)
