@@ -94,8 +94,8 @@ class SampledProfile(Indenter):
         require_ascent("r", self.r)
         if self.smoothing >= (range_of_f := max(self.f) - min(self.f)) > 0:
             raise FieldError(
-                f"smoothing = {self.smoothing:.6g} m is the noise of the heights, which differ by {range_of_f:.6g} m in "
-                "all: give it in m",
+                f"smoothing = {self.smoothing:.6g} m is the noise of the heights, which differ by {range_of_f:.6g} m "
+                "in all: give it in m",
                 "smoothing",
             )
         self._require_points(self.kinks)

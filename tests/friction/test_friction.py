@@ -306,7 +306,7 @@ def test_eq_15_holds_for_a_flat_punch_and_a_body():
     assert text.startswith("Eq. (15) is good to 1 % here (0.")
     assert "it holds: measured v_c = " in text
     assert f"{verdict.eq_15:.6g} m/s" in text
-    assert "all springs stop sticking at the velocity that the formula gives for one spring" in text
+    assert "All springs stop sticking at the velocity that the formula gives for one spring" in text
 
 
 @pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
