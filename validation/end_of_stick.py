@@ -74,7 +74,7 @@ def claim(effort: str) -> Claim:
     seen = _map(21 if quick else 41, 24 if quick else 60)
     return Claim(
         name="end_of_stick",
-        title="On a compressible body stick ends above Eq. (1), and friction is full at no velocity",
+        title="On a compressible body stick ends at Eq. (1), and friction is full above it",
         quote=(
             "Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
             " some critical velocity. (Section 3)"

@@ -96,7 +96,7 @@ def claim(effort: str) -> Claim:
     checks = [*_mindlin_checks(n), *_run_checks(effort), *_sum_checks(), *_loop_checks(n), *_surface_checks()]
     return Claim(
         name="fields",
-        title="The springs know the tractions of the three-dimensional contact",
+        title="The springs give the tractions of the three-dimensional contact",
         quote="",
         range=f"flat punch, cone, paraboloid and r^4 at a depth of 20 µm, pulled until all springs slip, and back; "
         f"rows of {n} springs, and the springs of a sliding run",

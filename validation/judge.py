@@ -46,7 +46,7 @@ def claim(effort: str) -> Claim:
     gone = 1 - rings.stick_radius(0.5, 0.3) / rings.goodman(0.5, 0.3)
     return Claim(
         name="judge",
-        title="A solver in three dimensions that can be trusted to judge the springs",
+        title="The solver in three dimensions that judges the springs agrees with known solutions",
         quote="",
         range=(
             "a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"

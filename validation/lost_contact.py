@@ -109,7 +109,7 @@ def claim(effort: str) -> Claim:
     least, slow = min(body, key=lambda p: p.deviation), laws.slow_limit()
     return Claim(
         name="lost_contact",
-        title="Where contact is lost: how far the formulas reach, and what v_c is beyond",
+        title="Eqs. (1) and (15) hold for a contact that is lost in every period",
         quote="Only this “non-jumping” case is considered in the following. (Section 2.2, on Eq. (5))",
         range="Contact lost in every period, α √(1 + (ωτ)²) > 1. Rigid pull: "
         f"{counted(len(rigid), 'measured velocity')}, ωτ {ranged(p.T for p in rigid)}, α "
@@ -130,9 +130,9 @@ def claim(effort: str) -> Claim:
         "π μ_0 F_N(u_z0 + Δu_z)/(mω), F_N the elastic force at the deepest point, plus a known term in (ωτ)^{−1/2}. "
         f"Eq. (15) grows with ωτ; the least v_c measured is {percent(1 + least.deviation, 3)} of it ({least.where}). "
         "The full-slip condition with the true times of contact lies in the bracket of every measurement.",
-        verdict="holds if contact is kept; under a rigid pull also if it is back in time",
+        verdict="holds if the pull is rigid and the contact closed at the moment of fastest approach",
         sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ, but ends Eq. (15) "
-        "of a punch at once; a slow rubber that taps gives the body blows, whose v_c does not grow with viscosity.",
+        "of a punch at once. If slow rubber taps, away from resonances, v_c is half the velocity of each impact.",
         checks=(*_rigid_checks(rigid), *_limit_checks(), *_onset_checks(), *_slow_checks(), *_body_checks(body)),
         figures=(_rigid_figure(rigid), _onset_figure(effort), _slow_figure(body, effort)),
         equations=_EQUATIONS,

@@ -376,8 +376,9 @@ def _pressure_figure() -> Figure:
         fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
     return Figure(
         "shapes",
-        "The four test shapes on rubber of E = 3 MPa. Lines: the library; circles: Boussinesq, Sneddon,"
-        " Hertz, Sneddon. Their pressures differ as widely as pressures can, infinite at the rim of the punch"
+        "The four test shapes on rubber of E = 3 MPa. Lines: the library; circles: the textbook,"
+        " Boussinesq for the flat punch, Hertz for the paraboloid, Sneddon for cone and r^4. Their pressures differ"
+        " as widely as pressures can, infinite at the rim of the punch"
         " and at the tip of the cone, yet all touch over the same disc at 20 µm and are equally stiff there.",
         fig,
         "Pressure over radius and normal force over depth for flat punch, cone, paraboloid and r^4, lines on"

@@ -74,8 +74,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "No point up to 0.95 of the full-slip critical velocity has full friction and none above it less; whether"
-            " that velocity is Eq. (15) is a question of the amplitude, but for a rigid pull."
+            "Friction is reduced at all points below 0.95 of the full-slip v_c and full at all points above this v_c."
+            " Under a rigid pull it equals Eq. (15); otherwise only for small amplitude."
         ),
         checks=(
             *_checks_of_v_c(of_v_c, points),
@@ -286,8 +286,9 @@ def _figure_of_cof(rigid: mdr.Study, body: mdr.Study) -> Figure:
         axes[1].set_ylabel("")
     return Figure(
         "friction",
-        "μ (μ_0 = 0.5) over velocity and amplitude, a paraboloid, ωτ = 0.3. Orange: the full-slip v_c, where friction"
-        " is full on its right. Under a rigid pull it is v_c of Eq. (1) at every amplitude; for a body (ω_0 = 1.9 ω) it"
+        "μ (μ_0 = 0.5) over velocity and amplitude, a paraboloid, ωτ = 0.3. Dashed, v_c: Eq. (15). Orange: the"
+        " full-slip v_c, to the right of which friction is full. Under a rigid pull it is v_c of Eq. (1) at every"
+        " amplitude; for a body (ω_0 = 1.9 ω) it"
         " bends away from Eq. (15), as the second harmonic of the force grows, which is near the resonance. Dotted:"
         " above it the contact is lost in every period. To halve friction takes an amplitude of about a third of the"
         f" depth; with more of it half lasts up to {reach_of_half(rigid):.2f} v_c, but no amplitude takes it further.",

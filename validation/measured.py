@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import mdr
+from mdr.tools.arrays import Array
 
 TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  #: bracket of a measurement, and second order in its step, over v_c
 
@@ -61,6 +62,16 @@ def slope_at_zero(one: mdr.SlidingContact, two: mdr.SlidingContact) -> float:
     """`deviation` over alpha for alpha -> 0: from two cases, the second of twice the amplitude of the first."""
     a, b = (deviation(case) / case.alpha for case in (one, two))
     return 2 * a - b
+
+
+def with_band(case: mdr.SlidingContact, r: Array, unit: float) -> tuple[Array, Array]:
+    """v_0 over a unit [m/s] and COF/mu_0 to be drawn: runs at the velocities r but 0, there what the contact holds.
+
+    The two points at rest are the limits v_0 -> -0 and +0, so that a line through all has a vertical part.
+    """
+    moving, band = r[np.abs(r) > 1e-9], mdr.holding_band(case)
+    cof, at = mdr.cof_curve(case, moving * unit).cof, int(np.searchsorted(moving, 0.0))
+    return np.insert(moving, at, (0.0, 0.0)), np.insert(cof, at, (band.low, band.high)) / case.mu_0
 
 
 def worst(values: Iterable[float], expected: float) -> float:

@@ -24,13 +24,14 @@ from mdr.normal.indentation import Indentation, indent
 from mdr.plots import COLOURS, style
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
 from validation.report import Check, Claim, Figure
-from validation.words import ranged, span
+from validation.words import listed, ranged, span
 
 P = 20e-3  #: duration of a press [s]
 LOAD = 0.1  #: of the creep test [N]
 GLASSY = 10.0  #: instantaneous over long-time modulus of the standard solid
 E_STAR = E / (1 - 0.5**2)
 N_SAMPLES = 2000
+DRAWN = (0.03, 0.3, 3.0)  # relaxation times of the figure, over P
 PRESSES = {"quick": (0.3,), "full": (0.03, 0.1, 0.3, 1.0, 3.0), "long": tuple(np.geomspace(0.01, 10, 13))}
 POWERS = {"cone": 2.0, "paraboloid": 1.5}
 BODIES: dict[str, mdr.Material] = {
@@ -131,8 +132,8 @@ def claim(effort: str) -> Claim:
         title="Springs with memory stand for a half-space with memory",
         quote="",
         range=f"creep over ten decades of time and relaxation, flat punch, cone and paraboloid, {', '.join(BODIES)}; "
-        f"press and release of cone and paraboloid on Kelvin body and standard solid, relaxation times "
-        f"{ranged(times).removeprefix('= ')} of the duration",
+        f"press and release of cone and paraboloid on Kelvin body and standard solid, checked at relaxation times "
+        f"{ranged(times).removeprefix('= ')} of the duration, and drawn at {listed(DRAWN)}",
         measured=f"Creep agrees with the closed forms to rounding, and the springs carry the load under which it "
         f"happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends while the "
         f"indenter is still {span(left, 2)} % of the peak depth below the old surface.",
@@ -218,7 +219,7 @@ def _press_figure() -> Figure:
         for row, kind in zip(axes, ("Kelvin", "standard solid"), strict=True):
             for ax, shape in zip(row, POWERS, strict=True):
                 scale = E_STAR * float(SHAPES[shape].force(DEPTH, 1.0))
-                for T, colour in zip((0.03, 0.3, 3.0), COLOURS, strict=False):
+                for T, colour in zip(DRAWN, COLOURS, strict=False):
                     run, ting = pressed(shape, kind, T)
                     kept = np.arange(np.flatnonzero(run.contact_radius)[-1] + 2)
                     ax.plot(run.u_z[kept] / DEPTH, run.F_z[kept] / scale, color=colour, label=f"{T:g}")

@@ -96,7 +96,7 @@ def claim(effort: str) -> Claim:
     unseen = "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: |F_n|/F_0 = {share(s, T, n):.1e}" for s, T, n in faint)
     return Claim(
         name="resonances",
-        title="Where the body resonates with a harmonic of the normal force there is no critical velocity",
+        title="Eq. (15) gives v_c also where the body resonates",
         quote=(
             "Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where v_c"
             " becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
@@ -124,7 +124,7 @@ def claim(effort: str) -> Claim:
             + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
             + (f" Too faint to be told from the error of a run: {unseen}." if unseen else "")
         ),
-        verdict="fails when ω_0 is a whole multiple of ω",
+        verdict="fails when ω_0 is a whole multiple nω of ω, n ≥ 2",
         sentence=(
             "Eq. (15) knows one resonance, a curved contact has one at each ω_0 = nω of its force: without damping"
             " friction stays reduced by |F_n|/F_0 at any velocity."

@@ -86,7 +86,7 @@ def claim(effort: str) -> Claim:
             " (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to μ_0 is not v_c. The other"
             " end, at v_0 → 0, is shown with the static value."
         ),
-        verdict="holds if the contact exists when the depth grows fastest",
+        verdict="holds if the contact is closed at the moment of fastest approach",
         sentence=(
             "One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
             f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1)."

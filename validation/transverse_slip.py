@@ -82,7 +82,7 @@ def claim(effort: str) -> Claim:
     error = errors(knobs)
     return Claim(
         name="transverse_slip",
-        title="Slip across the pull matters where coupling does, and not otherwise",
+        title="Slip across the pull does not change friction noticeably",
         quote="",
         range=(
             f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"

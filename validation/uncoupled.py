@@ -45,7 +45,7 @@ def claim(effort: str) -> Claim:
     worst = max(abs(row.loss) for row in rows)
     return Claim(
         name="uncoupled",
-        title="Without coupling, three dimensions have the friction of the springs",
+        title="Without coupling springs give the friction of the three-dimensional contact",
         quote=(
             "According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
             " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)"

@@ -5,13 +5,15 @@ docs/checks.json, the figure that opens the report as docs/claim.svg and the ver
 beside this file, and sets every marked place of README and docs from the record; `--check` changes nothing and fails
 where a place is not what the record says. Places are marked by comments, which no reader sees:
 
-    4.9·10⁻⁶<!--= got :: finite_amplitude :: worst |v_c/full-slip value − 1| :: 2 -->
+    0.47<!--= got :: resolution :: true error over cof_error :: 2 -->
+    2.4·10⁻⁵<!--= farthest :: full slip :: 2 -->
     <!--= verdicts :: rigid_pull, spring_pull --> ... <!--= end -->
 
 A number stands right before its mark, which says what of the checks (`got`; `worst`, the greatest |got − expected|;
 `most`, the greatest got; `count`, how many there are) of a claim, by how their names begin (`*` for any letters), with
-how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX. A table of verdicts has the claims
-that its mark names.
+how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX. `farthest` is the greatest relative
+difference of a measured critical velocity from a formula, over all checks of a headline (validation/headlines.py). A
+table of verdicts has the claims that its mark names.
 """
 
 import argparse
@@ -24,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
-from validation import CLAIMS, words
+from validation import CLAIMS, headlines, words
 from validation.report import Claim
 from validation.typeset import markup, plain
 
@@ -98,14 +100,27 @@ def written(text: str, record: dict[str, Any]) -> str:
 def number(mark: str, record: dict[str, Any]) -> str:
     """The number that a mark asks for; ValueError for a mark that names no check, or too many."""
     parts = [part.strip() for part in " ".join(mark.split()).split(" :: ")]
+    if len(parts) == 3 and parts[0] == "farthest":
+        return formatted(_farthest(parts[1], record), *parts[2].split())
     if len(parts) != 4 or parts[0] not in _TAKEN:
-        raise ValueError(f"a mark reads '{' or '.join(_TAKEN)} :: claim :: check :: digits', got {mark!r}")
+        raise ValueError(
+            f"a mark reads '{' or '.join(_TAKEN)} :: claim :: check :: digits' or 'farthest :: headline :: digits',"
+            f" got {mark!r}"
+        )
     what, claim, name, form = parts
     begins = re.compile(".*".join(re.escape(part) for part in name.split("*")))
     found = [c for c in record["checks"] if claim in (c["claim"], "*") and begins.match(c["name"])]
     if not found or (what == "got" and len(found) > 1):
         raise ValueError(f"{mark!r} names {len(found)} checks: {[one['name'] for one in found[:5]]}")
     return formatted(float(_TAKEN[what](found)), *form.split())
+
+
+def _farthest(headline: str, record: dict[str, Any]) -> float:
+    """The greatest relative difference over the checks of a headline; ValueError where the record has none of them."""
+    found = [one for one in record["checks"] if headlines.reads(headline, one["claim"], one["name"])]
+    if not found:
+        raise ValueError(f"the headline {headline!r} names 0 checks")
+    return max(headlines.difference(c["name"], float(c["got"]), float(c["expected"]), c["why"]) for c in found)
 
 
 def formatted(value: float, digits: str, style: str = "") -> str:

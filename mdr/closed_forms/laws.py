@@ -857,7 +857,7 @@ def lost_under_shake(case: SlidingContact, v_0: float) -> float:
 
 
 class EllipticDrive(NamedTuple):
-    """What a drive does that is shaken along its way a quarter of a period after it is pressed."""
+    """What a drive does that is shaken along the slide a quarter of a period ahead of its depth."""
 
     blocked: float  #: push where it is held, over mu_0 times the mean normal force [-]
     free: float  #: velocity without load, over the greatest velocity of the shake [-]

@@ -26,6 +26,7 @@ WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwi
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
 NOTHING = 1e-8  #: a push over the load that is called none
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
+DIFFERENCE = {True: "no more", False: "more"}
 WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the strict answer
 
 
@@ -65,9 +66,9 @@ class Verdict(Printed):
             said = self._unmeasured()
         else:
             said = (
-                f"{self._use(self.measured)}. Strictly, to the bracket of the measurement, it {WORDS[self.holds]}: "
-                f"measured v_c = {self.measured:.6g} m/s (between {found.low:.8g} and {found.high:.8g}), "
-                f"against {self.eq_15:.6g} m/s"
+                f"{self._use(self.measured)}. Measured in runs, v_c = {self.measured:.6g} m/s (between {found.low:.8g} "
+                f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the difference is "
+                f"{DIFFERENCE[bool(self.holds)]} than the measurement leaves open"
             )
         sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
         if self.other_way is None:

@@ -121,13 +121,13 @@ RESONANT = contact("flat", 10.0, 0.0, 0.7, 1.0)
 
 
 @pytest.mark.parametrize(("formula_over_measured", "within", "begins", "good"), [
-    (1.0055, 0.01, "Eq. (15) is good to 1 % here (0.55 % too high). Strictly", True),
-    (1.0055, 0.005, "Eq. (15) is 0.55 % too high here; use {use} m/s. Strictly", False),
-    (0.9945, 0.005, "Eq. (15) is 0.55 % too low here; use {use} m/s. Strictly", False),
-    (0.98, 0.05, "Eq. (15) is good to 5 % here (2 % too low). Strictly", True),
-    (1.023, 0.01, "Eq. (15) is 2.3 % too high here; use {use} m/s. Strictly", False),
-    (12.0, 0.01, "Eq. (15) is too high by a factor of 12 here; use {use} m/s. Strictly", False),
-    (1 / 1200, 0.01, "Eq. (15) is too low by a factor of 1200 here; use {use} m/s. Strictly", False),
+    (1.0055, 0.01, "Eq. (15) is good to 1 % here (0.55 % too high). Measured in runs", True),
+    (1.0055, 0.005, "Eq. (15) is 0.55 % too high here; use {use} m/s. Measured in runs", False),
+    (0.9945, 0.005, "Eq. (15) is 0.55 % too low here; use {use} m/s. Measured in runs", False),
+    (0.98, 0.05, "Eq. (15) is good to 5 % here (2 % too low). Measured in runs", True),
+    (1.023, 0.01, "Eq. (15) is 2.3 % too high here; use {use} m/s. Measured in runs", False),
+    (12.0, 0.01, "Eq. (15) is too high by a factor of 12 here; use {use} m/s. Measured in runs", False),
+    (1 / 1200, 0.01, "Eq. (15) is too low by a factor of 1200 here; use {use} m/s. Measured in runs", False),
 ])  # fmt: skip
 def test_a_verdict_begins_with_how_good_the_formula_is(world, formula_over_measured, within, begins, good):
     world(lambda *_: EQ_15 / formula_over_measured)
@@ -136,24 +136,27 @@ def test_a_verdict_begins_with_how_good_the_formula_is(world, formula_over_measu
     assert (told.good, told.holds, told.within) == (good, False, within)
     assert told.deviation == pytest.approx(1 / formula_over_measured - 1, rel=1e-2)
     found = told.measurement
-    bracket = f"measured v_c = {found.v_c:.6g} m/s (between {found.low:.8g} and {found.high:.8g})"
-    assert f"it fails: {bracket}, against {told.eq_15:.6g} m/s. {told.why[0].upper()}" in str(told)
-    assert "%)" not in str(told).split("Strictly")[1]
+    bracket = f"Measured in runs, v_c = {found.v_c:.6g} m/s (between {found.low:.8g} and {found.high:.8g})"
+    words = "the difference is more than the measurement leaves open"
+    assert f"{bracket}, against {told.eq_15:.6g} m/s: {words}. {told.why[0].upper()}" in str(told)
+    assert "%)" not in str(told).split("Measured in runs")[1]
 
 
 def test_a_formula_inside_the_bracket_holds_strictly_too(world):
     world(lambda *_: EQ_15 * (1 + 2e-6))
     told = mdr.verdict(CASE)
     assert (told.good, told.holds) == (True, True)
-    assert str(told).startswith("Eq. (15) is good to 1 % here (0.0002 % too low). Strictly")
-    assert "it holds: measured v_c = " in str(told)
+    assert str(told).startswith("Eq. (15) is good to 1 % here (0.0002 % too low). Measured in runs")
+    assert "the difference is no more than the measurement leaves open" in str(told)
 
 
 def test_a_formula_off_by_less_than_the_bracket_is_not_replaced(world):
     world(lambda *_: EQ_15 * (1 + 1e-5))  # half the half width of the bracket
     told = mdr.verdict(CASE, within=1e-6)
     assert (told.good, told.holds) == (False, True)
-    assert str(told).startswith("Eq. (15) is 0.001 % too low here, no more than the measurement leaves open. Strictly")
+    assert str(told).startswith(
+        "Eq. (15) is 0.001 % too low here, no more than the measurement leaves open. Measured in runs"
+    )
 
 
 def test_another_tolerance_needs_no_other_measurement(world):
@@ -176,7 +179,7 @@ def test_a_formula_that_vanishes_beside_eq_1_has_no_percentage(world):
     told = mdr.verdict(ZERO)
     assert told.eq_15 < measurement.LEAST * UNIT
     assert told.deviation == pytest.approx(0.3 / measurement.LEAST, rel=1e-3)
-    assert str(told).startswith(f"Eq. (15) is almost zero here; use {told.measured:.4g} m/s. Strictly")
+    assert str(told).startswith(f"Eq. (15) is almost zero here; use {told.measured:.4g} m/s. Measured in runs")
     assert "%" not in str(told)
     assert (told.good, told.holds) == (False, False)
 
@@ -185,7 +188,7 @@ def test_a_formula_and_a_v_c_that_both_vanish_agree(world):
     world(lambda *_: 5e-5)
     told = mdr.verdict(ZERO)
     assert told.holds
-    assert str(told).startswith("Eq. (15) is almost zero here, and so is the measured v_c. Strictly")
+    assert str(told).startswith("Eq. (15) is almost zero here, and so is the measured v_c. Measured in runs")
     assert "%" not in str(told)
 
 
@@ -202,7 +205,7 @@ def test_a_formula_where_v_c_vanishes_is_too_high_by_no_number(world, end):
 def test_a_formula_at_its_pole_is_infinite_where_runs_find_a_velocity(world):
     world(lambda *_: 3.0)
     told = mdr.verdict(RESONANT)
-    assert str(told).startswith(f"Eq. (15) is infinite here; use {told.measured:.4g} m/s. Strictly")
+    assert str(told).startswith(f"Eq. (15) is infinite here; use {told.measured:.4g} m/s. Measured in runs")
     assert "%" not in str(told)
     assert (told.good, told.deviation, told.holds) == (None, None, False)
 

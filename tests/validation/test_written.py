@@ -14,6 +14,7 @@ CHECKS = [
     {"claim": "one", "name": "worst of 4", "got": 4.9e-6, "expected": 0.0, "held": True},
     {"claim": "one", "name": "v over v_c: cone", "got": 0.998, "expected": 1.0, "held": True},
     {"claim": "one", "name": "v over v_c: punch", "got": 1.001, "expected": 1.0, "held": False},
+    {"claim": "maps", "name": "measured v_c over that of full slip: 3", "got": 0.99998, "expected": 1.0, "why": "w"},
 ]
 SAMPLE = {"claims": [{"name": "one", "verdict": "holds if E* | F", "sentence": "As v_c^2."}], "checks": CHECKS}
 
@@ -60,8 +61,8 @@ def test_numbers_read_well(value, form, shown):
     ("mark", "shown"),
     [
         ("got :: one :: worst :: 2", "4.9·10⁻⁶"), ("worst :: one :: v over v_c :: 1", "0.002"),
-        ("most :: one :: v over v_c :: 4", "1.001"), ("count :: * :: * :: 3", "3"),
-        ("most :: one :: *: punch :: 4", "1.001"),
+        ("most :: one :: v over v_c :: 4", "1.001"), ("count :: one :: * :: 3", "3"),
+        ("most :: one :: *: punch :: 4", "1.001"), ("farthest :: full slip :: 2", "2·10⁻⁵"),
     ],
 )  # fmt: skip
 def test_a_mark_takes_what_it_names(mark, shown):
@@ -70,9 +71,10 @@ def test_a_mark_takes_what_it_names(mark, shown):
     assert written.written(text, SAMPLE) == f"about {shown}<!--= {mark} --> and 12 % of 3"
 
 
-@pytest.mark.parametrize("mark", ["got :: one :: v :: 2", "got :: one :: x :: 2", "got :: two :: worst :: 2", "best"])
+@pytest.mark.parametrize("mark", ["got :: one :: v :: 2", "got :: one :: x :: 2", "got :: two :: worst :: 2", "best",
+                                  "farthest :: rigid pull :: 2", "farthest :: pull :: 2"])  # fmt: skip
 def test_a_mark_that_names_no_check_or_several_is_refused(mark):
-    with pytest.raises(ValueError, match=r"names \d checks|a mark reads"):
+    with pytest.raises(ValueError, match=r"names \d checks|a mark reads|a headline is one of"):
         number(mark, SAMPLE)
 
 

@@ -72,7 +72,8 @@ def part(effort: str) -> Part:
             " amplitude is one number, the"
             " exponent s with which its stiffness changes about the mean depth. The deviation from Eq. (15) is C α s,"
             " with one C for all shapes, closed forms, sampled points and measured forces alike; a flat or hollow punch"
-            " has none. For a standard solid C is another number, again the same for all shapes."
+            " has none. For a standard solid C is another number, again the same for"
+            f" {'the three shapes computed' if quick else 'all curved shapes'}."
         ),
         sentence=(
             "At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not know"
@@ -169,11 +170,13 @@ def _figure(quick: bool) -> Figure:
         ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
     return Figure(
         "slopes",
-        "Sixteen shapes under the same body: how fast v_c leaves Eq. (15) with amplitude, over the exponent with which"
-        " the stiffness of the contact changes about its mean depth. All shapes of one material lie on one straight"
-        " line through zero: this exponent is all that v_c knows of a shape at small amplitude.",
+        f"{len(ALL)} shapes under the same body{', elastic' if quick else ''}: how fast v_c leaves Eq. (15) with"
+        " amplitude, over the exponent with which the stiffness of the contact changes about its mean depth."
+        f" {'They' if quick else 'All shapes of one material'} lie on one straight line through zero: at small"
+        " amplitude v_c depends on the shape through this exponent alone.",
         fig,
-        "Points of sixteen shapes on straight lines through zero, one for each material.",
+        f"Points of {len(ALL)} shapes on {'a straight line' if quick else 'straight lines'} through zero"
+        f"{'' if quick else ', one for each material'}.",
     )
 
 

@@ -159,14 +159,14 @@ def part(effort: str) -> Part:
         f"{counted(len(points), 'measured velocity')}. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and"
         " ωτ = "
         f"{LOSSES[0]:g} … {LOSSES[1]:g}",
-        measured=f"Rigid pull: Eq. (1) for every shape, depth, amplitude and relaxation time tested "
-        f"({_tested(rigid)}), to {_worst(points, 'rigid pull'):.1e}; each of these contacts exists when its depth "
-        "grows fastest. Spring pull: Eq. (15) for the flat "
+        measured=f"Rigid pull: Eq. (1) in all of {counted(len(rigid), 'measurement')} ({_tested(rigid)}), to "
+        f"{_worst(points, 'rigid pull'):.1e}; each of these contacts is closed at the moment of fastest approach."
+        " Spring pull: Eq. (15) for the flat "
         f"punch; for curved shapes it is the limit of small amplitude. For small α the deviation is proportional to α "
         f"times the exponent of the stiffness k_zc ∝ d^{{1/n}}, with one factor for all shapes (elastic and undamped: "
         f"to α^2); for large α it turns back and may change its sign. Farthest off: {100 * far.deviation:+.1f} % "
         f"({far.where}); at α = 0.02: {100 * small.deviation:+.2f} % ({small.where}). The full-slip condition with "
-        f"all harmonics gives the measured value everywhere, to {max(abs(p.miss) for p in points):.1e}.",
+        f"all harmonics gives the measured value in all of them, to {max(abs(p.miss) for p in points):.1e}.",
         sentence="For a curved shape under a body the error of Eq. (15) is proportional to α for small α, and to the "
         "exponent with which the stiffness depends on depth.",
         checks=(*_measured_checks(points), *_power_checks(), *_map_checks()),

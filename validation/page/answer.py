@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 
+from validation import headlines
 from validation.report import Check, Claim
 from validation.words import counted, number, percent, span
 
@@ -14,13 +15,13 @@ def answers(claims: Sequence[Claim]) -> list[str]:
     """
     sentences, asked = [], False
     for name, checks, sentence in (
-        ("Rigid pull and flat punch", {"rigid": _RIGID, "punch": _PUNCH}, _exact),
+        ("Rigid pull and flat punch", {"rigid": "rigid pull", "punch": "flat punch on a spring"}, _exact),
         ("Curved shape on a spring", {"power": _POWER, "error": _ERROR}, _curved),
         ("Resonance with a harmonic", {"reduction": _REDUCTION}, _resonance),
-        ("Full slip", {"full_slip": _FULL_SLIP}, _instead),
+        ("Full slip", {"full_slip": "full slip", "far": _FAR}, _instead),
     ):
-        found = {key: _found(claims, *where) for key, where in checks.items()}
-        missed = sum(not check.held for some in found.values() for check in some)
+        found = {key: _found(claims, where) for key, where in checks.items()}
+        missed = len({check for some in found.values() for check in some if not check.held})
         if not all(found.values()):
             sentences.append(f"<b>{name}</b>: not asked in this run.")
             continue
@@ -31,29 +32,35 @@ def answers(claims: Sequence[Claim]) -> list[str]:
 
 
 #: claim, and how the names of its checks begin
-_RIGID = ("rigid_pull", r"measured v_c over Eq\. \(1\).*(contact kept|back in time)\)")
-_PUNCH = ("generalisation", r"flat punch.*worst \|v_c/Eq\. \(15\) − 1\|")
 _POWER = ("generalisation", r"\w.*, stiff spring: power of α in the deviation")
 _ERROR = ("generalisation", r"curved shapes: largest \|v_c/Eq\. \(15\) − 1\| measured")
 _REDUCTION = ("resonances", r"\(1 − COF/μ_0\) F_0/\|F_n\| at (\d+) v_c: .*ω_0 = [2-9]ω")
-_FULL_SLIP = ("generalisation", r"worst \|v_c/full-slip value − 1\|")
+_FAR = ("generalisation", r"worst \|v_c/full-slip value − 1\|")  # large amplitude, contact lost
 
 
-def _found(claims: Sequence[Claim], name: str, begins: str) -> list[Check]:
-    own = [check for claim in claims if claim.name == name for check in claim.checks]
-    return [check for check in own if check.got is not None and re.match(begins, check.name)]
+def _found(claims: Sequence[Claim], where: str | tuple[str, str]) -> list[Check]:
+    """Checks of a headline, or of one claim."""
+
+    def asked(claim: str, check: str) -> bool:
+        if isinstance(where, str):
+            return headlines.reads(where, claim, check)
+        return claim == where[0] and bool(re.match(where[1], check))
+
+    return [c for claim in claims for c in claim.checks if c.got is not None and asked(claim.name, c.name)]
 
 
-def _most(checks: Sequence[Check]) -> float:
-    return max(check.got or 0.0 for check in checks)
+def _off(checks: Sequence[Check]) -> str:
+    """To what the velocities agree, over all checks; and whether all that there is is one measurement."""
+    most = max(headlines.difference(c.name, c.got or 0.0, c.expected, c.why) for c in checks)
+    return number(most) + (" on one measurement" if [c.name[-5:] for c in checks] == [" of 1"] else "")
 
 
 def _exact(rigid: Sequence[Check], punch: Sequence[Check]) -> str:
-    off = max(abs((check.got or 0.0) - check.expected) for check in rigid)
     return (
         "<b>Yes, exactly, for a rigid pull and for a flat punch that keeps contact.</b> Critical velocities measured"
-        f" from runs agree to {number(off)} with Eq. (1), which Eq. (15) is for a rigid pull, as long as the surfaces"
-        f" touch when the depth grows fastest; those of the punch on a spring agree to {number(_most(punch))}."
+        f" from runs agree with Eq. (1), which Eq. (15) is for a rigid pull, to {_off(rigid)}, unless the contact is"
+        " open"
+        f" at the moment of fastest approach; those of the punch on a spring agree with Eq. (15) to {_off(punch)}."
     )
 
 
@@ -78,9 +85,10 @@ def _resonance(reduction: Sequence[Check]) -> str:
     )
 
 
-def _instead(full_slip: Sequence[Check]) -> str:
+def _instead(full_slip: Sequence[Check], far: Sequence[Check]) -> str:
     return (
         "<b>Use the full-slip condition instead,</b> v_c = max (μ_0 κ <i>u̇</i><sub>z</sub> − <i>ẏ</i>) over the"
         " instants of contact, <i>y</i> the motion of the body under all harmonics of the normal force. It meets the"
-        f" measured velocities to {number(_most(full_slip))}, at large amplitude and with contact lost too."
+        f" measured velocities to {_off(full_slip)}; at large amplitude and with contact lost, to {_off(far)}. Only an"
+        " undamped body at a resonance departs from it."
     )
