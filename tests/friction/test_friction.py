@@ -330,7 +330,8 @@ def test_eq_15_fails_for_a_curved_contact_of_finite_amplitude():
     size = f"{100 * abs(off):.2g} % too {'high' if off > 0 else 'low'}"
     assert str(verdict).startswith(f"Eq. (15) is {size} here; use {verdict.measured:.4g} m/s. ")
     assert "the difference is more than the measurement leaves open" in str(verdict)
-    assert str(verdict).endswith(f"{verdict.eq_15:.6g} m/s. {verdict.why[0].upper()}{verdict.why[1:]}")
+    assert f"against {verdict.eq_15:.6g} m/s: " in str(verdict)
+    assert str(verdict).endswith(f"leaves open. {verdict.why[0].upper()}{verdict.why[1:]}")
 
 
 @pytest.mark.parametrize(("nu", "said"), [(0.3, True), (0.5, False)])
