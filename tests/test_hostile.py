@@ -240,7 +240,7 @@ HOSTILE = [
     (lambda: mdr.sweep(CASE, {"v_0": [V_C, V_C]}), ValueError, "v_0 has the value 0.001 twice"),
     (lambda: mdr.sweep(CASE, {"pull.m": [1.0]}), ValueError, "RigidPull has none"),
     (lambda: mdr.sweep(CASE, {"indenter": ["ball"]}), TypeError, "indenter must be a list of records"),
-    (lambda: mdr.sweep(CASE, {"mu_0": [0.5]}), ValueError, 'cof need a velocity: give an axis "v_0"'),
+    (lambda: mdr.sweep(CASE, {"mu_0": [0.5]}), ValueError, 'cof needs a velocity: give an axis "v_0"'),
     (lambda: mdr.sweep(CASE, {"v_0": [V_C]}, quantities=["coff"]), ValueError, "did you mean cof?"),
     (lambda: mdr.sweep(CASE, {"v_0": [V_C]}, quantities="cof"), TypeError, "quantities must be a list of names"),
     (lambda: mdr.sweep(CASE, {"v_0": [V_C]}, shard="1/2"), ValueError, "a shard needs a store"),

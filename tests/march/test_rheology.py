@@ -250,7 +250,7 @@ def test_a_material_that_flows_is_refused():
         )
 
 
-@pytest.mark.filterwarnings("error")
+@pytest.mark.filterwarnings("error", "ignore::mdr.PlausibilityWarning")
 def test_a_material_that_relaxes_too_slowly_is_refused_and_one_almost_so_is_elastic_over_a_period():
     solid = mdr.Prony(3e6, [(2e6, 0.99e10 / OMEGA)], 0.5)
     motion = mdr.PeriodicMotion(OMEGA, 20e-6, (2e-6, 5e-7))
