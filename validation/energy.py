@@ -40,7 +40,6 @@ SPRING: dict[str, Any] = {
 }  # omega_1 = 1.7 omega: 64 steps resolve it
 PULLS: dict[str, dict[str, Any]] = {"rigid pull": {}, "spring pull": SPRING}
 PERIODS = 24
-TERMS = ("friction_loss", "viscous_loss", "damper_loss")
 STEP = (2 * np.pi / LEVELS[-1]) ** 2  # h² at the finest level
 
 

@@ -30,7 +30,7 @@ from mdr.commands.velocities import (
     stand_in_of_v_c,
     velocity_in,
 )
-from mdr.commands.velocity import Ends
+from mdr.commands.velocity import Ends, equation_of
 
 if TYPE_CHECKING:
     from mdr.friction.cof_curve import CofCurve
@@ -73,7 +73,7 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
             scalars |= {"v_c_back": found.v_c_back, **Ends.of(case).values}
         print_json(args, scalars | _columns(found), case)
     else:
-        _print_curve(found)
+        _print_curve(found, equation_of(case)[0])
         if case.is_shaken:
             print_rows(Ends.of(case).rows)
     unsettled = int(np.sum(~found.settled))
@@ -119,11 +119,12 @@ def _loose_ends(curve: CofCurve) -> list[str]:
     return [why for why, settled in zip(curve.why, curve.settled, strict=False) if why and not settled]
 
 
-def _print_curve(curve: CofCurve) -> None:
+def _print_curve(curve: CofCurve, equation: str) -> None:
     scaled = math.isfinite(curve.v_c) and curve.v_c > 0
     back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
-    print(f"v_c = {velocity_text(curve.v_c)}{back}, mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}")
+    known = f"mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
+    print(f"v_c = {velocity_text(curve.v_c)}{back} by {equation}, {known}")
     print(f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled")
     columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled)
     for v_0, cof, error, stick, settled in zip(*columns, strict=True):

@@ -23,6 +23,7 @@ from mdr.commands.output import (
     write_table,
 )
 from mdr.commands.velocities import let_values_be_negative, velocity_in
+from mdr.commands.velocity import equation_of
 from mdr.friction.cof_curve import LEAST_KNOB
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def run(args: argparse.Namespace, case: SlidingContact) -> int:
     if args.json:
         print_json(args, {"v_c": v_c, **_values(found)}, case)
     else:
-        print(f"v_c = {velocity_text(v_c)}, mu_0 = {case.mu_0:.6g}\n{found}")
+        print(f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}")
     return DONE if found.settled else complain(f"the run did not settle\n  {found.why}", FAILED)
 
 
