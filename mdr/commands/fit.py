@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
 from mdr.commands.output import DONE, WrongInput, add_output, made_by, output_folder, path_of, print_json, write_figure
-from mdr.files.case_files import write_case
+from mdr.files.case_files import StandardInput, write_case
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented
 
@@ -36,6 +36,8 @@ def fit(args: argparse.Namespace, case: SlidingContact) -> int:
     """Fit, write and print."""
     import mdr
 
+    if isinstance(args.data, StandardInput) and isinstance(args.case, StandardInput):
+        raise WrongInput("- stands for the case and for the data: standard input can be read once, give a file for one")
     folder = output_folder(args, FILES)
     try:
         data = mdr.read_friction_data(args.data)

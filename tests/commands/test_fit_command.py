@@ -1,6 +1,8 @@
 """`mdr fit`: the table, the files and the JSON of a fit, and what wrong input is told."""
 
 import json
+import sys
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import pytest
@@ -81,3 +83,9 @@ def test_a_fault_of_the_data_names_their_file(files, capsys):
     Path("data.csv").write_text(DATA.replace("0.49", "high"))
     assert main([*files, "--free", "mu_0"]) == 2
     assert "data.csv: line 4: high is no number (column cof)" in capsys.readouterr().err
+
+
+def test_standard_input_stands_for_one_file(files, capsys, monkeypatch):
+    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(CASE.encode("utf-8")), encoding="utf-8"))
+    assert main(["fit", "-", "-", "--free", "mu_0"]) == 2
+    assert "standard input can be read once" in capsys.readouterr().err
