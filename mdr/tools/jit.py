@@ -1,12 +1,20 @@
-"""Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written."""
+"""Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
+
+What takes long is said on standard error: the first run on a machine waits half a minute for it.
+"""
 
 from __future__ import annotations
 
+import sys
+import time
 import warnings
 from collections.abc import Callable
 from typing import Any
 
 from numba import njit
+from numba.core import event
+
+from mdr.tools.progress import PATIENCE
 
 Function = Callable[..., Any]
 
@@ -32,3 +40,31 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         return ready
 
     return wrap
+
+
+class Notice(event.Listener):
+    """Says once, on standard error, that functions of this package are being compiled, if it takes long."""
+
+    def __init__(self) -> None:
+        self.since, self.open, self.said = 0.0, 0, False
+
+    def on_start(self, event: Any) -> None:
+        """A function begins to be compiled, perhaps within another."""
+        if not _is_ours(event):
+            return
+        self.since = self.since if self.open else time.monotonic()
+        self.open += 1
+        if not self.said and time.monotonic() - self.since > PATIENCE:
+            self.said = True
+            print("compiling, once on this machine: about half a minute", file=sys.stderr, flush=True)
+
+    def on_end(self, event: Any) -> None:
+        """It is compiled."""
+        self.open -= _is_ours(event)
+
+
+def _is_ours(event: Any) -> bool:
+    return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
+
+
+event.register("numba:compile", Notice())  # type: ignore[no-untyped-call]
