@@ -53,7 +53,9 @@ class CofCurve(Summarised, ArrayRecord):
     static_cof: float  #: limit v_0 -> +0 [-]
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
     v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
-    static_cof_back: float | None = None  #: limit v_0 -> -0 [-] where velocities of both signs are asked for
+    static_cof_back: float | None = (
+        None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
+    )
 
     def _summary(self) -> Summary:
         n, settled = self.v_0.size, int(self.settled.sum())
@@ -183,7 +185,7 @@ def cof_curve(
     is_closed, knobs = method is None and has_closed_form(case), (n_springs, steps_per_period, accuracy)
     columns = _closed_form(case, asked) if is_closed else _marched(case, asked, knobs)
     back = None
-    if case.is_shaken and np.any(velocities < 0):
+    if case.is_shaken and np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
         rest, mirrored = np.zeros(1), case.mirrored
         back = -float((_closed_form(mirrored, rest) if is_closed else _from_rest_on(mirrored, rest, knobs))[0][0])
     (cof, error, settled, sticks, why), n = columns, velocities.size
