@@ -209,7 +209,8 @@ def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
 def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequence[str] = ()) -> SlidingContact:
     """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
     known = _top_level()
-    axes = content.get("axes") or {}
+    axes = content.get("axes")
+    axes = axes if isinstance(axes, dict) else {}
     content = {key: value for key, value in content.items() if key not in beside}
     if "axes" in content:
         raise fault_error(source, [STUDY])
@@ -227,6 +228,10 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     assert isinstance(case, SlidingContact)
     if "oscillation.m_z" not in axes:
         _ask_for_mass(case, content["oscillation"])
+    if "pull" in content and not {"m"} & {*content["pull"], *(path.removeprefix("pull.") for path in axes)}:
+        warn_outside(
+            "[pull] says no mass: give m in kg, or m = 0 for a body without inertia, which is what is computed"
+        )
     return case
 
 

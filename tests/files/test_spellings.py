@@ -104,3 +104,11 @@ def test_a_load_that_may_ride_on_the_body_is_asked_for_its_mass():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert read(motion=body.format("m_z = 0")) == asked == mdr.parse_case(mdr.write_case(asked))
+
+
+def test_a_pull_without_a_mass_is_asked_for_it():
+    with pytest.warns(mdr.PlausibilityWarning, match=r"\[pull\] says no mass: give m in kg"):
+        asked = read(motion=PLAIN["motion"] + "\n[pull]\nk_x = 2e4")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert read(motion=PLAIN["motion"] + "\n[pull]\nk_x = 2e4\nm = 0") == asked
