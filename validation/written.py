@@ -7,13 +7,13 @@ where a place is not what the record says. Places are marked by comments, which 
 
     0.47<!--= got :: resolution :: true error over cof_error :: 2 -->
     2.4·10⁻⁵<!--= farthest :: full slip :: 2 -->
-    <!--= verdicts :: rigid_pull, spring_pull --> ... <!--= end -->
+    <!--= verdicts :: The model --> ... <!--= end -->
 
 A number stands right before its mark, which says what of the checks (`got`; `worst`, the greatest |got − expected|;
 `most`, the greatest got; `count`, how many there are) of a claim, by how their names begin (`*` for any letters), with
 how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX. `farthest` is the greatest relative
 difference of a measured critical velocity from a formula, over all checks of a headline (validation/headlines.py). A
-table of verdicts has the claims that its mark names.
+table of verdicts has the claims of the group (`validation.GROUPS`) that its mark names.
 """
 
 import argparse
@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from mdr.tools.provenance import PARTS, version_of
-from validation import CLAIMS, headlines, words
+from validation import CLAIMS, GROUPS, headlines, words
 from validation.report import Claim
 from validation.typeset import markup, plain
 
@@ -35,7 +35,7 @@ RECORD = ROOT / "docs" / "checks.json"
 CONSTRAINTS = Path(__file__).with_name("constraints.txt")
 
 _NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
-_TABLE = re.compile(r"(<!--= verdicts :: ([\w, ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
+_TABLE = re.compile(r"(<!--= verdicts :: ([\w ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
 
 #: what a mark takes of the checks that it names
 _TAKEN: dict[str, Callable[[Sequence[dict[str, Any]]], float]] = {
@@ -93,7 +93,7 @@ def pages() -> list[Path]:
 
 def written(text: str, record: dict[str, Any]) -> str:
     """The text with all its marked places set from a record of checks."""
-    text = _TABLE.sub(lambda place: place[1] + verdict_table(record, place[2].split(", ")) + place[3], text)
+    text = _TABLE.sub(lambda place: place[1] + verdict_table(record, _of_group(place[2])) + place[3], text)
     return _NUMBER.sub(lambda place: f"{number(place[2], record)}<!--= {place[2]} -->", text)
 
 
@@ -131,6 +131,13 @@ def formatted(value: float, digits: str, style: str = "") -> str:
         mantissa, exponent = f"{value:.{int(digits) - 1}e}".split("e")
         return rf"${mantissa} \times 10^{{{int(exponent)}}}$"
     return words.number(value, int(digits))
+
+
+def _of_group(title: str) -> Sequence[str]:
+    """The claims of a group; ValueError for a title that is none."""
+    if title not in GROUPS:
+        raise ValueError(f"a table of verdicts is that of {' or '.join(GROUPS)}, got {title!r}")
+    return GROUPS[title][1]
 
 
 def verdict_table(record: dict[str, Any], names: Sequence[str]) -> str:

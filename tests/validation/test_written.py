@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from validation import CLAIMS, written
+from validation import CLAIMS, GROUPS, written
 from validation.written import RECORD, formatted, main, number, pages, verdict_table
 
 CHECKS = [
@@ -33,10 +33,9 @@ def test_the_record_is_of_all_claims_and_all_checks_held():
         assert len(claim["sentence"]) <= 200, "a row of a table is read at a glance"
 
 
-def test_every_claim_stands_in_one_table_of_its_page():
+def test_every_group_of_claims_has_one_table():
     page = (RECORD.parent / "claims.md").read_text(encoding="utf-8")
-    shown = [name for names in re.findall(r"<!--= verdicts :: (.*?) -->", page) for name in names.split(", ")]
-    assert sorted(shown) == sorted(CLAIMS)
+    assert re.findall(r"<!--= verdicts :: (.*?) -->", page) == list(GROUPS)
 
 
 def test_a_verdict_that_is_not_quoted_is_named():
@@ -83,19 +82,25 @@ def test_the_table_counts_what_held_and_escapes_what_would_break_it():
     assert row == r"| one | holds if E\* \| F | As <i>v</i><sub>c</sub><sup>2</sup>. | 2 of 3 |"
 
 
-def test_a_table_has_the_claims_that_it_names_in_their_order():
+def test_a_table_has_the_claims_of_its_group_in_their_order(monkeypatch):
+    monkeypatch.setitem(GROUPS, "Two of three", ("", ("c", "a_b")))
     record = {"claims": [SAMPLE["claims"][0] | {"name": name} for name in ("one", "a_b", "c")], "checks": CHECKS}
-    text = written.written("<!--= verdicts :: c, a_b -->\nbefore\n<!--= end -->\n", record)
+    text = written.written("<!--= verdicts :: Two of three -->\nbefore\n<!--= end -->\n", record)
     assert [line.split(" | ")[0] for line in text.splitlines()[3:5]] == ["| c", "| a b"]
     assert "before" not in text
+
+
+def test_a_table_of_no_group_or_of_claims_that_the_record_lacks_is_refused():
     with pytest.raises(ValueError, match="lacks the claims two of a table; it has one"):
         verdict_table(SAMPLE, ["one", "two"])
+    with pytest.raises(ValueError, match=r"is that of The model or .*, got 'Nothing'"):
+        written.written("<!--= verdicts :: Nothing -->\n<!--= end -->\n", SAMPLE)
 
 
 def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     (tmp_path / "docs").mkdir()
     page, record = tmp_path / "README.md", tmp_path / "docs" / "checks.json"
-    text = "17 %<!--= got :: one :: worst :: 2 -->\n<!--= verdicts :: one -->\nbefore\n<!--= end -->\n"
+    text = "17 %<!--= got :: one :: worst :: 2 -->\n<!--= verdicts :: Only -->\nbefore\n<!--= end -->\n"
     page.write_text(text, encoding="utf-8")
     given = tmp_path / "given.json"
     given.write_text(json.dumps(SAMPLE), encoding="utf-8")
@@ -103,6 +108,7 @@ def test_a_stale_number_is_seen_and_set(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(written, "ROOT", tmp_path)
     monkeypatch.setattr(written, "RECORD", record)
     monkeypatch.setattr(written, "CONSTRAINTS", tmp_path / "constraints.txt")
+    monkeypatch.setitem(GROUPS, "Only", ("", ("one",)))
     monkeypatch.setattr(written, "CLAIMS", ("one", "of another run"))
     with pytest.raises(SystemExit):
         main([str(given)])
