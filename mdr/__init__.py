@@ -10,14 +10,16 @@ from mdr.case.motion import *
 from mdr.case.in_plane import *
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.case.contact import SlidingContact
-from mdr.normal.resolved import resolved
+from mdr.normal.load_control import static_depth, static_load
+from mdr.normal.resolved import plausibility, resolved
 from mdr.normal.doubts import PlausibilityWarning
-from mdr.normal.rig import plausibility, rig, static_depth, static_load
+from mdr.normal.rig import rig
 from mdr.normal.springs import SpringArray
 from mdr.normal.indentation import Indentation, indent
 from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
 
-from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.files.case_files import parse_case, read_case, write_case
+from mdr.files.toml_text import CaseFileError
 from mdr.files.measurements import DynamicModuli, read_moduli
 from mdr.files.own_records import register
 from mdr.closed_forms import laws

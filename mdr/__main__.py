@@ -21,9 +21,10 @@ import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
-from mdr.files.case_files import CaseFileError, read_case
+from mdr.files.case_files import read_case
+from mdr.files.toml_text import CaseFileError
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
-from mdr.normal.rig import plausibility
+from mdr.normal.resolved import plausibility
 
 JSON = "print one JSON object instead of text"
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
@@ -54,13 +55,7 @@ def _run(args: argparse.Namespace) -> int:
     """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
     work: Callable[[argparse.Namespace, Any], int] = args.work
     try:
-        case = _read(args) if args.read else None
-    except CaseFileError as fault:
-        return complain(str(fault), WRONG_INPUT)
-    except _FAILURES as fault:
-        return complain(f"{args.case}: {fault}", FAILED)
-    try:
-        status = work(args, case)
+        status = work(args, _read(args) if args.read else None)
         sys.stdout.flush()  # a full disk shows here
         return status
     except WrongInput as fault:
@@ -75,7 +70,10 @@ def _run(args: argparse.Namespace) -> int:
 def _read(args: argparse.Namespace) -> Any:
     """What the file describes; what is unlikely of it is said on standard error. PYTHONWARNINGS=ignore silences it."""
     with warnings.catch_warnings(record=True) as said:
-        case = args.read(args.case)
+        try:
+            case = args.read(args.case)
+        except CaseFileError as fault:
+            raise WrongInput(str(fault)) from None
         base = case if isinstance(case, SlidingContact) else getattr(case, "case", None)  # of a study
         for doubt in plausibility(base) if base is not None else ():
             warn_outside(doubt)
@@ -95,34 +93,25 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--json", action="store_true", help=JSON)
     top.add_argument("--version", action="version", version=f"mdr {mdr.__version__}")
     commands = top.add_subparsers(metavar="command")
-    with_case = [
-        ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run"),
-        ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip"),
-        ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation"),
-        ("measure", judge.measure, "critical velocity from simulation alone"),
-        ("verdict", judge.verdict, "how good the closed-form critical velocity is, and what to use in its place"),
-        ("fit", fit.fit, "parameters of the case from measured friction over velocity"),
+    with_case: list[tuple[str, Callable[..., int], str, Callable[[argparse.ArgumentParser], None] | None]] = [
+        ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run", None),
+        ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip", run.add_options),
+        ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation", curve.add_options),
+        ("measure", judge.measure, "critical velocity from simulation alone", judge.add_accuracy_of_bracket),
+        ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", judge.add_options),
+        ("fit", fit.fit, "parameters of the case from measured friction over velocity", fit.add_options),
     ]
-    for name, work, summary in with_case:
+    for name, work, summary, add_options in with_case:
         command = _command(commands, name, work, summary)
         _takes_file(command, "case.toml", "the case file; docs/example.toml is one", read_case)
-        if name == "curve":
-            curve.add_options(command)
-        elif name == "run":
-            run.add_options(command)
-        elif name == "verdict":
-            judge.add_options(command)
-        elif name == "measure":
-            judge.add_accuracy_of_bracket(command)
-        elif name == "fit":
-            fit.add_options(command)
+        if add_options is not None:
+            add_options(command)
     study = "a grid of cases, from a study file; the same call goes on after any end"
     command = _command(commands, "sweep", sweep.sweep, study)
     _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)
     sweep.add_options(command)
-    explore.add_options(
-        _command(commands, "explore", explore.explore, "a page in the browser to try a case with sliders")
-    )
+    page = "a page in the browser to try a case with sliders"
+    explore.add_options(_command(commands, "explore", explore.explore, page))
     named = "the shapes, materials and motions that a file can name, and their keys"
     _command(commands, "shapes", begin.shapes, named)
     begin.add_options(_command(commands, "case", begin.case, "a commented case file to begin with"))

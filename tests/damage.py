@@ -16,7 +16,7 @@ import anything
 import mdr
 from mdr.__main__ import main
 from mdr.files import examples
-from mdr.files.case_files import CaseFileError
+from mdr.files.toml_text import CaseFileError
 from mdr.studies.study_files import read_study_file
 
 ROOT = Path(__file__).parents[1]

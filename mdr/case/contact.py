@@ -219,6 +219,11 @@ class SlidingContact(Summarised):
         return self.oscillation.working_depth
 
     @property
+    def contact_depth(self) -> float:
+        """Depth [m] at which there is a contact: the working depth, or the greatest of tapping with u_z0 <= 0."""
+        return self.working_depth if self.working_depth > 0 else self.u_z_max
+
+    @property
     def k_zc(self) -> float:
         """Normal contact stiffness 2 E* a(u_z0) [N/m]; zero for tapping with u_z0 <= 0."""
         return float(self.indenter.stiffness(self.working_depth, self.material.E_star))

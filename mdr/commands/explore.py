@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 
 from mdr.case.contact import SlidingContact
-from mdr.commands.output import DONE, WrongInput, print_json
-from mdr.files.case_files import CaseFileError, read_case
+from mdr.commands.output import DONE, WrongInput, path_of, print_json, whole_number
+from mdr.files.case_files import read_case
+from mdr.files.toml_text import CaseFileError
 
-PORT = 5006
+PORT, HIGHEST_PORT = 5006, 65535
 INSTALL = (
     "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
     "python3 -m pip --python .venv install -e '.[explore]'"
@@ -17,10 +18,10 @@ INSTALL = (
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The case, the port, and whether a browser is opened."""
-    command.add_argument(
-        "case", metavar="case.toml", nargs="?", help="the case file (default: the example of mdr case)"
-    )
-    command.add_argument("--port", type=_port, default=PORT, help=f"port, 0 for a free one (default: {PORT})")
+    file = "the case file; - is standard input (default: the example of mdr case)"
+    command.add_argument("case", metavar="case.toml", nargs="?", type=path_of, help=file)
+    port = f"port, 0 for a free one (default: {PORT})"
+    command.add_argument("--port", type=whole_number(0, HIGHEST_PORT), default=PORT, help=port)
     command.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
 
 
@@ -61,9 +62,3 @@ def _case(path: str | None) -> SlidingContact:
         return read_case(path) if path is not None else example()
     except CaseFileError as fault:
         raise WrongInput(str(fault)) from None
-
-
-def _port(text: str) -> int:
-    if not text.isascii() or not text.isdigit() or int(text[:9]) > 65535:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 65535, got {text!r}")
-    return int(text)

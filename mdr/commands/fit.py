@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact
 from mdr.commands.output import DONE, WrongInput, add_output, made_by, output_folder, path_of, print_json, write_figure
-from mdr.files.case_files import StandardInput, write_case
+from mdr.files.case_files import write_case
+from mdr.files.toml_text import StandardInput
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented
 

@@ -14,7 +14,8 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.files.case_files import StandardInput, write_case
+from mdr.files.case_files import write_case
+from mdr.files.toml_text import StandardInput
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented, figure_metadata, versions

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.commands.output import WrongInput
-from mdr.tools.written import UNITS
+from mdr.tools.notation import UNITS
 
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
 _UNITS = UNITS["m/s"] | {OF_V_C: 1.0}

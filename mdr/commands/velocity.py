@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
-from mdr.normal.doubts import depth_in_doubt, edge, frequencies
+from mdr.normal.doubts import edge, frequencies
 from mdr.normal.resolved import resolved
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class Size(NamedTuple):
         """Those of a case of known depth."""
         from mdr.closed_forms.full_slip import mean_normal_force
 
-        d, E_star = depth_in_doubt(known), known.material.E_star
+        d, E_star = known.contact_depth, known.material.E_star
         a, slope = edge(known.indenter, d)
         k_zc = float(known.indenter.stiffness(d, E_star))
         ratios = [known.pull.omega_0 / one for one in frequencies(known)]

@@ -16,7 +16,7 @@ from mdr.case.contact import KINDS, as_given
 from mdr.case.in_plane import PLACES
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.explorer.links import written
+from mdr.explorer.links import typed
 from mdr.explorer.scales import group_values, scales_of
 from mdr.explorer.state import State
 from mdr.normal.vary import GROUPS
@@ -83,7 +83,7 @@ def controls_of(state: State) -> dict[str, list[Control]]:
 def _typed(value: Any) -> str:
     if isinstance(value, tuple):
         return f"[{', '.join(map(_typed, value))}]"
-    return written(value) if isinstance(value, float) else str(value)
+    return typed(value) if isinstance(value, float) else str(value)
 
 
 def _control(state: State, path: str, facts: Facts | None = None) -> Control:

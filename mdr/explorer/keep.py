@@ -11,7 +11,7 @@ import panel as pn
 
 from mdr.case.contact import SlidingContact
 from mdr.explorer.links import link_of, python_of
-from mdr.explorer.look import HEADING, REFUSALS, area, html, told
+from mdr.explorer.look import HEADING, REFUSALS, area, html, words_of
 from mdr.explorer.pictures import Picture, pictures_of
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case
@@ -59,7 +59,7 @@ class Keep:
         try:
             self.take(parse_case(event.new.decode("utf-8-sig"), self.given.filename or "file"))
         except REFUSALS as refusal:
-            self.refuse(told(refusal))
+            self.refuse(words_of(refusal))
 
     def _svg(self, what: str) -> BytesIO:
         """A figure of the project's plots, of the curve whose error is bounded."""

@@ -9,7 +9,7 @@ from typing import Any
 import panel as pn
 
 from mdr.explorer.controls import Control
-from mdr.explorer.links import number
+from mdr.explorer.links import meaning_of
 from mdr.explorer.look import refused
 from mdr.explorer.state import State
 
@@ -79,7 +79,7 @@ class Knob:
         if event.new == self.control.text:  # as it was, also after a refusal
             self._say("")
         else:
-            self._set(event.new if self.control.words else number(event.new))
+            self._set(event.new if self.control.words else meaning_of(event.new))
 
     def _set(self, value: Any) -> None:
         self._say(self.change(self.control.path, value))

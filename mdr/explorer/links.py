@@ -35,20 +35,20 @@ def state_of(query: Mapping[str, str]) -> State:
     v_0, groups = keys.pop("v_0", ""), keys.pop("groups", "")
     state = State.of(parse_case("\n".join(f"{key} = {value}" for key, value in keys.items()), "link"))
     state = replace(state, in_groups=groups == "true")
-    return state.changed("v_0", number(v_0)) if v_0 else state
+    return state.changed("v_0", meaning_of(v_0)) if v_0 else state
 
 
 def python_of(state: State) -> str:
     """The state as a Python script."""
     case = as_given(state.case)
     parts = {one.name: getattr(case, one.name) for one in fields(case)}
-    written = [f"    {name}={_called(part)}," for name, part in parts.items() if part is not None]
+    arguments = [f"    {name}={_called(part)}," for name, part in parts.items() if part is not None]
     calls = ["curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)"]
     lines = [
         "import mdr",
         "",
         "case = mdr.SlidingContact(",
-        *written,
+        *arguments,
         ")",
         f"v_0 = {_called(state.v_0)}  # m/s",
         *calls,
@@ -56,7 +56,7 @@ def python_of(state: State) -> str:
     return "\n".join(lines) + "\n"
 
 
-def written(value: float) -> str:
+def typed(value: float) -> str:
     """A number to five digits, as one types it: 20e-6, 3e6, 0.05."""
     power = 3 * int(np.floor(np.log10(abs(value)) / 3)) if value else 0
     return f"{value:.5g}" if -3 <= power <= 3 else f"{value / 10.0**power:.5g}e{power}"
@@ -65,7 +65,7 @@ def written(value: float) -> str:
 def _called(value: Any) -> str:
     """A value, or the call that makes a record, without fields that have their default."""
     if isinstance(value, float):
-        text = written(value)
+        text = typed(value)
         return text if float(text) == value else repr(value)
     if isinstance(value, tuple):
         return f"({', '.join(map(_called, value))}{',' if len(value) == 1 else ''})"
@@ -77,7 +77,7 @@ def _called(value: Any) -> str:
     return f"mdr.{type(value).__name__}({', '.join(told)})"
 
 
-def number(text: str) -> Any:
+def meaning_of(text: str) -> Any:
     """What a text means, as in a case file: a number, a list or a word; the text itself where it is none of these."""
     import tomllib
 

@@ -53,7 +53,7 @@ def doubted(words: str) -> str:
     return f'<div style="{DOUBTED}margin-top:4px" class="doubted">{escape(words)}</div>'
 
 
-def told(refusal: Exception) -> str:
+def words_of(refusal: Exception) -> str:
     """The words of a refusal."""
     return str(refusal) or type(refusal).__name__
 

@@ -28,7 +28,7 @@ from mdr.explorer.look import (
     html,
     refused,
     table,
-    told,
+    words_of,
 )
 from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
@@ -86,7 +86,7 @@ class Page:
         try:
             self._take(change())
         except REFUSALS as refusal:
-            return told(refusal)
+            return words_of(refusal)
         return ""
 
     def _hold(self, in_groups: bool) -> None:
@@ -124,7 +124,7 @@ class Page:
         if state is not self.state:
             return
         if isinstance(answer, Exception):
-            self.status.object = refused(f"{told(answer)}; the picture is that of before")
+            self.status.object = refused(f"{words_of(answer)}; the picture is that of before")
         elif answer is not None:
             with pn.io.hold(self.document):  # one message to the browser
                 self._draw(answer)
@@ -147,7 +147,7 @@ class Page:
 
     def _say(self, case: SlidingContact, answer: str | Exception | None) -> None:
         if answer is not None and case == self.state.case:
-            text = refused(told(answer)) if isinstance(answer, Exception) else escape(answer)
+            text = refused(words_of(answer)) if isinstance(answer, Exception) else escape(answer)
             self.said.object = f'<div style="font-size:13px;line-height:1.5" class="verdict">{text}</div>'
 
 
@@ -157,4 +157,4 @@ def page_of(case: SlidingContact) -> Any:
     try:
         return Page(state_of(query) if query else State.of(case)).view
     except REFUSALS as refusal:
-        return Page(State.of(case), told(refusal)).view
+        return Page(State.of(case), words_of(refusal)).view

@@ -19,8 +19,7 @@ from mdr.friction.shaken import HoldingBand, holding_band
 from mdr.friction.verdict import verdict
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
-from mdr.normal.resolved import resolved
-from mdr.normal.rig import plausibility
+from mdr.normal.resolved import plausibility, resolved
 from mdr.plots import edges_of, prefix
 from mdr.tools.arrays import Array
 from mdr.tools.progress import silent, time_limit
@@ -76,9 +75,9 @@ class Picture:
         run, known = self.run, resolved(self.state.case)
         depth = known.working_depth
         a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
-        rows = [("v_c", told(self.v_c, "m/s"), "critical velocity in closed form")]
+        rows = [("v_c", with_prefix(self.v_c, "m/s"), "critical velocity in closed form")]
         if self.v_c_back is not None:
-            rows.append(("v_c, other way", told(self.v_c_back, "m/s"), "the same, pulled the other way"))
+            rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
         if self.band is not None:
             rows.append(
                 (
@@ -94,8 +93,8 @@ class Picture:
             *rows,
             ("COF at v_0", f"{run.cof:.4g} ± {run.cof_error:.1g}{end}", "mean F_x over mean F_z of the run"),
             ("stick", f"{100 * run.stick_share:.3g} %", "share of contact time, weighted by force"),
-            ("F_z", told(run.mean_F_z, "N"), "mean load"),
-            ("a", told(a, "m"), "contact radius at the mean depth"),
+            ("F_z", with_prefix(run.mean_F_z, "N"), "mean load"),
+            ("a", with_prefix(a, "m"), "contact radius at the mean depth"),
         ]
 
 
@@ -130,7 +129,7 @@ def _end(state: State, scale: float) -> float:
     return min(max(UP_TO * scale, 1.1 * abs(state.v_0)), FARTHEST * scale)
 
 
-def told(value: float, unit: str) -> str:
+def with_prefix(value: float, unit: str) -> str:
     """A number with the prefix that suits it; "infinite" where it is."""
     if not np.isfinite(value):
         return "infinite"

@@ -6,7 +6,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import GROUPS, fields_of
+from mdr.normal.vary import GROUPS, fields_of, value_at
 
 SMALL, DAMPED, NATURAL = 0.1, 0.1, 2.0  #: amplitude over mean, damping ratio, omega_0/omega
 
@@ -17,7 +17,7 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     A contact of its depth, an amplitude of a tenth, a spring as stiff as the contact, a body of twice the frequency.
     """
     case = at_rest(case)
-    depth = case.working_depth if case.working_depth > 0 else case.u_z_max
+    depth = case.contact_depth
     k_zc = float(case.indenter.stiffness(depth, case.material.E_star))
     load, k_x = float(case.indenter.force(depth, case.material.E_star)), k_zc / case.material.mindlin_ratio
     m = k_x / (NATURAL * case.omega) ** 2
@@ -38,19 +38,10 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
 
 def group_values(case: SlidingContact) -> dict[str, float]:
     """The groups that the case has and that can be set in it, with their values [-]."""
-    case = at_rest(case)
-    k_x = case.pull.coefficients[2]
-    values = {
-        "T": case.T,
-        "k_x/k_xc": k_x / case.k_xc if case.k_xc else np.inf,
-        "omega_0/omega": case.pull.omega_0 / case.omega,
-    }
-    if case.oscillation.load is None:
-        values["alpha"] = case.alpha
-    if case.working_depth > 0:
-        values["chi"] = case.chi
-    return {
-        path: values[path]
-        for path, (slot, field) in ((path, at.split(".")) for path, at in GROUPS.items())
-        if path in values and np.isfinite(values[path]) and field in fields_of(getattr(case, slot))
-    }
+    own = [path for path, at in GROUPS.items() if _has(case, *at.split("."))]
+    values = {path: value_at(case, path) for path in own}
+    return {path: value for path, value in values.items() if np.isfinite(value)}
+
+
+def _has(case: SlidingContact, slot: str, field: str) -> bool:
+    return field in fields_of(getattr(case, slot))

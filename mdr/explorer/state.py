@@ -15,7 +15,7 @@ from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.explorer.scales import group_values, scales_of
 from mdr.files.case_files import nameable
 from mdr.files.examples import PULLS, STILL, example
-from mdr.normal.vary import GROUPS, case_at
+from mdr.normal.vary import case_at, value_at
 from mdr.tools.checks import finite, positive
 
 V_0 = 0.5  #: of the velocity scale of a case: where its first run is
@@ -46,11 +46,7 @@ class State:
             return self.v_0
         if path == "v_0/v_c":
             return self.v_0 / (self.v_c or np.nan)
-        if path in GROUPS:
-            return group_values(self.case)[path]
-        slot, _, field = path.rpartition(".")
-        case = as_given(self.case)
-        return getattr(getattr(case, slot) if slot else case, field)
+        return value_at(as_given(self.case), path)
 
     def changed(self, path: str, value: Any) -> State:
         """The state with another value at a path. ValueError or TypeError, as its record words it."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.files.case_files import parse_toml, read_text
+from mdr.files.toml_text import parse_toml, read_text
 from mdr.materials import Prony
 from mdr.tools.csv_table import Column, fault, table_of
 from mdr.tools.messages import short

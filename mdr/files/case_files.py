@@ -38,7 +38,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from inspect import isabstract
@@ -53,29 +52,13 @@ from mdr.case.in_plane import Shake
 from mdr.case.motion import LoadOscillation, Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
-from mdr.files.spellings import SPELLINGS, as_written, meant, other_spellings, respelled, rest_under_load
+from mdr.files.spellings import SPELLINGS, as_written, meant, other_spellings, respelled, with_depth_of_load
+from mdr.files.toml_text import NESTED, CaseFileError, fault_error, parse_toml, read_text, toml_value
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.normal.doubts import warn_outside
 from mdr.tools.fields import checked
 from mdr.tools.messages import nearest, offer, one_line, short
-
-MAX_BYTES = 2**24  #: of a case file
-_DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
-
-
-class StandardInput(str):
-    """The path of standard input; its text is what messages call it."""
-
-
-class CaseFileError(ValueError):
-    """What is wrong with a case file: one line for each fault, with file, table and key."""
-
-    @property
-    def faults(self) -> tuple[str, ...]:
-        """The lines of the message."""
-        return tuple(str(self).splitlines())
-
 
 # --- public ---
 
@@ -192,20 +175,6 @@ def write_case(case: SlidingContact) -> str:
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
 
-def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
-    """The tables of a TOML text. Raises CaseFileError with the line that is no TOML."""
-    import tomllib
-
-    if _DEEP.search(text):
-        raise fault_error(source, [NESTED])
-    try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise fault_error(source, [NESTED]) from None
-    except ValueError as fault:
-        raise fault_error(source, [_syntax_fault(text, str(fault))]) from None
-
-
 def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequence[str] = ()) -> SlidingContact:
     """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
     known = _top_level()
@@ -226,19 +195,19 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     if faults := [*faults, *refused, *whole]:
         raise fault_error(source, faults)
     assert isinstance(case, SlidingContact)
-    if "oscillation.m_z" not in axes:
-        _ask_for_mass(case, content["oscillation"])
-    if "pull" in content and not {"m"} & {*content["pull"], *(path.removeprefix("pull.") for path in axes)}:
-        warn_outside(
-            "[pull] says no mass: give m in kg, or m = 0 for a body without inertia, which is what is computed"
-        )
+    _ask_for_masses(case, content, axes)
     return case
 
 
-def _ask_for_mass(case: SlidingContact, given: Mapping[str, Any]) -> None:
-    """Warn of a load that may ride on the body, where the file does not say with which mass."""
+def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapping[str, Any]) -> None:
+    """Warn of a body, and of a load that may ride on it, whose mass neither the tables nor the axes of a study say."""
+    if "pull" in content and "m" not in content["pull"] and "pull.m" not in axes:
+        warn_outside(
+            "[pull] says no mass: give m in kg, or m = 0 for a body without inertia, which is what is computed"
+        )
     m = case.pull.coefficients[0]
-    if m > 0 and isinstance(case.oscillation, LoadOscillation) and "m_z" not in given:
+    silent = "m_z" not in content["oscillation"] and "oscillation.m_z" not in axes
+    if m > 0 and isinstance(case.oscillation, LoadOscillation) and silent:
         warn_outside(
             f"the body has the mass m = {m:.6g} kg along the pull, and [oscillation] does not say which mass the load "
             f"moves: m_z = {m:.6g} if it presses on the body itself, which may change v_c several times, or m_z = 0"
@@ -261,28 +230,15 @@ def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, 
     parts: dict[str, Any] = {}
     wrong: dict[str, list[str]] = {}
     for name, table in _TABLES.items():
-        if name == "oscillation":
-            tables, wrong[name] = _depth_under_load(tables, parts)
-        part, faults = table.read(tables)
-        wrong[name] = wrong.get(name, []) + faults
-        if part is not None and not wrong[name]:
+        faults: list[str] = []
+        if name == "oscillation" and isinstance(tables.get(name), dict):
+            tables[name], faults = with_depth_of_load(tables[name], parts.get("indenter"), parts.get("material"))
+        part, more = table.read(tables)
+        if found := [*(f"[{name}] {fault}" for fault in faults), *more]:
+            wrong[name] = found
+        elif part is not None:
             parts[name] = part
-    return parts, {name: faults for name, faults in wrong.items() if faults}
-
-
-def _depth_under_load(tables: Mapping[str, Any], parts: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """The tables with the depth in the place of a load beside du_z; and the faults."""
-    given = tables.get("oscillation")
-    if not isinstance(given, dict) or not {"load", "du_z"} <= set(given):
-        return dict(tables), []
-    found = {key: value for key, value in given.items() if key != "load"} | {"u_z0": 1.0}  # of other parts unknown
-    faults: list[str] = []
-    if {"indenter", "material"} <= set(parts):
-        rests, faults = _tried(rest_under_load, given, parts["indenter"], parts["material"])
-        found = rests or found
-    if faults:
-        found = {key: value for key, value in found.items() if key not in ("F_z0", "dF_z", "m_z")}
-    return {**tables, "oscillation": found}, [f"[oscillation] {fault}" for fault in faults]
+    return parts, wrong
 
 
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
@@ -293,38 +249,6 @@ def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
 def nameable() -> dict[str, dict[str, type[Any]]]:
     """The records that a file can name, {table: {name: record}}; their fields are the keys."""
     return {name: table.writable() for name, table in _TABLES.items()}
-
-
-def read_text(path: str | PathLike[str]) -> str:
-    """The text of a file, or of standard input. Raises CaseFileError where there is none."""
-    source = fsdecode(path)
-    try:
-        if isinstance(path, StandardInput):
-            data = _read_standard_input()
-        else:
-            with open(path, "rb") as file:
-                data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
-    if len(data) > MAX_BYTES:
-        raise fault_error(source, [f"is larger than {MAX_BYTES // 2**20} MiB: no case file"])
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
-        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
-        raise fault_error(source, [what]) from None
-
-
-def _read_standard_input() -> bytes:
-    if sys.stdin is None:
-        raise OSError("it is closed")
-    return sys.stdin.buffer.read(MAX_BYTES + 1)
-
-
-def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:
-    """The error that tells these faults, one a line."""
-    return CaseFileError("\n".join(one_line(f"{source}: {fault}") for fault in faults))
 
 
 # --- tables ---
@@ -447,7 +371,6 @@ _HARMLESS = {
     "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
 }
 _NONE: Mapping[str, str] = {}
-NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
@@ -537,41 +460,6 @@ def _written(table: _Table, record: Any) -> str:
     named = table._told_by(values) is not type(record) if table.unnamed else True
     head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if named else [])]
     return "\n".join(head + lines)
-
-
-def toml_value(value: Any) -> str:
-    """A string, number, truth or list of them as TOML writes it."""
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, Iterable):
-        return "[" + ", ".join(toml_value(one) for one in value) + "]"
-    return repr(float(value))
-
-
-# --- syntax ---
-
-
-def _syntax_fault(text: str, message: str) -> str:
-    """What is no TOML, where it stands, and what is usually meant."""
-    what, _, where = message.partition(" (at ")
-    lines = text.splitlines()
-    place = re.match(r"line (\d+)", where)
-    number = int(place[1]) if place else len(lines)
-    line = lines[number - 1].strip() if 0 < number <= len(lines) else ""
-    if what.startswith("Expected newline") and "=" in line:
-        what = "more than one value; write one number in SI, without unit or arithmetic"
-    elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
-        what += "; is it given twice?"
-    elif what.startswith("Exceeds the limit"):
-        what = "a number has thousands of digits"
-    elif what == "Invalid value":
-        name = re.search(r"=\s*([^\W\d]\w*)", line)
-        what = f'a name is written in quotes, "{name[1]}"' if name else "no number, name in quotes or list"
-    return f"line {number}: {short(line)}: {what}" if where else what
 
 
 # --- messages ---

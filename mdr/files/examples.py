@@ -23,7 +23,7 @@ from mdr.case.motion import (
     PeriodicMotion,
 )
 from mdr.case.pull import RigidPull, SpringPull
-from mdr.files.case_files import toml_value
+from mdr.files.toml_text import toml_value
 from mdr.tools.fields import facts_of
 from mdr.tools.messages import offer, short
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.files.case_files import read_text
+from mdr.files.toml_text import read_text
 from mdr.materials.base import poisson_ratio
 from mdr.tools.arrays import Array
 from mdr.tools.csv_table import Column, Table, fault, table_of
@@ -94,13 +94,12 @@ def read_moduli(
     """
     table = read_table(path, MODULI, units, columns)
     found = table.values
-    stretch = 1.0
-    if "storage" not in found and "G'" in found:
+    of_shear, stretch = "storage" not in found and "G'" in found, 1.0
+    if of_shear:
         if nu is None:
             raise table.fault("shear moduli G' and G'' need Poisson's ratio, as E = 2 (1 + nu) G: give nu=")
         stretch = 2 * (1 + poisson_ratio("nu", nu))
-    storage = found.get("storage", found.get("G'"))
-    loss = found.get("loss") if stretch == 1 else found.get("G''")
+    storage, loss = (found.get(name) for name in (("G'", "G''") if of_shear else ("storage", "loss")))
     if storage is None:
         raise table.fault("the header names no storage modulus; write f [Hz], E' [MPa], E'' [MPa]")
     if loss is None and "tan_delta" not in found:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from mdr.indenters import Indenter
 from mdr.materials import Material
-from mdr.normal.rig import static_depth
+from mdr.normal.load_control import static_depth
 from mdr.tools.checks import not_negative, positive
 
 
@@ -59,13 +59,14 @@ SPELLINGS: dict[str, dict[str, Spelling]] = {
     },
     "shake": {"frequency": _FREQUENCY},
 }
+OF_LOADS = ("F_z0", "dF_z", "m_z")  #: keys of an oscillating load
 _MEANT = {"f": "frequency", "hz": "frequency", "freq": "frequency"}  #: what nobody should have to guess
 
 
 def respelled(name: str, content: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     """The table [name] of a file in the fields of its record, and what is wrong with its other spellings.
 
-    A load beside the amplitude of a depth stays as it is, see `rest_under_load`. Where a value is refused a harmless
+    A load beside the amplitude of a depth stays as it is, see `with_depth_of_load`. Where a value is refused a harmless
     one stands in its place, so that the rest of the table can be read.
     """
     out, faults = dict(content[name]), []
@@ -97,25 +98,33 @@ def as_written(name: str, table: Mapping[str, Any], content: Mapping[str, Any], 
     return {back.get(key, key) if key not in keys else key: value for key, value in table.items()}
 
 
-#: of an oscillating load; beside du_z they are none
-_OF_LOADS = ("F_z0", "dF_z", "m_z")
+def with_depth_of_load(
+    table: dict[str, Any], indenter: Indenter | None, material: Material | None
+) -> tuple[dict[str, Any], list[str]]:
+    """A table [oscillation] in which the depth of rest stands for a load beside du_z, and what is wrong with that load.
 
-
-def rest_under_load(table: Mapping[str, Any], indenter: Indenter, material: Material) -> dict[str, Any]:
-    """A table [oscillation] with load and du_z, where the depth at which this load rests stands for it.
-
-    Raises ValueError or TypeError where the load is refused or more than the shape carries, or u_z0 is given too.
+    Where it is refused, or shape or material are not known, a harmless depth stands there.
     """
-    out = dict(table)
-    load = positive("load", out.pop("load"), "mean load in N")
-    if beside := [key for key in _OF_LOADS if key in out]:
+    if not {"load", "du_z"} <= set(table):
+        return table, []
+    kept = {key: value for key, value in table.items() if key not in ("load", *OF_LOADS)}
+    try:
+        depth, fault = _depth_of_rest(table, indenter, material), []
+    except (TypeError, ValueError) as refusal:
+        depth, fault = 1.0, [str(refusal)]
+    return {**kept, "u_z0": depth}, fault
+
+
+def _depth_of_rest(table: Mapping[str, Any], indenter: Indenter | None, material: Material | None) -> float:
+    load = positive("load", table["load"], "mean load in N")
+    if beside := [key for key in OF_LOADS if key in table]:
         raise ValueError(
             f"load beside du_z is that of a prescribed depth, and {beside[0]} belongs to an oscillating load: give one "
             "of du_z and dF_z"
         )
-    if "u_z0" in out:
+    if "u_z0" in table:
         raise ValueError("load and u_z0 say the same: give one of them")
-    return {**out, "u_z0": static_depth(indenter, material, load)}
+    return static_depth(indenter, material, load) if indenter and material else 1.0
 
 
 def other_spellings(name: str, keys: list[str]) -> list[str]:

@@ -257,8 +257,9 @@ def _marched(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
 
 
 def _ways(case: SlidingContact, v_0: Array) -> Iterator[tuple[SlidingContact, float, NDArray[np.bool_]]]:
-    """The contact forward and, seen in a mirror, the other way, each with its sign and the velocities it is asked"
-    " at.
+    """The contact forward, and its mirror image for the other way, each with its sign and the places of its velocities.
+
+    Those without a velocity are left out.
     """
     for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
         if where.any():

@@ -15,8 +15,9 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.units import facts_at
-from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import GROUPS, case_at, fields_of
+from mdr.materials.base import poisson_ratio_of
+from mdr.normal.resolved import resolved
+from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
 from mdr.tools.checks import finite
 from mdr.tools.messages import offer, short
 
@@ -43,7 +44,7 @@ class Parameter:
     def of(cls, case: SlidingContact, name: Any, given: Any = None) -> Parameter:
         """A parameter of the case, by its name; `given` bounds, or as far as it is sensible."""
         path = path_of(case, name)
-        start = value_at(case, path)
+        start = _value(case, path)
         if why := _refusal(case, path, start):
             raise ValueError(f"{name} cannot be varied: {why}")
         unit = natural_unit(case, path)
@@ -98,8 +99,7 @@ def case_of(case: SlidingContact, values: Mapping[str, float]) -> SlidingContact
     """The case with these values at these paths; mindlin_ratio sets Poisson's ratio."""
     settings: dict[str, Any] = dict(values)
     if "mindlin_ratio" in settings:
-        kappa = settings.pop("mindlin_ratio")
-        settings["material.nu"] = min((2 * kappa - 2) / (2 * kappa - 1), 0.5)
+        settings["material.nu"] = min(poisson_ratio_of(settings.pop("mindlin_ratio")), 0.5)
     return case_at(case, settings)
 
 
@@ -123,21 +123,10 @@ def path_of(case: SlidingContact, name: Any) -> str:
     raise ValueError(f"{short(name)} {meant}")
 
 
-def value_at(case: SlidingContact, path: str) -> Any:
-    """The value at a path of the case."""
-    if path in ("mu_0", "T"):
-        return getattr(case, path)
-    if path in ("alpha", "chi"):
-        return getattr(resolved(case), path)
-    if path == "mindlin_ratio":
-        return case.material.mindlin_ratio
-    if path == "k_x/k_xc":
-        return getattr(case.pull, "k_x", 0.0) / at_rest(case).k_xc
-    if path == "omega_0/omega":
-        omega_0 = case.pull.omega_0
-        return omega_0 / case.omega if omega_0 < np.inf else 0.0
-    slot, _, field = path.partition(".")
-    return getattr(getattr(case, slot), field)
+def _value(case: SlidingContact, path: str) -> float:
+    """The value in the case; zero of a group for which it has no spring, mass or depth."""
+    value = float(case.material.mindlin_ratio if path == "mindlin_ratio" else value_at(case, path))
+    return value if np.isfinite(value) else 0.0
 
 
 def natural_unit(case: SlidingContact, path: str) -> float:
@@ -149,7 +138,7 @@ def natural_unit(case: SlidingContact, path: str) -> float:
         "m": depth, "s": 1 / omega, "Pa": E_star, "N": k * depth, "N/m": k, "N s/m": k / omega, "kg": k / omega**2,
         "rad/s": omega, "rad": 1.0, "-": 1.0,
     }  # fmt: skip
-    return units.get(facts_at(path).unit) or abs(float(value_at(case, path))) or 1.0
+    return units.get(facts_at(path).unit) or abs(_value(case, path)) or 1.0
 
 
 def _refusal(case: SlidingContact, path: str, value: float) -> str:

@@ -30,6 +30,11 @@ from mdr.tools.checks import FieldError, finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 
 
+def poisson_ratio_of(mindlin_ratio: float) -> float:
+    """Poisson's ratio [-] of the body whose Mindlin ratio is kappa = (2 - nu)/(2 (1 - nu))."""
+    return (2 * mindlin_ratio - 2) / (2 * mindlin_ratio - 1)
+
+
 def poisson_ratio(name: str, value: Any, note: str = "") -> float:
     """Poisson's ratio of a stable isotropic body, -1 < nu <= 1/2."""
     nu = finite(name, value)

@@ -59,11 +59,6 @@ def doubts_of(known: SlidingContact) -> tuple[str, ...]:
     return (*_of_shape(known), *_of_motion(known), *_of_material(known), *_of_pull(known))
 
 
-def depth_in_doubt(known: SlidingContact) -> float:
-    """Mean depth [m], and for tapping from above the surface, whose mean depth is no contact, the greatest."""
-    return known.working_depth if known.working_depth > 0 else known.u_z_max
-
-
 def frequencies(known: SlidingContact) -> list[float]:
     """Angular frequencies [rad/s] of the oscillation and of the shake, of those that move."""
     shaken = [known.shake.omega] if known.shake is not None and known.is_shaken else []
@@ -80,7 +75,7 @@ def edge(indenter: Indenter, d: float) -> tuple[float, float]:
 
 
 def _of_shape(known: SlidingContact) -> Iterator[str]:
-    d = depth_in_doubt(known)
+    d = known.contact_depth
     a, slope = edge(known.indenter, d)
     if slope > STEEPEST:
         yield (
@@ -118,7 +113,7 @@ def _of_pull(known: SlidingContact) -> Iterator[str]:
     if known.pull.is_rigid:
         return
     m, _, k_x = known.pull.coefficients
-    ratio = k_x / (known.k_xc or known.indenter.stiffness(depth_in_doubt(known), known.material.G_star))
+    ratio = k_x / (known.k_xc or known.indenter.stiffness(known.contact_depth, known.material.G_star))
     if ratio > STIFFEST:
         yield (
             f"the spring of the pull is {ratio:.3g} times as stiff as the contact, which is as good as a rigid pull: "

@@ -33,6 +33,7 @@ from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import normal_cycle
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
+from mdr.tools.checks import instance, positive
 
 N_HARMONICS = 256  #: of the depth; its instants are eight times as many
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
@@ -42,16 +43,83 @@ PATIENCE = 40  #: iterations without half the error, after which the search ends
 MOST, MEMORY = 150, 10  #: iterations, and how many of them are combined
 
 
-def static_depth(shape: Indenter, material: Material, F_z: float) -> float:
-    """Depth [m] at which a constant load F_z [N] rests in the end, on the long-time modulus.
+def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
+    """Depth [m] at which a constant load rests in the end.
 
-    Raises ValueError where the whole shape does not carry it.
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space; its long-time modulus counts.
+    F_z : float
+        Load [N].
+
+    Returns
+    -------
+    float
+        Depth [m]; `static_load` is its inverse.
+
+    Raises
+    ------
+    TypeError
+        For what is no shape or no material.
+    ValueError
+        If the load is not above zero, or more than the whole shape carries.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> print(f"{mdr.static_depth(ball, rubber, 1.0):.3g} m")
+    0.000192 m
     """
-    return float(static_depths(shape, material, np.array([F_z]))[0])
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
+    return float(static_depths(indenter, material, np.array([positive("F_z", F_z, "load in N")]))[0])
+
+
+def static_load(indenter: Indenter, material: Material, u_z0: float) -> float:
+    """Load [N] that holds a contact at a constant depth in the end.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space; its long-time modulus counts.
+    u_z0 : float
+        Depth [m].
+
+    Returns
+    -------
+    float
+        Load [N]; `static_depth` is its inverse.
+
+    Raises
+    ------
+    TypeError
+        For what is no shape or no material.
+    ValueError
+        If the depth is not above zero, or deeper than the shape reaches.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
+    >>> print(f"{mdr.static_load(ball, rubber, 192e-6):.2g} N")
+    1 N
+    """
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
+    return float(indenter.force(positive("u_z0", u_z0, "depth in m"), material.E_star))
 
 
 def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
-    """The same for loads (n,) > 0. Newton's method from above, on a force whose slope 2E*a never falls with depth."""
+    """Depths [m] at which constant loads (n,) > 0 rest in the end.
+
+    Newton's method from above, on a force whose slope 2E*a never falls with depth.
+    """
     E_star = material.E_star
     d = np.full(F_z.shape, _depth_beyond(shape, E_star, float(np.max(F_z))))
     left = np.inf

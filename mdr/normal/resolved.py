@@ -14,7 +14,7 @@ from mdr.case.depth_cycle import Cycle
 from mdr.case.motion import ConstantLoad, LoadOscillation, Motion
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
-from mdr.normal.doubts import warn_at_the_door
+from mdr.normal.doubts import doubts_of, warn_at_the_door
 from mdr.normal.load_control import depth_under_load, static_depth
 from mdr.tools.memoise import remembered
 
@@ -100,6 +100,46 @@ def with_depth(case: SlidingContact) -> SlidingContact:
     else:
         depth = _under_load(case.indenter, case.material, load)
     return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, depth))
+
+
+def plausibility(case: SlidingContact) -> tuple[str, ...]:
+    """What is unlikely of a contact, in words: most often a unit is wrong.
+
+    Functions that are given such a contact warn of the same with a `PlausibilityWarning`, which
+    ``warnings.simplefilter("ignore", mdr.PlausibilityWarning)`` silences; they compute all the same.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+
+    Returns
+    -------
+    tuple of str
+        One sentence for each doubt, empty where there is none.
+
+    Raises
+    ------
+    ValueError
+        If the shape does not carry the load, or no periodic depth under it is found.
+
+    Notes
+    -----
+    Limits are pure numbers: slope of the shape at the edge of contact and depth over contact radius (1),
+    du_z/u_z0 (5), mu_0 (2), omega tau of a Kelvin body (5), stiffness of the spring over that of the contact (1e4)
+    and the other way round (1e6), natural frequency of the body over that of the vibration (100). A case file is warned
+    of too that leaves out a mass: m of [pull], or m_z of a load that may ride on the body.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> vibration = mdr.NormalOscillation(u_z0=2e-6, du_z=20e-6, omega=300.0)
+    >>> case = mdr.SlidingContact(mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, vibration)
+    >>> for doubt in mdr.plausibility(case):
+    ...     print(doubt)
+    the amplitude of the depth is 10 times the mean depth ...
+    """
+    return doubts_of(with_depth(case))
 
 
 def at_rest(case: SlidingContact) -> SlidingContact:

@@ -15,125 +15,14 @@ from mdr.case.motion import ConstantLoad, LoadOscillation, Motion, NormalOscilla
 from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
-from mdr.normal.doubts import doubts_of, edge, warn_outside
-from mdr.normal.load_control import static_depth as _static_depth
-from mdr.normal.resolved import at_rest, with_depth
+from mdr.materials.base import poisson_ratio_of
+from mdr.normal.doubts import edge, warn_outside
+from mdr.normal.load_control import static_depth
+from mdr.normal.resolved import at_rest
 from mdr.tools.checks import instance, not_negative, positive
 
 GRAVITY = 9.80665  #: standard gravity [m/s²]
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
-
-
-def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
-    """Depth [m] at which a constant load rests in the end.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The shape.
-    material : Material
-        The half-space; its long-time modulus counts.
-    F_z : float
-        Load [N].
-
-    Returns
-    -------
-    float
-        Depth [m]; `static_load` is its inverse.
-
-    Raises
-    ------
-    TypeError
-        For what is no shape or no material.
-    ValueError
-        If the load is not above zero, or more than the whole shape carries.
-
-    Examples
-    --------
-    >>> import mdr
-    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
-    >>> print(f"{mdr.static_depth(ball, rubber, 1.0):.3g} m")
-    0.000192 m
-    """
-    instance("indenter", indenter, Indenter)
-    instance("material", material, Material)
-    return _static_depth(indenter, material, positive("F_z", F_z, "load in N"))
-
-
-def static_load(indenter: Indenter, material: Material, u_z0: float) -> float:
-    """Load [N] that holds a contact at a constant depth in the end.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The shape.
-    material : Material
-        The half-space; its long-time modulus counts.
-    u_z0 : float
-        Depth [m].
-
-    Returns
-    -------
-    float
-        Load [N]; `static_depth` is its inverse.
-
-    Raises
-    ------
-    TypeError
-        For what is no shape or no material.
-    ValueError
-        If the depth is not above zero, or deeper than the shape reaches.
-
-    Examples
-    --------
-    >>> import mdr
-    >>> ball, rubber = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
-    >>> print(f"{mdr.static_load(ball, rubber, 192e-6):.2g} N")
-    1 N
-    """
-    instance("indenter", indenter, Indenter)
-    instance("material", material, Material)
-    return float(indenter.force(positive("u_z0", u_z0, "depth in m"), material.E_star))
-
-
-def plausibility(case: SlidingContact) -> tuple[str, ...]:
-    """What is unlikely of a contact, in words: most often a unit is wrong.
-
-    Functions that are given such a contact warn of the same with a `PlausibilityWarning`, which
-    ``warnings.simplefilter("ignore", mdr.PlausibilityWarning)`` silences; they compute all the same.
-
-    Parameters
-    ----------
-    case : SlidingContact
-        The contact.
-
-    Returns
-    -------
-    tuple of str
-        One sentence for each doubt, empty where there is none.
-
-    Raises
-    ------
-    ValueError
-        If the shape does not carry the load, or no periodic depth under it is found.
-
-    Notes
-    -----
-    Limits are pure numbers: slope of the shape at the edge of contact and depth over contact radius (1),
-    du_z/u_z0 (5), mu_0 (2), omega tau of a Kelvin body (5), stiffness of the spring over that of the contact (1e4,
-    either way), natural frequency of the body over that of the oscillation (100). A case file is warned of too
-    whose load may ride on the body and which says no m_z.
-
-    Examples
-    --------
-    >>> import mdr
-    >>> vibration = mdr.NormalOscillation(u_z0=2e-6, du_z=20e-6, omega=300.0)
-    >>> case = mdr.SlidingContact(mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, vibration)
-    >>> for doubt in mdr.plausibility(case):
-    ...     print(doubt)
-    the amplitude of the depth is 10 times the mean depth ...
-    """
-    return doubts_of(with_depth(case))
 
 
 def rig(
@@ -304,7 +193,7 @@ def _motion(
     if "load_amplitude" in amplitudes:
         return LoadOscillation(F_z0, amplitudes["load_amplitude"], omega, m_z)
     du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
-    return NormalOscillation(_static_depth(indenter, material, F_z0), du_z, omega)
+    return NormalOscillation(static_depth(indenter, material, F_z0), du_z, omega)
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:
@@ -312,9 +201,7 @@ def _warn_of_waves(case: SlidingContact, density: float) -> None:
     known = at_rest(case)
     width = 2 * edge(known.indenter, known.working_depth)[0]
     stiffening = abs(complex(case.material.dynamic_modulus(case.omega))) / case.material.E_star
-    kappa = case.material.mindlin_ratio
-    nu = (2 * kappa - 2) / (2 * kappa - 1)
-    G = case.material.G_star * (2 - nu) / 4 * stiffening
+    G = case.material.G_star * (2 - poisson_ratio_of(case.material.mindlin_ratio)) / 4 * stiffening
     wavelength = 2 * math.pi / case.omega * math.sqrt(G / density)
     if wavelength < LONG * width:
         warn_outside(

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact, common_frequency
-from mdr.normal.resolved import at_rest
+from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.checks import positive
 
 GROUPS = {
@@ -68,6 +68,30 @@ def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact
         pull: Any = contact.pull
         contact = _with_pull(contact, "omega_0/omega", "m", pull.k_x / omega_0**2)
     return contact
+
+
+def value_at(case: SlidingContact, path: str) -> Any:
+    """The value of a case at a path, a group [-] included; infinite where there is no spring, mass or depth for it.
+
+    Raises ValueError where the shape does not carry the load, and KeyError or AttributeError for what is no path.
+    """
+    if path in GROUPS:
+        return _group(case, path)
+    slot, _, field = path.rpartition(".")
+    return getattr(getattr(case, slot) if slot else case, field)
+
+
+def _group(case: SlidingContact, path: str) -> float:
+    if path == "T":
+        return case.T
+    if path == "alpha":
+        return resolved(case).alpha
+    if path == "omega_0/omega":
+        return case.pull.omega_0 / case.omega
+    known = at_rest(case)
+    if path == "chi":
+        return known.chi
+    return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
 
 
 def fields_of(record: Any) -> tuple[str, ...]:

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.files.case_files import CaseFileError, write_case
+from mdr.files.case_files import write_case
+from mdr.files.toml_text import CaseFileError
 from mdr.studies.axes import Axis, without_addresses
 from mdr.studies.quantities import CurveQuantity, Quantity
 from mdr.studies.work import Work

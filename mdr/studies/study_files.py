@@ -26,7 +26,8 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.files.case_files import NESTED, CaseFileError, case_of, fault_error, parse_toml, read_text, record_of, stand_in
+from mdr.files.case_files import case_of, record_of, stand_in
+from mdr.files.toml_text import NESTED, CaseFileError, fault_error, parse_toml, read_text
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.vary import GROUPS

@@ -20,7 +20,7 @@ import numpy as np
 
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line, short
-from mdr.tools.written import UNITS, in_unit, is_number, number_in
+from mdr.tools.notation import UNITS, in_unit, is_number, number_in
 
 _HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s/\s*(?P<other>\S.*))?")
 

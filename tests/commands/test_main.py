@@ -18,7 +18,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
-from mdr.commands.curve import velocity_scale
+from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.files.case_files import parse_case, read_case, write_case
 from mdr.tools.provenance import versions
 

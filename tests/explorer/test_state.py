@@ -13,7 +13,7 @@ from mdr.case.contact import KINDS
 from mdr.case.units import facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest, Superseded
-from mdr.explorer.links import link_of, number, python_of, state_of, written
+from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import ROWS, pictures_of
 from mdr.explorer.scales import group_values
 from mdr.explorer.state import State, kind_of, kinds_of
@@ -70,7 +70,7 @@ def test_script_and_file_make_the_case(state):
 
 @pytest.mark.parametrize("value", [20e-6, 3e6, 0.05, 314.16, -2e-6, 0.0, 1e-3, 12345.0, 1e-30, 1e30])
 def test_numbers_are_written_as_one_types_them(value):
-    assert number(written(value)) == pytest.approx(value, rel=1e-12)
+    assert meaning_of(typed(value)) == pytest.approx(value, rel=1e-12)
 
 
 @pytest.mark.parametrize("in_groups", [False, True], ids=["SI", "groups"])

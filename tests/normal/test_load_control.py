@@ -11,7 +11,6 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.case.contact import as_given
 from mdr.closed_forms.full_slip import followed
-from mdr.normal.load_control import static_depth
 
 OMEGA = 300.0
 ELASTIC = mdr.Elastic(3e6, 0.4)
@@ -31,14 +30,15 @@ def under_load(shape, material, share, m_z=0.0, pull=None, depth=6e-6):
 def test_static_depth_inverts_the_force(shape):
     indenter = SHAPES[shape][0]
     for d in (1e-12, 3e-6, 1e-3):
-        F_z = float(indenter.force(d, ELASTIC.E_star))
-        assert_allclose(static_depth(indenter, ELASTIC, F_z), d, rtol=1e-13)
+        F_z = mdr.static_load(indenter, ELASTIC, d)
+        assert_allclose(F_z, indenter.force(d, ELASTIC.E_star), rtol=1e-15)
+        assert_allclose(mdr.static_depth(indenter, ELASTIC, F_z), d, rtol=1e-13)
 
 
 def test_a_load_beyond_the_shape_is_refused():
     with pytest.raises(ValueError, match=r"is more than Sphere.* carries"):
-        static_depth(mdr.Sphere(1e-3), ELASTIC, 1e9)
-    assert static_depth(mdr.Profile(bowl), ELASTIC, 1e-3) > 0
+        mdr.static_depth(mdr.Sphere(1e-3), ELASTIC, 1e9)
+    assert mdr.static_depth(mdr.Profile(bowl), ELASTIC, 1e-3) > 0
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -205,8 +205,8 @@ def test_a_depth_is_not_sought_beyond_the_rounding_of_a_shape(monkeypatch):
     asked = []
     stiffness = mdr.Profile.stiffness
     monkeypatch.setattr(mdr.Profile, "stiffness", lambda *args: (asked.append(1), stiffness(*args))[1])
-    got = static_depth(mdr.Profile(rounded_ball), ELASTIC, 1e-2)
-    assert_allclose(got, static_depth(mdr.Sphere(1e-3), ELASTIC, 1e-2), rtol=1e-6)
+    got = mdr.static_depth(mdr.Profile(rounded_ball), ELASTIC, 1e-2)
+    assert_allclose(got, mdr.static_depth(mdr.Sphere(1e-3), ELASTIC, 1e-2), rtol=1e-6)
     assert len(asked) < 20  # steps of Newton's method; 200, all there may be, where smaller ones were waited for
 
 

@@ -1,0 +1,110 @@
+"""TOML as text: read from a file or from standard input, parsed, and what is wrong with it told; values written.
+
+What the tables say is the matter of case_files.py and of the studies.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Iterable
+from os import PathLike, fsdecode
+from typing import Any
+
+from mdr.tools.messages import one_line, short
+
+MAX_BYTES = 2**24  #: of a case file
+_DEEP = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+\s*\.\s*){64}""")  # a dotted key, on which tomllib takes quadratic time
+NESTED = "nested too deeply; a case has tables and keys, nothing deeper"  #: a fault
+
+
+class StandardInput(str):
+    """The path of standard input; its text is what messages call it."""
+
+
+class CaseFileError(ValueError):
+    """What is wrong with a case file: one line for each fault, with file, table and key."""
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """The lines of the message."""
+        return tuple(str(self).splitlines())
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file, or of standard input. Raises CaseFileError where there is none."""
+    source = fsdecode(path)
+    try:
+        if isinstance(path, StandardInput):
+            data = _read_standard_input()
+        else:
+            with open(path, "rb") as file:
+                data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
+    if len(data) > MAX_BYTES:
+        raise fault_error(source, [f"is larger than {MAX_BYTES // 2**20} MiB: no case file"])
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
+        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
+        raise fault_error(source, [what]) from None
+
+
+def _read_standard_input() -> bytes:
+    if sys.stdin is None:
+        raise OSError("it is closed")
+    return sys.stdin.buffer.read(MAX_BYTES + 1)
+
+
+def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:
+    """The error that tells these faults, one a line."""
+    return CaseFileError("\n".join(one_line(f"{source}: {fault}") for fault in faults))
+
+
+def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
+    """The tables of a TOML text. Raises CaseFileError with the line that is no TOML."""
+    import tomllib
+
+    if _DEEP.search(text):
+        raise fault_error(source, [NESTED])
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise fault_error(source, [NESTED]) from None
+    except ValueError as fault:
+        raise fault_error(source, [_syntax_fault(text, str(fault))]) from None
+
+
+def toml_value(value: Any) -> str:
+    """A string, number, truth or list of them as TOML writes it."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(toml_value(one) for one in value) + "]"
+    return repr(float(value))
+
+
+def _syntax_fault(text: str, message: str) -> str:
+    """What is no TOML, where it stands, and what is usually meant."""
+    what, _, where = message.partition(" (at ")
+    lines = text.splitlines()
+    place = re.match(r"line (\d+)", where)
+    number = int(place[1]) if place else len(lines)
+    line = lines[number - 1].strip() if 0 < number <= len(lines) else ""
+    if what.startswith("Expected newline") and "=" in line:
+        what = "more than one value; write one number in SI, without unit or arithmetic"
+    elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
+        what += "; is it given twice?"
+    elif what.startswith("Exceeds the limit"):
+        what = "a number has thousands of digits"
+    elif what == "Invalid value":
+        name = re.search(r"=\s*([^\W\d]\w*)", line)
+        what = f'a name is written in quotes, "{name[1]}"' if name else "no number, name in quotes or list"
+    return f"line {number}: {short(line)}: {what}" if where else what
