@@ -1,6 +1,6 @@
 """Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
 
-What takes long is said on standard error: the first run on a machine waits half a minute for it.
+What takes long is said on standard error: the first run on a machine waits some 20 seconds for it.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
-                "own, which takes half a minute; let NUMBA_CACHE_DIR name a folder that can"
+                "own, which takes some 20 seconds; let NUMBA_CACHE_DIR name a folder that can"
             )
             ready = njit(**options)(function)
         return ready
@@ -56,7 +56,7 @@ class Notice(event.Listener):
         self.open += 1
         if not self.said and time.monotonic() - self.since > PATIENCE:
             self.said = True
-            print("compiling, once on this machine: about half a minute", file=sys.stderr, flush=True)
+            print("compiling, once on this machine: some 20 seconds", file=sys.stderr, flush=True)
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
