@@ -21,34 +21,33 @@ def study():
     return mdr.sweep(RIGID, AXES, quantities=["cof", "v_c"])
 
 
-def made():
-    """Studies of many kinds: with letters beyond ASCII, without shape or units, with points that are missing."""
-    whole = mdr.sweep(RIGID, AXES, quantities=["cof", "stick_share"])
-    bare = mdr.Quantity("bare", "", lambda case: np.inf)
-    prony = replace(RIGID, material=mdr.Prony(1e6, [(1e6, 1e-3)], 0.5))
-    bowl = mdr.Profile(lambda r: r**2, name="Schüssel µ")
-    return {
-        "whole": whole,
-        "selected": whole.select({"indenter": SHAPES[1]}),
-        "a point": whole.select({"indenter": SHAPES[1], "v_0/v_c": 0.5, "oscillation.u_z0": -2e-3}),
-        "arms": mdr.sweep(prony, {"material.arms": [((1e6, 1e-3),), ((2e6, 1.0),)]}, quantities=["v_c", "T"]),
-        "no unit": mdr.sweep(RIGID, {"mu_0": [0.3]}, quantities=[bare]),
-        "letters": mdr.sweep(RIGID, {"indenter": [bowl]}, quantities=["k_zc"]),
-        "runs": mdr.sweep(BODY, {"v_0": [0.0, 1e-4]}, **COARSE),
-    }
+#: of many kinds: with letters beyond ASCII, without shape or units, with points that are missing
+STUDIES = {
+    "whole": lambda: mdr.sweep(RIGID, AXES, quantities=["cof", "stick_share"]),
+    "selected": lambda: STUDIES["whole"]().select({"indenter": SHAPES[1]}),
+    "a point": lambda: STUDIES["whole"]().select({"indenter": SHAPES[1], "v_0/v_c": 0.5, "oscillation.u_z0": -2e-3}),
+    "arms": lambda: mdr.sweep(
+        replace(RIGID, material=mdr.Prony(1e6, [(1e6, 1e-3)], 0.5)),
+        {"material.arms": [((1e6, 1e-3),), ((2e6, 1.0),)]},
+        quantities=["v_c", "T"],
+    ),
+    "no unit": lambda: mdr.sweep(RIGID, {"mu_0": [0.3]}, quantities=[mdr.Quantity("bare", "", lambda case: np.inf)]),
+    "letters": lambda: mdr.sweep(
+        RIGID, {"indenter": [mdr.Profile(lambda r: r**2, name="Schüssel µ")]}, quantities=["k_zc"]
+    ),
+    "runs": lambda: mdr.sweep(BODY, {"v_0": [0.0, 1e-4]}, **COARSE),
+}
 
 
-STUDIES = made()
-
-
-@pytest.mark.parametrize("name", STUDIES)
-def test_what_is_written_comes_back_equal(name, tmp_path):
-    STUDIES[name].to_netcdf(tmp_path / "study.nc")
+@pytest.mark.parametrize("made", STUDIES.values(), ids=STUDIES)
+def test_what_is_written_comes_back_equal(made, tmp_path):
+    study = made()
+    study.to_netcdf(tmp_path / "study.nc")
     back = mdr.read_study(tmp_path / "study.nc")
-    assert back == STUDIES[name]
-    assert hash(back) == hash(STUDIES[name])
-    assert packed(back) == packed(STUDIES[name])
-    assert str(back) == str(STUDIES[name])
+    assert back == study
+    assert hash(back) == hash(study)
+    assert packed(back) == packed(study)
+    assert str(back) == str(study)
 
 
 def test_an_unfinished_study_comes_back_too(tmp_path):
