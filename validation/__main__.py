@@ -86,12 +86,23 @@ class _Running(NamedTuple):
 def _start(name: str, effort: str, package: str) -> tuple[Any, _Running]:
     """The end of a pipe at which a claim's outcome will arrive, and the fresh process that tests it."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # of the fresh process: claims share the cores
-    context = multiprocessing.get_context("spawn")
+    context = _context()
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=send_claim, args=(there, name, effort, package), name=name)
     process.start()
     there.close()  # the process then holds the only one: its death is the end of the pipe
     return here, _Running(name, process, time.perf_counter())
+
+
+def _context() -> Any:
+    """Processes begin as copies of one that has imported what all claims share, and done nothing else; where a system
+    cannot copy, from nothing.
+    """
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(["mdr", "validation.cases", "validation.report", "matplotlib.pyplot"])
+    return context
 
 
 def _received(pipe: Any, claim: _Running) -> Outcome:
