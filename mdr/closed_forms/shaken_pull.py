@@ -25,16 +25,18 @@ e + T e' is that of e. Three facts make every mean a short sum.
    Newton's method, kept within a bracket, solves it. For T = 0 the map is a clip of e + 2 pi v: for v > 0 one period
    from e = s is exact, and for v = 0 it gives the limit v -> +0. The period begins where z is greatest, as every spring
    that ever touches is in contact there.
-3. The mean of e is an analytic function of c but where the sequence of touches, leaves and slips changes. Such a c is
-   bisected. Next to it the mean goes with powers of its square root. Between two of them, and kinks of the shape,
-   x = x_1 + (x_2 - x_1) sin²(theta/2) makes it analytic in theta, and the Chebyshev series in theta through 17 springs
-   is integrated. Its last coefficients bound the error. Where they are too large the interval is halved.
+3. The mean of e is an analytic function of c but where the sequence of touches, leaves and slips changes: where one of
+   the numbers whose signs tell how a spring goes on is zero, which finds such a c. Next to it the mean goes with powers
+   of its square root. Between two of them, and kinks of the shape, x = x_1 + (x_2 - x_1) sin²(theta/2) makes it analytic
+   in theta, and the Chebyshev series in theta through 9 springs, or 17 where these do not do, is integrated. Its last
+   coefficients bound the error. Where they are too large still the interval is halved.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -47,15 +49,15 @@ from mdr.indenters.base import Indenter
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-TOLERANCE = 2e-10  #: of the sum over an interval of springs, relative to that of the compression of all
+TOLERANCE = 2e-10  #: of the sum over an interval of springs, relative to that of the compression of all; the finest
 SAFETY = 0.3  #: error of the rule over its last two coefficients, mostly much less
-FLOOR = 1e-10  #: of the error: changes that are bisected to NEAR or overlooked
+FLOOR = 1e-10  #: of the error: changes that are found to NEAR or overlooked
 HALVINGS = 16  #: of an interval of the array, at most
 MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
 DENSE = 32  #: instants per period of the highest harmonic, between which zeros are bracketed
 FARTHEST = 1e6  #: amplitude of the way over that of the springs' deflection
 MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
-_ORDER = 16
+_ORDER = 16  #: of the rule through springs of an interval
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -106,30 +108,31 @@ def has_shaken_form(case: SlidingContact) -> bool:
     return bool(np.abs(case.way).max(initial=0.0) <= FARTHEST * reach)  # else its digits hide the springs'
 
 
-def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Array]:
+def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> tuple[Array, Array, Array]:
     """Mean friction over mu_0 times mean force, bound of its error, and share of stick, at velocities v (n_v,).
 
-    The share of stick is that of the contact time, weighted by force. A v = 0 counts as the limit v -> +0.
+    tolerance: of the error of every interval of springs, no less than TOLERANCE; the bound is some times as large. The
+    share of stick is that of the contact time, weighted by force. A v = 0 counts as the limit v -> +0.
     """
     v = np.asarray(v, dtype=float)
     answer = np.empty((3, v.size))
     for side, some in ((1, v >= 0), (-1, v < 0)):
         if some.any():
-            answer[:, some] = _friction(pull, np.abs(v[some]), side)
+            answer[:, some] = _friction(pull, np.abs(v[some]), side, max(tolerance, TOLERANCE))
             answer[0, some] *= side
     return answer[0], answer[1], answer[2]
 
 
 def band(pull: ShakenPull) -> tuple[float, float]:
     """Mean friction over mu_0 times mean force in the limits v -> -0 and v -> +0."""
-    low, high = (side * float(_friction(pull, np.zeros(1), side)[0, 0]) for side in (-1, 1))
+    low, high = (side * float(_friction(pull, np.zeros(1), side, TOLERANCE)[0, 0]) for side in (-1, 1))
     return low, high
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------
 
 
-def _friction(pull: ShakenPull, v: Array, side: int) -> Array:
+def _friction(pull: ShakenPull, v: Array, side: int, tolerance: float) -> Array:
     """Friction, error and share of stick (3, n_v) for v >= 0."""
     motion = pull._motion(side)
     marks = _marks(pull)
@@ -137,12 +140,10 @@ def _friction(pull: ShakenPull, v: Array, side: int) -> Array:
     changes = all_changes(motion, v, gaps.min(), gaps.max(), _SCAN)
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
-    scale = np.zeros(v.size)
+    allowed = tolerance * _compression(pull, marks)
     for halving in range(HALVINGS + 1):
-        sums, missed = _integrals(pull, motion, v, owner, low, high)
-        if halving == 0:
-            scale = np.maximum(np.bincount(owner, sums[1], v.size), 1e-300)
-        done = missed <= TOLERANCE * scale[owner]
+        sums, missed = _integrals(pull, motion, v, owner, low, high, allowed)
+        done = missed <= allowed
         done |= halving == HALVINGS or np.sum(~done) > MOST_INTERVALS + 20 * v.size
         for row, found in zip(total, sums, strict=True):
             row += np.bincount(owner[done], found[done], v.size)
@@ -163,6 +164,15 @@ def _marks(pull: ShakenPull) -> Array:
     if not a > 0:
         raise ValueError(f"u_z0 + unit max z = {deepest:.6g} m: the indenter never touches; raise u_z0")
     return np.array([0.0, *sorted({x for x in shape.joints if 0 < x < a}), a])
+
+
+def _compression(pull: ShakenPull, marks: Array) -> float:
+    """Sum of the mean compressions of elastic springs [m], to some per cent: what errors are measured by."""
+    u, w = _GAUSS
+    half = 0.5 * np.diff(marks)[:, None]
+    c = _gaps(pull, 0.5 * (marks[1:] + marks[:-1])[:, None] + half * u)
+    z = harmonic_sum(np.asarray(pull.Z, dtype=complex), np.linspace(0, 2 * np.pi, 64, endpoint=False))
+    return float(np.sum(half * w * np.mean(np.maximum(z - c[..., None], 0), axis=-1)))
 
 
 def _gaps(pull: ShakenPull, x: Array) -> Array:
@@ -194,30 +204,53 @@ def _radius(pull: ShakenPull, marks: Array, gaps: Array, c: Array) -> Array:
 
 
 def _integrals(
-    pull: ShakenPull, motion: Motion, v: Array, owner: NDArray[np.intp], low: Array, high: Array
+    pull: ShakenPull, motion: Motion, v: Array, owner: NDArray[np.intp], low: Array, high: Array, allowed: float
 ) -> tuple[Array, Array]:
-    """Integrals of e, s and the force in stick over the intervals (3, n), and a bound of the error of the first."""
-    x = np.minimum(low[:, None] + (high - low)[:, None] * _SHARE, high[:, None])
-    gap = _gaps(pull, x.ravel())
-    found = all_springs(motion, v, np.repeat(owner, _SHARE.size), gap).reshape(3, *x.shape)
-    # a rule for coefficients up to the 16th misses those near the 32nd; of a kink they are a fourth of the last ones
-    tail = np.abs(found[:2] @ _TAIL).max(axis=2).sum(axis=0)
-    return (found @ _WEIGHT) * (high - low), SAFETY * tail * (high - low)
+    """Integrals of e, s and the force in stick over the intervals (3, n), and a bound of the error of the first.
+
+    The finer rule takes the springs of the coarser one and those between, where the coarser errs by more than allowed.
+    """
+    found, missed = np.empty((3, low.size)), np.empty(low.size)
+    left, means = np.arange(low.size), np.empty((3, low.size, 0))
+    for rule in _RULES:
+        width = (high - low)[left]
+        x = np.minimum(low[left, None] + width[:, None] * rule.share, high[left, None])
+        more = all_springs(motion, v, np.repeat(owner[left], rule.share.size), _gaps(pull, x.ravel()))
+        means = np.concatenate([means, more.reshape(3, *x.shape)], axis=2)
+        found[:, left] = (means @ rule.weight) * width
+        last = np.abs(means[:2] @ rule.tail).max(axis=2).sum(axis=0)
+        missed[left] = SAFETY * width * last
+        again = missed[left] > allowed
+        left, means = left[again], means[:, again]
+        if not left.size:
+            break
+    return found, missed
 
 
-def _rule() -> tuple[Array, Array, Array]:
-    """Nodes sin²(theta/2), with theta at Chebyshev points of [0, pi]; weights; the last coefficients in theta."""
-    j = np.arange(_ORDER + 1)
-    half = np.where((j == 0) | (j == _ORDER), 0.5, 1.0)
-    coefficients = 2 / _ORDER * np.cos(np.pi * np.outer(j, j) / _ORDER) * half * half[:, None]
-    u, w = leggauss(4 * _ORDER)
-    moments = np.cos(np.outer(j, np.arccos(u))) @ (w * np.pi / 4 * np.cos(np.pi / 2 * u))
-    share = np.sin(0.25 * np.pi * (1 - np.cos(np.pi * j / _ORDER))) ** 2
-    return share, moments @ coefficients, np.ascontiguousarray(coefficients[-2:].T)
+class _Rule(NamedTuple):
+    """An integral through Chebyshev points, of which the first are those of the coarser rule."""
+
+    share: Array  # of the interval: where the further nodes are, sin²(theta/2) for theta in [0, pi]
+    weight: Array  # of all nodes
+    tail: Array  # (nodes, 2): the last coefficients in theta
+
+    @classmethod
+    def of(cls, order: int, nested: bool) -> _Rule:
+        """The rule of so many nodes and one; nested: within it that of half the order."""
+        j = np.arange(order + 1)
+        half = np.where((j == 0) | (j == order), 0.5, 1.0)
+        coefficients = 2 / order * np.cos(np.pi * np.outer(j, j) / order) * half * half[:, None]
+        u, w = leggauss(4 * order)
+        moments = np.cos(np.outer(j, np.arccos(u))) @ (w * np.pi / 4 * np.cos(np.pi / 2 * u))
+        share = np.sin(0.25 * np.pi * (1 - np.cos(np.pi * j / order))) ** 2
+        nodes = np.r_[j[::2], j[1::2]] if nested else j
+        tail = np.ascontiguousarray(coefficients[-2:, nodes].T)
+        return cls(share[1::2] if nested else share, (moments @ coefficients)[nodes], tail)
 
 
-_SHARE, _WEIGHT, _TAIL = _rule()
-_SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 26)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
+_GAUSS = leggauss(_ORDER)
+_RULES = (_Rule.of(_ORDER // 2, False), _Rule.of(_ORDER, True))
+_SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 16)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
 
 
 def _turns(C: Complex) -> Array:

@@ -17,7 +17,7 @@ from mdr.tools.jit import compiled
 Complex = NDArray[np.complex128]
 
 MOST_CHANGES = 96  #: of the sequence of modes along the array; further ones are left to the halving
-NEAR = 1e-7  #: of the range of gaps, to which a change is bisected
+NEAR = 1e-7  #: of the range of gaps, to which a change is found
 PERIODS = 100  #: at most, of Newton's method for the periodic state
 _PRIME = 9007199254740881  #: of a sequence of modes as a number
 
@@ -124,8 +124,9 @@ def _put(points: Array, k: int, now: Instant) -> None:
 
 
 @_jit
-def _cuts(m: Motion, v: float) -> tuple[Array, Array]:
-    """Instants of the extremes of A^T, B^T and z^T in a period, with its ends (n, 8), and room for those of a spring.
+def _cuts(m: Motion, v: float) -> tuple[Array, Array, Array]:
+    """Instants of the extremes of A^T, B^T and z^T in a period, with its ends (n, 8), and room for the instants and
+    the margins of a spring.
 
     A row has the fields of an Instant and whether the spring is free from there to the next.
     """
@@ -148,14 +149,24 @@ def _cuts(m: Motion, v: float) -> tuple[Array, Array]:
         if i == 0 or t[i] > t[i - 1] + 1e-14:
             _put(cuts, count, instant_at(m.rows, m.T, v, t[i]))
             count += 1
-    return cuts[:count], np.empty((3 * count, _FREE + 1))
+    return cuts[:count], np.empty((3 * count, _FREE + 1)), np.empty(24 * count)
 
 
 # --- one spring -------------------------------------------------------------------------------------------
 
 
 @_jit
-def _follow(rows: Complex, T: float, v: float, c: float, cuts: Array, points: Array) -> tuple[int, float, int]:
+def _note(margins: Array, value: float) -> None:
+    """One more margin, whose sign decides which way a spring goes on; margins[0] counts them. Empty: none are kept."""
+    if margins.size > 0:
+        margins[0] += 1
+        margins[int(margins[0])] = value
+
+
+@_jit
+def _follow(
+    rows: Complex, T: float, v: float, c: float, cuts: Array, points: Array, margins: Array
+) -> tuple[int, float, int]:
     """Normal motion: puts the instants of contact, with those of touch and leave, into points.
 
     Returns their number, the integral of s, and the sequence of touches and leaves as a number.
@@ -167,8 +178,10 @@ def _follow(rows: Complex, T: float, v: float, c: float, cuts: Array, points: Ar
         b = _get(cuts, k + 1)
         z_a, z_b = 0.5 * (a.A_T + a.B_T) - c, 0.5 * (b.A_T + b.B_T) - c
         begin, end, code = a, b, 0  # of the part in which z^T > c
+        _note(margins, z_b)
         if z_b < 0:
             end = a
+            _note(margins, z_a)
             if z_a > 0:
                 end = instant_at(rows, T, v, root(rows, _Z_T, 0.0, -c, 0.0, 0.0, T, a.t, b.t, z_a, z_b))
         if flies and end.t > a.t:
@@ -176,8 +189,10 @@ def _follow(rows: Complex, T: float, v: float, c: float, cuts: Array, points: Ar
             if T > 0:
                 h_a -= s_left * math.exp(-(a.t - left_at) / T)
                 h_end -= s_left * math.exp(-(end.t - left_at) / T)
+            _note(margins, h_end)
             if h_end > 0:
                 flies, code = False, 1
+                _note(margins, h_a)
                 if h_a < 0:
                     t = root(rows, _Z, 0.0, -c, -s_left, left_at, T, a.t, end.t, h_a, h_end)
                     begin = instant_at(rows, T, v, t)
@@ -215,7 +230,7 @@ def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> 
 
 @_jit
 def _slide(
-    rows: Complex, T: float, v: float, c: float, y: float, a: Instant, b: Instant, measure: bool
+    rows: Complex, T: float, v: float, c: float, y: float, a: Instant, b: Instant, measure: bool, margins: Array
 ) -> tuple[float, float, float, float, int]:
     """Contact from a to b, no extreme between: y at b, integrals of e and of the force in stick, slip time, modes."""
     e, slipped, modes = 0.0, 0.0, 0
@@ -223,6 +238,7 @@ def _slide(
     for row in range(2):
         side, W_a, W_b = (1.0, a.A_T, b.A_T) if row == 0 else (-1.0, a.B_T, b.B_T)
         over = side * y - (W_a - c)
+        _note(margins, over)
         if over >= 0 and W_b < W_a:
             y, e = _slip(T, c, side, y, a, b)
             return y, e, 0.0, b.t - a.t, 1 + row
@@ -231,6 +247,7 @@ def _slide(
         elif over > 0:
             lag = a.z - side * (a.X + y) - c
             f_b = lag * math.exp(-(b.t - a.t) / T) + W_b - (b.z - side * b.X)
+            _note(margins, f_b)
             if f_b <= 0:
                 y, e = _slip(T, c, side, y, a, b)
                 return y, e, 0.0, b.t - a.t, 3 + row
@@ -243,6 +260,8 @@ def _slide(
     for row in range(2):
         side, W_a, W_b = (1.0, stick.A_T, b.A_T) if row == 0 else (-1.0, stick.B_T, b.B_T)
         level = -side * y - c
+        if W_b < W_a:
+            _note(margins, W_b + level)
         if W_b + level < 0 and W_b < W_a:
             if T == 0 and not measure:
                 return side * (W_b - c), 0.0, 0.0, 0.0, 1 + row
@@ -266,7 +285,7 @@ def _slide(
 
 @_jit
 def _period(
-    rows: Complex, T: float, v: float, c: float, points: Array, n: int, e: float, measure: bool
+    rows: Complex, T: float, v: float, c: float, points: Array, n: int, e: float, measure: bool, margins: Array
 ) -> tuple[float, float, float, float, int]:
     """A period from extension e on: e at its end; integrals of e and force in stick; slip and flight time; modes."""
     e_sum, pressed, forgets, modes = 0.0, 0.0, 0.0, 0
@@ -275,7 +294,7 @@ def _period(
     for k in range(n - 1):
         a, b = b, _get(points, k + 1)
         if points[k, _FREE] == 0:
-            y, more, stuck, slipped, code = _slide(rows, T, v, c, y, a, b, measure)
+            y, more, stuck, slipped, code = _slide(rows, T, v, c, y, a, b, measure, margins)
             e_sum += more
             pressed += stuck
             forgets += slipped
@@ -292,20 +311,28 @@ def _period(
 
 @_jit
 def _spring(
-    rows: Complex, T: float, v: float, c: float, cuts: Array, points: Array, measure: bool, share: float
+    rows: Complex, T: float, v: float, c: float, cuts: Array, points: Array, margins: Array, measure: bool, share: float
 ) -> tuple[float, float, float, int, float]:
     """The periodic state of a spring: integrals of e, s and force in stick over a period, its modes as a number, and
     its extension at the beginning over its compression there; sought from that of another spring, `share`.
     """
     top = cuts[0, 1] - c
+    kept = margins.size > 0
+    if kept:
+        margins[0] = 0.0
     if not top > 0:
         return 0.0, 0.0, 0.0, 0, share
-    n, s_sum, sequence = _follow(rows, T, v, c, cuts, points)
+    n, s_sum, sequence = _follow(rows, T, v, c, cuts, points, margins)
+    n_margins = margins[0] if kept else 0.0
     low, high, e, before = -top, top, top * share if T > 0 and share < 1 - 1e-9 else top, 0
     e_sum, pressed, modes = 0.0, 0.0, 0
     close = 1e-14 if measure else 1e-10
     for k in range(PERIODS):
-        after, e_sum, pressed, forgets, modes = _period(rows, T, v, c, points, n, e, measure and (T > 0 or k > 0))
+        if kept:
+            margins[0] = n_margins
+        after, e_sum, pressed, forgets, modes = _period(
+            rows, T, v, c, points, n, e, measure and (T > 0 or k > 0), margins
+        )
         if T == 0:
             if k == 1:
                 break
@@ -327,15 +354,30 @@ def _spring(
 def all_springs(m: Motion, v: Array, owner: NDArray[np.intp], c: Array) -> Array:
     """Means of e, s and force in stick (3, n) of springs of gaps c, ordered by the velocity v[owner]."""
     found = np.empty((3, c.size))
-    last, share = owner[0], 1.0
-    cuts, points = _cuts(m, v[last])
+    last, share, none = owner[0], 1.0, np.empty(0)
+    cuts, points, _ = _cuts(m, v[last])
     for i in range(c.size):
         if owner[i] != last:
             last = owner[i]
-            cuts, points = _cuts(m, v[last])
-        e, s, pressed, _, share = _spring(m.rows, m.T, v[last], c[i], cuts, points, True, share)
+            cuts, points, _ = _cuts(m, v[last])
+        e, s, pressed, _, share = _spring(m.rows, m.T, v[last], c[i], cuts, points, none, True, share)
         found[0, i], found[1, i], found[2, i] = e / (2 * math.pi), s / (2 * math.pi), pressed / (2 * math.pi)
     return found
+
+
+@_jit
+def _between(near: Array, far: Array, least: float) -> float:
+    """Where to look next for a change between two springs, as a share of the way from one to the other.
+
+    near, far: their margins. The first that differs in sign has its zero at the change, nearly where its secant has
+    it; a little beyond, on the side of the farther end, so that both ends come near. least: of that little.
+    """
+    for k in range(1, int(min(near[0], far[0])) + 1):
+        if (near[k] > 0) != (far[k] > 0):
+            zero = near[k] / (near[k] - far[k])
+            beyond = max(0.05 * zero * (1 - zero), least)
+            return float(min(zero + beyond, 0.5) if zero < 0.5 else max(zero - beyond, 0.5))
+    return 0.5
 
 
 @_jit
@@ -343,7 +385,8 @@ def all_changes(m: Motion, v: Array, c_low: float, c_high: float, scan: Array) -
     """Gaps between c_low and c_high at which the sequence of modes changes (n_v, MOST_CHANGES), NaN where no more."""
     found = np.full((v.size, MOST_CHANGES), np.nan)
     for i in range(v.size):
-        cuts, points = _cuts(m, v[i])
+        cuts, points, at_near = _cuts(m, v[i])
+        at_low, at_high, at_far, at_middle = np.zeros((4, at_near.size))
         # deeper springs never meet the lower barrier, as long as they are kept
         A, B, z = cuts[:, 3].min(), cuts[:, 4].min(), (cuts[:, 3] + cuts[:, 4]).min()
         share = 1.0
@@ -352,19 +395,28 @@ def all_changes(m: Motion, v: Array, c_low: float, c_high: float, scan: Array) -
         low = start
         for k in range(scan.size):
             high = start + scan[k] * span
-            _, _, _, target, share = _spring(m.rows, m.T, v[i], high, cuts, points, False, share)
+            _, _, _, target, share = _spring(m.rows, m.T, v[i], high, cuts, points, at_high, False, share)
             while k > 0 and modes != target and count < MOST_CHANGES:
                 near, far, other = low, high, target
+                at_near[:], at_far[:] = at_low, at_high
+                halve = False
                 while far - near > NEAR * span:
-                    middle = 0.5 * (near + far)
-                    _, _, _, there, share = _spring(m.rows, m.T, v[i], middle, cuts, points, False, share)
+                    width = far - near
+                    part = 0.5 if halve else _between(at_near, at_far, 0.3 * NEAR * span / width)
+                    middle = near + part * width
+                    _, _, _, there, share = _spring(m.rows, m.T, v[i], middle, cuts, points, at_middle, False, share)
                     if there == modes:
                         near = middle
+                        at_near[:] = at_middle
                     else:
                         far, other = middle, there
+                        at_far[:] = at_middle
+                    halve = far - near > 0.51 * width
                 if count == 0 or near > found[i, count - 1] + 4 * NEAR * span:
                     found[i, count] = 0.5 * (near + far)
                     count += 1
                 low, modes = far, other
+                at_low[:] = at_far
             low, modes = high, target
+            at_low[:] = at_high
     return found

@@ -33,6 +33,7 @@ from mdr.tools.summary import Summarised, Summary, number, span
 STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
 SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
 MOST_REASONS = 3  #: why runs did not settle, told in print
+CLOSED_SHARE = 1e-3  #: of the accuracy asked for, to which a closed form sums each interval of springs
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
@@ -183,11 +184,12 @@ def cof_curve(
         )
     asked = velocities if np.any(velocities == 0) else np.append(velocities, 0.0)
     is_closed, knobs = method is None and has_closed_form(case), (n_springs, steps_per_period, accuracy)
-    columns = _closed_form(case, asked) if is_closed else _marched(case, asked, knobs)
+    columns = _closed_form(case, asked, accuracy) if is_closed else _marched(case, asked, knobs)
     back = None
     if case.is_shaken and np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
         rest, mirrored = np.zeros(1), case.mirrored
-        back = -float((_closed_form(mirrored, rest) if is_closed else _from_rest_on(mirrored, rest, knobs))[0][0])
+        at_rest = _closed_form(mirrored, rest, accuracy) if is_closed else _from_rest_on(mirrored, rest, knobs)
+        back = -float(at_rest[0][0])
     (cof, error, settled, sticks, why), n = columns, velocities.size
     return CofCurve(
         v_0=velocities,
@@ -208,10 +210,11 @@ Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
 Given = tuple[int | None, int | None, float]  #: springs, steps and accuracy
 
 
-def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
+def _closed_form(case: SlidingContact, v_0: Array, accuracy: float) -> Columns:
     """Friction at velocities of either sign, of a case that `has_closed_form`; 0 is the limit of a pull forward."""
     if case.is_shaken:
-        cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)
+        velocities = v_0 / case.unit_velocity
+        cof, error, sticks = shaken_friction(ShakenPull.of(case), velocities, CLOSED_SHARE * accuracy)
         return case.mu_0 * cof, case.mu_0 * error, *_all_settled(sticks)
     moving = v_0 != 0
     known = average_friction(case, np.abs(v_0[moving]))
@@ -304,7 +307,7 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
     """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
     case = resolved(case)
     if has_closed_form(case):
-        return _closed_form(case, v_0)[0]
+        return _closed_form(case, v_0, BUDGET)[0]
     at_rest = (v_0 == 0) & (not case.is_shaken)
     out = np.full(v_0.shape, static_cof(case) if at_rest.any() else 0.0)
     for one, side, where in _ways(case, v_0):

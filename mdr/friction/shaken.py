@@ -15,6 +15,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.friction.cof_curve import cof_curve, has_closed_form
+from mdr.march.march import MOST_ACCURATE
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import finite
@@ -206,7 +207,7 @@ def _free(case: SlidingContact) -> float:
 def _cof(case: SlidingContact, v_0: float) -> float:
     """Friction at one velocity, that of a settled run."""
     if has_closed_form(case):
-        return float(cof_curve(case, [v_0]).cof[0])
+        return float(cof_curve(case, [v_0], accuracy=MOST_ACCURATE).cof[0])
     run = slide(case, v_0)
     if not run.settled:
         raise ValueError(f"friction at {v_0:.6g} m/s is not known, as its run does not settle: {run.why}")
