@@ -27,9 +27,9 @@ e + T e' is that of e. Three facts make every mean a short sum.
    that ever touches is in contact there.
 3. The mean of e is an analytic function of c but where the sequence of touches, leaves and slips changes: where one of
    the numbers whose signs tell how a spring goes on is zero, which finds such a c. Next to it the mean goes with powers
-   of its square root. Between two of them, and kinks of the shape, x = x_1 + (x_2 - x_1) sin²(theta/2) makes it analytic
-   in theta, and the Chebyshev series in theta through 9 springs, or 17 where these do not do, is integrated. Its last
-   coefficients bound the error. Where they are too large still the interval is halved.
+   of its square root. Between two of them, and kinks of the shape, x = x_1 + (x_2 - x_1) sin²(theta/2) makes it
+   analytic in theta, and the Chebyshev series in theta through 9 springs, or 17 where these do not do, is integrated.
+   Its last coefficients bound the error. Where they are too large still the interval is halved.
 """
 
 from __future__ import annotations

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
+from mdr.friction.shaken import HoldingBand, HoldsABand, blocked_cof, holding_band, no_load_velocity
 from mdr.normal.doubts import edge, frequencies
 from mdr.normal.resolved import resolved
-
-if TYPE_CHECKING:
-    from mdr.friction.shaken import HoldingBand
 
 
 def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
@@ -127,18 +125,16 @@ class Ends(NamedTuple):
     """The ends of the characteristic of a contact that is shaken in the plane; in words, what is not known."""
 
     band: HoldingBand  #: of loads that it holds at rest
-    blocked: float | str | None  #: friction where the pull stands still; None where it is no single number
+    blocked: float | str | HoldingBand  #: friction where the pull stands still
     free: float | str  #: velocity without load [m/s]
 
     @classmethod
     def of(cls, case: SlidingContact) -> Ends:
         """The ends of this case."""
-        from mdr.friction.shaken import HoldsABand, blocked_cof, holding_band, no_load_velocity
-
         try:
-            blocked: float | str | None = blocked_cof(case)
-        except HoldsABand:
-            blocked = None
+            blocked: float | str | HoldingBand = blocked_cof(case)
+        except HoldsABand as held:
+            blocked = held.band
         except ValueError as unknown:
             blocked = str(unknown)
         try:
@@ -150,23 +146,31 @@ class Ends(NamedTuple):
     @property
     def values(self) -> dict[str, Any]:
         """What JSON says of them."""
-        band = [self.band.low, self.band.high]
-        return {"holding_band": band, "blocked_cof": self.blocked, "no_load_velocity": self.free}
+        band, blocked = [self.band.low, self.band.high], self.blocked
+        number = None if isinstance(blocked, HoldingBand) else blocked
+        held = {"blocked_band": [blocked.low, blocked.high]} if isinstance(blocked, HoldingBand) else {}
+        return {"holding_band": band, "blocked_cof": number, **held, "no_load_velocity": self.free}
 
     @property
     def rows(self) -> list[tuple[str, str, str]]:
         """The same in words."""
         band, blocked, free = self
-        one = "a band" if blocked is None else NOT_KNOWN if isinstance(blocked, str) else f"{blocked:.6g}"
-        at_rest = blocked if isinstance(blocked, str) else "mean F_x over mean F_z where the pull stands still"
+        one = NOT_KNOWN if isinstance(blocked, str) else _span(blocked)
+        at_rest = blocked if isinstance(blocked, str) else "the same under its own pull, standing still"
         velocity = NOT_KNOWN if isinstance(free, str) else f"{free:.6g} m/s"
-        unloaded = free if isinstance(free, str) else "velocity at which it runs by itself, without a load"
-        held = f"{band.high:.6g} alone" if band.is_one_number else f"{band.low:.6g} to {band.high:.6g}"
+        unloaded = free if isinstance(free, str) else "velocity at which it runs by itself, where no force holds it"
         return [
-            ("band", held, "mean F_x over mean F_z that it holds at rest, held rigidly"),
+            ("band", _span(band), "mean F_x over mean F_z at rest, under a rigid pull that stands still"),
             ("blocked", one, at_rest),
             ("no load", velocity, unloaded),
         ]
+
+
+def _span(held: HoldingBand | float) -> str:
+    """A band of forces, or one force."""
+    if not isinstance(held, HoldingBand):
+        return f"{held:.6g}"
+    return f"{held.high:.6g} (one value)" if held.is_one_number else f"{held.low:.6g} to {held.high:.6g}"
 
 
 def equation_of(case: SlidingContact) -> tuple[str, str]:

@@ -59,6 +59,10 @@ class HoldingBand:
 class HoldsABand(ValueError):
     """The force of a contact at rest is no single number."""
 
+    def __init__(self, message: str, band: HoldingBand) -> None:
+        super().__init__(message)
+        self.band = band  #: under the pull of the contact
+
 
 def holding_band(case: SlidingContact) -> HoldingBand:
     """Loads [-], mean F_x over mean F_z, that a contact holds at rest, neither creeping nor driving.
@@ -97,16 +101,17 @@ def holding_band(case: SlidingContact) -> HoldingBand:
     >>> print(f"{band.low:.4f} to {band.high:.4f}")  # springs slip at 12e-6 m, of which the shake takes 5e-6
     -0.2333 to 0.2333
     """
-    return _band(replace(resolved(case), pull=RigidPull()))
+    return band_of_pull(replace(resolved(case), pull=RigidPull()))
 
 
 @remembered(maxsize=16)  # a command asks for it more than once
-def _band(case: SlidingContact) -> HoldingBand:
-    """The ends of friction at rest, under the pull of the case."""
+def band_of_pull(case: SlidingContact) -> HoldingBand:
+    """Both limits of friction at rest of a case of known depth, under its own pull; ValueError as in `holding_band`."""
     forward, back = (cof_curve(one, [0.0]) for one in (case, case.mirrored))
     if not (forward.settled.all() and back.settled.all()):
-        why = forward.why[0] or back.why[0]
-        raise ValueError(f"friction at rest is not known, as its run does not settle: {why}")
+        why = (forward.why[0] or back.why[0]).partition(": raise")[0]
+        more = "more periods may tell, mdr.slide(case, 0.0, n_periods=...)"
+        raise ValueError(f"friction at rest is not known, as its run does not settle: {why}; {more}")
     error = float(max(forward.cof_error[0], back.cof_error[0]))
     low, high = 0.0 - float(back.cof[0]), float(forward.cof[0])
     return HoldingBand(low=min(low, high), high=max(low, high), error=error)
@@ -141,11 +146,12 @@ def blocked_cof(case: SlidingContact) -> float:
     >>> print(f"{mdr.blocked_cof(case):.3f}")
     -0.221
     """
-    band = _band(resolved(case))
+    band = band_of_pull(resolved(case))
     if not band.is_one_number:
         raise HoldsABand(
             f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
-            "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)"
+            "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)",
+            band,
         )
     return 0.5 * (band.low + band.high)
 
@@ -189,7 +195,7 @@ def _free(case: SlidingContact) -> float:
     low = SLOW * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
     if side == 0:  # zero load lies between the two: is it held?
-        band = _band(case)
+        band = band_of_pull(case)
         if band.contains(0.0):
             return 0.0
         side, low = (1 if band.high < 0 else -1), 0.0

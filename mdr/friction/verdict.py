@@ -15,7 +15,7 @@ from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlik
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
-from mdr.friction.shaken import holding_band, no_load_velocity
+from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, positive
@@ -153,9 +153,9 @@ def verdict(
 
 
 def _at_rest(case: SlidingContact) -> str:
-    """What a shaken contact does without a pull."""
+    """What a shaken contact does whose pull stands still, and where nothing holds it."""
     try:
-        band, free = holding_band(case), no_load_velocity(case)
+        band, free = band_of_pull(case), no_load_velocity(case)
     except ValueError as unknown:
         return f"At rest: {unknown}"
     if band.contains(0.0) and not band.is_one_number:
