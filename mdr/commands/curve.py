@@ -49,7 +49,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     which = command.add_mutually_exclusive_group()
     highest = f"highest velocity, over v_c or with a unit: 1.3, 5mm/s (default: {UP_TO.number:g})"
     which.add_argument("--up-to", metavar="velocity", type=_highest, default=UP_TO, help=highest)
-    listed = "these velocities, in m/s, with a unit or over v_c: 1e-3 2mm/s 0.5v_c"
+    listed = "these velocities, in m/s, with a unit or over the v_c of their way: 1e-3 2mm/s 0.5v_c"
     which.add_argument("--v-0", metavar="velocity", type=velocity_in("m/s"), nargs="+", help=listed)
     let_values_be_negative(command)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
@@ -120,7 +120,6 @@ def _loose_ends(curve: CofCurve) -> list[str]:
 
 
 def _print_curve(curve: CofCurve, equation: str) -> None:
-    scaled = math.isfinite(curve.v_c) and curve.v_c > 0
     back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
     known = f"mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
@@ -128,7 +127,8 @@ def _print_curve(curve: CofCurve, equation: str) -> None:
     print(f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled")
     columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled)
     for v_0, cof, error, stick, settled in zip(*columns, strict=True):
-        ratio = f"{v_0 / curve.v_c:8.4f}" if scaled else f"{'-':>8}"
+        v_c = curve.v_c_back if v_0 < 0 and curve.v_c_back is not None else curve.v_c  # of the way it is pulled
+        ratio = f"{v_0 / v_c:8.4f}" if math.isfinite(v_c) and v_c > 0 else f"{'-':>8}"
         end = "yes" if settled else "no"
         print(f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}")
 

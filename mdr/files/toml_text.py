@@ -98,7 +98,9 @@ def _syntax_fault(text: str, message: str) -> str:
     place = re.match(r"line (\d+)", where)
     number = int(place[1]) if place else len(lines)
     line = lines[number - 1].strip() if 0 < number <= len(lines) else ""
-    if what.startswith("Expected newline") and "=" in line:
+    if re.search(r"=\s*[-+]?\d[\d_]*\.(?!\d)", line):
+        what = "a number has a digit after its point, 2.0 and not 2."
+    elif what.startswith("Expected newline") and "=" in line:
         what = "more than one value; write one number in SI, without unit or arithmetic"
     elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
         what += "; is it given twice?"

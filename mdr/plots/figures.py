@@ -60,7 +60,7 @@ def plot_curve(
     labels : sequence of str, optional
         One name for each curve.
     absolute : bool, optional
-        True draws the COF against v_0 in m/s, False either over the curve's own scale, mu_0 and v_c. None: True for
+        True draws the COF against v_0 in m/s (or mm/s, µm/s), False either over the curve's own scale, mu_0 and v_c. None: True for
         several curves. Where a curve has no finite v_c (resonance) it is True.
 
     Returns
@@ -87,7 +87,8 @@ def plot_curve(
         if both:
             ax.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
         _mark_critical(ax, curves, scales, shades, both)
-        ax.set_xlabel(r"pulling velocity $v_0/v_c$" if scaled else rf"pulling velocity $v_0$ [{unit}]")
+        over_v_c = r"pulling velocity $v_0/v_c$" + (", $v_c$ of a forward pull" if both else "")
+        ax.set_xlabel(over_v_c if scaled else rf"pulling velocity $v_0$ [{unit}]")
         ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$" if scaled else r"coefficient of friction $\mu$")
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
@@ -339,13 +340,17 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
 
 
 def _line(curve: Any, v: "NDArray[Any]", mu: "NDArray[Any]", scale: float) -> "tuple[NDArray[Any], NDArray[Any]]":
-    """The line through the points; at rest, of a curve of both ways, upright from one limit to the other."""
-    if curve.static_cof_back is None:
-        return v, mu
+    """The line through the points; at rest, of a curve of both ways, upright from one limit to the other.
+
+    Where the limit of a backward pull was not computed the line is broken there: friction may jump.
+    """
     order = np.argsort(v)
     v, mu = v[order], mu[order]
     back, forward = v < 0, v > 0
-    at_rest = np.array([curve.static_cof_back, curve.static_cof]) / scale
+    if not (back.any() and forward.any()):
+        return v, mu
+    low = np.nan if curve.static_cof_back is None else curve.static_cof_back
+    at_rest = np.array([low, curve.static_cof]) / scale
     return np.concatenate([v[back], [0.0, 0.0], v[forward]]), np.concatenate([mu[back], at_rest, mu[forward]])
 
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import matplotlib
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import plots
@@ -265,3 +265,13 @@ def test_a_force_that_turns_is_drawn_between_both_limits():
     assert low < 0 < high
     limits = [line.get_ydata() for line in ax.lines if len(line.get_ydata()) == 64]
     assert any(np.all(y <= 0) for y in limits)
+
+
+@pytest.mark.parametrize("back", [None, -0.1])
+def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
+    v_0 = np.array([-0.02, -0.01, 0.01, 0.02])
+    both = {"cof": np.array([-0.5, -0.4, 0.4, 0.5]), "cof_error": np.zeros(4), "settled": np.ones(4, bool)}
+    ax = plots.plot_curve(made_up_curve(v_0=v_0, static_cof_back=back, **both), absolute=True)
+    line = max(ax.lines, key=lambda one: len(one.get_xdata()))
+    at_rest = line.get_ydata()[np.asarray(line.get_xdata()) == 0]
+    assert_array_equal(at_rest, [np.nan if back is None else back, 0.3])
