@@ -20,7 +20,7 @@ from mdr.closed_forms.rigid_pull import average_friction
 from mdr.closed_forms.shaken_pull import ShakenPull, has_shaken_form
 from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.march.slide import cofs_without_bound, slides
+from mdr.march.slide import SLOWEST, cofs_without_bound, slides
 from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
@@ -133,7 +133,8 @@ def cof_curve(
         The contact.
     v_0 : array_like of float, shape (n_v,)
         Pulling velocities [m/s], zero or above. Zero is the static limit. Where something shakes in the plane they may
-        be of either sign, friction too, and zero is the limit of a pull ever slower forward.
+        be of either sign, friction too, and zero is the limit of a pull ever slower forward. Without a shake what is
+        below 1e-9 of mu_0 kappa omega du_z counts as zero.
     method : {None, "march"}
         None takes the closed form where there is one (a rigid pull, an elastic or Kelvin material, and a harmonic depth
         or a shake in the plane) and one run for each velocity elsewhere. "march" takes runs for every case.
@@ -182,7 +183,9 @@ def cof_curve(
             f"v_0 must not be negative, got {float(velocities.min())!r} m/s: friction is the same both ways where "
             "nothing shakes in the plane"
         )
-    asked = velocities if np.any(velocities == 0) else np.append(velocities, 0.0)
+    at_rest = (np.abs(velocities) < SLOWEST * case.unit_velocity) & (not case.is_shaken)
+    asked = np.where(at_rest, 0.0, velocities)
+    asked = asked if np.any(asked == 0) else np.append(asked, 0.0)
     is_closed, knobs = method is None and has_closed_form(case), (n_springs, steps_per_period, accuracy)
     columns = _closed_form(case, asked, accuracy) if is_closed else _marched(case, asked, knobs)
     back = None

@@ -104,6 +104,11 @@ class ScaledContact:
         return self.body.rigid
 
     @property
+    def creep(self) -> float:
+        """Periods in which spring and damper of the pull come to rest; 0 under a rigid pull."""
+        return 0.0 if self.rigid else self.C / (2 * np.pi * self.K)
+
+    @property
     def light(self) -> bool:
         """Whether the body takes at once, for these steps, the velocity that a spring gives it as it touches."""
         return self.body.light

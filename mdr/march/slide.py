@@ -13,6 +13,8 @@ from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, finite, positive
 from mdr.tools.progress import time_limit
 
+SLOWEST = 1e-9  #: pull, over mu_0 kappa omega du_z, of a run: a slower one moves springs by the rounding of their place
+
 
 def slide(
     case: SlidingContact,
@@ -36,9 +38,9 @@ def slide(
     case : SlidingContact
         The contact.
     v_0 : float
-        Pulling velocity [m/s], above zero. The limit of zero velocity is `static_cof`. Where something shakes in the
-        plane it may be of either sign, or zero: there a contact that can hold ends in a state that depends on its
-        start, see `holding_band`.
+        Pulling velocity [m/s], at least 1e-9 of mu_0 kappa omega du_z. The limit of zero velocity is `static_cof`.
+        Where something shakes in the plane it may be of either sign, or zero: there a contact that can hold ends in a
+        state that depends on its start, see `holding_band`.
     n_springs : int, optional
         Springs at x > 0, each for the pair at +x and -x. None chooses them, and the steps, so that `cof_error` is
         within the accuracy where that is possible.
@@ -132,7 +134,12 @@ def _velocity(case: SlidingContact, v_0: Any) -> float:
     if case.is_shaken or (case.shake is not None and finite("v_0", v_0) < 0):  # also of a shake with no amplitude
         return finite("v_0", v_0)
     what = "pulling velocity in m/s; the limit of zero velocity is static_cof(case)"
-    return positive("v_0", v_0, f"{what}, and the other way is the same where nothing shakes in the plane")
+    velocity = positive("v_0", v_0, f"{what}, and the other way is the same where nothing shakes in the plane")
+    if velocity < SLOWEST * case.unit_velocity:
+        least = f"{SLOWEST:g} of mu_0 kappa omega du_z = {case.unit_velocity:.4g} m/s"
+        rounding = "where rounding hides the motion of springs; ask static_cof(case)"
+        raise ValueError(f"v_0 = {velocity:g} m/s is below {least}, {rounding}")
+    return velocity
 
 
 def slides(

@@ -14,12 +14,12 @@ import numpy as np
 
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.orbit_search import Orbit, search
-from mdr.march.steady_state import TOLERANCE, Settling, assess, smooth_mean
+from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
 from mdr.march.stepper import MarchState, Periods, Stepper, joined
 from mdr.tools.progress import time_is_over
 
 BEATS = 2.0  #: of an undamped body that a settled run has seen
-E_FOLDS = 8.0  #: of a damped oscillation after which no beat is left
+E_FOLDS = 8.0  #: of a damped oscillation after which no beat is left, and of a creep
 NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is missing in the COF
 SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
@@ -73,6 +73,10 @@ class Waiting:
         """Whether the COF has settled, and the body too."""
         # under a rigid pull a change shrinks at a constant rate, so that any tolerance is met in time
         settling = assess(self.periods.cof, self.stepper.tolerance if self.scaled.rigid else TOLERANCE)
+        if self.n < E_FOLDS * self.scaled.creep and abs(1 - settling.mean) > TOLERANCE:
+            takes = f"spring and damper of the pull take {self.scaled.creep:.3g}"
+            why = f"after {self.n} periods the body still creeps: {takes}"
+            return replace(settling, spread=UNKNOWN, settled=False, kind="unsettled", why=why)
         if settling.settled and (why := self._still_moves(settling.mean)):
             return replace(settling, settled=False, kind="unsettled", why=why)
         return settling

@@ -9,7 +9,7 @@ SYNTAX = {
     "unit": ("a = 1\nR = 5 mm", "line 2: R = 5 mm: more than one value; write one number in SI, without unit"),
     "arithmetic": ("R = 5*1e-3", "line 1: R = 5*1e-3: more than one value; write one number in SI, without unit"),
     "name without quotes": ("[indenter]\nshape = Cone", 'line 2: shape = Cone: a name is written in quotes, "Cone"'),
-    "point without a digit": ("R = 2000.  # m", "line 1: R = 2000.  # m: a number has a digit after its point, 2.0"),
+    "point without a digit": ("R = 2000.  # m", "line 1: R = 2000. # m: a number has a digit after its point, 2.0"),
     "no value": ("R = ", "line 1: R =: no number, name in quotes or list"),
     "key given twice": ("a = 1\na = 2\n[b]", "line 2: a = 2: Cannot overwrite a value; is it given twice?"),
     "key given twice at the end": ("a = 1\na = 2", "line 2: a = 2: Cannot overwrite a value; is it given twice?"),

@@ -1,6 +1,7 @@
 """The periodic solver on maps whose fixed points are known, and on bodies against a march that waits."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -206,3 +207,15 @@ def test_a_state_of_nothing_can_be_pushed_too():
     """At phase 0 every spring may be in flight and forget all it knew."""
     found = find(lambda x: 0.1 * x, np.zeros(6))
     assert found.gain == pytest.approx(1 / 0.9)
+
+
+@pytest.mark.parametrize("k_x", [1.0, 0.3, 1e-2, 1e-3, 1e-4, 1e-5])
+def test_a_pull_that_creeps_is_not_taken_for_settled(k_x):
+    """Spring and damper of a pull let the body creep for c_x/k_x, here up to 2e6 periods; the spring's stiffness does
+    not matter to the COF in the end, as it is far softer than damper and contact."""
+    case = contact("paraboloid", 10.0, 0.3, k_ratio=1.0)
+    v_0 = 0.18 * case.unit_velocity
+    knobs = {"n_springs": 32, "steps_per_period": 64}
+    soft = [mdr.slide(replace(case, pull=mdr.SpringPull(k, 0.1, 4.0)), v_0, **knobs) for k in (10.0, k_x)]
+    assert soft[0].settled
+    assert not soft[1].settled or abs(soft[1].cof - soft[0].cof) <= 1e-4 * case.mu_0
