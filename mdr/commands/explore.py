@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import DONE, WrongInput, path_of, print_json, whole_number
 from mdr.files.case_files import read_case
 from mdr.files.toml_text import CaseFileError
@@ -34,6 +35,10 @@ def explore(args: argparse.Namespace, _: None) -> int:
         if missing.name is None or missing.name.partition(".")[0] not in ("panel", "bokeh"):
             raise
         raise WrongInput(INSTALL.format(missing=missing)) from None
+    try:
+        velocity_scale(case)  # asks for its depth
+    except ValueError as fault:
+        raise WrongInput(f"{args.case}: {fault}") from None
     try:
         server, address = server_of(case, args.port)
     except OSError as taken:

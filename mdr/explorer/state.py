@@ -82,7 +82,10 @@ class State:
         return {"shake.omega": ratio * positive("omega", value, "angular frequency in rad/s")}
 
     def _with(self, case: SlidingContact) -> State:
-        """Another case at the velocity that is held: v_0/v_c in groups; one that the case can be pulled at."""
+        """Another case at the velocity that is held: v_0/v_c in groups; one that the case can be pulled at. ValueError
+        where a case is not what its parts are one by one, as a load that is more than the shape carries.
+        """
+        velocity_scale(case)  # asks for its depth
         after = replace(self, case=case)
         if self.in_groups and self.v_c and after.v_c:
             after = replace(after, v_0=self.v_0 / self.v_c * after.v_c)

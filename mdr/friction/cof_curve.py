@@ -191,8 +191,8 @@ def cof_curve(
     back = None
     if case.is_shaken and np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
         rest, mirrored = np.zeros(1), case.mirrored
-        at_rest = _closed_form(mirrored, rest, accuracy) if is_closed else _from_rest_on(mirrored, rest, knobs)
-        back = -float(at_rest[0][0])
+        slowest = _closed_form(mirrored, rest, accuracy) if is_closed else _from_rest_on(mirrored, rest, knobs)
+        back = -float(slowest[0][0])
     (cof, error, settled, sticks, why), n = columns, velocities.size
     return CofCurve(
         v_0=velocities,

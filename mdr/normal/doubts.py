@@ -25,6 +25,8 @@ GREATEST_MU_0 = 2.0
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
 STIFFEST = 1e4  #: stiffness of the spring over that of the contact
 SOFTEST = 1e-6  #: the same; metals on a soft spring, or a tip on its cantilever, are at 1e-4 to 1e-5
+GRAVITY = 9.80665  #: standard gravity [m/s²]
+HEAVIEST = 10.0  #: weight of a mass that the load moves over the mean load; springs may carry some of it
 LIGHTEST = 100.0  #: natural frequency of the body over that of the oscillation
 
 
@@ -56,7 +58,7 @@ def warn_outside(doubt: str) -> None:
 
 def doubts_of(known: SlidingContact) -> tuple[str, ...]:
     """What is unlikely of a case of known depth, one sentence each: the number, its usual range, a likely reason."""
-    return (*_of_shape(known), *_of_motion(known), *_of_material(known), *_of_pull(known))
+    return (*_of_shape(known), *_of_motion(known), *_of_load(known), *_of_material(known), *_of_pull(known))
 
 
 def frequencies(known: SlidingContact) -> list[float]:
@@ -98,6 +100,29 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
         )
     if known.mu_0 > GREATEST_MU_0:
         yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
+
+
+def _of_load(known: SlidingContact) -> Iterator[str]:
+    """Of a mass that an oscillating load moves."""
+    load = getattr(known.oscillation, "load", None)
+    m_z = getattr(load, "m_z", 0.0)
+    if load is None or m_z == 0:
+        return
+    if load.dF_z > load.F_z0:
+        yield (
+            f"the amplitude of the load, dF_z = {load.dF_z:.4g} N, is above its mean, F_z0 = {load.F_z0:.4g} N: are "
+            "the two swapped?"
+        )
+    if known.oscillation.knows_depth and not known.keeps_contact:
+        yield (
+            "the mass under the load leaves the surface in every period: a bouncing mass may move in several ways, "
+            "also without ever repeating itself, and the periodic motion that was found may be unstable"
+        )
+    if m_z * GRAVITY > HEAVIEST * load.F_z0:
+        yield (
+            f"the weight of m_z, {m_z * GRAVITY:.4g} N, is {m_z * GRAVITY / load.F_z0:.3g} times the mean load: is it "
+            "in grams, or is the load given without the weight?"
+        )
 
 
 def _of_material(known: SlidingContact) -> Iterator[str]:

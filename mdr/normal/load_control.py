@@ -150,7 +150,8 @@ def _deeper(shape: Indenter, d: float, F_z: float) -> float:
             continue
         return factor * d
     raise ValueError(
-        f"F_z = {F_z:.6g} N is more than {shape!r} carries on this material: lower it, or use a larger shape"
+        f"F_z = {F_z:.6g} N is more than {shape!r} carries on this material: lower it, use a larger shape, or is a "
+        "modulus in MPa?"
     )
 
 

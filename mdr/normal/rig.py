@@ -16,12 +16,11 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
-from mdr.normal.doubts import edge, warn_outside
+from mdr.normal.doubts import GRAVITY, edge, warn_outside
 from mdr.normal.load_control import static_depth
 from mdr.normal.resolved import at_rest
 from mdr.tools.checks import instance, not_negative, positive
 
-GRAVITY = 9.80665  #: standard gravity [m/s²]
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
 
 

@@ -138,6 +138,15 @@ def test_what_records_refuse_is_refused_in_their_words(path, value, words):
         State.of(CASES["body"]).changed(path, value)
 
 
+def test_a_case_that_is_refused_as_a_whole_is_no_state():
+    """3 Pa for 3 MPa: each part is right, but the load is more than the sphere carries. The state before stays."""
+    ball = mdr.SlidingContact(mdr.Sphere(5e-3), mdr.Elastic(3e6, 0.5), 0.5, mdr.LoadOscillation(1.0, 0.1, 300.0))
+    state = State.of(ball)
+    with pytest.raises(ValueError, match="is more than Sphere"):
+        state.changed("material.E", 3.0)
+    assert state.changed("oscillation.dF_z", 0.2).case.oscillation.dF_z == 0.2
+
+
 def test_pictures_are_those_of_the_library(state):
     first, last = pictures_of(state)
     assert first.curve is None
