@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from mdr.indenters.sampled_profile import radii
 from mdr.tools.arrays import Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite_array, plain, positive
 from mdr.tools.fields import facts
+
+SAMPLES, HALVINGS = 2048, 24  #: heights among which a step stands out, and halvings after which no slope does
 
 
 def _function(name: str, value: Any, note: str = "") -> Any:
@@ -108,13 +111,42 @@ class Profile(Indenter):
                 f"f(0) must be 0, the tip that depth counts from, got {offset!r}: give f(r) - f(0) instead"
             )
 
+    def _search(self, d: Array) -> Array:
+        """As of any shape, which a step that is not named would leave wrong: no quadrature sees it."""
+        a = super()._search(d)
+        if (wall := step_within(self._f, self.f, float(a.max()))) is not None:
+            raise ValueError(_wall(*wall))
+        return a
+
     def _refuse_steps(self) -> None:
         """A step in f is a vertical wall: g is infinite above it."""
         for b in self.kinks:
             inside, outside = self._f(b * np.array([1 - 1e-9, 1 + 1e-9]))
             step = abs(outside - inside)
             if step > 1e-5 * max(abs(outside), abs(inside)) and step > 1e-5 * b:
-                raise ValueError(
-                    f"f steps by {outside - inside:.6g} m at r = {b:.6g} m: a vertical wall ends the contact "
-                    "like the rim of a punch; end the profile there (r_max)"
-                )
+                raise ValueError(_wall(b, outside - inside))
+
+
+def _wall(r: float, step: float) -> str:
+    return (
+        f"f steps by {step:.6g} m at r = {r:.6g} m: a vertical wall ends the contact like the rim of a punch; end the "
+        "profile there (r_max)"
+    )
+
+
+@lru_cache(64)
+def step_within(heights: Callable[[Array], Array], f: Callable[..., Any], a: float) -> tuple[float, float] | None:
+    """Radius [m] and height [m] of a step of f within the radius a [m], of those that stand out of SAMPLES heights.
+
+    heights: of the shape, an array for an array. The interval of the greatest rise is halved: that of a step stays.
+    """
+    r = np.linspace(0, a, SAMPLES + 1)
+    rises = np.abs(np.diff(heights(r)))
+    i = int(np.argmax(rises))
+    low, high = r[i], r[i + 1]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        left, right = np.abs(np.diff(heights(np.array([low, middle, high]))))
+        low, high = (low, middle) if left > right else (middle, high)
+    (rise,) = np.diff(heights(np.array([low, high])))
+    return (float(high), float(rise)) if abs(rise) > 0.5 * rises[i] > 0 else None

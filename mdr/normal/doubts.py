@@ -15,6 +15,7 @@ from types import FrameType
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.tools.memoise import remembered
 
@@ -93,7 +94,8 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
 
 
 def _of_motion(known: SlidingContact) -> Iterator[str]:
-    if known.oscillation.knows_depth and known.working_depth > 0 and known.alpha > GREATEST_ALPHA:
+    is_given = known.oscillation.knows_depth and _load_of(known) is None
+    if is_given and known.working_depth > 0 and known.alpha > GREATEST_ALPHA:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
             f"u_z0 = {known.cycle.u_z0:.4g} m), so that the contact is open most of the time: are the two swapped?"
@@ -102,12 +104,18 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
         yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
 
 
+def _load_of(known: SlidingContact) -> LoadOscillation | None:
+    """The oscillating load that the depth was solved for, if it was."""
+    load = getattr(known.oscillation, "load", None)
+    return load if isinstance(load, LoadOscillation) else None
+
+
 def _of_load(known: SlidingContact) -> Iterator[str]:
     """Of a mass that an oscillating load moves."""
-    load = getattr(known.oscillation, "load", None)
-    m_z = getattr(load, "m_z", 0.0)
-    if load is None or m_z == 0:
+    load = _load_of(known)
+    if load is None or load.m_z == 0:
         return
+    m_z = load.m_z
     if load.dF_z > load.F_z0:
         yield (
             f"the amplitude of the load, dF_z = {load.dF_z:.4g} N, is above its mean, F_z0 = {load.F_z0:.4g} N: are "

@@ -14,14 +14,6 @@ from mdr.normal.doubts import doubts_of, edge
 
 USUAL = mdr.read_case(Path(__file__).parents[2] / "docs/example.toml")
 SOFT = mdr.KelvinVoigt(E=3.0, nu=0.5, tau=1e-3)  # 3 for 3 MPa
-RIDER = {"indenter": mdr.Sphere(5e-3), "material": mdr.KelvinVoigt(3e6, 0.5, 6e-4), "pull": mdr.RigidPull()}
-
-
-def rider(dF_z):
-    """A load of 1 N and the mass that brings it, at 50 Hz."""
-    return mdr.LoadOscillation(F_z0=1.0, dF_z=dF_z, omega=314.0, m_z=0.1)
-
-
 ABSURD = {
     "a cone of 57 degrees": ({"indenter": mdr.Cone(theta=1.0)}, "slope 1.56"),
     "a cone of 89 degrees": ({"indenter": mdr.Cone(theta=1.55)}, "slope 48"),
@@ -37,8 +29,6 @@ ABSURD = {
     ),
     "tau in ms": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1.0)}, "tau in ms"),
     "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=1e-3, m=0.1)}, "k_x in N/mm"),
-    "a load that swings beyond its mean": (RIDER | {"oscillation": rider(2.0)}, "dF_z = 2 N, is above its mean"),
-    "a mass that bounces": (RIDER | {"oscillation": rider(1.5)}, "leaves the surface in every period"),
     "grams for kilograms": (
         {"oscillation": mdr.LoadOscillation(0.03, 0.003, USUAL.omega, 100.0)},
         "of m_z, 980.7 N, is 3.27e\\+04 times",
@@ -55,6 +45,15 @@ def test_an_absurd_contact_is_warned_of_and_computed(what):
         assert mdr.critical_velocity(case) > 0
     assert {one.filename for one in said} == {__file__}  # the user's line
     assert tuple(str(one.message) for one in said) == mdr.plausibility(case)
+
+
+def test_a_mass_that_bounces_under_its_load_is_warned_of():
+    load = mdr.LoadOscillation(F_z0=1.0, dF_z=2.0, omega=314.0, m_z=0.1)
+    case = mdr.SlidingContact(mdr.Sphere(5e-3), mdr.KelvinVoigt(3e6, 0.5, 6e-4), 0.8, load)
+    with pytest.warns(mdr.PlausibilityWarning, match="dF_z = 2 N, is above its mean"):
+        mdr.critical_velocity(case)
+    with pytest.warns(mdr.PlausibilityWarning, match="leaves the surface in every period"):
+        mdr.full_slip_critical_velocity(case)
 
 
 def test_nothing_is_said_of_the_standing_examples():
