@@ -1,9 +1,9 @@
-"""Ball with a worn cap: which relaxation time of its rubber lets a vibrating floor set a slider free best?
+"""Ball with a worn cap: at which relaxation time does a vibrating floor lower the friction of a slider most?
 
 A slider of 0.2 kg stands on three rubber buttons, balls of 5 mm worn to a cap of 40 mm. A spring pulls it, while the
-floor shakes it at 50 Hz. The rubber is a standard linear solid: 1 MPa in the long run, 4 MPa at once, with a
+floor vibrates at 50 Hz. The rubber is a standard linear solid: 1 MPa in the long run, 4 MPa at once, with a
 relaxation time tau_1 that temperature moves by decades. As tau_1 grows, its stiffness K_z(omega) = 2a E*(omega) runs
-along a half circle from the soft to the hard one, with the most loss at the top; and Eq. (15) is a distance to it,
+along a semicircle from the soft to the hard one, with the most loss at the top; and Eq. (15) is a distance to it,
 
     v_c = mu_0 omega du_z |kappa A - K_z|/|A|,    A = m omega² - k_x - i omega c_x.
 
@@ -38,7 +38,7 @@ cof = np.array([mdr.slide(slider(tau_1), v_0, n_springs=64, steps_per_period=256
 
 
 def figure():
-    """Half circle of the dynamic stiffness K_z; v_c over the relaxation time; COF of the slider at rest and at v_0."""
+    """Semicircle of the dynamic stiffness K_z (Cole-Cole plot); v_c over relaxation time; static COF and COF at v_0."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
@@ -60,7 +60,7 @@ def figure():
         left.set(title="greatest for a rubber in between", ylabel="$v_c$ [mm/s]", ylim=(0, None))
         right.axhline(mu_0, color="0.4", lw=0.8, label=r"full slip: $\mu_0$")
         right.semilogx(omega * some, cof, "o-", color=COLOURS[1], label=f"at {1e3 * v_0:g} mm/s")
-        right.semilogx(omega * some, at_rest, "s--", color="0.5", label="at rest")
+        right.semilogx(omega * some, at_rest, "s--", color="0.5", label="static")
         right.set(title="friction: lowered most near there", ylabel=r"coefficient of friction $\mu$", ylim=(0, None))
         for ax in (left, right):
             ax.set_xlabel(r"$\omega\tau_1$")
@@ -71,7 +71,7 @@ def figure():
 if __name__ == "__main__":
     print(f"rigid pull: {1e3 * eq_1:.3f} mm/s; Eq. (15) from {1e3 * v_c.min():.3f} to {1e3 * v_c.max():.3f} mm/s,")
     print(f"the greatest at omega tau_1 = {omega * best:.2f}")
-    print(f"omega tau_1   v_c, Eq. (15) [mm/s]   all harmonics [mm/s]   COF at rest   at {1e3 * v_0:g} mm/s")
+    print(f"omega tau_1   v_c, Eq. (15) [mm/s]   all harmonics [mm/s]    static COF   at {1e3 * v_0:g} mm/s")
     for tau_1, v, rest, mu in zip(some, full, at_rest, cof, strict=True):
         row = omega * tau_1, 1e3 * mdr.critical_velocity(slider(tau_1)), 1e3 * v, rest, mu
         print("{:11.3f} {:22.3f} {:22.3f} {:13.4f} {:13.4f}".format(*row))

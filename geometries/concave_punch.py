@@ -1,8 +1,8 @@
-"""Concave punch: how far may a hollow foot be shaken before it lets go in the middle?
+"""Concave punch: at which normal amplitude does a hollow foot lose contact in the middle?
 
 The foot of a gripper, a rubber cup of 15 mm radius whose hollow is pressed flat, holds sheets on a vibrating conveyor.
 In complete contact it is a flat punch in all but its force, F_N = 2E*(a d + a h/3) with h = a²/R: constant stiffness,
-Eq. (15) exact, and at rest
+Eq. (15) exact, and as v_0 -> 0
 
     mu(0) = mu_0 [1 - du_z sqrt(1 + T²)/(u_z0 + h/3)].
 
@@ -25,7 +25,7 @@ punch_depth = float(cup.force(u_z0, 1.0)) / (2 * cup.a)  # of a flat punch under
 
 
 def foot(du_z, indenter=cup, depth=u_z0, pull=arm):
-    """A foot pressed to a mean depth and shaken by du_z."""
+    """A foot pressed to a mean depth and vibrated by du_z."""
     return mdr.SlidingContact(indenter, rubber, mu_0, mdr.NormalOscillation(depth, du_z, omega), pull)
 
 
@@ -68,7 +68,7 @@ def figure():
 
 if __name__ == "__main__":
     print(f"complete contact from {1e6 * h:.0f} µm on: {1e6 * u_z0:g} µm deep up to du_z = {1e6 * limit:.1f} µm")
-    print("amplitude [µm]   COF at rest   v_c [mm/s]")
+    print("amplitude [µm]    static COF   v_c [mm/s]")
     for row in zip(1e6 * amplitudes, at_rest, 1e3 * v_c, strict=True):
         print("{:14.1f} {:13.4f} {:12.3f}".format(*row))
     print(f"Eq. (15) is off by {np.abs(full / v_c[[0, -1]] - 1).max():.0e} at most;", end=" ")

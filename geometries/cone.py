@@ -38,7 +38,7 @@ run = mdr.slide(contact(shallow), 0.4 * verdicts[shallow].eq_15, record=2)
 
 
 def figure():
-    """v_c over depth, what Eq. (15) misses of it, and the springs of the shallow contact below v_c."""
+    """v_c over depth, the error of Eq. (15), and the springs of the shallow contact below v_c."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, plot_spring_map, style

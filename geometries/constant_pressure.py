@@ -3,7 +3,7 @@
 A lip seal of a rubber of 6 MPa is shaped so that it presses with 0.1 MPa all over its face of 4 mm radius when fully
 pressed, at the deepest point of the vibration of a pump: 50 Hz with a third and a fifth harmonic. A flat punch and a
 ball that touch over the same radius and carry the same force are as stiff, so that Eq. (15) is the same for all three,
-and the friction at rest too as long as the amplitude is small. What tells them apart is how the stiffness changes with
+and the static COF too as long as the amplitude is small. What tells them apart is how the stiffness changes with
 the depth: not at all for the punch, as sqrt(d) for the ball, and ever less for the seal until its whole face touches.
 Which of them keeps closest to Eq. (15)?
 """
@@ -21,7 +21,7 @@ amplitudes = d_0 * np.array([0.02, 0.1, 0.2, 0.3])
 
 
 def contacts(du_z, pull=shaft):
-    """Seal, punch and ball of one radius and force at their mean depths, shaken by the same vibration."""
+    """Seal, punch and ball of one radius and force at their mean depths, under the same vibration."""
     cos = tuple(du_z * series)
     u_z0 = d_0 - sum(cos)  # fully pressed at t = 0
     force, radius = float(seal.force(u_z0, rubber.E_star)), float(seal.contact_radius(u_z0))
@@ -46,7 +46,7 @@ eq_1 = mdr.critical_velocity(contacts(amplitudes[-1], mdr.RigidPull())["seal"])
 
 
 def figure():
-    """Pressures at the mean depth, what is off Eq. (15), and the friction at rest."""
+    """Pressures at the mean depth, the error of Eq. (15), and the static COF."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
@@ -66,7 +66,7 @@ def figure():
         left.set(ylim=(0, 0.25))
         middle.axhline(0, color="0.4", lw=0.8)
         middle.set(title="how far $v_c$ is off Eq. (15)", ylabel="off Eq. (15) [%]")
-        right.set(title="friction at rest", ylabel=r"coefficient of friction $\mu$")
+        right.set(title="static limit of friction", ylabel=r"coefficient of friction $\mu$")
         for ax in (middle, right):
             ax.set_xlabel("amplitude of the first harmonic [µm]")
         for ax in (left, middle, right):
@@ -76,7 +76,7 @@ def figure():
 
 if __name__ == "__main__":
     print(f"rigid pull at {1e6 * amplitudes[-1]:g} µm: {1e3 * eq_1:.3f} mm/s for all three")
-    print("amplitude [µm]   Eq. (15) [mm/s]   off it [%]: " + ", ".join(names) + "   COF at rest: " + ", ".join(names))
+    print("amplitude [µm]   Eq. (15) [mm/s]   off it [%]: " + ", ".join(names) + "    static COF: " + ", ".join(names))
     for du_z, v, off, rest in zip(amplitudes, eq_15, 100 * (full / eq_15 - 1), at_rest, strict=True):
         row = "{:14.0f} {:17.3f} {:+17.3f} {:+7.3f} {:+7.3f} {:16.4f} {:7.4f} {:7.4f}"
         print(row.format(1e6 * du_z, 1e3 * v[0], *off, *rest))

@@ -1,9 +1,10 @@
 """Depths: for which shapes does the critical velocity depend on the depth, and how good is Eq. (15) for it?
 
 All shapes of the gallery, equal in stiffness when they are 40 µm deep, are pulled by the same mass and spring and
-shaken by 4 µm. Eq. (15) knows shape and depth by the stiffness 2E*a(u_z0) alone. So v_c over Eq. (1), the rigid pull's,
-says how each contact grows; it is one number in the row of 40 µm but for what Eq. (15) misses, the change of stiffness
-within a period, which the harmonics of the full-slip force hold. A hollow punch has no full contact 10 µm deep.
+vibrated by 4 µm. Eq. (15) knows shape and depth by the stiffness 2E*a(u_z0) alone. So v_c over Eq. (1), of the rigid
+pull, says how each contact grows; it is one number in the row of 40 µm but for the error of Eq. (15), the change of
+stiffness within a period, which the harmonics of the full-slip force hold. A hollow punch has no full contact 10 µm
+deep.
 """
 
 from dataclasses import replace
@@ -40,7 +41,7 @@ eq_15, full = np.array([found[name] for name in ordered]).transpose(1, 0, 2)
 
 
 def figure():
-    """Two tables in colour: v_c over Eq. (1), and how far it is off Eq. (15)."""
+    """Two tables in colour: v_c over Eq. (1), and the error of Eq. (15)."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import style

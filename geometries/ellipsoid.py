@@ -63,7 +63,7 @@ def figure():
 
 
 if __name__ == "__main__":
-    print("load [N]   COF at rest   v_c, Eq. (15) [mm/s]   all harmonics [mm/s]")
+    print("load [N]    static COF   v_c, Eq. (15) [mm/s]   all harmonics [mm/s]")
     for row in zip(loads, at_rest, 1e3 * eq_15, 1e3 * full, strict=True):
         print("{:8.3f} {:13.3f} {:22.2f} {:22.2f}".format(*row))
     print(f"the parabola in its place: {of_parabola:.3f} at rest under {force_of_parabola:.3f} N, as deep as the last")

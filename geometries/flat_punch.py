@@ -36,7 +36,7 @@ at_rest_beyond = [mdr.static_cof(foot(T, du_z)) for T, du_z in zip(loss_tangents
 
 
 def figure():
-    """COF over pulling velocity, and the COF at rest over amplitude, for each loss tangent."""
+    """COF over pulling velocity, and the static COF over amplitude, for each loss tangent."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
@@ -57,13 +57,13 @@ def figure():
         left.legend(loc="lower right", title="loss tangent")
         right.axvline(1e6 * vibration.du_z, color="0.4", ls=":")
         right.annotate("this table", (1e6 * vibration.du_z, 0.82), (4, 0), textcoords="offset points")
-        right.set(title="at rest: friction is gone where contact is lost", xlabel=r"amplitude $\Delta u_z$ [µm]")
+        right.set(title="static limit: no friction once contact is lost", xlabel=r"amplitude $\Delta u_z$ [µm]")
         right.set(xlim=(0, None))
     return fig
 
 
 if __name__ == "__main__":
-    print("loss tangent   v_c [mm/s]   COF at rest   contact lost above [µm]")
+    print("loss tangent   v_c [mm/s]    static COF   contact lost above [µm]")
     for row in zip(loss_tangents, np.multiply(v_c, 1e3), static, np.multiply(lost_above, 1e6), strict=True):
         print("{:12.1f} {:12.3f} {:13.3f} {:25.1f}".format(*row))
     from mdr.plots import save

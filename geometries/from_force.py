@@ -36,7 +36,7 @@ def fitted_ball(force):
 
 
 def predictions(indenter, u_z0=40e-6, du_z=10e-6):
-    """Force [N], v_c [m/s] with all harmonics, and COF at rest, on the rubber."""
+    """Force [N], v_c [m/s] with all harmonics, and static COF, on the rubber."""
     case = mdr.SlidingContact(indenter, rubber, mu_0, mdr.NormalOscillation(u_z0, du_z, omega), arm)
     force = float(indenter.force(u_z0, rubber.E_star))
     return force, mdr.full_slip_critical_velocity(case), mdr.static_cof(case)
@@ -75,7 +75,7 @@ def figure():
 
 
 if __name__ == "__main__":
-    print("on the rubber    force [N]   v_c [mm/s]   COF at rest")
+    print("on the rubber    force [N]   v_c [mm/s]    static COF")
     for name, (force, v_c, rest) in predicted.items():
         print(f"{name:15s} {force:10.5f} {1e3 * v_c:12.4f} {rest:13.4f}")
     off = ", ".join(f"{100 * value:.2f} %" for value in scatter)

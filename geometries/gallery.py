@@ -142,7 +142,7 @@ def _legend(form, cof):
 
 if __name__ == "__main__":
     print(f"Eq. (1) {1e3 * eq_1:.3f} mm/s; mass and spring, Eq. (15), {1e3 * eq_15:.3f} mm/s for every shape")
-    print("shape                  F_N/(k_zc u_z0)   mu/mu_0 at rest, at half of Eq. (1)   v_c off Eq. (15) [%]")
+    print("shape                  F_N/(k_zc u_z0)    static mu/mu_0, at half of Eq. (1)   v_c off Eq. (15) [%]")
     for name, curve in curves().items():
         half = np.interp(0.5, v_hat, curve)
         row = share[name], curve[0], half, 100 * (full()[name] / eq_15 - 1)

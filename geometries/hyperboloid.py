@@ -2,8 +2,8 @@
 
 A diamond tip, a hyperboloid that ends in a flank of 30° with a radius of curvature R = c²/h from 10 nm when new to
 10 µm when spent, slides on an elastomer under 2 µN, while its depth oscillates by 40 nm at 200 Hz. Pulled rigidly all
-tips have the same v_c, Eq. (1), whatever their wear. The friction at rest differs: a blunt tip rests higher, so that
-the same amplitude is more of its depth, but loses less of its force for it, as F_N goes with depth from d² (cone) to
+tips have the same v_c, Eq. (1), whatever their wear. The static COF differs: a blunt tip rests higher, so that the same
+amplitude is more of its depth, but loses less of its force for it, as F_N goes with depth from d² (cone) to
 d^1.5 (paraboloid).
 """
 
@@ -41,11 +41,11 @@ v_c = mdr.critical_velocity(worn[0])
 stages = {R: contact(tip(R)) for R in (10e-9, 0.3e-6, 1e-6, 10e-6)}
 velocities = v_c * np.linspace(0, 1.1, 34)
 curves = {R: mdr.cof_curve(case, velocities) for R, case in stages.items()}
-told = float(np.interp(-0.95 * of_cone, -at_rest, radii))  # radius at which friction at rest has fallen by 5 %
+told = float(np.interp(-0.95 * of_cone, -at_rest, radii))  # radius at which the static COF has fallen by 5 %
 
 
 def figure():
-    """COF over velocity at four stages of wear, and COF at rest over the tip radius."""
+    """COF over velocity at four stages of wear, and static COF over the tip radius."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import style
@@ -64,7 +64,7 @@ def figure():
         right.semilogx(1e6 * radii, at_rest / mu_0, color="0.3", label="hyperboloid")
         right.axhline(of_cone / mu_0, color="0.5", ls="--", label="cone")
         right.semilogx(1e6 * radii, of_ball / mu_0, color="0.5", ls=":", label="paraboloid")
-        right.set(title="friction at rest tells the radius", xlabel="tip radius [µm]")
+        right.set(title="the static COF tells the radius", xlabel="tip radius [µm]")
         right.legend(loc="lower left")
     return fig
 
@@ -75,8 +75,8 @@ if __name__ == "__main__":
         half = np.interp(v_c / 2, velocities, curves[R].cof)
         rest = curves[R].static_cof
         deep = 1e9 * case.oscillation.u_z0
-        print(f"R = {1e9 * R:6.0f} nm: {deep:.0f} nm deep, COF {rest:.4f} at rest, {half:.4f} at v_c/2")
-    print(f"5 % less friction at rest than the cone's {of_cone:.4f}: R = {1e9 * told:.0f} nm")
+        print(f"R = {1e9 * R:6.0f} nm: {deep:.0f} nm deep, static COF {rest:.4f}, {half:.4f} at v_c/2")
+    print(f"5 % less static COF than the cone's {of_cone:.4f}: R = {1e9 * told:.0f} nm")
     from mdr.plots import save
 
     print("figure:", save(figure(), __file__))

@@ -1,4 +1,4 @@
-"""Paraboloid: at which frequency should a rubber-tipped slider be shaken to make it slide easily?
+"""Paraboloid: at which frequency does normal vibration make a rubber-tipped slider slide easily?
 
 A tip of 2 mm radius under 1 g on a spring slides at 10 mm/s while its depth oscillates by 3 µm at 50 Hz to 20 kHz. The
 critical velocity, Eq. (15) with a damper c_x at the body, has a pole at omega_0 = sqrt(k_x/m), where the body itself
@@ -19,7 +19,7 @@ v_0 = 10e-3
 
 
 def slider(f, pull=body):
-    """The tip shaken at f [Hz]."""
+    """The tip vibrated at f [Hz]."""
     vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=3e-6, omega=2 * np.pi * f)
     return mdr.SlidingContact(mdr.Paraboloid(R=2e-3), rubber, 0.7, vibration, pull)
 

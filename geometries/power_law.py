@@ -23,7 +23,7 @@ def tip(n):
 
 
 def contact(n, alpha):
-    """Tip n shaken at 1 kHz with the amplitude alpha u_z0, pulled rigidly."""
+    """Tip n vibrated at 1 kHz with the amplitude alpha u_z0, pulled rigidly."""
     return mdr.SlidingContact(tip(n), rubber, 0.5, mdr.NormalOscillation(u_z0, alpha * u_z0, 2 * np.pi * 1e3))
 
 
@@ -47,7 +47,7 @@ departure = {key: float(np.abs(value - psi).max()) for key, value in collapsed.i
 
 
 def figure():
-    """COF curves of all tips, and what the scaling makes of them at a large and a small amplitude."""
+    """COF curves of all tips at a large amplitude; the same scaled, at a large and a small one."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
@@ -78,7 +78,7 @@ if __name__ == "__main__":
     for n in exponents:
         lowered = 1 - curves[n, amplitudes[0]].cof[0] / 0.5
         far = ", ".join(f"{departure[n, alpha]:.1e}" for alpha in amplitudes)
-        print(f"n = {n:3g}: {far}; friction at rest lowered by {100 * lowered:.1f} %")
+        print(f"n = {n:3g}: {far}; static COF lowered by {100 * lowered:.1f} %")
     from mdr.plots import save
 
     print("figure:", save(figure(), __file__))

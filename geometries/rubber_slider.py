@@ -1,6 +1,6 @@
 """Rubber slider: which frequency and amplitude bring its friction on steel below half, and up to which speed?
 
-A designer can choose how a rubber foot is shaken, not the foot. So here the foot, its rubber and the sliding mass are
+A designer can choose how a rubber foot is vibrated, not the foot. So here the foot, its rubber and the sliding mass are
 fixed, and frequency, amplitude and speed make the grid of a study; everything is asked of its table afterwards, as
 friction never falls when a contact slides faster. Run as a script it fills a store, and goes on where it was stopped:
 
@@ -58,7 +58,7 @@ def fastest_half(table):
 
 
 def least_amplitude(table):
-    """Least amplitude [m] that halves friction at rest, (n_frequencies,), between those of the table."""
+    """Least amplitude [m] that halves the static COF, (n_frequencies,), between those of the table."""
     amplitude, at_rest = table.axes["oscillation.du_z"], table["cof"][:, :, 0] / mu_0
     return np.array([np.interp(0.5, row[::-1], amplitude[::-1]) for row in at_rest])
 
@@ -91,7 +91,7 @@ def figure(table=coarse):
             lines = ax.contour(frequency, amplitude, values.T, levels=levels, colors="k", linewidths=0.7)
             fig.colorbar(areas, ax=ax, format="%g", pad=0.02).add_lines(lines)
             ax.fill_between(frequency, amplitude[0], 1e6 * least_amplitude(table), color="white", zorder=2)
-            ax.plot(frequency, 1e6 * least_amplitude(table), color=COLOURS[1], linewidth=2.2, label="half at rest")
+            ax.plot(frequency, 1e6 * least_amplitude(table), color=COLOURS[1], linewidth=2.2, label="static COF halved")
             ax.set(title=title, xscale="log", xlabel="frequency [Hz]")
         axes[0].set_ylabel(r"amplitude $\Delta u_z$ [µm]")
         axes[0].legend(loc="lower left")
@@ -104,7 +104,7 @@ if __name__ == "__main__":
     table = study(21, 20, 50, parser.parse_args().store)
     print(table)
     print(f"greatest error of the COF: {np.nanmax(table['cof_error']):.1e}")
-    print("frequency [Hz]  least amplitude [µm] for half at rest   speed [mm/s] with half, at 50 and 95 % of the depth")
+    print("frequency [Hz]  least amplitude [µm] for static mu_0/2  speed [mm/s] with half, at 50 and 95 % of the depth")
     speed, amplitude = 1e3 * fastest_half(table), table.axes["oscillation.du_z"]
     at = [int(np.argmin(np.abs(amplitude - x * depth))) for x in (0.5, 0.95)]
     for omega, least, row in zip(table.axes["oscillation.omega"], least_amplitude(table), speed, strict=True):

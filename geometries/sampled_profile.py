@@ -2,8 +2,8 @@
 
 A slider worn to a cap of 20 mm radius within 0.5 mm, of 8 mm outside, is measured at 33 points to 1.6 mm, with noise:
 0.03 µm for a good interferometer, 1 µm for a cheap stylus. Splines through the points, smoothed by 1.5 standard
-deviations and cut at the edge of the cap, take the place of the shape, 40 µm deep in rubber and shaken at 80 Hz. How
-much do force, v_c, Eq. (15), and friction at rest scatter over repeated measurements? Noise that makes the image g(x)
+deviations and cut at the edge of the cap, take the place of the shape, 40 µm deep in rubber, vibrated at 80 Hz. How
+much do force, v_c, Eq. (15), and static COF scatter over repeated measurements? Noise that makes the image g(x)
 fall is refused: a ring would touch before the disc inside it.
 """
 
@@ -32,12 +32,12 @@ def measured(noise):
 
 
 def predictions(indenter):
-    """Force [N], v_c [m/s] and COF at rest of an indenter."""
+    """Force [N], v_c [m/s] and static COF of an indenter."""
     case = mdr.SlidingContact(indenter, rubber, mu_0, vibration, body)
     return float(indenter.force(u_z0, rubber.E_star)), mdr.critical_velocity(case), mdr.static_cof(case)
 
 
-quantities = ("force", "$v_c$", "COF at rest")
+quantities = ("force", "$v_c$", "static COF")
 noises, n_draws = (0.03e-6, 0.1e-6, 0.3e-6, 1e-6), 8
 true = np.array(predictions(truth))
 draws = {noise: [shape for shape in (measured(noise) for _ in range(n_draws)) if shape] for noise in noises}
@@ -72,8 +72,8 @@ def figure():
 
 
 if __name__ == "__main__":
-    print(f"true: {true[0]:.4f} N, v_c {1e3 * true[1]:.3f} mm/s, COF at rest {true[2]:.4f}")
-    print("noise [µm]   r.m.s. error [%] of force, v_c, COF at rest   refused")
+    print(f"true: {true[0]:.4f} N, v_c {1e3 * true[1]:.3f} mm/s, static COF {true[2]:.4f}")
+    print("noise [µm]   r.m.s. error [%] of force, v_c, static COF    refused")
     for noise, error in scatter.items():
         row = "{:10.2f} {:17.3f} {:9.3f} {:9.3f} {:17d} of {:d}"
         print(row.format(1e6 * noise, *(100 * error), n_draws - len(draws[noise]), n_draws))

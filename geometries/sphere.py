@@ -1,4 +1,4 @@
-"""Sphere: at which depth does a colloidal probe leave the parabola that everybody puts in its place?
+"""Sphere: down to which depth is a parabola a good approximation of a colloidal probe?
 
 A silica ball of 5 µm radius on the cantilever of an atomic force microscope slides on silicone rubber (PDMS) while its
 depth oscillates by 20 nm at 1 kHz, far below the resonances of the cantilever: the pull is a spring without mass. A
@@ -6,7 +6,7 @@ ball touches less than its parabola does, a = a_p [1 - d/(6R) + ...] at the same
 
     v_c = mu_0 kappa omega du_z (1 + k_xc/k_x),   Eq. (15) with m = 0,
 
-takes over the relative error in k_xc = 2 G* a, but only in its second term. Force and friction at rest take it over
+takes over the relative error in k_xc = 2 G* a, but only in its second term. Force and static COF take it over
 too. Which of them is the first to be off by 1 %, and does a stiffer cantilever help?
 """
 
@@ -46,7 +46,7 @@ def left_at(quantity, pull=cantilever, error=0.01):
 
 
 depths = np.geomspace(40e-9, 4e-6, 25)
-quantities = {"force $F_N$": force, "$v_c$, Eq. (15)": mdr.critical_velocity, "COF at rest": mdr.static_cof}
+quantities = {"force $F_N$": force, "$v_c$, Eq. (15)": mdr.critical_velocity, "static COF": mdr.static_cof}
 errors = {name: np.array([off(quantity, d) for d in depths]) for name, quantity in quantities.items()}
 springs = np.array([2.0, 5.0, 20.0, 50.0, 200.0])  # N/m, from a soft lever to a stiff one
 limits = np.array([left_at(mdr.critical_velocity, mdr.SpringPull(k_x=k)) for k in springs])
@@ -62,7 +62,7 @@ runs = {
 
 
 def figure():
-    """v_c over depth, and what the parabola misses of force, v_c and friction."""
+    """v_c over depth, and the error of the parabola in force, v_c and friction."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style

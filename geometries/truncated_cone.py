@@ -1,4 +1,4 @@
-"""Truncated cone: does the critical velocity know how far a tip is worn?
+"""Truncated cone: does the critical velocity depend on how far a tip is worn?
 
 A stone of the road, a cone of 17° that traffic polishes flat, presses into the rubber of a tread block with 2 N while
 the block bounces by 30 µm at 100 Hz. Tread rubber is nearly a power law, E ~ (i omega)^0.2; the block hangs on its
@@ -67,7 +67,7 @@ def figure():
 
 if __name__ == "__main__":
     print(f"rigid pull, any wear: {1e3 * eq_1:.2f} mm/s")
-    print("b [mm]   depth [mm]   a [mm]   v_c, Eq. (15) [mm/s]   all harmonics [mm/s]   COF at rest")
+    print("b [mm]   depth [mm]   a [mm]   v_c, Eq. (15) [mm/s]   all harmonics [mm/s]    static COF")
     for i, v_c, rest in zip(marked, full, at_rest, strict=True):
         row = 1e3 * faces[i], 1e3 * depths[i], 1e3 * radii[i], 1e3 * eq_15[i], 1e3 * v_c, rest
         print("{:6.2f} {:12.3f} {:8.3f} {:22.2f} {:22.2f} {:13.3f}".format(*row))

@@ -1,4 +1,4 @@
-"""Truncated paraboloid: what does running-in do to a friction test under a shaken load?
+"""Truncated paraboloid: what does running-in do to a friction test under an oscillating load?
 
 A PTFE ball of 3 mm radius wears flat on a steel disc, as in any ball-on-disc tribometer, under a load of 10 N that a
 shaker modulates by 3 N at 25 Hz. Friction at slow sliding is mu_0 times the least over the mean load, 0.7 mu_0, for
@@ -65,7 +65,7 @@ def figure():
 
 
 if __name__ == "__main__":
-    print("flat [mm]   COF at rest   v_c, small amplitude [µm/s]   all harmonics [µm/s]")
+    print("flat [mm]    static COF   v_c, small amplitude [µm/s]   all harmonics [µm/s]")
     for b, case in stages.items():
         small = mdr.critical_velocity(case)
         print(f"{1e3 * b:9.1f} {at_rest[b]:13.4f} {1e6 * small:29.1f} {1e6 * full[b]:22.1f}")

@@ -1,4 +1,4 @@
-"""Ultrasonic sliding: how far does a shake along the way lower the friction of steel on steel, and up to which speed?
+"""Ultrasonic sliding: how far does a shake along the slide lower friction of steel on steel, up to which speed?
 
 A crowned steel pin slides on steel under a constant load, and a transducer shakes it along its way. Amplitudes of
 micrometres at 20 kHz are what such transducers give, and a ball of 20 mm under 20 N stays below 1 GPa of pressure; all
@@ -80,7 +80,7 @@ run = mdr.slide(contact(amplitudes[0]), speed)
 
 
 def figure():
-    """Friction over velocity for some amplitudes; over the amplitude at rest and at one speed, for three loads."""
+    """Left: friction over velocity. Middle and right: over the amplitude, at rest and at one speed, for three loads."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
