@@ -60,8 +60,8 @@ def plot_curve(
     labels : sequence of str, optional
         One name for each curve.
     absolute : bool, optional
-        True draws the COF against v_0 in m/s (or mm/s, µm/s), False either over the curve's own scale, mu_0 and v_c. None: True for
-        several curves. Where a curve has no finite v_c (resonance) it is True.
+        True draws the COF against v_0 in m/s (or mm/s, µm/s), False either over the curve's own
+        scale, mu_0 and v_c. None: True for several curves. Where a curve has no finite v_c (resonance) it is True.
 
     Returns
     -------
