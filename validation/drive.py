@@ -43,10 +43,9 @@ def claim(effort: str) -> Claim:
         ),
         measured=(
             "A contact is stiff here if its springs yield far less than Δu_x. Held, a stiff flat face pushes with"
-            " (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r ="
-            " (Δu_z/u_z0) √(1 − r^2). Curved shapes push more, since their force changes more with depth: a stiff"
-            " elastic"
-            " cone with (4α/π)/(1 + α^2/2) of μ_0 F_N, α = Δu_z/u_z0. Springs that yield take of both, and come to"
+            " (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r = (Δu_z/u_z0) √(1 − r^2). Curved shapes"
+            " push more, since their force changes more with depth: a stiff elastic cone with (4α/π)/(1 + α^2/2) of"
+            " μ_0 F_N, α = Δu_z/u_z0. Springs that yield take of both, and come to"
             " this like one over the amplitude."
             " Between the two ends friction rises with velocity throughout, so that every load below the blocked one"
             " has"
@@ -60,7 +59,7 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "A contact drives itself if zero is not among the loads it holds at rest. A stiff flat punch pushes with"
+            "A contact drives itself if it does not hold zero load at rest. A stiff flat punch pushes with"
             " (2/π)α μ_0 F_N and runs at r ω Δu_x, arcsin r = α √(1 − r^2), α = Δu_z/u_z0; curved shapes push more."
         ),
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
@@ -223,8 +222,7 @@ def _figure(quick: bool) -> Figure:
         " stars"
         " are the law of a stiff contact. Middle: efficiency between held and free. Right: the push where it is held:"
         " nothing at small amplitude, where zero load is still held, and for the flat punch the dotted law of a"
-        " stiff face at great"
-        " amplitude; curved shapes push more.",
+        " stiff face at great amplitude; curved shapes push more.",
         fig,
         "Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake",
     )

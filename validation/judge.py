@@ -201,8 +201,8 @@ def _figure(quick: bool) -> Figure:
     return Figure(
         name="trust",
         caption="Left: forces of the reference solver approach the closed forms with the number of cells, at first"
-        " order or"
-        " better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver lie on"
+        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional"
+        " solver lie on"
         " the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed) leaves"
         " out that friction moves the surface down, and is too high where ν and μ_0 are small.",
         drawing=fig,

@@ -53,8 +53,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "With contact at the greatest slip velocity, and with a body where Eq. (15) holds, normal and longitudinal"
-            " oscillation together have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
+            "With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
+            " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
         ),
         checks=(
             *_rigid_checks(phases),

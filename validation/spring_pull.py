@@ -316,8 +316,8 @@ def _pole_figure(plateaus: dict[float, Array]) -> Figure:
     return Figure(
         "pole",
         "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between "
-        "static COF and mu_0) "
-        "and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c.",
+        "static COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at"
+        " v_c.",
         fig,
         "COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole.",
     )
