@@ -46,7 +46,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--steps", metavar="n", type=size, help="time steps of a period (default: likewise)")
     command.epilog = (
         "run.csv has the forces over the last period; run.png and run.svg the springs that stick and slip: a row for"
-        " each spring by its place x, a colour for each state, time in periods from the deepest instant; below, the forces."
+        " each spring by its place x, a colour for each state, time in periods from the deepest instant; below, the"
+        " forces."
     )
 
 
