@@ -36,7 +36,7 @@ GROUPS = {
         ("one_curve", "lost_contact", "resonances", "shaken_velocity", "shaken_curves", "drive"),
     ),
     "Three dimensions": (
-        "A half-space, solved with no springs at all, judges what independent springs leave out.",
+        "A half-space, solved with no springs at all, shows what independent springs leave out.",
         ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip"),
     ),
 }

@@ -61,8 +61,9 @@ def claim(effort: str) -> Claim:
         measured=_measured(rows),
         verdict="holds if Dundurs' β is zero: an incompressible body (ν = 0.5), or two bodies of the same material",
         sentence=(
-            "With ν < 0.5 under a rigid indenter pressing rubs the contact radially, and friction is lower than that of"
-            f" the springs, by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and by up to {100 * most.loss:.0f} %."
+            "With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that of"
+            f" the springs by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and up to"
+            f" {100 * most.loss:.0f} % in the table."
         ),
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
         figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),
@@ -98,7 +99,7 @@ def _percent(rows: list[Row], nu: float, mu_0: float) -> str:
     own = [[r for r in rows if (r.point.shape, r.point.nu, r.point.mu_0) == (shape, nu, mu_0)] for shape in SHAPES]
     most = sorted((max(column, key=lambda row: row.loss) for column in own), key=lambda row: row.loss)
     low, high = (f"{100 * row.loss:.2g}" for row in most)
-    return f"{low} to {high} % (± {100 * max(row.error for row in most):.1g})"
+    return f"{low} to {high} % (each ± {100 * max(row.error for row in most):.1g} %)"
 
 
 def _column(shape: str, nu: float, mu_0: float) -> list[Point]:

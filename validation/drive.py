@@ -42,8 +42,11 @@ def claim(effort: str) -> Claim:
             " body on a spring."
         ),
         measured=(
-            "Held, a stiff flat face pushes with (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r ="
-            " (Δu_z/u_z0) √(1 − r^2). Springs that yield take of both, and come to this like one over the amplitude."
+            "A contact is stiff here if its springs yield far less than Δu_x. Held, a stiff flat face pushes with"
+            " (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r = (Δu_z/u_z0) √(1 − r^2). Curved shapes"
+            " push more, since their force changes more with depth: a stiff elastic cone with (4α/π)/(1 + α^2/2) of"
+            " μ_0 F_N, α = Δu_z/u_z0. Springs that yield take of both, and come to"
+            " this like one over the amplitude."
             " Between the two ends friction rises with velocity throughout, so that every load below the blocked one"
             " has"
             f" one velocity. The best efficiency is {best[3.0]:.2f} at Δu_x = 3 μ_0 κ u_z0 and {best[30.0]:.2f} at"
@@ -56,8 +59,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "A contact drives itself if zero is not among the loads it holds at rest: with up to "
-            "(2/π)(Δu_z/u_z0) μ_0 F_N, at a fraction of ω Δu_x that depends only on Δu_z/u_z0."
+            "A contact drives itself if it does not hold zero load at rest. A stiff flat punch pushes with"
+            " (2/π)α μ_0 F_N and runs at r ω Δu_x, arcsin r = α √(1 − r^2), α = Δu_z/u_z0; curved shapes push more."
         ),
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
         figures=(_figure(quick),),
@@ -83,6 +86,17 @@ def _stiff_checks() -> list[Check]:
             power = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
             name = f"power of the amplitude with which that of the {name} vanishes: Δu_z/u_z0 = {alpha:g}"
             checks.append(Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order"))
+        cone = shaken("cone", alpha, sizes[1], QUARTER)
+        known = (4 * alpha / math.pi) / (1 + alpha**2 / 2)  # force ~ depth squared: mean of sign(cos) (1 + a cos)²
+        checks.append(
+            Check(
+                f"blocked push of a cone over μ_0 F_N: {where}",
+                -mdr.blocked_cof(cone) / cone.mu_0,
+                known,
+                2 / sizes[1],
+                why,
+            )
+        )
     return checks
 
 
@@ -207,8 +221,8 @@ def _figure(quick: bool) -> Figure:
         " χ = Δu_x/(μ_0 κ u_z0). Left: the characteristic of a flat punch crosses zero at its velocity without load;"
         " stars"
         " are the law of a stiff contact. Middle: efficiency between held and free. Right: the push where it is held:"
-        " nothing at small amplitude, where zero load is still held, and the dotted law of a stiff flat face at great"
-        " ones.",
+        " nothing at small amplitude, where zero load is still held, and for the flat punch the dotted law of a"
+        " stiff face at great amplitude; curved shapes push more.",
         fig,
         "Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake",
     )

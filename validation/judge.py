@@ -46,7 +46,7 @@ def claim(effort: str) -> Claim:
     gone = 1 - rings.stick_radius(0.5, 0.3) / rings.goodman(0.5, 0.3)
     return Claim(
         name="judge",
-        title="The solver in three dimensions that judges the springs agrees with known solutions",
+        title="The reference solver in three dimensions agrees with known solutions",
         quote="",
         range=(
             "a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"
@@ -62,7 +62,8 @@ def claim(effort: str) -> Claim:
             f" surface down (Goodman); at ν = 0 and μ_0 = 0.3 that alone makes the radius {100 * gone:.0f} % smaller."
         ),
         verdict="holds",
-        sentence="The judge meets Hertz, Cattaneo and Mindlin, the bonded punch and Spence within its stated errors.",
+        sentence="The reference solver meets Hertz, Cattaneo and Mindlin, the bonded punch and Spence within its"
+        " stated errors.",
         checks=checks,
         figures=(_figure(quick),),
     )
@@ -199,8 +200,9 @@ def _figure(quick: bool) -> Figure:
         right.legend(loc=(0.02, 0.13), fontsize=9)
     return Figure(
         name="trust",
-        caption="Left: forces of the judge approach the closed forms with the number of cells, at first order or"
-        " better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver lie on"
+        caption="Left: forces of the reference solver approach the closed forms with the number of cells, at first"
+        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional"
+        " solver lie on"
         " the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed) leaves"
         " out that friction moves the surface down, and is too high where ν and μ_0 are small.",
         drawing=fig,

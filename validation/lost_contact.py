@@ -131,8 +131,8 @@ def claim(effort: str) -> Claim:
         f"Eq. (15) grows with ωτ; the least v_c measured is {percent(1 + least.deviation, 3)} of it ({least.where}). "
         "The full-slip condition with the true times of contact lies in the bracket of every measurement.",
         verdict="holds if the pull is rigid and the contact closed at the moment of fastest approach",
-        sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ, but ends Eq. (15) "
-        "of a punch at once. If slow rubber taps, away from resonances, v_c is half the velocity of each impact.",
+        sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ (ωτ ≫ 1), but ends "
+        "Eq. (15) of a punch at once. If slow rubber taps, off resonances, v_c is half the velocity of each impact.",
         checks=(*_rigid_checks(rigid), *_limit_checks(), *_onset_checks(), *_slow_checks(), *_body_checks(body)),
         figures=(_rigid_figure(rigid), _onset_figure(effort), _slow_figure(body, effort)),
         equations=_EQUATIONS,

@@ -74,8 +74,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "Friction is reduced at all points below 0.95 of the full-slip v_c and full at all points above this v_c."
-            " Under a rigid pull it equals Eq. (15); otherwise only for small amplitude."
+            "On the maps of a paraboloid friction is reduced at all points below 0.95 of the full-slip v_c and full at"
+            " all points above it. This v_c is Eq. (15) under a rigid pull, or at small amplitude."
         ),
         checks=(
             *_checks_of_v_c(of_v_c, points),

@@ -69,8 +69,9 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "To first order in the amplitude a contact of any shape loses the friction of a single spring,"
-            " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order that times 1 + <i>C</i> Δu_z/(<i>n</i> u_z0)."
+            "Elastic, rigid pull: to first order in the amplitude every shape loses the friction of one spring,"
+            " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order, for <i>r</i>^n, that times 1 + <i>C</i>"
+            " Δu_z/(<i>n</i> u_z0)."
         ),
         checks=(
             *_exact_checks(law, 6 if quick else 25),

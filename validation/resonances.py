@@ -112,8 +112,8 @@ def claim(effort: str) -> Claim:
             "Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has more (a"
             " paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is an"
             " n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
-            " velocity, however high, the COF stays at 1 − |F_n|/F_0 of μ_0. "
-            + "It is lower than μ_0 by "
+            " velocity, however high, the COF stays below 1 − |F_n|/F_0 of μ_0, to which it tends. "
+            + "There it is lower than μ_0 by "
             + "; ".join(f"{percent(share(*knobs))} ({_name(knobs)})" for knobs in driven)
             + ". This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
             " With a damper of 1 % there is a critical velocity again, that of full slip with all"
@@ -126,8 +126,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="fails when ω_0 is a whole multiple nω of ω, n ≥ 2",
         sentence=(
-            "Eq. (15) knows one resonance, a curved contact has one at each ω_0 = nω of its force: without damping"
-            " friction stays reduced by |F_n|/F_0 at any velocity."
+            "Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its force:"
+            " without damping friction stays reduced by |F_n|/F_0 or more at any velocity."
         ),
         checks=tuple(checks),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
@@ -257,7 +257,7 @@ def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:
         "plateau",
         "Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs"
         " (symbols). It does not come back to μ_0: what is missing comes down to |F_n|/F_0, the share of the harmonic"
-        " of the normal force that drives the body, like v_0^{−1/2}, and stays there.",
+        " of the normal force that drives the body, like v_0^{−1/2}, and never below it.",
         fig,
         "Reduction of friction over the share of the driving harmonic, falling to one with the velocity.",
     )

@@ -57,8 +57,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "Curves of all phases and both directions are that of the normal oscillation while the amplitude is "
-            "small beside μ_0 κ u_z0, and that of a rigid contact where it is great."
+            "Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one; a"
+            " shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact."
         ),
         checks=(
             *_small_checks(quick),

@@ -41,8 +41,9 @@ def claim(effort: str) -> Claim:
             " phase, at the tool or at the pulling point; rigid pull and a body on a spring."
         ),
         measured=(
-            "A rigidly pulled contact has v_c = ω|μ_0 κ Δu_z ∓ Δu_x e^{iφ}|, upper sign forward, whatever its shape,"
-            " depth, material and amplitude: the difference of two pointers forward, their sum the other way. With a"
+            "A rigidly pulled contact has v_c = ω|μ_0 κ Δu_z ∓ Δu_x e^{iφ}|, upper sign forward, for any shape, depth"
+            " and material, as long as contact is kept, or closed at the moment of greatest slip velocity: the"
+            " difference of two pointers forward, their sum the other way. With a"
             " body the first pointer is that of Eq. (15), μ_0 (κ + K_z H) Δu_z, and a shaken pulling point reaches the"
             " indenter through spring, damper and mass. At finite amplitude a curved contact under a body leaves this"
             " formula as it leaves Eq. (15), and the full-slip condition with all harmonics takes its place. A"
@@ -52,8 +53,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "One formula serves normal and longitudinal oscillation together, under a body where Eq. (15) holds: "
-            "v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
+            "With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
+            " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
         ),
         checks=(
             *_rigid_checks(phases),

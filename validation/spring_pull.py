@@ -130,16 +130,15 @@ def claim(effort: str) -> Claim:
         range=f"flat punch in contact throughout, α = {ALPHA:g}, k_x = k_x,c, mω²/k_x "
         f"{f'= {listed(SWEEP[effort])}' if effort == 'quick' else ranged(SWEEP[effort])}, "
         f"ωτ = {listed(materials)}; damper c_x of {100 * DAMPING:g} % of critical, and none",
-        measured=f"The measured v_c follows Eq. (15), with c_x beside k_x, to {worst:.1e} "
+        measured=f"The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e} "
         f"{'beside' if effort == 'quick' else 'through'} pole and zero. "
         f"Undamped at the zero an elastic "
         "contact has v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). "
         "Undamped on the pole no "
         "velocity is high enough, and the COF tends to the mean of its static value and mu_0.",
         verdict="holds",
-        sentence="For a contact of constant stiffness Eq. (15) gives v_c through both resonances; driven at its own "
-        "frequency an undamped body "
-        "keeps half of the static friction reduction at any speed.",
+        sentence="For a contact of constant stiffness Eq. (15) gives v_c on both sides of its pole and of its zero. On "
+        "the pole the COF of an undamped body tends to the mean of static COF and μ_0, from below.",
         checks=tuple(checks),
         figures=(_sweep_figure(points, materials), _pole_figure(plateaus)),
     )
@@ -316,9 +315,9 @@ def _pole_figure(plateaus: dict[float, Array]) -> Figure:
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
     return Figure(
         "pole",
-        "An undamped body driven at its own frequency: the COF rises to a plateau (dashed: halfway between static "
-        "COF and mu_0) and stays "
-        "there at 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c.",
+        "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between "
+        "static COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at"
+        " v_c.",
         fig,
         "COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole.",
     )

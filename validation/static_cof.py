@@ -92,8 +92,8 @@ def claim(effort: str) -> Claim:
         ),
         verdict="holds",
         sentence=(
-            "Friction starts from μ_0 times the least normal force; an elastic contact leaves it like v_0, a"
-            " Kelvin contact that stays pressed like v_0^{2/3}."
+            "Under a rigid pull friction starts from μ_0 times the least normal force; an elastic contact leaves it"
+            " like v_0, a Kelvin contact that stays pressed like v_0^{2/3}."
         ),
         checks=tuple(checks),
         figures=(_figure(approaches),),

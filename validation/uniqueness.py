@@ -276,8 +276,8 @@ def claim(effort: str) -> Claim:
         f"velocity up and down with {SHORT} periods at each step shows a loop of {loop:.2f} μ_0, made of transients "
         f"that no run calls settled; waiting closes it to {np.abs(waited[0][0] - waited[0][1]).max():.1e}.",
         verdict="holds",
-        sentence="Under a given normal motion, with constant μ_0, one velocity has one COF, which never falls with "
-        "velocity; so there is one v_c. Hysteresis in an experiment has another cause.",
+        sentence="Under a given normal motion, with constant μ_0, one velocity has one COF (except where the curve"
+        " of an undamped elastic body jumps), which never falls with velocity; so there is one v_c.",
         checks=(*_distance_checks(found), *_end_checks(found), *_curve_checks(curves, effort), *_sweep_checks()),
         figures=(_distance_figure(), _sweep_figure()),
         equations=(

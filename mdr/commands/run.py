@@ -44,7 +44,11 @@ def add_options(command: argparse.ArgumentParser) -> None:
     size = whole_number(LEAST_KNOB, MOST)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: as the accuracy needs)")
     command.add_argument("--steps", metavar="n", type=size, help="time steps of a period (default: likewise)")
-    command.epilog = "run.csv has the forces over the last period; run.png and run.svg the springs that stick and slip."
+    command.epilog = (
+        "run.csv has the forces over the last period; run.png and run.svg the springs that stick and slip: a row for"
+        " each spring by its place x, a colour for each state, time in periods from the deepest instant; below, the"
+        " forces."
+    )
 
 
 def run(args: argparse.Namespace, case: SlidingContact) -> int:

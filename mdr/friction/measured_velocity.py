@@ -149,8 +149,8 @@ def measure_critical_velocity(
 
     Notes
     -----
-    The bracket is some 4e-5 of v_c wide, four times the accuracy, and wider where the number of steps or springs still
-    moves it. The search takes 10 to 40 runs, a tenth of a second to some seconds.
+    The bracket is 4e-5 to 8e-5 of v_c wide, four to eight times the accuracy, and wider where the number of steps or
+    springs still moves it. The search takes 10 to 40 runs, a tenth of a second to some seconds.
 
     Examples
     --------

@@ -173,6 +173,29 @@ def test_a_shaken_step_knows_no_forward(T, h):
 
 
 @pytest.mark.parametrize("shaken", [False, True])
+@pytest.mark.parametrize("du", [0.3, -0.2])
+@pytest.mark.parametrize("dz", [0.1, -0.1])
+def test_a_straight_piece_of_path_may_be_cut_into_seven(dz, du, shaken):
+    """Elastic springs know no time: they stick, slip, touch and leave where the path says, in however many steps."""
+    rng, h = np.random.default_rng(8), 0.1
+    gap, w = np.sort(rng.uniform(-1, 0.2, 64)), np.full(64, 1 / 64)
+    springs, advance = kernels.Springs(gap, w, -np.inf), kernels.shaken_elastic_step if shaken else kernels.elastic_step
+    start = np.maximum(-gap, 0) * rng.uniform(-1, 1, 64)
+    ends = []
+    for parts in (1, 7):
+        e, z, k = start[None], 0.0, h / parts
+        for _ in range(parts):
+            after = np.empty_like(e)
+            step = kernels.Step(0, 64, z, z + dz / parts, dz / h, dz / h, k)
+            move = kernels.moved.py_func(du / parts, du / h, du / h, k, False, shaken)
+            advance(e, after, springs, step, move)
+            e, z = after, z + dz / parts
+        ends.append(e)
+    assert_allclose(ends[1], ends[0], rtol=0, atol=1e-14)
+    assert np.abs(ends[0] - start).max() > 0.05
+
+
+@pytest.mark.parametrize("shaken", [False, True])
 @pytest.mark.parametrize("h", [0.1, 0.025, 0.00625])
 @pytest.mark.parametrize("T", [0.0, *RELAXATION])
 def test_one_step_against_tiny_ones(T, h, shaken):

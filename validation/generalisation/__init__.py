@@ -23,11 +23,12 @@ def claim(effort: str) -> Claim:
         "long as the amplitude of oscillation remains small). — Section 2, after Eq. (15)",
         range="Shape, depth, rheology, drive and amplitude, each in a part below.",
         measured="Eq. (15), with the contact stiffness at the mean depth, is exact for a rigid pull, unless the "
-        "contact is open at the moment of fastest approach, and for a flat punch that keeps contact. For every other "
+        "contact is open at the moment of fastest approach, and for a flat punch that keeps contact (except under an "
+        "undamped body with ω_0 = nω, n ≥ 2). For every other "
         "contact under a body it is the limit of small amplitude, and how small depends on the body. What then takes "
         "its place, at any amplitude, is full slip with all harmonics of the normal force.",
         verdict="holds if the pull is rigid, or the contact a flat punch that is kept, or the amplitude small",
-        sentence="Eq. (15) is exact for a rigid pull and for a flat punch that keeps contact, and the limit of small "
-        "amplitude for every other shape, any linear material and any drive.",
+        sentence="Eq. (15) is exact for a rigid pull and for a flat punch that keeps contact (except under an undamped "
+        "body with ω_0 = nω, n ≥ 2), and the limit of small amplitude for all other shapes and drives.",
         parts=parts,
     )

@@ -37,7 +37,7 @@ ALPHAS = (0.01, 0.03, 0.1, 0.3, 0.6, 1.3, 1.6)
 CURVED = ("cone", "paraboloid", "r^4")
 RANGE = ((0.01, 1.6), (0.3, 5.5))  # alpha and omega_0/omega of the maps
 ZERO = np.sqrt(STIFFNESS / (1 + STIFFNESS))  # omega_0/omega where Eq. (15) of an elastic contact nearly vanishes
-ASIDE = 0.25  # from ZERO and from the resonance at 2: omega_0/omega further off than that are aside
+ASIDE = 0.5  # from ZERO and from the resonance at 2: omega_0/omega further off than that are aside
 BANDS = (0, 1, 3, 10, 30, 100)  # % of the colours of the map
 KELVIN = (  # of the full grid, as a Kelvin contact takes some four times longer to measure
     ("flat punch", 0.6, 3.5),
@@ -204,12 +204,14 @@ def part(effort: str) -> Part:
         f"(elastic) and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. "
         f"The relative error is large too beside ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself "
         f"nearly vanishes: {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). "
-        f"More than {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α = {reach[0.0]:.2g} (elastic) "
+        f"On the maps, more than {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α ="
+        f" {reach[0.0]:.2g} (elastic) "
         f"and {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (claim on "
         "lost contact).",
-        sentence=f"How small is small depends on the body: Eq. (15) is good to 1 % up to α = {reach[0.0]:.2g} "
-        f"(elastic) and {reach[1.0]:.2g} (ωτ = 1), but only to {resonant[0.0]:.2g} and {resonant[1.0]:.2g} at ω_0 = "
-        "2ω; the full-slip condition is exact throughout, lost contact included.",
+        sentence=f"How small is small depends on the body: with this damper, and ω_0 more than {ASIDE:g} ω aside of "
+        f"2ω and of {ZERO:.2g} ω, Eq. (15) is good to 1 % up to α = {reach[0.0]:.2g} (elastic) and {reach[1.0]:.2g} "
+        f"(ωτ = 1), but only to {resonant[0.0]:.2g} and {resonant[1.0]:.2g} at ω_0 = 2ω; the full-slip condition is"
+        f" exact throughout, lost contact included.",
         checks=(*_measured_checks(points), *_power_checks(effort)),
         figures=(_map_figure(known, points), _table_figure(points, effort)),
     )

@@ -248,8 +248,9 @@ def _figure_of_loads(quick: bool) -> Figure:
     return Figure(
         "loads",
         "Load-controlled drive: how far v_c at finite amplitude is from μ_0 ω ΔF_z |κ + K_z H|/|K_z|. The punch"
-        " stays on it. Elastic curved shapes leave it in second order; the sharper the shape, the more its stiffness"
-        " falls while the load is low." + ("" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0."),
+        " stays on it. Elastic curved shapes leave it in second order, as their stiffness falls while the load is"
+        " low: under a rigid pull the more, the sharper the shape."
+        + ("" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0."),
         fig,
         "Panels of deviation in % over relative load amplitude for four shapes.",
     )

@@ -409,7 +409,8 @@ def _map_figure(ratios: Array, losses: Array, C: Array) -> Figure:
         "near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: "
         f"α = {number(reach[row, column])} at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials"
         " under "
-        "heavy bodies, ω_0 < ω, are the best. Along thin bright lines C changes its sign, and the next order decides.",
+        "heavy bodies, ω_0 < ω, are the best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 ="
+        " 0.8 ω. Along thin bright lines C changes its sign, and the next order decides.",
         fig,
         "Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: "
         "dark for slow materials and near twice the frequency.",

@@ -70,7 +70,7 @@ def _curved(power: Sequence[Check], error: Sequence[Check]) -> str:
     return (
         "<b>For a curved shape on a spring only in the limit of small amplitude.</b> With a damper the error is of"
         f" first order in α = Δu_z/u_z0 (power found: {span([check.got or 0.0 for check in power])}); the largest one"
-        f" measured is {percent(largest.got or 0.0, 3)}{f' ({where[0]})' if where else ''}."
+        f" measured over its amplitudes is {percent(largest.got or 0.0, 3)}{f' ({where[0]})' if where else ''}."
     )
 
 
