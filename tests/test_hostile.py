@@ -7,9 +7,11 @@ import inspect
 import math
 import re
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.closed_forms.full_slip import full_slip
@@ -338,7 +340,16 @@ def test_what_is_right_passes():
     assert mdr.SpringPull(k_x=1).receptance(0) == 1
 
 
-@pytest.mark.parametrize("v_hat", [1e-12, 1e-6, 1e6, 1e12])
+def test_a_pull_slower_than_rounding_is_its_limit_in_a_curve_and_refused_by_a_run():
+    with pytest.raises(ValueError, match="rounding hides the motion"):
+        mdr.slide(CASE, 1e-12 * V_C)
+    for case in (CASE, replace(CASE, pull=mdr.RigidPull())):
+        curve = mdr.cof_curve(case, [1e-30, 1e-12 * V_C])
+        assert_array_equal(curve.cof, mdr.static_cof(case))
+        assert_array_equal(curve.v_0, [1e-30, 1e-12 * V_C])
+
+
+@pytest.mark.parametrize("v_hat", [1e-8, 1e-6, 1e6, 1e12])
 def test_extreme_velocities_give_numbers(v_hat):
     """Legal however extreme: a friction between the static limit and mu_0, finite in every field."""
     run = mdr.slide(CASE, v_hat * V_C, n_springs=32, steps_per_period=64, n_periods=20)

@@ -326,4 +326,4 @@ def test_the_same_path_in_another_time_moves_no_force(shape, v_0):
     assert_allclose(other.F_x, there, rtol=0, atol=3e-4 * scale)  # where modes change within a step
     losses = [run.energy_balance.friction_loss for run in (one, other)]
     assert losses[1] == pytest.approx(losses[0], rel=1e-4)
-    assert abs(other.cof - one.cof) > 1e-2 * MU_0  # the mean over time is another
+    assert np.abs(other.F_x - one.F_x).max() > 0.1 * scale  # at the same time
