@@ -55,7 +55,9 @@ def _run(args: argparse.Namespace) -> int:
     """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
     work: Callable[[argparse.Namespace, Any], int] = args.work
     try:
-        status = work(args, _read(args) if args.read else None)
+        with warnings.catch_warnings():
+            warnings.showwarning = _Warnings()
+            status = work(args, _read(args) if args.read else None)
         sys.stdout.flush()  # a full disk shows here
         return status
     except WrongInput as fault:
@@ -67,18 +69,27 @@ def _run(args: argparse.Namespace) -> int:
         return complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
 
 
+class _Warnings:
+    """Says what is warned of on standard error, each once. PYTHONWARNINGS=ignore silences it."""
+
+    def __init__(self) -> None:
+        self.said: set[str] = set()
+
+    def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
+        if str(message) not in self.said:
+            self.said.add(str(message))
+            complain(f"warning: {message}", DONE)
+
+
 def _read(args: argparse.Namespace) -> Any:
-    """What the file describes; what is unlikely of it is said on standard error. PYTHONWARNINGS=ignore silences it."""
-    with warnings.catch_warnings(record=True) as said:
-        try:
-            case = args.read(args.case)
-        except CaseFileError as fault:
-            raise WrongInput(str(fault)) from None
-        base = case if isinstance(case, SlidingContact) else getattr(case, "case", None)  # of a study
-        for doubt in plausibility(base) if base is not None else ():
-            warn_outside(doubt)
-    for one in said:
-        complain(f"warning: {one.message}", DONE)
+    """What the file describes; what is unlikely of it is warned of."""
+    try:
+        case = args.read(args.case)
+    except CaseFileError as fault:
+        raise WrongInput(str(fault)) from None
+    base = case if isinstance(case, SlidingContact) else getattr(case, "case", None)  # of a study
+    for doubt in plausibility(base) if base is not None else ():
+        warn_outside(doubt)
     return case
 
 

@@ -124,9 +124,11 @@ def profile_points(
     _refuse_repeated(table, "r", x, tiny)
     at_tip = np.flatnonzero(np.abs(x) <= tiny)
     if not at_tip.size:
+        low, high = (table.values["r"][take(table.values["f"])] for take in (np.argmin, np.argmax))
         nearest = table.values["r"][np.argmin(np.abs(x))]
-        what = f"no point at the tip, r = {apex:.6g} m; the nearest is at {nearest:.6g} m: give that as apex=, or add"
-        raise table.fault(f"{what} the height at the tip")
+        places = f"the nearest is at {nearest:.6g} m, the least height at {low:.6g} m, the greatest at {high:.6g} m"
+        what = f"no point at the tip, r = {apex:.6g} m; {places}"
+        raise table.fault(f"{what}: give the place of the tip as apex=, or add the height there")
     kept = np.abs(x) <= tiny if side != "both" else np.ones(x.size, dtype=bool)
     kept |= x > 0 if side == "right" else x < 0
     order = np.argsort(np.abs(x[kept]), kind="stable")

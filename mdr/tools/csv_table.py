@@ -22,7 +22,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line, short
 from mdr.tools.notation import UNITS, in_unit, is_number, number_in
 
-_HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s/\s*(?P<other>\S.*))?")
+_HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*))?")
 
 
 class Column(NamedTuple):
@@ -154,7 +154,8 @@ class _Header(NamedTuple):
         if given is not None and given not in known:
             raise fault(self.source, f"units: {column.name} = {short(repr(given))} is none of {_listed(known)}")
         if written not in known and column.unit == "-":
-            raise fault(self.source, f"{column.name} is a pure number, got the unit {short(written)!r}")
+            hint = ": divide by 100, and leave the unit out" if written == "%" else ""
+            raise fault(self.source, f"{column.name} is a pure number, got the unit {short(written)!r}{hint}")
         if written and written not in known:
             what = f"the unit {short(written)!r} of {column.name} is none of {_listed(known)}"
             raise fault(self.source, f"{what}: {_example([column])}")

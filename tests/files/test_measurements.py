@@ -36,6 +36,7 @@ def write(tmp_path):
         ("r [um], f [nm]", {}),
         ("Radius (µm), Height (nm)", {}),
         ("x / um, z / nm", {}),
+        ("x/um,z/nm", {}),
         ("# r [um], f [nm]", {}),  # as numpy.savetxt writes it
         ("r, f", {"units": {"r": "um", "f": "nm"}}),
         ("Weg [um], Hoehe [nm]", {"columns": {"r": "Weg", "f": "Hoehe"}}),
@@ -187,7 +188,11 @@ FAULTS = [
     (mdr.read_moduli, "f [Hz], E' [MPa], tan delta\n0, 3, 1\n", "line 2: frequency must be positive"),
     (profile, "r [um], f [nm]\n0, 0\n1, 1\n2, 4\n", "r must have at least 6 numbers, got 3"),
     (profile, f"r [um], f [nm]\n{SCAN}\n10.0, 90\n", "lines 3 and 8 both have r = 1e-05 m; give one, or their mean"),
-    (profile, f"r [um], f [nm]\n{SCAN[9:]}\n", "no point at the tip, r = 0 m; the nearest is at 1e-05 m: give that as"),
+    (
+        profile,
+        f"r [um], f [nm]\n{SCAN[9:]}\n",
+        "no point at the tip, r = 0 m; the nearest is at 1e-05 m, the least height at 1e-05 m",
+    ),
     (profile, "r [um], f [nm]\n" + SCAN.replace(", ", ", -"), "heights fall away from the tip; of a tip that was"),
     (
         force,
