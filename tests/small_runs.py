@@ -8,6 +8,7 @@ import numpy as np
 from conftest import contact
 
 import mdr
+from mdr.closed_forms.shaken_pull import ShakenPull, average_friction
 from mdr.march import kernels
 from mdr.march.march import Knobs, march
 from mdr.materials.operator import Rheology
@@ -55,6 +56,35 @@ def slides():
                 yield f"{name}, {motion}, {pull}, {start}", [*numbers, *(() if run.F_x is None else run.F_x)]
 
 
+def shakes():
+    """Every kind of spring and pull under a shake, pressed and tapping, in turn pulled either way."""
+    like, ways = contact("paraboloid"), cycle((1, -1))
+    for name, material in MATERIALS.items():
+        for motion in ("pressed", "taps"):
+            for pull, groups in PULLS.items():
+                oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
+                shake = mdr.InPlaneOscillation(like.omega, 2e-6, 0.7)
+                of_pull = contact("paraboloid", **groups).pull
+                case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull, shake)
+                v_0 = next(ways) * 0.4 * case.unit_velocity
+                run = mdr.slide(case, v_0, n_springs=16, steps_per_period=25, n_periods=3)
+                energy = run.energy_balance
+                numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss, energy.shake_work]
+                yield f"shaken, {name}, {motion}, {pull}", numbers
+
+
+def shaken_pulls():
+    """Friction under a shake in closed form, to a loose tolerance."""
+    like = contact("paraboloid")
+    for name in ("elastic", "Kelvin"):
+        for motion in ("pressed", "taps"):
+            oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
+            shake = mdr.InPlaneOscillation(like.omega, 2e-6, 0.7)
+            case = replace(like, material=MATERIALS[name], oscillation=oscillation, shake=shake)
+            found = average_friction(ShakenPull.of(case), [-0.7, 0.0, 0.4], 1e-5)
+            yield f"shaken pull, {name}, {motion}", np.concatenate([found[0], found[2]]).tolist()
+
+
 def searches():
     """Periodic states that are solved for, of a body on springs without memory and with arms."""
     for name in ("elastic", "arms"):
@@ -93,7 +123,7 @@ def cycles():
             yield f"{name}, force", [*F, *S, *outermost, *at_edge, *begins]
 
 
-MAKERS = (least_squares, slides, searches, presses, cycles)
+MAKERS = (least_squares, slides, shakes, shaken_pulls, searches, presses, cycles)
 
 
 def results():

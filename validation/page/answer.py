@@ -59,8 +59,8 @@ def _exact(rigid: Sequence[Check], punch: Sequence[Check]) -> str:
     return (
         "<b>Yes, exactly, for a rigid pull and for a flat punch that keeps contact.</b> Critical velocities measured"
         f" from runs agree with Eq. (1), which Eq. (15) is for a rigid pull, to {_off(rigid)}, unless the contact is"
-        " open"
-        f" at the moment of fastest approach; those of the punch on a spring agree with Eq. (15) to {_off(punch)}."
+        f" open at the moment of fastest approach; those of the punch on a spring agree with Eq. (15) to {_off(punch)},"
+        " except for an undamped body at a resonance (3)."
     )
 
 
