@@ -86,6 +86,7 @@ class Size(NamedTuple):
     k_zc: float  #: [N/m]
     k_xc: float  #: [N/m]
     omega_0_over_omega: float | None  #: None of a rigid pull, infinite of a body without mass
+    omega_z_over_omega: float | None  #: of the mass that a load moves, on the contact; None without one
     at_depth: float  #: of radius, slope and stiffnesses [m]: the mean one, of tapping the greatest
 
     @classmethod
@@ -99,7 +100,9 @@ class Size(NamedTuple):
         ratios = [known.pull.omega_0 / one for one in frequencies(known)]
         ratio = None if known.pull.is_rigid else min(ratios, key=lambda one: abs(math.log(one)))
         k_xc = k_zc / known.material.mindlin_ratio
-        return cls(a, slope, mean_normal_force(known), k_zc, k_xc, ratio, d)
+        m_z = getattr(known.oscillation.load, "m_z", 0.0)
+        bounce = math.sqrt(k_zc / m_z) / known.oscillation.omega if m_z > 0 else None
+        return cls(a, slope, mean_normal_force(known), k_zc, k_xc, ratio, bounce, d)
 
     @property
     def values(self) -> dict[str, Any]:
@@ -111,6 +114,7 @@ class Size(NamedTuple):
         """The same in words."""
         ratio = self.omega_0_over_omega
         body = "rigid" if ratio is None else "no mass" if math.isinf(ratio) else f"{ratio:.6g}"
+        bounce, meaning = self.omega_z_over_omega, "natural frequency of m_z on the contact over that of the load"
         return [
             ("radius", f"{self.contact_radius:.6g} m", f"of the contact at the depth of {self.at_depth:.4g} m"),
             ("slope", f"{self.edge_slope:.6g}", "of the shape at the edge of the contact; well below 1"),
@@ -118,6 +122,7 @@ class Size(NamedTuple):
             ("k_zc", f"{self.k_zc:.6g} N/m", "normal stiffness of the contact"),
             ("k_xc", f"{self.k_xc:.6g} N/m", "tangential stiffness of the contact"),
             ("body", body, "natural frequency of the body over that of the vibration, omega_0/omega"),
+            *([] if bounce is None else [("m_z", f"{bounce:.6g}", meaning)]),
         ]
 
 
