@@ -251,12 +251,12 @@ def test_the_answer_takes_its_numbers_from_the_checks_and_says_where_it_has_none
     claims = [made_up_claim("rigid_pull", checks=[kept, late]), made_up_claim("generalisation", checks=[punch])]
     first, *others = answers(claims)
     assert "to 3·10⁻⁶, unless" in first
-    assert "to 8.2·10⁻⁶." in first
+    assert "to 8.2·10⁻⁶, except" in first
     assert [one.partition("</b>")[2] for one in others] == [": not asked in this run."] * 3
     off = made_up_claim("generalisation", checks=[replace(punch, got=1e-3)])
     assert answers([claims[0], off])[0].endswith("not confirmed, one check did not hold.")
     one = made_up_claim("generalisation", checks=[replace(punch, name="flat punch: worst |v_c/Eq. (15) − 1| of 1")])
-    assert "to 8.2·10⁻⁶ on one measurement." in answers([claims[0], one])[0]
+    assert "to 8.2·10⁻⁶ on one measurement, except" in answers([claims[0], one])[0]
     assert answers([made_up_claim()]) == []
 
 
