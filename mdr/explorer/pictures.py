@@ -83,7 +83,7 @@ class Picture:
                 (
                     "band",
                     f"{self.band.low:.4g} to {self.band.high:.4g}",
-                    "mean F_x over F_z that it holds at rest, held rigidly",
+                    "mean F_x over F_z at rest, under a rigid pull that stands still",
                 )
             )
         elif not self.state.case.is_shaken:

@@ -81,7 +81,7 @@ def test_another_kind_brings_its_own_controls(browser):
     browser.until(lambda: browser.find(named("slider", "shake.du_x")))
     browser.until(lambda: "shake.du_x" in browser.state())
     assert browser.curve()[0] < 0 < browser.curve()[-1]  # friction of both ways
-    assert any("holds at rest" in line for line in browser.text("table"))
+    assert any("at rest, under a rigid pull" in line for line in browser.text("table"))
 
 
 def test_groups_are_held(browser):
