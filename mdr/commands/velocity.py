@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.commands.output import DONE, print_json, print_rows, velocity_text
-from mdr.friction.shaken import HoldingBand, HoldsABand, blocked_cof, holding_band, no_load_velocity
+from mdr.friction.shaken import HoldingBand, band_of_pull, blocked_cof, holding_band, no_load_velocity
 from mdr.normal.doubts import edge, frequencies
 from mdr.normal.resolved import resolved
 
@@ -137,9 +137,8 @@ class Ends(NamedTuple):
     def of(cls, case: SlidingContact) -> Ends:
         """The ends of this case."""
         try:
-            blocked: float | str | HoldingBand = blocked_cof(case)
-        except HoldsABand as held:
-            blocked = held.band
+            held = band_of_pull(resolved(case))
+            blocked: float | str | HoldingBand = blocked_cof(case) if held.is_one_number else held
         except ValueError as unknown:
             blocked = str(unknown)
         try:

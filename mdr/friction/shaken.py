@@ -56,14 +56,6 @@ class HoldingBand:
         return self.low - self.error <= finite("load", load) <= self.high + self.error
 
 
-class HoldsABand(ValueError):
-    """The force of a contact at rest is no single number."""
-
-    def __init__(self, message: str, band: HoldingBand) -> None:
-        super().__init__(message)
-        self.band = band  #: under the pull of the contact
-
-
 def holding_band(case: SlidingContact) -> HoldingBand:
     """Loads [-], mean F_x over mean F_z, that a contact holds at rest, neither creeping nor driving.
 
@@ -148,10 +140,9 @@ def blocked_cof(case: SlidingContact) -> float:
     """
     band = band_of_pull(resolved(case))
     if not band.is_one_number:
-        raise HoldsABand(
+        raise ValueError(
             f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
-            "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)",
-            band,
+            "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)"
         )
     return 0.5 * (band.low + band.high)
 

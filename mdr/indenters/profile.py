@@ -114,7 +114,7 @@ class Profile(Indenter):
     def _search(self, d: Array) -> Array:
         """As of any shape, which a step that is not named would leave wrong: no quadrature sees it."""
         a = super()._search(d)
-        if (wall := step_within(self._f, self.f, float(a.max()))) is not None:
+        if (wall := step_within(self._f, float(a.max()))) is not None:
             raise ValueError(_wall(*wall))
         return a
 
@@ -135,7 +135,7 @@ def _wall(r: float, step: float) -> str:
 
 
 @lru_cache(64)
-def step_within(heights: Callable[[Array], Array], f: Callable[..., Any], a: float) -> tuple[float, float] | None:
+def step_within(heights: Callable[[Array], Array], a: float) -> tuple[float, float] | None:
     """Radius [m] and height [m] of a step of f within the radius a [m], of those that stand out of SAMPLES heights.
 
     heights: of the shape, an array for an array. The interval of the greatest rise is halved: that of a step stays.

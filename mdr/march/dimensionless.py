@@ -104,8 +104,8 @@ class ScaledContact:
         return self.body.rigid
 
     @property
-    def creep(self) -> float:
-        """Periods in which spring and damper of the pull come to rest; 0 under a rigid pull."""
+    def pull_time(self) -> float:
+        """Relaxation time c_x/k_x of the pull, in periods; 0 under a rigid pull."""
         return 0.0 if self.rigid else self.C / (2 * np.pi * self.K)
 
     @property

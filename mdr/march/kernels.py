@@ -64,7 +64,7 @@ Array = NDArray[np.float64]
 
 _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep their meaning
 _jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
-# taken in by LLVM, not by numba (inline="always"): it compiles in two thirds of the time, and no step is slower
+# taken in by LLVM, not by numba (inline="always"): it compiles in two thirds of the time, and most steps are faster
 _inline = njit(forceinline=True, error_model="numpy", fastmath=_FAST)
 
 # The rows of the operator's table are compiled in, and `shares` too, but the cache of compiled code sees edits of this

@@ -25,7 +25,7 @@ NEARLY = 1e-5  #: what is missing in the COF where, within the error of a loose 
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 UNWATCHED = 2**22  #: extensions times steps that a search marches between two looks at the clock
-SLOW_PULL = 100.0  #: periods of creep of a pull, from which on it is a slow time as those of a material are
+SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
 
 
@@ -55,8 +55,8 @@ def search(
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
     if slow and scaled.C:
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
-    if scaled.creep > SLOW_PULL:
-        slow += (2 * scaled.creep / periodic.CREEP,)  # that of a material may be longer than is seen, this one is known
+    if scaled.pull_time > SLOW_PULL:
+        slow += (2 * scaled.pull_time / periodic.CREEP,)  # a material may be slower than is seen; this is known
     loose = (periodic.LOOSE,) if near and not slow else ()
     how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
     for start in starts:

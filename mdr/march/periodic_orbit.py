@@ -82,7 +82,7 @@ class FixedPoint:
 
 @dataclass(frozen=True)
 class Options:
-    """How to look for a fixed point; slow: times of the material, in periods, that the springs remember."""
+    """How to look for a fixed point; slow: relaxation times, in periods, of material and pull."""
 
     slow: tuple[float, ...] = ()
     stable: bool = False  #: whether it is guaranteed that with them no multiplier reaches 1

@@ -73,8 +73,8 @@ class Waiting:
         """Whether the COF has settled, and the body too."""
         # under a rigid pull a change shrinks at a constant rate, so that any tolerance is met in time
         settling = assess(self.periods.cof, self.stepper.tolerance if self.scaled.rigid else TOLERANCE)
-        if self.n < E_FOLDS * self.scaled.creep and abs(1 - settling.mean) > TOLERANCE:
-            takes = f"spring and damper of the pull take {self.scaled.creep:.3g}"
+        if self.n < E_FOLDS * self.scaled.pull_time and abs(1 - settling.mean) > TOLERANCE:
+            takes = f"spring and damper of the pull take {self.scaled.pull_time:.3g}"
             why = f"after {self.n} periods the body still creeps: {takes}"
             return replace(settling, spread=UNKNOWN, settled=False, kind="unsettled", why=why)
         if settling.settled and (why := self._still_moves(settling.mean)):

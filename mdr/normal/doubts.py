@@ -94,7 +94,7 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
 
 
 def _of_motion(known: SlidingContact) -> Iterator[str]:
-    is_given = known.oscillation.knows_depth and _load_of(known) is None
+    is_given = known.oscillation.knows_depth and known.oscillation.load is None
     if is_given and known.working_depth > 0 and known.alpha > GREATEST_ALPHA:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
@@ -104,16 +104,10 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
         yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
 
 
-def _load_of(known: SlidingContact) -> LoadOscillation | None:
-    """The oscillating load that the depth was solved for, if it was."""
-    load = getattr(known.oscillation, "load", None)
-    return load if isinstance(load, LoadOscillation) else None
-
-
 def _of_load(known: SlidingContact) -> Iterator[str]:
     """Of a mass that an oscillating load moves."""
-    load = _load_of(known)
-    if load is None or load.m_z == 0:
+    load = known.oscillation.load
+    if not isinstance(load, LoadOscillation) or load.m_z == 0:
         return
     m_z = load.m_z
     if load.dF_z > load.F_z0:
