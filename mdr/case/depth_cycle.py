@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,7 @@ class Cycle(ArrayRecord):
     missing: float = 0.0  #: of the balance of forces that the depth was solved from, over the mean load
 
     @classmethod
+    @lru_cache(maxsize=64)
     def harmonic(cls, u_z0: float, du_z: float, omega: float) -> Cycle:
         """u_z0 + du_z cos(omega t)."""
         return cls(u_z0, du_z, omega, np.ones(1), np.zeros(1), -1.0, 1.0)
@@ -89,8 +91,9 @@ class Cycle(ArrayRecord):
     def _sum(self, phase: Array, cos: Array, sin: Array) -> Array:
         phase = np.asarray(phase, dtype=float)
         total = np.zeros(phase.shape)
-        for n in np.flatnonzero((cos != 0) | (sin != 0)):
-            total += cos[n] * np.cos((n + 1) * phase) + sin[n] * np.sin((n + 1) * phase)
+        for of, coefficients in ((np.cos, cos), (np.sin, sin)):
+            for n in np.flatnonzero(coefficients):
+                total += coefficients[n] * of((n + 1) * phase)
         return total
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:

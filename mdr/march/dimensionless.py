@@ -194,8 +194,13 @@ class ScaledContact:
 
     def motion(self, v: float) -> kernels.Motion:
         """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
-        dx, x_dot = v * self.h + np.diff(self.x), v + self.x_dot
+        dx, x_dot = v * self.h + self._dx, v + self.x_dot
         return kernels.Motion(self.z, self.z_dot, v, self.is_shaken, dx, x_dot, self.normal.spans)
+
+    @cached_property
+    def _dx(self) -> Array:
+        """What a shake travels in each step (n_steps,)."""
+        return np.diff(self.x)
 
     def pace(self, v: float) -> float:
         """A scale of velocities where the pull is at v: this, or that of the shake if it is faster."""
@@ -294,9 +299,10 @@ class ScaledContact:
         """Mean of L[e] over times in which S runs from ends[:-1] to ends[1:], (n,), with the mean `inner` of S itself
         and arms (n + 1, J) at the ends.
         """
-        mean = inner + self.T * np.diff(ends) / time
+        change = ends[1:] - ends[:-1]
+        mean = inner + self.T * change / time
         for j, (rho, theta) in enumerate(zip(self.rheology.rho, self.rheology.theta, strict=True)):
-            mean = mean + rho * theta / time * (np.diff(ends) - np.diff(arms[:, j]))  # x_j' = x' - x_j/theta_j
+            mean = mean + rho * theta / time * (change - np.diff(arms[:, j]))  # x_j' = x' - x_j/theta_j
         return np.asarray(mean)
 
     def arms_at_ends(self, S: Array, S_start: float, arms: Array) -> Array:
@@ -361,7 +367,8 @@ def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int
     w_core = float(w[:n_core].sum())
     gap_core = float(w[:n_core] @ gap[:n_core]) / w_core
     margin = 2 * (float(gap[:n_core].max()) - gap_core)  # where the outermost would slip backward
-    return np.r_[gap_core, gap[n_core:]], np.r_[w_core, w[n_core:]], margin, n_core
+    gap, w = (np.concatenate([[one], rest[n_core:]]) for one, rest in ((gap_core, gap), (w_core, w)))
+    return gap, w, margin, n_core
 
 
 def _is_light(M: float, K: float, h: float) -> bool:

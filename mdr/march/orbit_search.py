@@ -7,7 +7,7 @@ the norm of energy of springs, system spring and mass.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -51,7 +51,7 @@ def search(
     gain: how far a state may be from the periodic one, over its change over a period, where that is known. near:
     whether the starts are periodic states themselves, at other steps, springs or velocity.
     """
-    scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
+    scaled, norm, n_before = stepper.scaled, _norm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
     if slow and scaled.C:
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
@@ -122,8 +122,10 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
 
 def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
     """A state of a march with other springs or steps, on the springs and steps of this one."""
-    step, order = on.h / of.h, np.argsort(of.gap, kind="stable")
-    e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
+    step, e = on.h / of.h, state.e
+    if not np.array_equal(on.gap, of.gap):
+        order = np.argsort(of.gap, kind="stable")
+        e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
     (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S
     rate, bend = 1.5 * y - 2 * y_old + 0.5 * y_older, y - 2 * y_old + y_older  # per step of the other, and its step
     at = -step * np.arange(3)
@@ -172,6 +174,12 @@ def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, n
     return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why))
 
 
+@lru_cache(maxsize=24)
+def _norm(scaled: ScaledContact) -> EnergyNorm:
+    """That of a contact; searches at other velocities share it."""
+    return EnergyNorm(scaled)
+
+
 class EnergyNorm:
     """Length of a state vector: the root of the energy of springs, arms, system spring and mass."""
 
@@ -185,9 +193,9 @@ class EnergyNorm:
             self.roots[self.n_e : self.n_e + 2] = np.sqrt(scaled.K), np.sqrt(scaled.M or scaled.K) / scaled.h
 
     def of(self, x: Array) -> Array:
-        """State vectors (..., n_x), measured: vectors (..., n_x) whose squares are energies."""
+        """State vectors (n_x,) or (k, n_x), measured: vectors of the same shape whose squares are energies."""
         out = np.empty_like(x)
-        for one, measured in zip(x.reshape(-1, self.n_x), out.reshape(-1, self.n_x), strict=True):
+        for one, measured in ((x, out),) if x.ndim == 1 else zip(x, out, strict=True):
             kernels.measure(one, self.roots, self.n_e, measured)
         return out
 

@@ -82,7 +82,7 @@ class _Runs:
         return end
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady | None:
-        knobs = replace(knobs, record=0)
+        knobs = replace(knobs, record=0) if knobs.record else knobs
         if knobs not in self.ends:
             end = steady(self.case, self.v_0, knobs, n_periods, self.near, most)
             if end is None:

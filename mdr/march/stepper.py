@@ -141,7 +141,7 @@ class Stepper:
         """COF of each whole period: the mean of L[e] is that of e but for the ends; before: the state at its start."""
         scaled, S = self.scaled, trace.S
         ends = np.concatenate([before.S[:1], S[scaled.steps - 1 :: scaled.steps]])
-        inner = S.reshape(-1, scaled.steps).mean(axis=1) - 0.5 * np.diff(ends) / scaled.steps
+        inner = S.reshape(-1, scaled.steps).mean(axis=1) - 0.5 * (ends[1:] - ends[:-1]) / scaled.steps
         arms = scaled.arms_at_ends(S, float(before.S[0]), before.arms[0])
         mean = scaled.mean_force(ends, inner, arms, 2 * np.pi)
         return Periods(mean / self.mean_F_z, np.ptp(trace.y.reshape(-1, scaled.steps), axis=1), as_one)

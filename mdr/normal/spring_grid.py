@@ -13,7 +13,6 @@ du_z, below which springs never lose contact.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -57,6 +56,7 @@ class _Stretch:
     x_hi: float
     gap_lo: float
     gap_hi: float
+    area: float  # below g, from x_lo to x_hi [m²]
     permanent: bool  # in contact through the whole period
 
 
@@ -65,12 +65,16 @@ def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]
     u_z0, du_z = cycle.u_z0, cycle.unit
     kept = du_z * kept_gap
     gaps = [gap for gap in (kept, du_z * cycle.least, 0.0, du_z * cycle.greatest) if u_z0 + gap > 0]
-    marks = [(0.0, -u_z0)] + [(float(shape.contact_radius(u_z0 + gap)), gap) for gap in gaps]
-    marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < marks[-1][0]]
+    radii = shape.contact_radius(u_z0 + np.array(gaps))
+    marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
+    marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]
     marks.sort()
+    x, gap = np.array(marks).T
+    g = u_z0 + gap
+    area = np.diff(x * g) - 0.5 * np.diff(shape.force(g, 1.0))  # as F_N = 2 E* times what g leaves of the depth
     return [
-        _Stretch(x_lo, x_hi, gap_lo, gap_hi, permanent=gap_hi <= kept)
-        for (x_lo, gap_lo), (x_hi, gap_hi) in pairwise(marks)
+        _Stretch(x_lo, x_hi, gap_lo, gap_hi, below, permanent=gap_hi <= kept)
+        for (x_lo, gap_lo), (x_hi, gap_hi), below in zip(marks, marks[1:], area.tolist(), strict=False)
         if x_hi > x_lo
     ]
 
@@ -101,7 +105,7 @@ def _springs_of(shape: Indenter, u_z0: float, stretch: _Stretch, n: int) -> tupl
     share = edges[:-1, None] + part[:, None] * _NODES  # (n, 4)
     rise = _rise(shape, stretch, share, u_z0)
     gap = stretch.gap_lo + (stretch.gap_hi - stretch.gap_lo) * (rise @ _WEIGHTS)
-    gap += _missing_mean(shape, u_z0, stretch, float(part @ gap))
+    gap += _missing_mean(u_z0, stretch, float(part @ gap))
     return stretch.x_lo + span * (edges[:-1] + 0.5 * part), gap, 2 * span * part
 
 
@@ -116,14 +120,9 @@ def _rise(shape: Indenter, stretch: _Stretch, share: Array, u_z0: float) -> Arra
     return rise
 
 
-def _missing_mean(shape: Indenter, u_z0: float, stretch: _Stretch, mean: float) -> float:
+def _missing_mean(u_z0: float, stretch: _Stretch, mean: float) -> float:
     """Error of the quadrature in the mean of g over a stretch, which F_N gives exactly; rounding is not corrected."""
-    g_lo, g_hi = u_z0 + stretch.gap_lo, u_z0 + stretch.gap_hi
-    area = (
-        stretch.x_hi * g_hi
-        - stretch.x_lo * g_lo
-        - 0.5 * (float(shape.force(g_hi, 1.0)) - float(shape.force(g_lo, 1.0)))
-    )
-    missing = area / (stretch.x_hi - stretch.x_lo) - u_z0 - mean
-    noise = 64 * EPS * stretch.x_hi * abs(g_hi) / (stretch.x_hi - stretch.x_lo)
+    span = stretch.x_hi - stretch.x_lo
+    missing = stretch.area / span - u_z0 - mean
+    noise = 64 * EPS * stretch.x_hi * abs(u_z0 + stretch.gap_hi) / span
     return missing if abs(missing) > noise else 0.0

@@ -100,7 +100,7 @@ def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
         raise FieldTypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}", name) from ragged
     if array.dtype.kind not in "iuf":
         raise FieldTypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}", name)
-    if not np.all(np.isfinite(array)):
+    if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
         bad = array[~np.isfinite(array)].flat[0]
         raise FieldError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}", name)
     return array.astype(np.float64, copy=False)
@@ -109,7 +109,7 @@ def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
 def positive_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     """As `finite_array`, every number above zero."""
     array = finite_array(name, values, unit)
-    if not np.all(array > 0):
+    if not (array > 0).all():
         raise FieldError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}", name)
     return array
 

@@ -14,12 +14,11 @@ class ArrayRecord:
     """Base of frozen dataclasses (eq=False, repr=False) with arrays among their fields, which become read-only."""
 
     def __post_init__(self) -> None:
-        for field in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, field.name)
+        for name, value in list(vars(self).items()):
             if isinstance(value, np.ndarray):
                 own = value.view()  # the array itself may be somebody's, who goes on writing to it
                 own.setflags(write=False)
-                object.__setattr__(self, field.name, own)
+                object.__setattr__(self, name, own)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
