@@ -21,7 +21,9 @@ from validation.written import other_verdicts
 
 LONGEST = (
     "generalisation",
+    "coupled",
     "end_of_stick",
+    "judge",
     "transverse_slip",
     "maps",
     "uncoupled",
