@@ -13,6 +13,16 @@ import mdr
 settings.register_profile("mdr", deadline=None, derandomize=True, database=None)
 settings.load_profile("mdr")
 
+#: files begun first, so that none is alone at the end
+LONGEST = (
+    "guide/test_docs.py",
+    "explorer/test_browser.py",
+    "guide/test_geometries.py",
+    "validation/test_report.py",
+    "normal/test_load_control.py",
+    "test_reference.py",
+)
+
 #: indenter and the exponent n of its profile g ~ x**n, as the twin in reference.py counts shapes
 SHAPES = {
     "flat": (mdr.FlatPunch(a=1e-3), math.inf),
@@ -20,6 +30,10 @@ SHAPES = {
     "paraboloid": (mdr.Paraboloid(R=5e-3), 2),
     "r4": (mdr.PowerLaw(n=4, c=2e3), 4),
 }
+
+
+def pytest_collection_modifyitems(items):
+    items.sort(key=lambda item: not item.path.as_posix().endswith(LONGEST))
 
 
 def bowl(r):
