@@ -22,7 +22,8 @@ e + T e' is that of e. Three facts make every mean a short sum.
    exponential) and begins once at most (its barrier comes nearer). Each of these instants is the only root of a
    harmonic sum with a drift and one exponential. All integrals between them are known functions.
 2. The period maps e(0) to e(2 pi) = P(e(0)) with 0 <= dP/de = exp(-(slip + flight)/T) <= 1, so that P(e) - e falls and
-   Newton's method, kept within a bracket, solves it. For T = 0 the map is a clip of e + 2 pi v: for v > 0 one period
+   Newton's method, kept within a bracket, solves it; what its last step changes in the mean of e is the derivative of
+   that times the step. For T = 0 the map is a clip of e + 2 pi v: for v > 0 one period
    from e = s is exact, and for v = 0 it gives the limit v -> +0. The period begins where z is greatest, as every spring
    that ever touches is in contact there.
 3. The mean of e is an analytic function of c but where the sequence of touches, leaves and slips changes: where one of

@@ -19,6 +19,8 @@ Complex = NDArray[np.complex128]
 MOST_CHANGES = 96  #: of the sequence of modes along the array; further ones are left to the halving
 NEAR = 1e-7  #: of the range of gaps, to which a change is found
 PERIODS = 100  #: at most, of Newton's method for the periodic state
+CLOSE = 1e-7  #: step of it, over the compression, whose square is below rounding: what it changes is linear in it
+CLOSEST = 1e-14  #: the same for v = 0, where the slope of P at its fixed point is 1 and steps shrink slowly
 _PRIME = 9007199254740881  #: of a sequence of modes as a number
 
 _jit = compiled(nogil=True, error_model="numpy")
@@ -219,29 +221,32 @@ def _follow(
 
 
 @_jit
-def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> tuple[float, float]:
-    """Slip from a to b, forward for side = 1, backward for -1: y at its end, integral of e."""
+def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> tuple[float, float, float]:
+    """Slip from a to b, forward for side = 1, backward for -1: y at its end, integral of e, share of y that is lost."""
     s = b.sum_z - a.sum_z - c * (b.t - a.t)
     if T == 0:
-        return side * (b.z - c) - b.X, side * s
-    lag, less = a.z - side * (a.X + y) - c, math.expm1(-(b.t - a.t) / T)
-    return side * (b.z - c - lag - lag * less) - b.X, side * (s + lag * T * less)
+        return side * (b.z - c) - b.X, side * s, 1.0
+    lag, lost = a.z - side * (a.X + y) - c, -math.expm1(-(b.t - a.t) / T)
+    return side * (b.z - c - lag + lag * lost) - b.X, side * (s - lag * T * lost), lost
 
 
 @_jit
 def _slide(
     rows: Complex, T: float, v: float, c: float, y: float, a: Instant, b: Instant, measure: bool, margins: Array
-) -> tuple[float, float, float, float, int]:
-    """Contact from a to b, no extreme between: y at b, integrals of e and of the force in stick, slip time, modes."""
-    e, slipped, modes = 0.0, 0.0, 0
+) -> tuple[float, float, float, float, float, float, int]:
+    """Contact from a to b, no extreme between: y at b, integrals of e and of the force in stick, slip time, modes.
+
+    Before the modes, how much more y at b and the integral of e are for more y at a.
+    """
+    e, slipped, kept, more_e, modes = 0.0, 0.0, 1.0, 0.0, 0
     stick = a  # its first instant
     for row in range(2):
         side, W_a, W_b = (1.0, a.A_T, b.A_T) if row == 0 else (-1.0, a.B_T, b.B_T)
         over = side * y - (W_a - c)
         _note(margins, over)
         if over >= 0 and W_b < W_a:
-            y, e = _slip(T, c, side, y, a, b)
-            return y, e, 0.0, b.t - a.t, 1 + row
+            y, e, lost = _slip(T, c, side, y, a, b)
+            return y, e, 0.0, b.t - a.t, 1 - lost, T * lost, 1 + row
         if over > 0 and T == 0:
             y = side * (W_a - c)
         elif over > 0:
@@ -249,12 +254,12 @@ def _slide(
             f_b = lag * math.exp(-(b.t - a.t) / T) + W_b - (b.z - side * b.X)
             _note(margins, f_b)
             if f_b <= 0:
-                y, e = _slip(T, c, side, y, a, b)
-                return y, e, 0.0, b.t - a.t, 3 + row
+                y, e, lost = _slip(T, c, side, y, a, b)
+                return y, e, 0.0, b.t - a.t, 1 - lost, T * lost, 3 + row
             t = root(rows, _LEAD + row, 0.0, -side * v * T, lag, a.t, T, a.t, b.t, -over, f_b)
             stick = instant_at(rows, T, v, t)
-            y, e = _slip(T, c, side, y, a, stick)
-            slipped, modes = t - a.t, 5 + row
+            y, e, lost = _slip(T, c, side, y, a, stick)
+            slipped, kept, more_e, modes = t - a.t, 1 - lost, T * lost, 5 + row
             break
     end, again = b, 0.0
     for row in range(2):
@@ -264,7 +269,7 @@ def _slide(
             _note(margins, W_b + level)
         if W_b + level < 0 and W_b < W_a:
             if T == 0 and not measure:
-                return side * (W_b - c), 0.0, 0.0, 0.0, 1 + row
+                return side * (W_b - c), 0.0, 0.0, 0.0, 0.0, 0.0, 1 + row
             # an elastic spring that touches while its barrier comes nearer slips at once, but for rounding
             modes = 8 * modes + 6 + row if T > 0 else 1 + row
             t = root(
@@ -275,38 +280,47 @@ def _slide(
             break
     length = end.t - stick.t
     e += end.sum_X - stick.sum_X + y * length
+    more_e += kept * length
     pressed = end.sum_z - stick.sum_z + T * (end.z - stick.z) - c * length
     if again != 0:
-        y, more = _slip(T, c, again, y, end, b)
+        y, more, lost = _slip(T, c, again, y, end, b)
         e += more
         slipped += b.t - end.t
-    return y, e, pressed, slipped, modes
+        more_e += kept * T * lost
+        kept *= 1 - lost
+    return y, e, pressed, slipped, kept, more_e, modes
 
 
 @_jit
 def _period(
     rows: Complex, T: float, v: float, c: float, points: Array, n: int, e: float, measure: bool, margins: Array
-) -> tuple[float, float, float, float, int]:
-    """A period from extension e on: e at its end; integrals of e and force in stick; slip and flight time; modes."""
-    e_sum, pressed, forgets, modes = 0.0, 0.0, 0.0, 0
+) -> tuple[float, float, float, float, float, int]:
+    """A period from extension e on: e at its end; integrals of e and of the force in stick; slip and flight time; how
+    much more the integral of e is for more e at the beginning; modes.
+    """
+    e_sum, pressed, forgets, kept, more_e, modes = 0.0, 0.0, 0.0, 1.0, 0.0, 0
     b = _get(points, 0)
     y = e - b.X
     for k in range(n - 1):
         a, b = b, _get(points, k + 1)
         if points[k, _FREE] == 0:
-            y, more, stuck, slipped, code = _slide(rows, T, v, c, y, a, b, measure, margins)
+            y, more, stuck, slipped, share, of_y, code = _slide(rows, T, v, c, y, a, b, measure, margins)
             e_sum += more
             pressed += stuck
             forgets += slipped
+            more_e += kept * of_y
+            kept *= share
             modes = (modes * 71 + code) % _PRIME
         elif T > 0:
-            e, less = y + a.X, math.expm1(-(b.t - a.t) / T)
-            e_sum -= e * T * less
+            e, lost = y + a.X, -math.expm1(-(b.t - a.t) / T)
+            e_sum += e * T * lost
             forgets += b.t - a.t
-            y = e + e * less - b.X
+            more_e += kept * T * lost
+            kept *= 1 - lost
+            y = e - e * lost - b.X
         else:
             y = -b.X
-    return y + b.X, e_sum, pressed, forgets, modes
+    return y + b.X, e_sum, pressed, forgets, more_e, modes
 
 
 @_jit
@@ -326,11 +340,11 @@ def _spring(
     n_margins = margins[0] if kept else 0.0
     low, high, e, before = -top, top, top * share if T > 0 and share < 1 - 1e-9 else top, 0
     e_sum, pressed, modes = 0.0, 0.0, 0
-    close = 1e-14 if measure else 1e-10
+    close = CLOSE if v > 0 else CLOSEST
     for k in range(PERIODS):
         if kept:
             margins[0] = n_margins
-        after, e_sum, pressed, forgets, modes = _period(
+        after, e_sum, pressed, forgets, more_e, modes = _period(
             rows, T, v, c, points, n, e, measure and (T > 0 or k > 0), margins
         )
         if T == 0:
@@ -344,8 +358,11 @@ def _spring(
             high = e
         lost = -math.expm1(-forgets / T)
         step = (after - e) / lost if lost > 0 else 2 * top
-        if abs(step) <= close * top or abs(after - e) <= 1e-15 * top or high - low <= 1e-15 * top:
-            break  # the second of them for v = 0, where the slope of P at its fixed point is 1
+        if abs(step) <= close * top:
+            e, e_sum = e + step, e_sum + more_e * step
+            break
+        if abs(after - e) <= 1e-15 * top or high - low <= 1e-15 * top:
+            break
         e = e + step if low < e + step < high else 0.5 * (low + high)
     return e_sum, s_sum, pressed, (sequence + 7 * modes + 31 * before) % _PRIME, e / top
 
@@ -354,13 +371,19 @@ def _spring(
 def all_springs(m: Motion, v: Array, owner: NDArray[np.intp], c: Array) -> Array:
     """Means of e, s and force in stick (3, n) of springs of gaps c, ordered by the velocity v[owner]."""
     found = np.empty((3, c.size))
-    last, share, none = owner[0], 1.0, np.empty(0)
+    last, share, before, none = owner[0], 1.0, 1.0, np.empty(0)
     cuts, points, _ = _cuts(m, v[last])
     for i in range(c.size):
         if owner[i] != last:
             last = owner[i]
             cuts, points, _ = _cuts(m, v[last])
-        e, s, pressed, _, share = _spring(m.rows, m.T, v[last], c[i], cuts, points, none, True, share)
+        guess = share
+        if i > 1 and abs(c[i] - c[i - 1]) < 4 * abs(c[i - 1] - c[i - 2]):  # as it changed between the two before
+            guess += (share - before) * (c[i] - c[i - 1]) / (c[i - 1] - c[i - 2])
+        before = share
+        e, s, pressed, _, share = _spring(
+            m.rows, m.T, v[last], c[i], cuts, points, none, True, min(max(guess, -1.0), 1.0)
+        )
         found[0, i], found[1, i], found[2, i] = e / (2 * math.pi), s / (2 * math.pi), pressed / (2 * math.pi)
     return found
 
@@ -389,34 +412,35 @@ def all_changes(m: Motion, v: Array, c_low: float, c_high: float, scan: Array) -
         at_low, at_high, at_far, at_middle = np.zeros((4, at_near.size))
         # deeper springs never meet the lower barrier, as long as they are kept
         A, B, z = cuts[:, 3].min(), cuts[:, 4].min(), (cuts[:, 3] + cuts[:, 4]).min()
-        share = 1.0
+        share_low = 1.0
         start = max(c_low, min(0.5 * (A + B) - math.pi * v[i], 0.5 * z) - 1e-3)
         span, count, modes = c_high - start, 0, 0
         low = start
         for k in range(scan.size):
             high = start + scan[k] * span
-            _, _, _, target, share = _spring(m.rows, m.T, v[i], high, cuts, points, at_high, False, share)
+            _, _, _, target, share_high = _spring(m.rows, m.T, v[i], high, cuts, points, at_high, False, share_low)
             while k > 0 and modes != target and count < MOST_CHANGES:
-                near, far, other = low, high, target
+                near, far, other, share_near, share_far = low, high, target, share_low, share_high
                 at_near[:], at_far[:] = at_low, at_high
                 halve = False
                 while far - near > NEAR * span:
                     width = far - near
                     part = 0.5 if halve else _between(at_near, at_far, 0.3 * NEAR * span / width)
                     middle = near + part * width
+                    share = share_near + part * (share_far - share_near)
                     _, _, _, there, share = _spring(m.rows, m.T, v[i], middle, cuts, points, at_middle, False, share)
                     if there == modes:
-                        near = middle
+                        near, share_near = middle, share
                         at_near[:] = at_middle
                     else:
-                        far, other = middle, there
+                        far, other, share_far = middle, there, share
                         at_far[:] = at_middle
                     halve = far - near > 0.51 * width
                 if count == 0 or near > found[i, count - 1] + 4 * NEAR * span:
                     found[i, count] = 0.5 * (near + far)
                     count += 1
-                low, modes = far, other
+                low, modes, share_low = far, other, share_far
                 at_low[:] = at_far
-            low, modes = high, target
+            low, modes, share_low = high, target, share_high
             at_low[:] = at_high
     return found
