@@ -237,7 +237,9 @@ def test_a_velocity_that_is_none_is_status_2(capsys, punch, velocity, words):
     assert words in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("options", [["--n-springs", "31"], ["--steps", "1e3"], ["--steps", "9" * 5000], []])
+@pytest.mark.parametrize(
+    "options", [["--n-springs", "31"], ["--steps", "1e3"], ["--steps", "9" * 5000], ["--accuracy", "0.1"], []]
+)
 def test_a_run_of_too_few_or_too_many_is_status_2(punch, options):
     with pytest.raises(SystemExit) as end:
         main(["run", punch, *(["--v-0", "1e-3"] if options else []), *options])
@@ -565,6 +567,11 @@ def test_what_a_shaken_contact_holds_at_rest_is_told_to_machines(capsys, punch):
         band = mdr.holding_band(case)
         assert told["holding_band"] == [band.low, band.high]
         assert {"blocked_cof", "no_load_velocity", "other_way"} <= set(told)
+    for command in (["velocity"], ["curve", "--points", "3"]):
+        assert main([*command, "--json", punch]) == 0
+        told = strict_json(capsys.readouterr().out)
+        assert told["holding_band"] == [band.low, band.high]
+        assert told["v_c_back"] == mdr.critical_velocity(case, -1)
 
 
 def test_a_multiple_of_v_c_the_other_way_is_of_that_ways_own(capsys, punch):

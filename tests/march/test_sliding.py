@@ -644,3 +644,18 @@ def test_a_time_limit_ends_a_run_unsettled_with_the_reason():
     assert (found.v_c, found.kind) == (None, "unsettled")
     assert "the time limit is over" in found.why
     assert mdr.verdict(case, limit_s=1e-6).holds is None
+
+
+def test_a_run_without_time_for_its_companions_states_no_bound(monkeypatch):
+    case = contact("cone", k_ratio=1.0, c_ratio=0.3)
+    monkeypatch.setattr("mdr.march.refinement.time_is_over", lambda: True)
+    run = mdr.slide(case, 0.5 * mdr.critical_velocity(case))
+    assert not run.settled
+    assert "which bound cof_error" in run.why
+
+
+def test_an_array_too_large_to_be_kept_is_that_of_any_other_run():
+    case, knobs = contact("cone"), {"steps_per_period": 32, "n_periods": 2}
+    few, many = (mdr.slide(case, 0.4 * unit_of_velocity(case), n_springs=n, **knobs) for n in (8192, 8193))
+    assert many.n_springs == 8193
+    assert many.cof == pytest.approx(few.cof, abs=1e-8)

@@ -275,3 +275,17 @@ def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
     line = max(ax.lines, key=lambda one: len(one.get_xdata()))
     at_rest = line.get_ydata()[np.asarray(line.get_xdata()) == 0]
     assert_array_equal(at_rest, [np.nan if back is None else back, 0.3])
+
+
+def test_one_place_has_edges_of_its_own_size():
+    assert_array_equal(mdr.plots.edges_of(np.array([3.0])), [0.0, 6.0])
+    assert_array_equal(mdr.plots.edges_of(np.array([0.0])), [-0.5, 0.5])
+
+
+def test_a_figure_is_saved_beside_its_script(tmp_path):
+    script = tmp_path / "some_shape.py"
+    figure = plt.figure()
+    path = mdr.plots.save(figure, str(script), "_more")
+    plt.close(figure)
+    assert path == tmp_path / "figures" / "some_shape_more.png"
+    assert path.stat().st_size > 0

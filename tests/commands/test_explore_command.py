@@ -1,0 +1,97 @@
+"""`mdr explore` until its page is served: what it refuses, and what it prints. The page itself: tests/explorer/."""
+
+import json
+import socket
+import sys
+from types import SimpleNamespace
+
+import matplotlib as mpl
+import pytest
+
+from mdr.__main__ import main
+
+LOADED = """
+mu_0 = 0.4
+[indenter]
+shape = "ConcavePunch"
+a = 1e-3
+R = 1.0
+[material]
+model = "Elastic"
+E = 3e6
+nu = 0.5
+[oscillation]
+F_z0 = 1e-9
+dF_z = 1e-10
+omega = 300.0
+"""
+
+
+@pytest.fixture(autouse=True)
+def pictures():
+    """Those of the page are SVG; other tests want the rows of their pixels."""
+    yield
+    mpl.use("Agg")
+
+
+@pytest.fixture
+def server(monkeypatch):
+    """A server that is interrupted as soon as it listens; what happened to it."""
+    pytest.importorskip("panel")
+    said = []
+
+    def wait():
+        said.append("waits")
+        raise KeyboardInterrupt
+
+    one = SimpleNamespace(
+        start=lambda: said.append("starts"),
+        show=lambda place: said.append(f"shows {place}"),
+        stop=lambda: said.append("stops"),
+        io_loop=SimpleNamespace(start=wait),
+    )
+    monkeypatch.setattr("mdr.explorer.server.server_of", lambda case, port: (one, f"http://127.0.0.1:{port}/"))
+    return said
+
+
+def test_it_serves_until_an_interrupt(capsys, server):
+    assert main(["explore", "--port", "5100"]) == 0
+    assert capsys.readouterr().out == (
+        "mdr explore: http://127.0.0.1:5100/ on this machine alone; end it with Ctrl-C\n"
+    )
+    assert server == ["starts", "shows /", "waits", "stops"]
+
+
+def test_it_opens_no_browser_and_speaks_to_machines_where_asked(capsys, server):
+    assert main(["explore", "--no-browser", "--json", "--port", "5100"]) == 0
+    assert json.loads(capsys.readouterr().out)["address"] == "http://127.0.0.1:5100/"
+    assert "shows /" not in server
+
+
+def test_a_wrong_file_is_status_2(capsys, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("mu_0 = \n")
+    assert main(["explore", str(path)]) == 2
+    assert capsys.readouterr().err.startswith(f"mdr: {path}: line 1: ")
+
+
+def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(LOADED)
+    assert main(["explore", str(path)]) == 2
+    assert str(path) in capsys.readouterr().err
+
+
+def test_a_port_that_is_taken_is_status_2(capsys):
+    pytest.importorskip("panel")
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        assert main(["explore", "--no-browser", "--port", str(port)]) == 2
+    assert f"port {port} cannot be used (" in capsys.readouterr().err
+
+
+def test_without_panel_it_says_how_to_install_it(capsys, monkeypatch):
+    monkeypatch.delitem(sys.modules, "mdr.explorer.server", raising=False)
+    monkeypatch.setitem(sys.modules, "panel", None)
+    assert main(["explore"]) == 2
+    assert ".[explore]" in capsys.readouterr().err
