@@ -1,7 +1,7 @@
 """Lost contact: where Eq. (1) and Eq. (15) end, and what v_c is beyond.
 
 A spring of the depth d is lost in every period if its amplitude du_z sqrt(1 + T²) exceeds d, the reverse of Eq. (5).
-The laws tested here are derived in mdr/closed_forms/laws.py:
+The laws tested here are derived in mdr/closed_forms/laws/:
 
 * rigid pull: when the centre of the contact touches again (`mdr.laws.late_return`, `amplitude_limit`, `slow_limit`);
 * a punch that has just been lost under a body (`onset`), (*) below;

@@ -155,8 +155,7 @@ def test_every_public_name_is_documented():
         for path in pages.documented(block.text)
     ]
     assert len(set(documented)) == len(documented)
-    functions = [one for one in vars(mdr.laws).values() if isfunction(one) and one.__module__ == mdr.laws.__name__]
-    laws = {f"laws.{one.__name__}" for one in functions if one.__name__[0] != "_"}
+    laws = {f"laws.{name}" for name in mdr.laws.__all__ if isfunction(getattr(mdr.laws, name))}
     assert {f"mdr.{name}" for name in {*mdr.__all__, *laws} - {"laws"}} <= set(documented)
     for path in documented:
         assert (pkgutil.resolve_name(path).__doc__ or "").strip(), path
