@@ -344,7 +344,7 @@ def indices(first, last):
     return range(np.uint64(first), np.uint64(last))
 
 
-@_jit
+@_inline
 def elastic_step_in_place(e, springs, step, move, n_at_rest):
     """All elastic springs over one step of a rigid pull, which asks for no state twice: updates e, returns sum(w e).
 
@@ -740,11 +740,16 @@ def glide(e, held, springs, motion, k_0, out):
     k, n_at_rest = k_0 % n_z, n
     S_0, S_m = held.S[0], held.S[1]
     as_one = True
+    v = motion.v
     for j in range(out.S.size):
         n_in, n_out = span_of(motion.spans, k, n)
         step = Step(n_in, n_out, z[k], z[k + 1], zd[k], zd[k + 1], h)
-        move = moved(motion.dx[k], motion.x_dot[k], motion.x_dot[k + 1], h, False, motion.shaken)
-        S_m, S_0 = S_0, elastic_step_in_place(e, springs, step, move, n_at_rest)
+        S_m = S_0
+        if motion.shaken:
+            move = moved(motion.dx[k], motion.x_dot[k], motion.x_dot[k + 1], h, False, True)
+            S_0 = elastic_step_in_place(e, springs, step, move, n_at_rest)
+        else:  # of a steady pull most of it is known to be zero as this is compiled
+            S_0 = elastic_step_in_place(e, springs, step, Move(motion.dx[k], v, v, 0.0, 0.0, False, False), n_at_rest)
         n_at_rest = n_out
         out.S[j] = S_0
         as_one = as_one and e[0, 0] + max(z[k + 1] - springs.gap[0], 0.0) >= springs.lump_margin
