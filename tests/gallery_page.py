@@ -24,9 +24,11 @@ def names() -> list[str]:
 def entry(name: str) -> str:
     """One script on the page: the first line of its docstring, and of that of its figure()."""
     tree = ast.parse((SCRIPTS / f"{name}.py").read_text(encoding="utf-8"))
-    title, _, question = (ast.get_docstring(tree) or "").splitlines()[0].partition(": ")
-    figure = next(one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name == "figure")
-    shown = (ast.get_docstring(figure) or "").splitlines()[0]
+    title, _, question = (ast.get_docstring(tree) or "").partition("\n")[0].partition(": ")
+    figure = next((one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name == "figure"), None)
+    shown = ((figure and ast.get_docstring(figure)) or "").partition("\n")[0]
+    if not (question and shown):
+        raise SystemExit(f"{name}.py must begin with '<title>: <question>', and its figure() with a caption")
     caption = SYMBOL.sub(r"$\g<0>$", shown)
     return (
         f"## {title}\n\n{question[0].upper()}{question[1:]}\n\n"

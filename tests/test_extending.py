@@ -180,6 +180,12 @@ def _names_in(path):
     return {one for one in named if isinstance(one, str)}
 
 
+def test_a_motion_of_ones_own_that_never_touches_is_refused():
+    motion = TwoTone(-20e-6, 4e-6, OMEGA, 0.3)
+    with pytest.raises(ValueError, match=r"never touches: the greatest depth of TwoTone is -1\.48e-05 m"):
+        replace(KNOWN, oscillation=motion)
+
+
 @pytest.mark.parametrize("section", LISTS)
 def test_the_guide_names_every_file_that_a_new_part_touches(section):
     """A file of the package or of the reference that names every shape, material or motion is a list to be edited."""

@@ -90,6 +90,12 @@ class SlidingContact(Summarised):
         _ = self.repeats  # refuses frequencies in no ratio
         object.__setattr__(self, "oscillation", self.oscillation.on(self.indenter, self.material))
         if self.oscillation.knows_depth:
+            if not self.u_z_max > 0:
+                motion = type(self.oscillation).__name__
+                raise ValueError(
+                    f"the indenter never touches: the greatest depth of {motion} is {self.u_z_max:.6g} m; raise its "
+                    "mean depth or its amplitude"
+                )
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
             if self.indenter.least_depth > 0:
                 self._refuse_incomplete()
