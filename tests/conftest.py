@@ -2,6 +2,7 @@
 
 import math
 import os
+from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: processes share the cores, and threads would wait
 
@@ -22,6 +23,7 @@ LONGEST = (
     "normal/test_load_control.py",
     "test_reference.py",
 )
+assert all((Path(__file__).parent / name).exists() for name in LONGEST)
 
 #: indenter and the exponent n of its profile g ~ x**n, as the twin in reference.py counts shapes
 SHAPES = {

@@ -171,6 +171,8 @@ def spring(gap, z_n, x_n, T, v, most=60):
         y, means = state[:2], state[2:] / (2 * np.pi)
         if abs(y[0] - before) < 1e-12:
             break
+    else:
+        raise ValueError(f"the spring does not repeat itself within {most} periods")
     return float(means[0]), float(means[1])
 
 

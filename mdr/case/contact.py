@@ -92,9 +92,10 @@ class SlidingContact(Summarised):
         if self.oscillation.knows_depth:
             if not self.u_z_max > 0:
                 motion = type(self.oscillation).__name__
-                raise ValueError(
+                raise FieldError(
                     f"the indenter never touches: the greatest depth of {motion} is {self.u_z_max:.6g} m; raise its "
-                    "mean depth or its amplitude"
+                    "mean depth or its amplitude",
+                    "oscillation",
                 )
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
             if self.indenter.least_depth > 0:

@@ -91,9 +91,8 @@ class Cycle(ArrayRecord):
     def _sum(self, phase: Array, cos: Array, sin: Array) -> Array:
         phase = np.asarray(phase, dtype=float)
         total = np.zeros(phase.shape)
-        for of, coefficients in ((np.cos, cos), (np.sin, sin)):
-            for n in np.flatnonzero(coefficients):
-                total += coefficients[n] * of((n + 1) * phase)
+        for n in np.flatnonzero((cos != 0) | (sin != 0)):
+            total += sum(one[n] * of((n + 1) * phase) for of, one in ((np.cos, cos), (np.sin, sin)) if one[n] != 0)
         return total
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:

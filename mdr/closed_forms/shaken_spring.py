@@ -19,8 +19,9 @@ Complex = NDArray[np.complex128]
 MOST_CHANGES = 96  #: of the sequence of modes along the array; further ones are left to the halving
 NEAR = 1e-7  #: of the range of gaps, to which a change is found
 PERIODS = 100  #: at most, of Newton's method for the periodic state
-CLOSE = 1e-7  #: step of it, over the compression, whose square is below rounding: what it changes is linear in it
-CLOSEST = 1e-14  #: the same for v = 0, where the slope of P at its fixed point is 1 and steps shrink slowly
+CLOSE = 1e-7  #: last step of it, over the compression and (1 - P')²: what is then left to go, and beyond the
+#: linear change of the mean, is some rounding
+CLOSEST = 1e-14  #: the same at least, over the compression: for v = 0 the slope P' is 1
 _PRIME = 9007199254740881  #: of a sequence of modes as a number
 
 _jit = compiled(nogil=True, error_model="numpy")
@@ -233,12 +234,11 @@ def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> 
 @_jit
 def _slide(
     rows: Complex, T: float, v: float, c: float, y: float, a: Instant, b: Instant, measure: bool, margins: Array
-) -> tuple[float, float, float, float, float, float, int]:
-    """Contact from a to b, no extreme between: y at b, integrals of e and of the force in stick, slip time, modes.
-
-    Before the modes, how much more y at b and the integral of e are for more y at a.
+) -> tuple[float, float, float, float, float, int]:
+    """Contact from a to b, no extreme between: y at b, integrals of e and of the force in stick; of more y at a, the
+    share that is lost at b, and how much more the integral of e is; modes.
     """
-    e, slipped, kept, more_e, modes = 0.0, 0.0, 1.0, 0.0, 0
+    e, lost, more_e, modes = 0.0, 0.0, 0.0, 0
     stick = a  # its first instant
     for row in range(2):
         side, W_a, W_b = (1.0, a.A_T, b.A_T) if row == 0 else (-1.0, a.B_T, b.B_T)
@@ -246,7 +246,7 @@ def _slide(
         _note(margins, over)
         if over >= 0 and W_b < W_a:
             y, e, lost = _slip(T, c, side, y, a, b)
-            return y, e, 0.0, b.t - a.t, 1 - lost, T * lost, 1 + row
+            return y, e, 0.0, lost, T * lost, 1 + row
         if over > 0 and T == 0:
             y = side * (W_a - c)
         elif over > 0:
@@ -255,11 +255,11 @@ def _slide(
             _note(margins, f_b)
             if f_b <= 0:
                 y, e, lost = _slip(T, c, side, y, a, b)
-                return y, e, 0.0, b.t - a.t, 1 - lost, T * lost, 3 + row
+                return y, e, 0.0, lost, T * lost, 3 + row
             t = root(rows, _LEAD + row, 0.0, -side * v * T, lag, a.t, T, a.t, b.t, -over, f_b)
             stick = instant_at(rows, T, v, t)
             y, e, lost = _slip(T, c, side, y, a, stick)
-            slipped, kept, more_e, modes = t - a.t, 1 - lost, T * lost, 5 + row
+            more_e, modes = T * lost, 5 + row
             break
     end, again = b, 0.0
     for row in range(2):
@@ -269,7 +269,7 @@ def _slide(
             _note(margins, W_b + level)
         if W_b + level < 0 and W_b < W_a:
             if T == 0 and not measure:
-                return side * (W_b - c), 0.0, 0.0, 0.0, 0.0, 0.0, 1 + row
+                return side * (W_b - c), 0.0, 0.0, 1.0, 0.0, 1 + row
             # an elastic spring that touches while its barrier comes nearer slips at once, but for rounding
             modes = 8 * modes + 6 + row if T > 0 else 1 + row
             t = root(
@@ -280,47 +280,44 @@ def _slide(
             break
     length = end.t - stick.t
     e += end.sum_X - stick.sum_X + y * length
-    more_e += kept * length
+    more_e += (1 - lost) * length
     pressed = end.sum_z - stick.sum_z + T * (end.z - stick.z) - c * length
     if again != 0:
-        y, more, lost = _slip(T, c, again, y, end, b)
+        y, more, share = _slip(T, c, again, y, end, b)
         e += more
-        slipped += b.t - end.t
-        more_e += kept * T * lost
-        kept *= 1 - lost
-    return y, e, pressed, slipped, kept, more_e, modes
+        more_e += (1 - lost) * T * share
+        lost += (1 - lost) * share
+    return y, e, pressed, lost, more_e, modes
 
 
 @_jit
 def _period(
     rows: Complex, T: float, v: float, c: float, points: Array, n: int, e: float, measure: bool, margins: Array
 ) -> tuple[float, float, float, float, float, int]:
-    """A period from extension e on: e at its end; integrals of e and of the force in stick; slip and flight time; how
-    much more the integral of e is for more e at the beginning; modes.
+    """A period from extension e on: e at its end; integrals of e and of the force in stick; of more e at the beginning,
+    the share that is lost at the end, 1 - P', and how much more the integral of e is; modes.
     """
-    e_sum, pressed, forgets, kept, more_e, modes = 0.0, 0.0, 0.0, 1.0, 0.0, 0
+    e_sum, pressed, lost, more_e, modes = 0.0, 0.0, 0.0, 0.0, 0
     b = _get(points, 0)
     y = e - b.X
     for k in range(n - 1):
         a, b = b, _get(points, k + 1)
         if points[k, _FREE] == 0:
-            y, more, stuck, slipped, share, of_y, code = _slide(rows, T, v, c, y, a, b, measure, margins)
+            y, more, stuck, share, of_y, code = _slide(rows, T, v, c, y, a, b, measure, margins)
             e_sum += more
             pressed += stuck
-            forgets += slipped
-            more_e += kept * of_y
-            kept *= share
+            more_e += (1 - lost) * of_y
+            lost += (1 - lost) * share
             modes = (modes * 71 + code) % _PRIME
         elif T > 0:
-            e, lost = y + a.X, -math.expm1(-(b.t - a.t) / T)
-            e_sum += e * T * lost
-            forgets += b.t - a.t
-            more_e += kept * T * lost
-            kept *= 1 - lost
-            y = e - e * lost - b.X
+            e, share = y + a.X, -math.expm1(-(b.t - a.t) / T)
+            e_sum += e * T * share
+            more_e += (1 - lost) * T * share
+            lost += (1 - lost) * share
+            y = e - e * share - b.X
         else:
             y = -b.X
-    return y + b.X, e_sum, pressed, forgets, more_e, modes
+    return y + b.X, e_sum, pressed, lost, more_e, modes
 
 
 @_jit
@@ -338,13 +335,13 @@ def _spring(
         return 0.0, 0.0, 0.0, 0, share
     n, s_sum, sequence = _follow(rows, T, v, c, cuts, points, margins)
     n_margins = margins[0] if kept else 0.0
-    low, high, e, before = -top, top, top * share if T > 0 and share < 1 - 1e-9 else top, 0
+    # for v = 0 there may be many fixed points, of which v -> +0 leads to the highest
+    low, high, e, before = -top, top, top * share if T > 0 and v > 0 and share < 1 - 1e-9 else top, 0
     e_sum, pressed, modes = 0.0, 0.0, 0
-    close = CLOSE if v > 0 else CLOSEST
     for k in range(PERIODS):
         if kept:
             margins[0] = n_margins
-        after, e_sum, pressed, forgets, more_e, modes = _period(
+        after, e_sum, pressed, lost, more_e, modes = _period(
             rows, T, v, c, points, n, e, measure and (T > 0 or k > 0), margins
         )
         if T == 0:
@@ -356,9 +353,8 @@ def _spring(
             low = e
         else:
             high = e
-        lost = -math.expm1(-forgets / T)
         step = (after - e) / lost if lost > 0 else 2 * top
-        if abs(step) <= close * top:
+        if abs(step) <= max(CLOSE * lost * lost, CLOSEST) * top:
             e, e_sum = e + step, e_sum + more_e * step
             break
         if abs(after - e) <= 1e-15 * top or high - low <= 1e-15 * top:

@@ -64,8 +64,9 @@ class Knobs:
 
     def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Knobs:
         """The knobs of a companion with other steps or springs, that keeps nothing."""
-        n_springs, steps = max(n_springs or self.n_springs, 16), max(steps or self.steps, 16)
-        return Knobs(n_springs, steps, self.start, self.lump, accuracy=self.accuracy)
+        return replace(
+            self, n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ the norm of energy of springs, system spring and mass.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
@@ -51,7 +51,7 @@ def search(
     gain: how far a state may be from the periodic one, over its change over a period, where that is known. near:
     whether the starts are periodic states themselves, at other steps, springs or velocity.
     """
-    scaled, norm, n_before = stepper.scaled, _norm(stepper.scaled), stepper.n_periods
+    scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
     if slow and scaled.C:
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
@@ -172,12 +172,6 @@ def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, n
         return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain))
     why = "a periodic state was found, but not how far it may be from the exact one"
     return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why))
-
-
-@lru_cache(maxsize=24)
-def _norm(scaled: ScaledContact) -> EnergyNorm:
-    """That of a contact; searches at other velocities share it."""
-    return EnergyNorm(scaled)
 
 
 class EnergyNorm:

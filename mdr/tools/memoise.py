@@ -8,7 +8,7 @@ changed: a shape, a material, a motion, a pull or a shake that is no frozen data
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
 from typing import Any, TypeVar
 
@@ -59,7 +59,7 @@ def _records(args: tuple[Any, ...]) -> Iterator[Any]:
 
 
 def _holds_function(record: Any) -> bool:
-    return any(callable(getattr(record, name)) for name in record.__dataclass_fields__)
+    return any(callable(getattr(record, one.name)) for one in fields(record))
 
 
 def _is_frozen(record: Any) -> bool:

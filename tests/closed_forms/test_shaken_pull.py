@@ -11,7 +11,7 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms import rigid_pull, shaken_pull
+from mdr.closed_forms import rigid_pull, shaken_pull, shaken_spring
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, band
 
@@ -123,6 +123,32 @@ def test_sixty_elastic_springs_against_the_twin():
     assert_agree(cases, marched(cases, 3000, 2), 5e-6)
 
 
+def test_a_period_tells_what_more_extension_makes_of_it():
+    """Newton's method rests on the one derivative, and its last step on the other."""
+    for pull, v in some_springs(24, (0.05, 0.3, 0.8)):
+        motion, gap, none = pull._motion(1 if v > 0 else -1), -pull.u_z0 / pull.unit, np.empty(0)
+        cuts, points, _ = shaken_spring._cuts(motion, abs(v))
+        law = motion.rows, motion.T, abs(v), gap
+        n, _, _ = shaken_spring._follow(*law, cuts, points, none)
+        top = cuts[0, 1] - gap
+        low, at, high = (
+            shaken_spring._period(*law, points, n, top * (0.3 + off), True, none) for off in (-1e-6, 0.0, 1e-6)
+        )
+        rate = (np.array(high[:2]) - low[:2]) / (2e-6 * top)
+        assert_allclose([1 - at[3], at[4]], rate, rtol=0, atol=1e-5)
+
+
+@pytest.mark.parametrize("depth", [2.5, 40.0])
+def test_the_band_is_the_limit_of_slow_pulls_wherever_the_search_begins(depth):
+    """Kept Kelvin springs at rest have many periodic states, and only one of them is this limit."""
+    for shape in ("paraboloid", mdr.ConcavePunch(a=1e-3, R=1.0)):
+        pull = pull_of(shape, depth, COS, shaken(0.5, 1.5), 0.3)
+        low, high = band(pull)
+        slow = cof(pull, [-1e-9, 1e-9, 0.1])
+        assert_allclose([low, high], slow[:2], rtol=0, atol=1e-5)
+        assert_allclose(cof(pull, [0.3, 0.1, 0.0])[2], high, rtol=0, atol=1e-9)
+
+
 def test_kelvin_springs_against_a_solver_of_differential_equations():
     cases = list(some_springs(12, (0.05, 0.3, 0.8)))
     means = (reference_shaken.spring(-one.u_z0 / one.unit, one.Z, one.X, one.T, v) for one, v in cases)
@@ -152,7 +178,7 @@ def test_a_hollow_face_against_the_twin():
 @pytest.mark.parametrize(("shape", "depth_ratio"), [("flat", 3.0), ("paraboloid", 1.2), ("cone", 0.4), ("r4", -0.5)])
 def test_without_shaking_it_is_the_rigid_pull(shape, depth_ratio, T):
     case = contact(shape, depth_ratio, T)
-    v = np.array([1e-3, 0.04, 0.3, 0.8, 0.99, 1.3])
+    v = np.array([1e-9, 1e-3, 0.04, 0.3, 0.8, 0.99, 1.3])
     known = rigid_pull.average_friction(case, v * unit_of_velocity(case))
     found, error, sticks = average_friction(pull_of(shape, depth_ratio, COS, NONE, T), v)
     assert np.all(np.abs(found - known.cof / case.mu_0) < error + known.cof_error / case.mu_0)

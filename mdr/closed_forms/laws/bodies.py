@@ -41,7 +41,6 @@ def stiffness_exponent(indenter: Indenter, d: float) -> float:
     --------
     >>> round(mdr.laws.stiffness_exponent(mdr.Paraboloid(R=5e-3), 20e-6), 6)
     0.5
-
     """
     d, step = positive("d", d, "depth in m"), 1e-4
     low, high = (float(indenter.contact_radius(d * (1 + side * step))) for side in (-1, 1))
@@ -87,7 +86,6 @@ def first_order(case: SlidingContact, n_t: int = 4096) -> float:
     >>> truth = mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1
     >>> bool(abs(error - truth) < 0.1 * abs(truth))
     True
-
     """
     case = _of_the_paper(case)
     q_m = _second_order_force(case.T, n_t)
@@ -133,7 +131,6 @@ def load_error(eps: float, n: float) -> float:
     --------
     >>> round(mdr.laws.load_error(0.2, 1.0), 6)
     0.005
-
     """
     return float(eps) ** 2 * (0.5 / (float(n) + 1) ** 2)
 
@@ -174,7 +171,6 @@ def depth_sensitivity(case: SlidingContact) -> float:
     ... )
     >>> round(mdr.laws.depth_sensitivity(case), 3)  # k_xc/(k_x + k_xc)
     0.119
-
     """
     case = _of_the_paper(case)
     if case.pull.is_rigid:
@@ -221,7 +217,6 @@ def least_over_depth(case: SlidingContact) -> LeastOverDepth:
     ... )
     >>> mdr.laws.least_over_depth(case).over_eq_1 < 0.5
     True
-
     """
     q, z = _groups(_of_the_paper(case))
     k_xc = float((q / z).real)
@@ -278,7 +273,6 @@ def onset(case: SlidingContact) -> float:
     >>> truth = mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1
     >>> bool(abs(mdr.laws.onset(case) / truth - 1) < 0.01)
     True
-
     """
     case = _of_the_paper(case)
     lam, m, T = _free_oscillation(case), _mass(case), case.T
@@ -334,7 +328,6 @@ def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     ... )
     >>> bool(abs(mdr.laws.blow(case) / mdr.full_slip_critical_velocity(case) - 1) < 1e-4)
     True
-
     """
     case = _of_the_paper(case)
     if case.T == 0:
@@ -380,7 +373,6 @@ def half_a_blow(case: SlidingContact) -> float:
     ... )
     >>> round(mdr.laws.half_a_blow(case), 4)
     0.016
-
     """
     case = _of_the_paper(case)
     F = float(case.indenter.force(case.u_z_max, case.material.E_star))
@@ -418,7 +410,6 @@ def harmonic_share(case: SlidingContact, n: int) -> float:
     ... )
     >>> round(mdr.laws.harmonic_share(case, 1), 6)
     0.15
-
     """
     n = count("n", n, 1)
     F_n = normal_force_harmonics(require_case(case))
@@ -458,7 +449,6 @@ def resonance_residue(case: SlidingContact, n: int) -> float:
     ... )
     >>> f"{mdr.laws.resonance_residue(case, 2):.3g}"
     '4.56e-06'
-
     """
     share = harmonic_share(case, n)
     residue = case.mu_0 * share * mean_normal_force(case)
@@ -487,7 +477,6 @@ def lock_in(n: int) -> float:
     --------
     >>> round(mdr.laws.lock_in(2), 4)
     0.7071
-
     """
     return float(np.cos(np.pi / (2 * count("n", n, 2))))
 
@@ -519,7 +508,7 @@ def _mass(case: SlidingContact) -> float:
 
 
 def _free_oscillation(case: SlidingContact) -> complex:
-    """Lambda [rad/s] of the free body on its spring and damper."""
+    """lambda [rad/s] of the free body on its spring and damper."""
     m, pull = _mass(case), case.pull
     if pull.damping_ratio >= 1:
         raise ValueError(f"damping ratio {pull.damping_ratio:.3g}: it must be below 1 for a free oscillation")

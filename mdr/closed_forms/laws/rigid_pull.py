@@ -35,7 +35,6 @@ def touch_depth(phase: float, T: float) -> float:
     --------
     >>> float(round(mdr.laws.touch_depth(1.75 * np.pi, 0.0), 6))  # elastic: -cos(phase)
     -0.707107
-
     """
     from scipy.optimize import minimize_scalar
 
@@ -83,7 +82,6 @@ def late_return(depth: float, T: float) -> float:
     1.0
     >>> round(mdr.laws.late_return(1.0, 30.0), 3)  # a slow rubber is not
     0.743
-
     """
     from scipy.optimize import brentq
 
@@ -119,7 +117,6 @@ def amplitude_limit(T: float) -> float:
     --------
     >>> round(mdr.laws.amplitude_limit(10.0), 3)
     0.58
-
     """
     depth = touch_depth(1.5 * np.pi, T)
     return 1 / depth if depth > 1e-300 and T > 0 else np.inf
@@ -139,7 +136,6 @@ def slow_limit() -> float:
     --------
     >>> round(mdr.laws.slow_limit(), 4)
     4.6033
-
     """
     from scipy.optimize import brentq
 
@@ -178,7 +174,6 @@ def edge_band(v_hat: float) -> float:
     --------
     >>> round(mdr.laws.edge_band(0.1), 4)
     -0.2285
-
     """
     from scipy.optimize import brentq
 
@@ -226,7 +221,6 @@ def rise_of_lost_punch(depth: float, T: float) -> float:
     --------
     >>> round(mdr.laws.rise_of_lost_punch(0.5, 1.0), 3)
     1.398
-
     """
     from scipy.optimize import brentq
 

@@ -35,7 +35,6 @@ def rigid_shake(r: float) -> float:
     --------
     >>> round(mdr.laws.rigid_shake(0.5), 4)
     0.3333
-
     """
     return float(2 / np.pi * np.arcsin(np.clip(finite("r", r), -1, 1)))
 
@@ -65,7 +64,6 @@ def held_under_shake(indenter: Indenter, d: float, reach: float) -> float:
     --------
     >>> round(mdr.laws.held_under_shake(mdr.Paraboloid(R=5e-3), 20e-6, 10e-6), 4)
     0.3536
-
     """
     instance("indenter", indenter, Indenter)
     d, reach = positive("d", d, "depth in m"), not_negative("reach", reach, "du_x/(mu_0 kappa) in m")
@@ -108,7 +106,6 @@ def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     >>> case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(3e6, 0.5), 0.4, depth, shake=shake)
     >>> print(f"{mdr.laws.lost_under_shake(case, 1e-5):.5f}")
     0.00471
-
     """
     if not require_case(case).pull.is_rigid:
         raise TypeError(f"this law is that of a rigid pull, got {case.pull!r}")
@@ -154,7 +151,6 @@ def elliptic_drive(alpha: float) -> EllipticDrive:
     >>> ends = mdr.laws.elliptic_drive(0.5)
     >>> round(ends.blocked, 4), round(ends.free, 4)
     (0.3183, 0.4351)
-
     """
     from scipy.optimize import brentq
 
