@@ -76,6 +76,7 @@ def test_a_wrong_file_is_status_2(capsys, tmp_path):
 
 
 def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
+    pytest.importorskip("panel")
     path = tmp_path / "case.toml"
     path.write_text(LOADED)
     assert main(["explore", str(path)]) == 2
