@@ -86,6 +86,16 @@ def test_contact_that_is_lost_may_drive_at_full_friction():
     assert mdr.slide(case, 1.2 * least).cof < MU_0 * (1 - 1e-4)
 
 
+@pytest.mark.parametrize("way", [1, -1])
+def test_the_formula_of_a_kept_punch_knows_the_sign_of_the_phase(way):
+    """Under a body the phase of its receptance stands beside that of the shake: the other sign is another velocity."""
+    kelvin, body = mdr.KelvinVoigt(E=3e6, nu=0.4, tau=1e-3), mdr.SpringPull(k_x=2e4, m=0.1, c_x=10.0)
+    one, other = (contact("flat", 0.3, 1.0, phi, kelvin, body) for phi in (0.7, -0.7))
+    v_c = mdr.critical_velocity(one, way)
+    assert v_c == pytest.approx(mdr.full_slip_critical_velocity(one, way), rel=1e-9)
+    assert v_c != pytest.approx(mdr.critical_velocity(other, way), rel=1e-3)
+
+
 def test_directions_are_1_and_minus_1():
     for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity):
         for wrong in (0, 2, True, "forward"):
