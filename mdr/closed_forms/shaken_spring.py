@@ -19,9 +19,8 @@ Complex = NDArray[np.complex128]
 MOST_CHANGES = 96  #: of the sequence of modes along the array; further ones are left to the halving
 NEAR = 1e-7  #: of the range of gaps, to which a change is found
 PERIODS = 100  #: at most, of Newton's method for the periodic state
-CLOSE = 1e-7  #: last step of it, over the compression and (1 - P')²: what is then left to go, and beyond the
-#: linear change of the mean, is some rounding
-CLOSEST = 1e-14  #: the same at least, over the compression: for v = 0 the slope P' is 1
+CLOSE = 1e-7  #: its last step, over the compression and (1 - P')²: the error after it is a rounding
+CLOSEST = 1e-14  #: over the compression, a step that is always the last: for v = 0 the slope P' is 1
 _PRIME = 9007199254740881  #: of a sequence of modes as a number
 
 _jit = compiled(nogil=True, error_model="numpy")

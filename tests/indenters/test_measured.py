@@ -287,7 +287,7 @@ def test_records_compare_print_and_pickle(shape):
     assert hash(twin) == hash(shape)
     assert twin.force(1e-5, 1) == shape.force(1e-5, 1)
     assert len(repr(shape)) < 120
-    assert "points" in repr(shape)  # and not all of them
+    assert "points" in repr(shape)
     assert all(isinstance(value, float) for value in vars(shape)[next(iter(vars(shape)))])
     assert sum(shape == other for other in MEASURED) == 1
 

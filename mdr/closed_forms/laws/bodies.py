@@ -16,7 +16,7 @@ from mdr.normal.kelvin_edges import contact_edge, turning_phase
 from mdr.normal.springs import SpringArray
 from mdr.tools.checks import count, positive
 
-# --- a body: the error of Eq. (15) at small amplitude ---
+# --- the error of Eq. (15) at small amplitude ---
 
 
 def stiffness_exponent(indenter: Indenter, d: float) -> float:
@@ -135,7 +135,7 @@ def load_error(eps: float, n: float) -> float:
     return float(eps) ** 2 * (0.5 / (float(n) + 1) ** 2)
 
 
-# --- a body: what the mean depth does to v_c ---
+# --- what the mean depth does to v_c ---
 
 
 def depth_sensitivity(case: SlidingContact) -> float:
@@ -231,7 +231,7 @@ def _groups(case: SlidingContact) -> tuple[complex, complex]:
     return complex(m * omega**2 - k_x, -c_x * omega), complex(1, case.T)
 
 
-# --- a body: contact lost ---
+# --- contact lost ---
 
 
 def onset(case: SlidingContact) -> float:

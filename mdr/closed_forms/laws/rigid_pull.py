@@ -7,7 +7,7 @@ import numpy as np
 from mdr.closed_forms.paper import deficit
 from mdr.tools.checks import between, finite, not_negative, positive
 
-# --- rigid pull: when the centre touches again ---
+# --- when the centre touches again ---
 
 
 def touch_depth(phase: float, T: float) -> float:
@@ -142,7 +142,7 @@ def slow_limit() -> float:
     return float(np.hypot(1, brentq(lambda theta: np.sin(theta) - theta * np.cos(theta), 1.1 * np.pi, 1.5 * np.pi)))
 
 
-# --- rigid pull: the COF curve ---
+# --- the COF curve ---
 
 
 def edge_band(v_hat: float) -> float:
