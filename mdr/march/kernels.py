@@ -1052,6 +1052,13 @@ def add_arms(e_0, e_1, s_0, s_1, w, table, h, out):
 
 
 @_inline
+def elastic_force(e, s):
+    """Tangential force of an elastic spring under the normal force s > 0; what tells its mode and the limit of that."""
+    limit = s * (1.0 - 1e-12)
+    return s if e >= limit else (-s if e <= -limit else e), e, limit
+
+
+@_inline
 def close_look(e_0, e_1, s_0, s_1, flight, normal, trial, arms_s, move, h, T, dashpot):
     """One spring in one step, of normal force `normal` at its end; trial: the force that it would take to stick.
 
@@ -1102,7 +1109,7 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
     f_z, f_x, excesses, limits = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)  # kept or not: the same sums
     arms = np.zeros((8, n))
     free_0, rate_0, end_0 = table[L_FREE, 0], table[L_RATE, 0], table[L_END, 0]
-    keep = seen.mode.shape[0] > 0
+    keep, elastic, per_step = seen.mode.shape[0] > 0, not remembers, 1.0 / h
     S_0, P_0 = 0.0, 0.0  # sums of w e and of w s
     presses_0 = False  # whether any spring is in contact as the step begins
     for i in range(n):
@@ -1127,7 +1134,19 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
                 shear_arms += w[i] * arms[6, i]
                 press_arms += w[i] * arms[7, i]
         e_here, e_next, s_here, s_next = e[j, 0], e[j + 1, 0], s[j, 0], s[j + 1, 0]
-        for i in indices(0, n_in):
+        n_lean = n_in if elastic else 0
+        for i in indices(0, n_lean):
+            tangential, excess, limit = elastic_force(e_next[i], s_next[i])
+            slip_rate = (move.du - (e_next[i] - e_here[i])) * per_step
+            sum_x += w[i] * tangential
+            sum_z += w[i] * s_next[i]
+            stick += w[i] * s_next[i] if abs(excess) < limit else 0.0
+            friction += w[i] * (s_here[i] + s_next[i]) * abs(slip_rate)
+            S_1 += w[i] * e_next[i]
+            P_1 += w[i] * s_next[i]
+            slips[i] = slip_rate
+        friction *= 0.5 * h
+        for i in indices(n_lean, n_in):
             e_0, e_1, s_0, s_1 = e_here[i], e_next[i], s_here[i], s_next[i]
             normal, trial = max(s_1 + T * zd_1 + arms[4, i], 0.0), e_1 + T * ux_dot + arms[5, i]
             flight = Flight(e_0, s_0, 1.0, 1.0 / h)
@@ -1176,6 +1195,9 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
                 S_1 += w[i] * e_next[i]
                 P_1 += w[i] * s_next[i]
         if keep:
+            for i in range(n_lean):
+                f_z[i] = s_next[i]
+                f_x[i], excesses[i], limits[i] = elastic_force(e_next[i], s_next[i])
             f_z[n_out:], f_x[n_out:] = 0.0, 0.0
             for i in range(n):
                 seen.f_z[j, i], seen.f_x[j, i] = f_z[i], f_x[i]
@@ -1198,3 +1220,48 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
         sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least)
         S_0, P_0 = S_1, P_1
         presses_0 = sum_z > 0.0
+
+
+@_jit
+def watch(e, s, held, body, springs, motion, table, at_once, out, seen):
+    """March one period as `march` does, with a close look at every step; arrays of at_once steps are in use at a time.
+
+    out: Trace of the period, of which e and s are kept or (0, 1 + J, n); seen: as of `observe`.
+    """
+    (n_x, n), n_steps = e.shape, out.y.size
+    elastic = n_x == 1 and table[L_DECAY, 0] == 0.0
+    e_all, s_all = np.empty((at_once + 1, n_x, n)), np.empty((at_once + 1, n_x, n))
+    y, y_0 = np.empty(n_steps + 3), held.y
+    y[0], y[1], y[2] = y_0[2], y_0[1], y_0[0]
+    done, as_one = np.int64(0), True
+    while done < n_steps:
+        end = min(done + at_once, n_steps)
+        m = end - done
+        for a in range(n_x):
+            put(e[a], e_all[0, a])
+            put(s[a], s_all[0, a])
+        if elastic:
+            for i in range(n):
+                s_all[0, 0, i] = max(motion.z[done] - springs.gap[i], 0.0)
+        part = Trace(out.y[done:end], out.S[done:end], e_all[1 : m + 1], s_all[1 : m + 1])
+        as_one = march(e, s, held, body, springs, motion, table, done, part) and as_one
+        put(part.y, y[done + 3 : end + 3])
+        last = end if seen.mode.shape[0] > 0 else 0
+        first = min(done, last)
+        look = Seen(
+            seen.sums,
+            seen.F_x[done:end],
+            seen.F_z[done:end],
+            seen.slip[done:end],
+            seen.mode[first:last],
+            seen.f_x[first:last],
+            seen.f_z[first:last],
+        )
+        observe(e_all[: m + 1], s_all[: m + 1], y[done : end + 3], springs, motion, body.light, table, done, look)
+        if out.e.shape[0] > 0:
+            for j in range(m):
+                for a in range(n_x):
+                    put(e_all[j + 1, a], out.e[done + j, a])
+                    put(s_all[j + 1, a], out.s[done + j, a])
+        done = end
+    return as_one

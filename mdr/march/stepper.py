@@ -120,22 +120,15 @@ class Stepper:
     def _marched(self, state: MarchState, n_steps: int) -> tuple[kernels.Trace, bool]:
         """A whole number of periods in place, counted."""
         nothing = np.empty((0, *state.e.shape))
-        trace, as_one = self._march(state, n_steps, 0, nothing, nothing)
+        trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), nothing, nothing)
+        motion = self.springs, self.motion, self.scaled.table
+        as_one = kernels.march(state.e, state.s, state.body, self.scaled.body, *motion, 0, trace)
         self._count(n_steps // self.scaled.steps)
-        return trace, as_one
+        return trace, bool(as_one)
 
     def _count(self, n_periods: int) -> None:
         self.n_periods += n_periods
         self.ticker.tick(n_periods)
-
-    def _march(self, state: MarchState, n_steps: int, k_0: int, e: Array, s: Array) -> tuple[kernels.Trace, bool]:
-        """March a state in place from step k_0 of the period; e, s: see Trace."""
-        trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), e, s)
-        scaled = self.scaled
-        as_one = kernels.march(
-            state.e, state.s, state.body, scaled.body, self.springs, self.motion, scaled.table, k_0, trace
-        )
-        return trace, bool(as_one)
 
     def _periods_of(self, before: kernels.BodyState, trace: kernels.Trace, as_one: bool) -> Periods:
         """COF of each whole period: the mean of L[e] is that of e but for the ends; before: the state at its start."""
@@ -150,37 +143,24 @@ class Stepper:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
         scaled, (n_x, n), n_steps = self.scaled, self.scaled.normal.s.shape, self.scaled.steps
         before, state = state, state.copy()
-        kept = (n_steps if keep else 0, n)
-        (F_x, F_z, slip), (e_kept, s_kept, f_x, f_z) = np.empty((3, n_steps)), np.empty((4, *kept))
-        seen = kernels.Seen(np.zeros(kernels.N_SUMS), F_x, F_z, slip, np.zeros(kept, dtype=np.uint8), f_x, f_z)
+        kept = n_steps if keep else 0
+        F_x, F_z, slip = np.empty((3, n_steps))
+        f_x, f_z = np.empty((2, kept, n))
+        seen = kernels.Seen(np.zeros(kernels.N_SUMS), F_x, F_z, slip, np.zeros((kept, n), dtype=np.uint8), f_x, f_z)
         seen.sums[kernels.LEAST_SLIP] = np.inf
-        y_all, S_all, as_one, done = [state.body.y[::-1].copy()], [], True, 0
-        at_once = min(n_steps, max(8, IN_CACHE // state.e.size))  # in cache, in not too many calls
-        e_all, s_all = np.empty((2, at_once + 1, n_x, n))
-        for part in _parts(n_steps, at_once):
-            e, s, y_0 = e_all[: part + 1], s_all[: part + 1], state.body.y[::-1].copy()
-            e[0], s[0] = state.e, state.s
-            s[0, 0] = self._compression(state, done)
-            trace, one = self._march(state, part, done, e[1:], s[1:])
-            now = slice(done, done + part)
-            part_seen = kernels.Seen(seen.sums, F_x[now], F_z[now], slip[now], seen.mode[now], f_x[now], f_z[now])
-            y = np.concatenate([y_0, trace.y])
-            kernels.observe(e, s, y, self.springs, self.motion, scaled.body.light, scaled.table, done, part_seen)
-            if keep:
-                e_kept[now], s_kept[now] = trace.e[:, 0], trace.s[:, 0]
-            y_all.append(trace.y)
-            S_all.append(trace.S)
-            as_one, done = as_one and one, done + part
+        trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), *np.empty((2, kept, n_x, n)))
+        at_once = min(n_steps, max(8, IN_CACHE // state.e.size))  # in cache, in not too many parts
+        motion = self.springs, self.motion, scaled.table
+        as_one = kernels.watch(state.e, state.s, state.body, scaled.body, *motion, at_once, trace, seen)
         self.n_periods += 1
-        y = np.concatenate(y_all)
-        nothing = np.empty((0, n_x, n))
-        period = self._periods_of(before.body, kernels.Trace(y[3:], np.concatenate(S_all), nothing, nothing), as_one)
+        y = np.concatenate([before.body.y[::-1], trace.y])
         stored = self.stored_energy(before), self.stored_energy(state)
-        return state, PeriodRecord(seen, y, e_kept, s_kept, stored, period)
+        period = self._periods_of(before.body, trace, bool(as_one))
+        return state, PeriodRecord(seen, y, trace.e[:, 0], trace.s[:, 0], stored, period)
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction, and the sums that belong to it; in place."""
-        kernels.begin(state.e, self._compression(state, 0), state.body, self.springs)
+        kernels.begin(state.e, self._compression(state), state.body, self.springs)
         return state
 
     def search(self, at: kernels.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
@@ -191,24 +171,19 @@ class Stepper:
         trace = kernels.Trace(np.empty(self.scaled.steps), np.empty(self.scaled.steps), nothing, nothing)
         motion = self.springs, self.motion, self.scaled.table
         ended, as_one = kernels.search(
-            at, like.s, self._compression(like, 0), roots, self.scaled.body, *motion, n_periods, trace
+            at, like.s, self._compression(like), roots, self.scaled.body, *motion, n_periods, trace
         )
         self._count(int(at.counts[kernels.PERIODS]) - n_before)
         return bool(ended), self._periods_of(like.with_vector(at.start).body, trace, bool(as_one))
 
-    def _compression(self, state: MarchState, step: int) -> Array:
-        """Compressions at a step of the period; the elastic march does not keep them."""
-        if self._remembers:
-            return np.asarray(state.s[0])
-        return self._pressed if step == 0 else self._elastic(step)
-
-    def _elastic(self, step: int) -> Array:
-        return np.asarray(np.maximum(self.scaled.z[step % self.scaled.steps] - self.scaled.gap, 0))
+    def _compression(self, state: MarchState) -> Array:
+        """Compressions at phase 0; the elastic march does not keep them."""
+        return np.asarray(state.s[0]) if self._remembers else self._pressed
 
     @cached_property
     def _pressed(self) -> Array:
         """Compressions of elastic springs at phase 0; not to be written to."""
-        return self._elastic(0)
+        return np.asarray(np.maximum(self.scaled.z[0] - self.scaled.gap, 0))
 
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
@@ -218,7 +193,7 @@ class Stepper:
             u_dot, y = u_dot + float(scaled.x_dot[0]), y + float(scaled.x[0] - scaled.far_end[0])
         ratios = scaled.table[L_RATIO]
         springs = 0.5 * float(ratios @ (state.e**2 @ scaled.w))
-        normal = 0.5 * float(scaled.w @ self._compression(state, 0) ** 2 + ratios[1:] @ (state.s[1:] ** 2 @ scaled.w))
+        normal = 0.5 * float(scaled.w @ self._compression(state) ** 2 + ratios[1:] @ (state.s[1:] ** 2 @ scaled.w))
         ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)
         system = 0.0 if scaled.rigid else 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2
         return float(springs + normal * ratio + system)

@@ -15,6 +15,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr.march import kernels
 from mdr.march.dimensionless import ScaledContact
+from mdr.march.stepper import MarchState
 from mdr.materials.operator import Rheology
 
 N = 200
@@ -353,6 +354,30 @@ def test_pressed_and_free_springs_obey_all_the_rules(T, shape, depth_ratio, body
         assert_allclose(got, expected, rtol=1e-10, atol=1e-10)
 
 
+@pytest.mark.parametrize("T", [0.0, 0.7])
+def test_a_close_look_is_the_same_in_parts_and_whatever_it_keeps(T):
+    scaled = scaled_of("paraboloid", 0.7, T, n_springs=40, k_ratio=0.7, omega_0_ratio=0.6)
+    (_, n), steps = scaled.normal.s.shape, scaled.steps
+    whole, parts, sums = (watched(scaled, *how) for how in ((steps, steps), (50, steps), (50, 0)))
+    assert whole[0][kernels.CONTACT_TIME] > 0
+    assert whole[4].shape == (steps, n)
+    for one, other in zip(whole, parts, strict=True):
+        assert_allclose(other, one, rtol=1e-14)  # the sums over springs at the seams are made in another order
+    for one, other in zip(parts[:4], sums[:4], strict=True):
+        assert_array_equal(other, one)
+
+
+def watched(scaled, at_once, kept):
+    """What a close look at a period fills, so many steps at once, of as many of each spring, and the state then."""
+    s, steps = scaled.normal.s, scaled.steps
+    state = MarchState.of(s, s, scaled.full_slip_state(scaled.normal.S, 0.4))
+    seen = new_look(steps, kept, s.shape[1])
+    trace = kernels.Trace(*np.empty((2, steps)), *np.empty((2, kept, *s.shape)))
+    way = scaled.springs, scaled.motion(0.4), scaled.table
+    kernels.watch(state.e, state.s, state.body, scaled.body, *way, at_once, trace, seen)
+    return *seen, *trace, state.x, state.s
+
+
 def look_at(scaled, out, s, steps):
     """What `observe` makes of the first steps of a march: sums, forces, slip and what it keeps of each spring."""
     e = np.vstack([0 * s, out["e_out"][:steps]])[:, None]
@@ -365,10 +390,16 @@ def look_at(scaled, out, s, steps):
 def looked_at(scaled, v, e, s, y):
     """A close look at steps from the beginning of the period on; e, s: (m + 1, 1, n), y: (m + 3,)."""
     m, n = e.shape[0] - 1, scaled.gap.size
-    forces, each = np.empty((3, m)), np.empty((2, m, n))
-    seen = kernels.Seen(np.zeros(kernels.N_SUMS), *forces, np.zeros((m, n), dtype=np.uint8), *each)
-    seen.sums[kernels.LEAST_SLIP] = np.inf
+    seen = new_look(m, m, n)
     kernels.observe(e, s, y, scaled.springs, scaled.motion(v), False, scaled.table, 0, seen)
+    return seen
+
+
+def new_look(n_steps, n_kept, n):
+    """What `observe` fills, of so many steps, and of as many of each spring."""
+    forces, each = np.empty((3, n_steps)), np.empty((2, n_kept, n))
+    seen = kernels.Seen(np.zeros(kernels.N_SUMS), *forces, np.zeros((n_kept, n), dtype=np.uint8), *each)
+    seen.sums[kernels.LEAST_SLIP] = np.inf
     return seen
 
 
