@@ -216,11 +216,13 @@ def optional_dependencies() -> set[str]:
 
 
 def documented(text: str) -> list[str]:
-    """Dotted names that autodoc directives of a text document; each is imported."""
-    found = []
-    for path in re.findall(r"^\.\. \w+:: (\S+)$", text, re.MULTILINE):
+    """Dotted names that autodoc directives of a text document; each is imported. `mdr.indenters.*`: see the guide."""
+    found = re.findall(r"^\.\. \w+:: (\S+)$", text, re.MULTILINE)
+    for path in [path for path in found if path.endswith(".*")]:
+        names = [f"mdr.{name}" for name in pkgutil.resolve_name(path[:-2]).__all__]
+        found[found.index(path) :] = [*(name for name in names if name not in found), *found[found.index(path) + 1 :]]
+    for path in found:
         pkgutil.resolve_name(path)
-        found.append(path)
     return found
 
 

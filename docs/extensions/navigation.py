@@ -1,4 +1,7 @@
-"""The order of the pages, from conf.py to the foot of the first one, so that this stays plain Markdown."""
+"""What pages leave to be filled in: the order of all, at the foot of the first one, and the records of a module."""
+
+import re
+from importlib import import_module
 
 from sphinx.application import Sphinx
 
@@ -12,8 +15,19 @@ def add_contents(app: Sphinx, page: str, source: list[str]) -> None:
         source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {heading}\n\n{entries}\n```\n"
 
 
+def add_records(app: Sphinx, page: str, source: list[str]) -> None:
+    """In place of `.. autoclass:: mdr.indenters.*` a line for each name of the module that the page does not have."""
+
+    def lines(found: re.Match[str]) -> str:
+        names = [f"mdr.{name}" for name in import_module(found[1]).__all__]
+        return "\n".join(f".. autoclass:: {name}" for name in names if f":: {name}\n" not in source[0])
+
+    source[0] = re.sub(r"^\.\. autoclass:: (\S+)\.\*$", lines, source[0], flags=re.MULTILINE)
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     """Listen to the reading of pages."""
     app.add_config_value("PAGES", {}, "env", dict)
     app.connect("source-read", add_contents)
+    app.connect("source-read", add_records)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -52,7 +52,10 @@ def _no_amplitudes(name: str, value: Any, note: str = "") -> tuple[float, ...]:
     return ()
 
 
-FREQUENCY = facts("rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$")
+FREQUENCY = facts(
+    "rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$", example=314.159
+)
+SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  # m
 PLACE = facts("", "where the motion acts", _place)
 
 
@@ -89,9 +92,13 @@ class InPlaneOscillation(Shake):
     omega: float = field(metadata=FREQUENCY)
     du_x: float = field(
         default=0.0,
-        metadata=facts("m", "amplitude along the pull", not_negative, label=r"longitudinal amplitude $\Delta u_x$"),
+        metadata=facts(
+            "m", "amplitude along the pull", not_negative, label=r"longitudinal amplitude $\Delta u_x$", example=1e-5
+        ),
     )
-    phi_x: float = field(default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$"))
+    phi_x: float = field(
+        default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$", example=1.5707963)
+    )
     du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull, zero", _no_amplitude))
     phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite))
     at: str = field(default="tool", metadata=PLACE)
@@ -118,7 +125,9 @@ class InPlaneMotion(Shake):
 
     omega: float = field(metadata=FREQUENCY)
     x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
-    x_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes))
+    x_sin: tuple[float, ...] = field(
+        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=SAWTOOTH)
+    )
     y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
     y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
     at: str = field(default="tool", metadata=PLACE)

@@ -43,8 +43,8 @@ def fill_up(record: Any, *names: str) -> int:
     return length
 
 
-FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$")
-MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$")
+FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$", example=314.159)
+MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$", example=20e-6)
 
 
 class Motion(Record, ABC):
@@ -138,7 +138,7 @@ class NormalOscillation(Motion):
     """
 
     u_z0: float = field(metadata=MEAN_DEPTH)
-    du_z: float = field(metadata=facts("m", "amplitude of the depth", label=r"amplitude $\Delta u_z$"))
+    du_z: float = field(metadata=facts("m", "amplitude of the depth", label=r"amplitude $\Delta u_z$", example=2e-6))
     omega: float = field(metadata=FREQUENCY)
 
     def __post_init__(self) -> None:
@@ -160,7 +160,7 @@ class NormalOscillation(Motion):
 class ConstantDepth(Motion):
     """A depth that does not change, u_z(t) = u_z0 > 0: the contact is shaken in the plane alone."""
 
-    u_z0: float = field(metadata=facts("m", "indentation depth", label="depth $u_{z0}$"))
+    u_z0: float = field(metadata=facts("m", "indentation depth", label="depth $u_{z0}$", example=20e-6))
 
     @property
     def omega(self) -> float:
@@ -185,8 +185,12 @@ class PeriodicMotion(Motion):
 
     omega: float = field(metadata=FREQUENCY)
     u_z0: float = field(metadata=MEAN_DEPTH)
-    cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
-    sin: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes))
+    cos: tuple[float, ...] = field(
+        default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes, example=(2e-6, 5e-7))
+    )
+    sin: tuple[float, ...] = field(
+        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=(0.0, 3e-7))
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -245,8 +249,10 @@ class LoadOscillation(Motion):
     let go.
     """
 
-    F_z0: float = field(metadata=facts("N", "mean load", label="mean load $F_{z0}$"))
-    dF_z: float = field(metadata=facts("N", "amplitude of the load", label=r"load amplitude $\Delta F_z$"))
+    F_z0: float = field(metadata=facts("N", "mean load", label="mean load $F_{z0}$", example=0.1))
+    dF_z: float = field(
+        metadata=facts("N", "amplitude of the load", label=r"load amplitude $\Delta F_z$", example=0.01)
+    )
     omega: float = field(metadata=FREQUENCY)
     m_z: float = field(default=0.0, metadata=facts("kg", "mass that the load moves", not_negative))
 
@@ -292,7 +298,7 @@ class ConstantLoad(Motion):
     `mdr.resolved(case)` knows the depth at which it rests.
     """
 
-    F_z0: float = field(metadata=facts("N", "load", label="load $F_{z0}$"))
+    F_z0: float = field(metadata=facts("N", "load", label="load $F_{z0}$", example=0.1))
 
     @property
     def omega(self) -> float:

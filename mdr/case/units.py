@@ -42,7 +42,7 @@ def facts_at(path: str) -> Facts:
     records = set(_kinds_of(KINDS[slot])) if slot in KINDS else {SlidingContact} if not slot else set()
     named = sorted((one for one in records if is_dataclass(one)), key=lambda one: one.__name__)
     known = [facts_of(field) for record in named for field in fields(record) if field.name == name]
-    found = Counter(one for one in known if one.meaning)
+    found = Counter(one._replace(example=None) for one in known if one.meaning)
     if not found:
         return NOTHING
     usual = found.most_common(1)[0][0]

@@ -6,83 +6,33 @@ Every example is a small body of rubber 20 µm deep, which touches over a disc o
 from __future__ import annotations
 
 from dataclasses import Field, fields
+from types import ModuleType
 from typing import Any
 
-import numpy as np
-
 from mdr import indenters, materials
+from mdr.case import in_plane
+from mdr.case import motion as motions
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.in_plane import InPlaneMotion, InPlaneOscillation, Shake
-from mdr.case.motion import (
-    UNNAMED,
-    ConstantDepth,
-    ConstantLoad,
-    LoadOscillation,
-    Motion,
-    NormalOscillation,
-    PeriodicMotion,
-)
+from mdr.case.motion import ConstantDepth, ConstantLoad, LoadOscillation, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.toml_text import toml_value
-from mdr.tools.fields import facts_of
+from mdr.tools.fields import example_of, facts_of, has_example
 from mdr.tools.messages import offer, short
 
-DEPTH, RADIUS, E = 20e-6, 1e-3, 3e6  # m, m, Pa
-OMEGA = round(2 * np.pi * 50, 3)  # rad/s
 WIDEST = 44  # characters of a line before its comment
 
 
-def _points() -> tuple[tuple[float, ...], tuple[float, ...]]:
-    r = [round(2e-4 * i, 7) for i in range(8)]
-    return tuple(r), tuple(round(10 * x**2, 9) for x in r)
+def _examples(module: ModuleType) -> dict[str, Any]:
+    """The examples of the records of a module, by name, of those that have one."""
+    known: dict[str, Any] = {name: getattr(module, name) for name in module.__all__}
+    return {name: example_of(one) for name, one in known.items() if has_example(one)}
 
 
-def _force() -> tuple[tuple[float, ...], tuple[float, ...]]:
-    d = [round(4e-6 * i, 9) for i in range(9)]
-    return tuple(d), tuple(round(float(indenters.Paraboloid(R=0.05).force(x, 4e6)), 6) for x in d)
-
-
-SHAPES: dict[str, indenters.Indenter] = {
-    type(one).__name__: one
-    for one in (
-        indenters.FlatPunch(a=RADIUS),
-        indenters.Cone(theta=0.0127),
-        indenters.Paraboloid(R=0.05),
-        indenters.PowerLaw(n=4, c=7.5e6),
-        indenters.Sphere(R=0.05),
-        indenters.Ellipsoid(R=0.05, k=20.0),
-        indenters.Hyperboloid(h=2e-5, c=1e-3),
-        indenters.TruncatedCone(b=5e-4, theta=0.02),
-        indenters.TruncatedParaboloid(b=5e-4, R=0.04),
-        indenters.RoundedPunch(b=5e-4, R=0.02),
-        indenters.CappedCone(b=5e-4, theta=0.015),
-        indenters.CappedParaboloid(R1=0.1, R2=0.04, b=5e-4),
-        indenters.ConstantPressure(a_0=2e-3, d_0=1e-4),
-        indenters.ConcavePunch(a=RADIUS, R=0.2),
-        indenters.SampledProfile(*_points()),
-        indenters.FromForce(*_force(), E_star=4e6),
-    )
-}
-MATERIALS: dict[str, materials.Material] = {
-    type(one).__name__: one
-    for one in (
-        materials.Elastic(E=E, nu=0.5),
-        materials.ElasticPair(E_1=E, nu_1=0.5, E_2=210e9, nu_2=0.3),
-        materials.KelvinVoigt(E=E, nu=0.5, tau=1e-3),
-        materials.StandardLinearSolid(E_inf=E, E_1=E, tau_1=1e-3, nu=0.5),
-        materials.Prony(E_inf=E, arms=((2e6, 1e-2), (4e6, 1e-4)), nu=0.5),
-    )
-}
-PULLS: dict[str, RigidPull | SpringPull] = {
-    "SpringPull": SpringPull(k_x=2e4, m=0.1, c_x=4.0),
-    "RigidPull": RigidPull(),
-}
-MOTIONS = ("NormalOscillation", "PeriodicMotion", "LoadOscillation", "ConstantDepth", "ConstantLoad")
-SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  # m
-SHAKES: dict[str, Shake] = {
-    "InPlaneOscillation": InPlaneOscillation(omega=OMEGA, du_x=1e-5, phi_x=1.5707963),
-    "InPlaneMotion": InPlaneMotion(omega=OMEGA, x_sin=SAWTOOTH),
-}
+SHAPES: dict[str, indenters.Indenter] = _examples(indenters)
+MATERIALS: dict[str, materials.Material] = _examples(materials)
+MOTIONS: dict[str, motions.Motion] = _examples(motions)
+PULLS: dict[str, RigidPull | SpringPull] = {"SpringPull": example_of(SpringPull), "RigidPull": RigidPull()}
+SHAKES: dict[str, in_plane.Shake] = _examples(in_plane)
 STILL = "none"  #: the name of no shake
 
 
@@ -99,7 +49,7 @@ def example(
     Raises ValueError for a name that is none, with the nearest.
     """
     indenter, body = SHAPES[_named("shape", shape, SHAPES)], MATERIALS[_named("material", material, MATERIALS)]
-    moved = _motion(_named("motion", motion, MOTIONS), indenter, body)
+    moved = MOTIONS[_named("motion", motion, MOTIONS)]
     shaken = SHAKES.get(_named("shake", shake, (*SHAKES, STILL)))
     if shaken is None and not moved.omega:
         shaken = SHAKES["InPlaneOscillation"]
@@ -130,25 +80,12 @@ def example_file(case: SlidingContact) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _motion(name: str, indenter: indenters.Indenter, material: materials.Material) -> Motion:
-    if name == "NormalOscillation":
-        return NormalOscillation(u_z0=DEPTH, du_z=2e-6, omega=OMEGA)
-    if name == "PeriodicMotion":
-        return PeriodicMotion(omega=OMEGA, u_z0=DEPTH, cos=(2e-6, 5e-7), sin=(0.0, 3e-7))
-    if name == "ConstantDepth":
-        return ConstantDepth(u_z0=DEPTH)
-    load = float(f"{float(indenter.force(DEPTH, material.E_star)):.2g}")
-    if name == "ConstantLoad":
-        return ConstantLoad(F_z0=load)
-    return LoadOscillation(F_z0=load, dF_z=float(f"{load / 10:.2g}"), omega=OMEGA)
-
-
-def _choice(motion: Motion) -> str:
+def _choice(motion: motions.Motion) -> str:
     """The key that names a motion, which those that a file need not name do without."""
-    return "" if type(motion) in UNNAMED else "motion"
+    return "" if type(motion) in motions.UNNAMED else "motion"
 
 
-def _of_motion(motion: Motion) -> str:
+def _of_motion(motion: motions.Motion) -> str:
     """What the motion is, in a line."""
     if isinstance(motion, LoadOscillation):
         return "load F_z0 + dF_z cos(omega t); the depth follows"

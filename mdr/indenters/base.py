@@ -42,6 +42,7 @@ FLANK = facts(
     "angle between flank and plane",
     _slope_angle,
     note="angle between flank and plane in rad; 45 degrees are 0.785",
+    example=0.0127,
 )
 
 

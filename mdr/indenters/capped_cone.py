@@ -22,7 +22,9 @@ class CappedCone(Indenter):
     cos φ = b/a; F_N = (4/3) E* a³/R while a <= b.
     """
 
-    b: float = field(metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Cone has none"))
+    b: float = field(
+        metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Cone has none", example=3e-4)
+    )
     theta: float = field(metadata=FLANK)
 
     @property

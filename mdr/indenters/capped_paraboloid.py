@@ -22,9 +22,11 @@ class CappedParaboloid(Indenter):
     F_N = (4/3) E* a³/R1 while a <= b. At the edge of the cap p is infinite, and answered as one rounding away.
     """
 
-    R1: float = field(metadata=facts("m", "radius of curvature of the cap"))
-    R2: float = field(metadata=facts("m", "radius of curvature around the cap"))
-    b: float = field(metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Paraboloid has none"))
+    R1: float = field(metadata=facts("m", "radius of curvature of the cap", example=0.1))
+    R2: float = field(metadata=facts("m", "radius of curvature around the cap", example=0.04))
+    b: float = field(
+        metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Paraboloid has none", example=5e-4)
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()

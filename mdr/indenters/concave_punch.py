@@ -29,8 +29,8 @@ class ConcavePunch(Indenter):
     back before, slip begins in the middle, where p is least, and not at the rim. The springs do not describe this.
     """
 
-    a: float = field(metadata=facts("m", "radius of the rim"))
-    R: float = field(metadata=facts("m", "radius of curvature of the hollow"))
+    a: float = field(metadata=facts("m", "radius of the rim", example=1e-3))
+    R: float = field(metadata=facts("m", "radius of curvature of the hollow", example=0.2))
 
     @property
     def max_radius(self) -> float:

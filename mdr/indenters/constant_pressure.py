@@ -22,8 +22,8 @@ N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06*
 class ConstantPressure(Indenter):
     """Shape of constant pressure at the depth d_0, where its whole face touches; F_N = (π/2) E* a_0 d_0 there."""
 
-    a_0: float = field(metadata=facts("m", "radius of the face"))
-    d_0: float = field(metadata=facts("m", "depth at which the whole face touches", note="depth in m"))
+    a_0: float = field(metadata=facts("m", "radius of the face", example=2e-3))
+    d_0: float = field(metadata=facts("m", "depth at which the whole face touches", note="depth in m", example=1e-4))
 
     @property
     def max_radius(self) -> float:

@@ -31,8 +31,8 @@ class Ellipsoid(Indenter):
     Its contact grows to the equator, a = 1/k, at infinite depth only: g is finite for ``|x| < 1/k``.
     """
 
-    R: float = field(metadata=facts("m", "half-axis along the axis of revolution"))
-    k: float = field(metadata=facts("1/m", "inverse of the half-axis across", _invertible))
+    R: float = field(metadata=facts("m", "half-axis along the axis of revolution", example=0.05))
+    k: float = field(metadata=facts("1/m", "inverse of the half-axis across", _invertible, example=20.0))
 
     @property
     def max_radius(self) -> float:

@@ -15,7 +15,7 @@ from mdr.tools.fields import facts
 class FlatPunch(Indenter):
     """Flat-ended cylinder, touching with its whole face; both profiles end at the rim."""
 
-    a: float = field(metadata=facts("m", "radius of the face"))
+    a: float = field(metadata=facts("m", "radius of the face", example=1e-3))
 
     @property
     def max_radius(self) -> float:

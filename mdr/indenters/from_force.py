@@ -28,6 +28,8 @@ N_POINTS = 7  #: fewer make no spline
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 SLACK = 1e-9  #: of an exponent or a radius: rounding
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
+DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))
+FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  # of a paraboloid
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
@@ -59,10 +61,10 @@ class FromForce(Indenter):
     1.5e-05 m
     """
 
-    d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m"))
-    F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N"))
+    d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m", example=DEPTHS))
+    F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N", example=FORCES))
     E_star: float = field(
-        metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa")
+        metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa", example=4e6)
     )
     tip: str = field(default="any", kw_only=True, metadata=facts("", "any, round, sharp or flat", _tip))
     smoothing: float = field(default=0.0, kw_only=True, metadata=facts("N", NOISE, not_negative))

@@ -20,8 +20,8 @@ from mdr.tools.fields import facts
 class Hyperboloid(Indenter):
     """Hyperboloid of revolution: d = g(a), F_N = E* (h/c) [(a² − c²) arctan(a/c) + ac]."""
 
-    h: float = field(metadata=facts("m", "half-axis along the axis of revolution"))
-    c: float = field(metadata=facts("m", "half-axis across"))
+    h: float = field(metadata=facts("m", "half-axis along the axis of revolution", example=2e-5))
+    c: float = field(metadata=facts("m", "half-axis across", example=1e-3))
 
     def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = h (√(1 + r²/c²) − 1)."""

@@ -15,7 +15,7 @@ from mdr.tools.fields import facts
 class Paraboloid(Indenter):
     """Paraboloid, the tip of any ball: a² = Rd, F_N = (4/3) E* √R d^{3/2}."""
 
-    R: float = field(metadata=facts("m", "radius of curvature"))
+    R: float = field(metadata=facts("m", "radius of curvature", example=0.05))
 
     def profile_3d(self, r: ArrayLike) -> Array:
         """f(r) = r²/(2R)."""

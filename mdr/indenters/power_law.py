@@ -20,8 +20,8 @@ from mdr.tools.fields import facts
 class PowerLaw(Indenter):
     """f(r) = c rⁿ with any n > 0; for n <= 1 p is infinite at the tip and answered as at r = 2e-16 a."""
 
-    n: float = field(metadata=facts("-", "exponent of the profile"))
-    c: float = field(metadata=facts("m^(1-n)", "coefficient of the profile"))
+    n: float = field(metadata=facts("-", "exponent of the profile", example=4.0))
+    c: float = field(metadata=facts("m^(1-n)", "coefficient of the profile", example=7.5e6))
 
     @property
     def kappa_n(self) -> float:

@@ -22,8 +22,10 @@ class RoundedPunch(Indenter):
     cos φ = b/a. Under a small load it is a flat punch: a → b and k_zc → 2E*b.
     """
 
-    b: float = field(metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none"))
-    R: float = field(metadata=facts("m", "radius of curvature of the edge"))
+    b: float = field(
+        metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none", example=5e-4)
+    )
+    R: float = field(metadata=facts("m", "radius of curvature of the edge", example=0.02))
 
     @property
     def kinks(self) -> tuple[float, ...]:

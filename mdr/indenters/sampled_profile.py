@@ -25,6 +25,10 @@ STANDS_OUT = 10.0  #: times the median change of slope: at a kink; noise of 200 
 ROUNDING = 1e-9  #: of the steepest slope: a change below it is none
 N_POINTS = 6  #: fewer make no spline
 NOISE = "standard deviation of the noise of the data"
+EXAMPLE = (
+    (0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3, 1.4e-3),
+    (0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5, 1.44e-5, 1.96e-5),
+)
 
 
 def column(name: str, values: Any, unit: str) -> tuple[float, ...]:
@@ -70,8 +74,10 @@ class SampledProfile(Indenter):
     0.000316 m, 0.000316 m
     """
 
-    r: tuple[float, ...] = field(metadata=facts("m", "radii of the points, from 0", column, note="m"))
-    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m"))
+    r: tuple[float, ...] = field(
+        metadata=facts("m", "radii of the points, from 0", column, note="m", example=EXAMPLE[0])
+    )
+    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m", example=EXAMPLE[1]))
     tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
     kinks: tuple[float, ...] = field(
         default=(), kw_only=True, metadata=facts("m", "radii of points at which the slope jumps", radii)

@@ -22,7 +22,7 @@ class Sphere(Indenter):
     Its contact grows to the equator, a = R, at infinite depth only: g is finite for ``|x| < R``.
     """
 
-    R: float = field(metadata=facts("m", "radius of the ball"))
+    R: float = field(metadata=facts("m", "radius of the ball", example=0.05))
 
     @property
     def max_radius(self) -> float:

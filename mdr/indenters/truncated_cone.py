@@ -23,7 +23,9 @@ class TruncatedCone(Indenter):
     as one rounding away.
     """
 
-    b: float = field(metadata=facts("m", "radius of the face", note="radius of the face in m; a Cone has none"))
+    b: float = field(
+        metadata=facts("m", "radius of the face", note="radius of the face in m; a Cone has none", example=3e-4)
+    )
     theta: float = field(metadata=FLANK)
 
     @property

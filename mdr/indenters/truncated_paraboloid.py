@@ -23,8 +23,10 @@ class TruncatedParaboloid(Indenter):
     as one rounding away.
     """
 
-    b: float = field(metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none"))
-    R: float = field(metadata=facts("m", "radius of curvature"))
+    b: float = field(
+        metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none", example=5e-4)
+    )
+    R: float = field(metadata=facts("m", "radius of curvature", example=0.04))
 
     @property
     def kinks(self) -> tuple[float, ...]:

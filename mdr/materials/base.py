@@ -60,7 +60,7 @@ def arm(phase: Array) -> NDArray[np.complex128]:
     return np.asarray(1j * phase / (1 + 1j * phase))
 
 
-POISSON = facts("-", "Poisson's ratio", poisson_ratio)
+POISSON = facts("-", "Poisson's ratio", poisson_ratio, example=0.5)
 
 
 class Material(Record, ABC):

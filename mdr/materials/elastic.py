@@ -13,7 +13,7 @@ from mdr.tools.fields import facts
 class Elastic(OneBody):
     """An elastic body under a rigid indenter."""
 
-    E: float = field(metadata=facts("Pa", "Young's modulus"))
+    E: float = field(metadata=facts("Pa", "Young's modulus", example=3e6))
     nu: float = field(metadata=POISSON)
 
     @property
@@ -44,10 +44,10 @@ class Elastic(OneBody):
 class ElasticPair(Material):
     """Two elastic bodies in contact; their compliances add."""
 
-    E_1: float = field(metadata=facts("Pa", "Young's modulus of the first body"))
-    nu_1: float = field(metadata=facts("-", "Poisson's ratio of the first body", poisson_ratio))
-    E_2: float = field(metadata=facts("Pa", "Young's modulus of the second body"))
-    nu_2: float = field(metadata=facts("-", "Poisson's ratio of the second body", poisson_ratio))
+    E_1: float = field(metadata=facts("Pa", "Young's modulus of the first body", example=3e6))
+    nu_1: float = field(metadata=facts("-", "Poisson's ratio of the first body", poisson_ratio, example=0.5))
+    E_2: float = field(metadata=facts("Pa", "Young's modulus of the second body", example=210e9))
+    nu_2: float = field(metadata=facts("-", "Poisson's ratio of the second body", poisson_ratio, example=0.3))
 
     @property
     def tau(self) -> float:

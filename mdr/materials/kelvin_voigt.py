@@ -13,11 +13,16 @@ from mdr.tools.fields import facts
 class KelvinVoigt(OneBody):
     """A Kelvin body under a rigid indenter: modulus E in parallel with a dashpot, tau = gamma/k, Eq. (11)."""
 
-    E: float = field(metadata=facts("Pa", "long-time Young's modulus", note="Young's modulus in Pa"))
+    E: float = field(metadata=facts("Pa", "long-time Young's modulus", note="Young's modulus in Pa", example=3e6))
     nu: float = field(metadata=POISSON)
     tau: float = field(
         metadata=facts(
-            "s", "relaxation time gamma/k", not_negative, label=r"relaxation time $\tau$", note="relaxation time in s"
+            "s",
+            "relaxation time gamma/k",
+            not_negative,
+            label=r"relaxation time $\tau$",
+            note="relaxation time in s",
+            example=1e-3,
         )
     )
 

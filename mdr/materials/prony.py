@@ -45,7 +45,7 @@ def _pairs(name: str, arms: Any, note: str = "") -> Arms:
     )
 
 
-LONG_TIME = facts("Pa", "long-time Young's modulus", not_negative)
+LONG_TIME = facts("Pa", "long-time Young's modulus", not_negative, example=3e6)
 
 
 class _WithArms(OneBody):
@@ -77,8 +77,8 @@ class StandardLinearSolid(_WithArms):
     """
 
     E_inf: float = field(metadata=LONG_TIME)
-    E_1: float = field(metadata=facts("Pa", "Young's modulus of the arm", not_negative))
-    tau_1: float = field(metadata=facts("s", "relaxation time of the arm"))
+    E_1: float = field(metadata=facts("Pa", "Young's modulus of the arm", not_negative, example=3e6))
+    tau_1: float = field(metadata=facts("s", "relaxation time of the arm", example=1e-3))
     nu: float = field(metadata=POISSON)
 
     def __post_init__(self) -> None:
@@ -104,7 +104,7 @@ class Prony(_WithArms):
     """
 
     E_inf: float = field(metadata=LONG_TIME)
-    arms: Arms = field(metadata=facts("", "arms (E_j [Pa], tau_j [s])", _pairs))
+    arms: Arms = field(metadata=facts("", "arms (E_j [Pa], tau_j [s])", _pairs, example=((2e6, 1e-2), (4e6, 1e-4))))
     nu: float = field(metadata=POISSON)
     tau: float = field(
         default=0.0, metadata=facts("s", "Kelvin time of the E_inf branch", not_negative, note="Kelvin time in s")

@@ -1,6 +1,6 @@
-"""What a field of a record is: unit, meaning, symbol and rule stand at the field and nowhere else.
+"""What a field of a record is: unit, meaning, symbol, rule and an example stand at the field and nowhere else.
 
-    R: float = field(metadata=facts("m", "radius of curvature"))
+    R: float = field(metadata=facts("m", "radius of curvature", example=0.05))
 
 Checks, messages, case files, studies, figures and the guide read them here.
 """
@@ -8,13 +8,14 @@ Checks, messages, case files, studies, figures and the guide read them here.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import Field, fields
+from dataclasses import MISSING, Field, fields, is_dataclass
 from inspect import signature
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self, TypeVar
 
 from mdr.tools.checks import FieldError, FieldTypeError, positive
 from mdr.tools.messages import offer
 
+T = TypeVar("T")
 Rule = Callable[[str, Any, str], Any]  #: (name, value, note) to the value as it is kept; raises what is wrong with it
 
 
@@ -26,27 +27,48 @@ class Facts(NamedTuple):
     label: str  #: words and symbol for figures, in LaTeX; empty where the name will do
     rule: Rule | None  #: None for what its record checks
     note: str  #: what a refusal adds in brackets
+    example: Any  #: its value in the example of its record, None for none
 
     def __str__(self) -> str:
         return self.meaning + (f" [{self.unit}]" if self.unit else "")
 
 
-NOTHING = Facts("", "", "", None, "")  #: known of a field without facts
+NOTHING = Facts("", "", "", None, "", None)  #: known of a field without facts
 
 
 def facts(
-    unit: str, meaning: str, rule: Rule | None = positive, *, label: str = "", note: str | None = None
+    unit: str,
+    meaning: str,
+    rule: Rule | None = positive,
+    *,
+    label: str = "",
+    note: str | None = None,
+    example: Any = None,
 ) -> dict[str, Facts]:
     """Metadata of a field. A refusal notes meaning and unit, or what is given as `note`."""
     if note is None:
         note = meaning + (f" in {unit}" if unit not in ("", "-") else "")
-    return {"facts": Facts(unit, meaning, label, rule, note)}
+    return {"facts": Facts(unit, meaning, label, rule, note, example)}
 
 
 def facts_of(field: Field[Any]) -> Facts:
     """The facts of a field of a record, `NOTHING` where it has none."""
     found: Facts = field.metadata.get("facts", NOTHING)
     return found
+
+
+def has_example(record: Any) -> bool:
+    """Whether this is a record of which each field without a default has an example."""
+    if not is_dataclass(record):
+        return False
+    asked = [one for one in fields(record) if one.init and one.default is MISSING and one.default_factory is MISSING]
+    return all(facts_of(one).example is not None for one in asked)
+
+
+def example_of(record: type[T], **given: Any) -> T:
+    """A record made of the examples of its fields, and of what is given."""
+    known = {one.name: facts_of(one).example for one in fields(record)}  # type: ignore[arg-type]
+    return record(**{name: value for name, value in known.items() if value is not None} | given)
 
 
 def checked(field: Field[Any], value: Any) -> Any:

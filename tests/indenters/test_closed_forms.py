@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from catalogue import A_0, CURVED, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, name
+from catalogue import A_0, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, name
 from numpy.testing import assert_allclose
 
 import mdr
@@ -44,7 +44,7 @@ def radii(shape):
     return np.concatenate([np.geomspace(low, high, 60), [0.98 * high], beside if shape in KINKED else []])
 
 
-@pytest.mark.parametrize("shape", CURVED, ids=name)
+@pytest.mark.parametrize("shape", SLOPES, ids=name)
 def test_depth_force_and_stiffness_of_the_radius(shape):
     a = radii(shape)
     g, F = np.transpose([sneddon(shape, one) for one in a])
@@ -58,7 +58,7 @@ def test_depth_force_and_stiffness_of_the_radius(shape):
     assert_allclose(shape.profile_area(a)[some], area[some], rtol=20 * EXACT)
 
 
-@pytest.mark.parametrize("shape", CURVED, ids=name)
+@pytest.mark.parametrize("shape", SLOPES, ids=name)
 def test_the_pressure_carries_the_force_at_any_depth(shape):
     rule = double_exponential(0.06)
     beside = [1.0001, 1.01, 1.5, 30] if shape in KINKED else []
