@@ -23,7 +23,7 @@ KNOBS = {"n_springs": 32, "steps_per_period": 64}
 
 
 @dataclass(frozen=True)
-class Bump(mdr.Indenter):
+class OwnShape(mdr.Indenter):
     """A rounded bump, f(r) = h [1 - exp(-r²/b²)] up to r = b; near its tip a paraboloid of R = b²/2h."""
 
     h: float
@@ -43,7 +43,7 @@ class Bump(mdr.Indenter):
 
 
 @dataclass(frozen=True)
-class Slow(mdr.Material):
+class OwnMaterial(mdr.Material):
     """An incompressible standard solid, by its long-time modulus, its ratio of moduli and its time."""
 
     E: float
@@ -72,7 +72,7 @@ class Slow(mdr.Material):
 
 
 @dataclass(frozen=True)
-class TwoTone(mdr.Motion):
+class OwnMotion(mdr.Motion):
     """u_z = u_z0 + du_z (cos omega t + share cos 2 omega t)."""
 
     u_z0: float
@@ -90,14 +90,14 @@ KNOWN = mdr.SlidingContact(
 )
 #: a part from outside, what of the library it must agree with, and by how much
 OWN = {
-    "shape": ({"indenter": Bump(h=1.0, b=0.1)}, {}, 1e-3),  # u_z0/h: beyond it, the bump levels out
+    "shape": ({"indenter": OwnShape(h=1.0, b=0.1)}, {}, 1e-3),  # u_z0/h: beyond it, the bump levels out
     "material": (
-        {"material": Slow(3e6, 0.5, 1e-3)},
+        {"material": OwnMaterial(3e6, 0.5, 1e-3)},
         {"material": mdr.StandardLinearSolid(3e6, 1.5e6, 1e-3, 0.5)},
         1e-9,
     ),
     "motion": (
-        {"oscillation": TwoTone(20e-6, 4e-6, OMEGA, 0.3)},
+        {"oscillation": OwnMotion(20e-6, 4e-6, OMEGA, 0.3)},
         {"oscillation": mdr.PeriodicMotion(OMEGA, 20e-6, (4e-6, 1.2e-6))},
         1e-12,
     ),
@@ -156,7 +156,7 @@ def test_what_cannot_be_registered_is_refused():
     class Cone(mdr.Indenter):
         profile_1d = None
 
-    for wrong in (Bump(1e-4, 2e-3), mdr.Indenter, mdr.RigidPull, Cone, dict):
+    for wrong in (OwnShape(1e-4, 2e-3), mdr.Indenter, mdr.RigidPull, Cone, dict):
         with pytest.raises(TypeError, match="record must be a dataclass"):
             mdr.register(wrong)
     with pytest.raises(ValueError, match="Cone is the name of another record"):
@@ -181,8 +181,8 @@ def _names_in(path):
 
 
 def test_a_motion_of_ones_own_that_never_touches_is_refused():
-    motion = TwoTone(-20e-6, 4e-6, OMEGA, 0.3)
-    with pytest.raises(ValueError, match=r"never touches: the greatest depth of TwoTone is -1\.48e-05 m"):
+    motion = OwnMotion(-20e-6, 4e-6, OMEGA, 0.3)
+    with pytest.raises(ValueError, match=r"never touches: the greatest depth of OwnMotion is -1\.48e-05 m"):
         replace(KNOWN, oscillation=motion)
 
 

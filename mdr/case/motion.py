@@ -175,12 +175,11 @@ class ConstantDepth(Motion):
 
 @dataclass(frozen=True)
 class PeriodicMotion(Motion):
-    """A periodic normal motion of prescribed depth, as a Fourier series ::
+    """A periodic normal motion of prescribed depth, u_z0 + sum of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t).
 
-        u_z(t) = u_z0 + sum over n >= 1 of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t)
-
-    Several frequencies are harmonics of a common omega; a square-like tapping is a series of many. Amplitudes in m; a
-    list left out, or shorter than the other, is filled with zeros, and zeros at the end of both are dropped.
+    The sum is over n >= 1, a Fourier series. Several frequencies are harmonics of a common omega; a square-like tapping
+    is a series of many. Amplitudes in m; a list left out, or shorter than the other, is filled with zeros, and zeros at
+    the end of both are dropped.
     """
 
     omega: float = field(metadata=FREQUENCY)

@@ -13,7 +13,6 @@ from mdr import indenters, materials
 from mdr.case import in_plane
 from mdr.case import motion as motions
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.motion import ConstantDepth, ConstantLoad, LoadOscillation, NormalOscillation, PeriodicMotion
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.toml_text import toml_value
 from mdr.tools.fields import example_of, facts_of, has_example
@@ -59,10 +58,11 @@ def example(
 def example_file(case: SlidingContact) -> str:
     """The TOML text of a case, each key with its unit and meaning."""
     case = as_given(case)
+    said = type(case.oscillation).__doc__ or ""
     tables: list[tuple[str, str, str, Any]] = [
         ("indenter", "shape", "the shape that is pressed in; its fields follow", case.indenter),
         ("material", "model", "the half-space", case.material),
-        ("oscillation", _choice(case.oscillation), _of_motion(case.oscillation), case.oscillation),
+        ("oscillation", _choice(case.oscillation), said.partition("\n")[0].rstrip("."), case.oscillation),
         ("pull", "", "what drags it; a rigid pull without this table", case.pull),
         ("shake", "", "motion in the plane besides the pull", case.shake),
     ]
@@ -83,19 +83,6 @@ def example_file(case: SlidingContact) -> str:
 def _choice(motion: motions.Motion) -> str:
     """The key that names a motion, which those that a file need not name do without."""
     return "" if type(motion) in motions.UNNAMED else "motion"
-
-
-def _of_motion(motion: motions.Motion) -> str:
-    """What the motion is, in a line."""
-    if isinstance(motion, LoadOscillation):
-        return "load F_z0 + dF_z cos(omega t); the depth follows"
-    if isinstance(motion, PeriodicMotion):
-        return "depth u_z0 + sum over n of cos[n-1] cos(n omega t) + sin[n-1] sin(n omega t)"
-    if isinstance(motion, NormalOscillation):
-        return "depth u_z0 + du_z cos(omega t)"
-    if isinstance(motion, ConstantDepth | ConstantLoad):
-        return "what does not change"
-    return (type(motion).__doc__ or "a motion").splitlines()[0]
 
 
 def _line(field: Field[Any], record: Any) -> str:

@@ -83,6 +83,7 @@ def name(shape):
 
 
 def depths(shape, low=1e-12, high=1e3, n=40):
-    """Depths at which the shape has a full disc, over many decades."""
+    """Depths at which the shape has a full disc, over many decades; a new one, whose forms may cancel, over some."""
+    low = max(low, 1e-7) if shape in NEW else low
     highest = min(high, float(shape.profile_1d(end(shape)))) if shape in CURVED else high
     return np.geomspace(max(low, 2 * shape.least_depth), highest, n)
