@@ -16,7 +16,8 @@ What g it has been asked for from f is kept (`mdr.indenters.mapping.chebyshev_pa
 
 import warnings
 from abc import ABC
-from typing import Any, ClassVar
+from functools import lru_cache
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,12 +25,15 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel as transform
 from mdr.indenters.mapping import chebyshev_panels as panels
 from mdr.indenters.mapping import inversion as roots
-from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
+from mdr.indenters.mapping.quadrature import Function, double_exponential, in_chunks
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import between, finite_array, plain, positive_array
 from mdr.tools.fields import Record, facts
 
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
+MOST_DEPTHS, MOST_ANSWERS = 64, 256  #: of a question that is kept, and questions that are
+AHEAD = 1.5  #: times the radius of a contact, as far as its shape is looked at
+FALL = 1e-9  #: of its height by which g may fall: rounding
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 
 
@@ -44,6 +48,26 @@ FLANK = facts(
     note="angle between flank and plane in rad; 45 degrees are 0.785",
     example=0.0127,
 )
+
+
+class Answers(NamedTuple):
+    """What was found out of a shape, so that it need not be asked twice."""
+
+    radii: dict[bytes, Array]  #: contact radii [m], by the bytes of their depths
+    rising: list[float]  #: radii [m] within which g was found to rise
+    mapped: list[float]  #: radii [m] within which the map was found to be good
+    reach: list[float]  #: g [m] where the shape ends, once it is known
+
+
+@lru_cache(256)
+def _answers(heights: Function) -> Answers:
+    """The answers of a shape so far; heights: its `_f`, as a record of one's own may have no hash."""
+    return Answers({}, [], [], [])
+
+
+def _among(known: list[float], radius: float) -> bool:
+    """Whether one of the known radii, no more than twice as great, answers for this one too."""
+    return any(radius <= one <= 2 * radius for one in known)
 
 
 class Indenter(Record, ABC):
@@ -133,7 +157,7 @@ class Indenter(Record, ABC):
         array([2.e-06, 8.e-06])
         """
         x = self._within(finite_array("x", x, "m"))
-        g = panels.image(self._f, self._edges, np.ravel(x))
+        g = panels.image(panels.HEIGHT, self._f, self._edges, np.ravel(x))
         self._check_map(np.ravel(x))
         return plain(g.reshape(x.shape))
 
@@ -157,12 +181,18 @@ class Indenter(Record, ABC):
         """
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
-        a = np.zeros(d.shape)
-        pressed = d > 0
-        if pressed.any():
-            a[pressed] = self._search(d[pressed])
-            self._refuse_annular(a.max())
-        return plain(a)
+        asked, known = d.tobytes(), _answers(self._f).radii
+        if (found := known.get(asked)) is None:
+            found = np.zeros(d.size)
+            pressed = d.ravel() > 0
+            if pressed.any():
+                found[pressed] = self._search(d.ravel()[pressed])
+                self._refuse_annular(found.max())
+            if d.size <= MOST_DEPTHS:
+                known[asked] = found
+                if len(known) > MOST_ANSWERS:
+                    del known[next(iter(known))]
+        return plain(found.reshape(d.shape).copy())
 
     def profile_area(self, a: ArrayLike) -> Array:
         """Area between the one-dimensional image and its tangent at the tip, ∫₀^a g dx [m²].
@@ -180,7 +210,7 @@ class Indenter(Record, ABC):
         a = self._within(finite_array("a", a, "m"))
         if self._gives_g:
             return in_chunks(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
-        return in_chunks(lambda a: transform.area_from_f(self._f, self._edges, a), a)
+        return plain(panels.image(panels.AREA, self._f, self._edges, np.ravel(a)).reshape(a.shape))
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] of an elastic contact, 0 where d <= 0.
@@ -410,37 +440,59 @@ class Indenter(Record, ABC):
     def _refuse_beyond(self, d: Array) -> None:
         if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:
             return
-        with np.errstate(all="ignore"):
-            reach = self._g(np.array([self.max_radius]))[0]
+        if not (known := _answers(self._f).reach):
+            with np.errstate(all="ignore"):
+                known.append(float(self._g(np.array([self.max_radius]))[0]))
+        (reach,) = known
         if d.max() > reach * (1 + 64 * EPS):
             raise ValueError(f"d = {d.max():.6g} m is deeper than {type(self).__name__} {self._why_too_deep(reach)}")
 
     def _refuse_annular(self, a: float) -> None:
         """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
+        known = _answers(self._f)
+        if _among(known.rising, a):
+            return
         x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
         self._check_map(x[::10])
-        further = self._g(np.array([min(1.01 * a, self.max_radius)]))  # at a flat face g is rounding up to a
-        refuse_falling(self, x, in_chunks(self._g, x), float(np.nan_to_num(further[0], posinf=0.0)))
+        ahead = np.linspace(a, min(AHEAD * a, self.max_radius), 33)  # for contacts that are a little wider
+        with np.errstate(all="ignore"):
+            g, more = in_chunks(self._g, x), in_chunks(self._g, ahead)
+            refuse_falling(
+                self, x, g, float(np.nan_to_num(more[1], posinf=0.0))
+            )  # at a flat face g is rounding up to a
+            rises = np.all(np.diff(more) >= -FALL * np.abs(more[-1]))  # NaN does not
+            good = rises and np.isfinite(more[-1]) and self._map_error(ahead[::8]) <= MAPPING_ERROR
+        known.rising.append(float(ahead[-1]) if good else a)
+        if good:
+            known.mapped.append(float(ahead[-1]))
 
     def _check_map(self, x: Array) -> None:
         """ValueError for a mapped profile that is not finite; a warning where a second quadrature rule disagrees."""
-        if self._gives_g or x.size == 0:
+        known = _answers(self._f).mapped
+        if self._gives_g or x.size == 0 or _among(known, x.max()):
             return
-        some = np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest"))
-        g = self._g(some)
-        if not np.all(np.isfinite(g)):
+        error = self._map_error(np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest")))
+        if not np.isfinite(error):
             raise ValueError(
-                f"{type(self).__name__} has no finite slope within r = {some[-1]:.6g} m: name its end (r_max)"
+                f"{type(self).__name__} has no finite slope within r = {x.max():.6g} m: name its end (r_max)"
             )
-        other = transform.profile_1d(self._f, self._edges, some, double_exponential(0.077))
-        error, height = np.max(np.abs(g - other)), np.max(np.abs(g))
-        if error > MAPPING_ERROR * height:
+        if error > MAPPING_ERROR:
             warnings.warn(
                 f"{type(self).__name__} is mapped to g(x) with an error of about "
-                f"{error / height:.1e} of its height: "
+                f"{error:.1e} of its height: "
                 "name every radius where f or its slope is not smooth in kinks=",
                 stacklevel=3,
             )
+        else:
+            known.append(float(x.max()))
+
+    def _map_error(self, x: Array) -> float:
+        """Difference of two quadrature rules, over the height; infinite where g is not finite."""
+        if self._gives_g:
+            return 0.0
+        g, other = (transform.profile_1d(self._f, self._edges, x, double_exponential(step)) for step in (0.11, 0.077))
+        height = np.max(np.abs(g))
+        return float(np.max(np.abs(g - other)) / (height or 1.0)) if np.isfinite(height) else np.inf
 
 
 def rim_pressure(r: Array, a: Array, step: Array) -> Array:
@@ -453,7 +505,7 @@ def rim_pressure(r: Array, a: Array, step: Array) -> Array:
 def refuse_falling(shape: Indenter, x: Array, g: Array, further: float = 0.0) -> None:
     """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
     highest = np.maximum.accumulate(np.maximum(g, 0))
-    fall = highest - g > 1e-9 * np.max(np.abs(g), initial=further)
+    fall = highest - g > FALL * np.max(np.abs(g), initial=further)
     if np.any(fall):
         raise ValueError(
             f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "

@@ -71,7 +71,7 @@ def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]
     marks.sort()
     x, gap = np.array(marks).T
     g = u_z0 + gap
-    area = np.diff(x * g) - 0.5 * np.diff(shape.force(g, 1.0))  # as F_N = 2 E* times what g leaves of the depth
+    area = np.diff(shape.profile_area(x))
     return [
         _Stretch(x_lo, x_hi, gap_lo, gap_hi, below, permanent=gap_hi <= kept)
         for (x_lo, gap_lo), (x_hi, gap_hi), below in zip(marks, marks[1:], area.tolist(), strict=False)

@@ -48,12 +48,12 @@ def profile_3d(g: Function, edges: tuple[float, ...], r: Array) -> Array:
     return 2 / np.pi * total
 
 
-def area_from_f(f: Function, edges: tuple[float, ...], a: Array) -> Array:
+def area_from_f(f: Function, edges: tuple[float, ...], a: Array, rule: Rule | None = None) -> Array:
     """∫₀^a g dx from f, without any derivative."""
     total = np.zeros_like(a)
     for low, high in pairwise(edges):
         on = a > low
-        r, sine, weight = _arc(a[on], low, high, double_exponential())
+        r, sine, weight = _arc(a[on], low, high, rule or double_exponential())
         total[on] += np.sum(weight * sine * f(r), axis=1)
     return a * total
 

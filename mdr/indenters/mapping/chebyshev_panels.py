@@ -1,16 +1,18 @@
-"""g(x) and its inverse a(d) from f(r), panel by panel: a quadrature at a few nodes once, polynomials afterwards.
+"""g(x), the area below it and its inverse a(d) from f(r), panel by panel: a quadrature at a few nodes once, polynomials
+afterwards. What is said of g here holds of the area too.
 
 The x axis is cut at powers of two, at the kinks b, and behind each of them at b + h, b + 2h, b + 4h … with h
 the way back to the kink before (or to the tip): no length is special. On a panel [x_lo, x_hi]
 
     g = (x/x_hi)^p G(t),  x = x_lo + (x_hi − x_lo) t,     p from both ends: a power law leaves G constant,
-    g = g(b) + t G(t),    x = b + (x_hi − b) t²           behind a kink b, where g begins like √(x − b),
+    g = g(b) + t G(t),    x = b + (x_hi − b) t²           behind a kink b, where g begins like √(x − b); area: t²,
 
 with a polynomial G through Chebyshev points. Where its last coefficients do not vanish the panel is halved, and
 what is left after N_HALVINGS, as where the slope of f has no bound, is mapped point by point. A panel is made when
 first asked for and kept: f must stay the function it is. Arrays are one-dimensional here.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -19,7 +21,7 @@ from numpy.polynomial import chebyshev
 
 from mdr.indenters.mapping import abel as transform
 from mdr.indenters.mapping import inversion as roots
-from mdr.indenters.mapping.quadrature import Function, chebyshev_fit, double_exponential, in_chunks
+from mdr.indenters.mapping.quadrature import Function, Rule, chebyshev_fit, double_exponential, in_chunks
 from mdr.tools.arrays import Array
 
 N_NODES = 24  #: the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
@@ -28,6 +30,8 @@ N_HALVINGS = 10
 N_PANELS = 4096  #: kept, half a kilobyte each
 
 Edges = tuple[float, ...]
+Integral = Callable[[Function, Edges, Array, Rule | None], Array]  #: one that leads from f to a height over x
+HEIGHT, AREA = transform.profile_1d, transform.area_from_f  #: g(x), and the area below it
 
 
 class Panel(NamedTuple):
@@ -37,7 +41,7 @@ class Panel(NamedTuple):
     high: float
     at_kink: bool
     base: float  #: g(b) behind a kink, else 0
-    power: float  #: p, 0 behind a kink
+    power: float  #: p; behind a kink that of t
     coefficients: Array = np.empty(0)
     fits: bool = False
 
@@ -52,8 +56,8 @@ class Panel(NamedTuple):
         return np.sqrt(share) if self.at_kink else share
 
     def factor(self, x: Array) -> Array:
-        """What stands before G: t or (x/x_hi)^p."""
-        return self.place(x) if self.at_kink else (x / self.high) ** self.power
+        """What stands before G: a power of t or of x/x_hi."""
+        return np.asarray((self.place(x) if self.at_kink else x / self.high) ** self.power)
 
     def heights(self, x: Array) -> Array:
         """g(x) from the polynomial."""
@@ -61,25 +65,24 @@ class Panel(NamedTuple):
         return np.asarray(self.base + self.factor(x) * G)
 
 
-def image(f: Function, edges: Edges, x: Array) -> Array:
-    """The one-dimensional image g(x) [m] for x >= 0 [m], from its panels."""
+def image(integral: Integral, f: Function, edges: Edges, x: Array) -> Array:
+    """The one-dimensional image g(x) [m], or the area below it [m²], for x >= 0 [m], from its panels."""
     ends, g = cuts(edges), np.zeros_like(x)
     panel = np.minimum(np.searchsorted(ends, x, side="right") - 1, ends.size - 2)
     with np.errstate(all="ignore"):
         for i in np.unique(panel[x > 0]):
             on = panel == i
-            g[on] = _heights(f, edges, ends[i], ends[i + 1], x[on])
+            g[on] = _heights(integral, f, edges, ends[i], ends[i + 1], x[on])
     return g
 
 
 def invert(f: Function, edges: Edges, d: Array, start: Array) -> tuple[Array, roots.BoolArray]:
-    """Radius a with g(a) = d for depths d > 0, as `roots.invert` answers."""
-    ends = [np.argmin(d), np.argmax(d)]
+    """Radius a with g(a) = d for depths d > 0, as `roots.invert` answers; start: about where it is."""
     with np.errstate(all="ignore"):
-        low, high, *_ = roots.bracket(lambda x: direct(f, edges, x), d[ends], start[ends], edges[-1])
-        ladder = _cuts_between(edges, low[0], high[1])
-        heights = direct(f, edges, ladder)
-        heights = np.maximum.accumulate(np.where(np.isnan(heights), np.inf, heights))
+        about = int(np.searchsorted(cuts(edges), start[np.argmin(d)]))
+        first, last = _cut_around(f, edges, float(d.min()), about), _cut_around(f, edges, float(d.max()), about) + 1
+        ladder = cuts(edges)[first : last + 1]
+        heights = np.maximum.accumulate([_height(f, edges, i) for i in range(first, last + 1)])
         panel = np.clip(np.searchsorted(heights, d) - 1, 0, ladder.size - 2)
         a, ended = np.empty_like(d), np.zeros(d.shape, dtype=bool)
         for i in np.unique(panel):
@@ -88,9 +91,32 @@ def invert(f: Function, edges: Edges, d: Array, start: Array) -> tuple[Array, ro
     return a, ended
 
 
-def direct(f: Function, edges: Edges, x: Array) -> Array:
+def direct(integral: Integral, f: Function, edges: Edges, x: Array) -> Array:
     """g(x) [m] by quadrature at every x, without panels."""
-    return in_chunks(lambda x: transform.profile_1d(f, edges, x), x)
+    return in_chunks(lambda x: integral(f, edges, x, None), x)
+
+
+def _cut_around(f: Function, edges: Edges, d: float, about: int) -> int:
+    """The panel in which g rises to d: the number of its lower end. Strides of 1, 2, 4 … panels lead there."""
+    low, high = 0, cuts(edges).size - 1
+    i, stride = min(max(about, low + 1), high - 1), 1
+    while high - low > 1:
+        if _height(f, edges, i) <= d:
+            low, i = i, i + stride
+        else:
+            high, i = i, i - stride
+        stride *= 2
+        if not low < i < high:
+            i = (low + high) // 2
+    return low
+
+
+@lru_cache(N_PANELS)
+def _height(f: Function, edges: Edges, i: int) -> float:
+    """g at an end of a panel, infinite where it is no number."""
+    with np.errstate(all="ignore"):
+        (g,) = direct(HEIGHT, f, edges, cuts(edges)[i : i + 1])
+    return float("inf" if np.isnan(g) else g)
 
 
 @lru_cache
@@ -105,56 +131,55 @@ def cuts(edges: Edges) -> Array:
     return np.unique(np.concatenate([*rows, [min(edges[-1], np.finfo(float).max)]]))
 
 
-def _cuts_between(edges: Edges, low: float, high: float) -> Array:
-    """The panel ends from the one at or below ``low`` to the one at or above ``high``."""
-    ends = cuts(edges)
-    first = np.clip(np.searchsorted(ends, low, side="right") - 1, 0, ends.size - 2)
-    return ends[first : max(np.searchsorted(ends, high), first + 1) + 1]
-
-
 def _invert_between(f: Function, edges: Edges, ends: Array, heights: Array, d: Array) -> tuple[Array, roots.BoolArray]:
     """Radii in one panel whose ends have these heights."""
     (low, high), (y_low, y_high) = np.broadcast_to(ends[:, None], (2, d.size)), heights[:, None] - d
     y_low, y_high = np.minimum(y_low, 0), np.maximum(y_high, 0)
-    return roots.refine(lambda x: _heights(f, edges, ends[0], ends[1], x), d, low, high, y_low, y_high)
+    return roots.refine(lambda x: _heights(HEIGHT, f, edges, ends[0], ends[1], x), d, low, high, y_low, y_high)
 
 
-def _heights(f: Function, edges: Edges, low: float, high: float, x: Array, n_halvings: int = N_HALVINGS) -> Array:
+def _heights(
+    integral: Integral, f: Function, edges: Edges, low: float, high: float, x: Array, n_halvings: int = N_HALVINGS
+) -> Array:
     """g at x in [low, high], from its panel or the halves of it."""
-    panel = _panel(f, edges, float(low), float(high))
+    panel = _panel(integral, f, edges, float(low), float(high))
     if panel.fits:
         return panel.heights(x)
     if n_halvings == 0 or not low < panel.middle < high:
-        return direct(f, edges, x)
+        return direct(integral, f, edges, x)
     g, left = np.empty_like(x), x < panel.middle
     for on, ends in ((left, (low, panel.middle)), (~left, (panel.middle, high))):
         if on.any():
-            g[on] = _heights(f, edges, *ends, x[on], n_halvings - 1)
+            g[on] = _heights(integral, f, edges, *ends, x[on], n_halvings - 1)
     return g
 
 
 @lru_cache(N_PANELS)
-def _panel(f: Function, edges: Edges, low: float, high: float) -> Panel:
+def _panel(integral: Integral, f: Function, edges: Edges, low: float, high: float) -> Panel:
     """The panel from low to high, with its polynomial."""
     at_kink = low in edges
-    g_low, g_high = direct(f, edges, np.array([low, high]))
+    g_low, g_high = direct(integral, f, edges, np.array([low, high]))
     rises = not at_kink and min(g_low, g_high) > 0
     power = np.log(g_high / g_low) / np.log(high / low) if rises else 0.0
+    if at_kink:
+        power = 2.0 if integral is AREA else 1.0
     panel = Panel(low, high, at_kink, g_low if at_kink else 0.0, power)
     nodes, to_coefficients = chebyshev_fit(N_NODES)
     t = (nodes + 1) / 2
     x = low + (high - low) * (t * t if at_kink else t)
-    g, factor = direct(f, edges, x), panel.factor(x)
+    g, factor = direct(integral, f, edges, x), panel.factor(x)
     G = (g - panel.base) / factor
     coefficients = to_coefficients @ G
     tail = np.max(np.abs(coefficients[-3:]))
     scale = np.min(np.abs(G)) if rises else np.fmax(np.max(np.abs(G)), g_high)
-    fits = tail <= TAIL * scale or not np.isfinite(g).any() or tail <= _quadrature_error(f, edges, x, g, factor)
+    fits = (
+        tail <= TAIL * scale or not np.isfinite(g).any() or tail <= _quadrature_error(integral, f, edges, x, g, factor)
+    )
     return panel._replace(coefficients=coefficients, fits=bool(fits))
 
 
-def _quadrature_error(f: Function, edges: Edges, x: Array, g: Array, factor: Array) -> float:
+def _quadrature_error(integral: Integral, f: Function, edges: Edges, x: Array, g: Array, factor: Array) -> float:
     """Difference of a second quadrature rule from g, over ``factor``: a polynomial need not be closer."""
     some = slice(2, None, 5)
-    other = transform.profile_1d(f, edges, x[some], double_exponential(0.077))
+    other = integral(f, edges, x[some], double_exponential(0.077))
     return float(np.median(np.abs(g[some] - other) / factor[some]))
