@@ -608,7 +608,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
         for j in range(x.size):
             change = max(change, abs(x[j] - start[j]))
             size = max(size, abs(x[j]))
-        if turn > 0 and change <= 1e-13 * size:
+        if turn > 0 and change <= 1e-13 * size + 1e-15 * abs(gap):  # z - gap is known to its rounding
             break
         grows = change > before
         trust = 0.5 * trust if grows else trust
@@ -621,7 +621,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
             along += table[L_RATIO, j] * last[j] * move[j]
             length += table[L_RATIO, j] * last[j] * last[j]
         rate = along / length if turn % 3 == 2 and length > 0.0 and not grows else 0.0
-        more = 1.0 / (1.0 - rate) if 0.0 < rate < 0.98 else 1.0
+        more = 1.0 / (1.0 - rate) if 0.0 < rate < 0.9999 else 1.0
         for j in range(1, x.size):
             x[j] = start[j] + more * move[j]
     if not change <= SETTLED:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -51,8 +51,7 @@ def accuracy_of(value: Any) -> float:
     return number
 
 
-@dataclass(frozen=True)
-class Knobs:
+class Knobs(NamedTuple):
     """What a march may choose: resolution, start, and what to keep."""
 
     n_springs: int
@@ -64,8 +63,8 @@ class Knobs:
 
     def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Knobs:
         """The knobs of a companion with other steps or springs, that keeps nothing."""
-        return replace(
-            self, n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
+        return self._replace(
+            n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
         )
 
 
@@ -190,7 +189,7 @@ def steady(
     if not np.isfinite(periods.cof).all():
         raise out_of_range(v_0)
     if not periods.as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
-        return steady(case, v_0, replace(knobs, lump=False), n_periods, near, most)
+        return steady(case, v_0, knobs._replace(lump=False), n_periods, near, most)
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
     waited, seen = (waiting, None) if orbit is None else (None, orbit.seen)
     before = stepper.n_periods - (seen is not None)
@@ -207,7 +206,7 @@ def looked_at(end: Steady) -> March:
     if not all(np.isfinite(record.period.cof).all() for record in records):
         raise out_of_range(end.v_0)
     if knobs.lump and not all(record.period.as_one for record in records):
-        again = steady(end.case, end.v_0, replace(knobs, lump=False), None if end.waited is None else end.waited.n)
+        again = steady(end.case, end.v_0, knobs._replace(lump=False), None if end.waited is None else end.waited.n)
         assert again is not None
         march = looked_at(again)
         if settling.settled or end.waited is not None:

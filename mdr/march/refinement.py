@@ -82,7 +82,7 @@ class _Runs:
         return end
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady | None:
-        knobs = replace(knobs, record=0) if knobs.record else knobs
+        knobs = knobs._replace(record=0) if knobs.record else knobs
         if knobs not in self.ends:
             end = steady(self.case, self.v_0, knobs, n_periods, self.near, most)
             if end is None:
@@ -112,7 +112,7 @@ class _Bounded:
     def looked_at(self, record: int) -> March:
         """The run after a close look, with so many periods kept."""
         check_size(self.main.knobs.n_springs, self.main.knobs.steps, record)
-        return looked_at(replace(self.main, knobs=replace(self.main.knobs, record=record)))
+        return looked_at(replace(self.main, knobs=self.main.knobs._replace(record=record)))
 
     def finished(self, record: int) -> SlidingRun:
         """The run in SI, with so many periods kept."""
@@ -174,10 +174,10 @@ def within(
             more_springs, more_steps = False, True
         coarser = bounded
         if more_springs:
-            knobs = replace(knobs, n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
+            knobs = knobs._replace(n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
         if more_steps:
             between = knobs.steps if finer == 2 * between and not uneven else 3 * finer // 4
-            knobs = replace(knobs, steps=finer)
+            knobs = knobs._replace(steps=finer)
 
 
 def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) -> Knobs:
@@ -187,7 +187,7 @@ def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) ->
             break
         if _of_springs(runs, first, knobs, few_steps) <= knobs.accuracy / 2:
             break
-        knobs = replace(knobs, n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
+        knobs = knobs._replace(n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
     return knobs
 
 
@@ -261,7 +261,7 @@ def that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
     while not all(touches(case, knobs.coarser(n)) for n in (knobs.steps, knobs.steps // 2, 3 * knobs.steps // 4)):
         if not free or knobs.steps >= MOST_STEPS:
             raise too_coarse(knobs.steps)
-        knobs = replace(knobs, steps=min(2 * knobs.steps, MOST_STEPS))
+        knobs = knobs._replace(steps=min(2 * knobs.steps, MOST_STEPS))
     return knobs
 
 

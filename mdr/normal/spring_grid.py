@@ -69,9 +69,7 @@ def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]
     marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]
     marks.sort()
-    x, gap = np.array(marks).T
-    g = u_z0 + gap
-    area = np.diff(shape.profile_area(x))
+    area = np.diff(shape.profile_area([x for x, _ in marks]))
     return [
         _Stretch(x_lo, x_hi, gap_lo, gap_hi, below, permanent=gap_hi <= kept)
         for (x_lo, gap_lo), (x_hi, gap_hi), below in zip(marks, marks[1:], area.tolist(), strict=False)

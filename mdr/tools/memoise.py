@@ -41,10 +41,14 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
 
         @wraps(function)
         def call(*args: Any) -> T:
-            records = list(_records(args))
-            if not all(_is_frozen(one) for one in records):
-                return function(*args)
-            return known(tuple(_Itself(one) for one in records if _holds_function(one)), *args)
+            holding = []
+            for one in _records(args):
+                frozen, names = _kind(type(one))  # type: ignore[arg-type]
+                if not frozen:
+                    return function(*args)
+                if any(callable(getattr(one, name)) for name in names):
+                    holding.append(_Itself(one))
+            return known(tuple(holding), *args)
 
         return call
 
@@ -54,14 +58,16 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
 def _records(args: tuple[Any, ...]) -> Iterator[Any]:
     """The records among the arguments; of a case its parts."""
     for one in args:
-        parts = [getattr(one, name) for name in PARTS] if all(hasattr(one, name) for name in PARTS) else [one]
-        yield from (part for part in parts if not isinstance(part, PLAIN))
+        if not isinstance(one, PLAIN):
+            names = _kind(type(one))[1]  # type: ignore[arg-type]
+            parts = [getattr(one, name) for name in PARTS] if set(PARTS) <= set(names) else [one]
+            yield from (part for part in parts if not isinstance(part, PLAIN))
 
 
-def _holds_function(record: Any) -> bool:
-    return any(callable(getattr(record, one.name)) for one in fields(record))
-
-
-def _is_frozen(record: Any) -> bool:
-    """True if a record cannot be changed and has a hash."""
-    return is_dataclass(record) and type(record).__dataclass_params__.frozen and type(record).__hash__ is not None  # type: ignore[union-attr]
+@lru_cache(256)
+def _kind(record: type[Any]) -> tuple[bool, tuple[str, ...]]:
+    """Whether records of a class cannot be changed and have a hash, and their fields."""
+    if not is_dataclass(record):
+        return False, ()
+    frozen = record.__dataclass_params__.frozen and record.__hash__ is not None  # type: ignore[attr-defined]
+    return frozen, tuple(one.name for one in fields(record))
