@@ -181,17 +181,17 @@ class Indenter(Record, ABC):
         """
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
-        asked, known = d.tobytes(), _answers(self._f).radii
-        if (found := known.get(asked)) is None:
+        asked, known = d.tobytes(), _answers(self._f)
+        if (found := known.radii.get(asked)) is None:
             found = np.zeros(d.size)
             pressed = d.ravel() > 0
             if pressed.any():
                 found[pressed] = self._search(d.ravel()[pressed])
                 self._refuse_annular(found.max())
-            if d.size <= MOST_DEPTHS:
-                known[asked] = found
-                if len(known) > MOST_ANSWERS:
-                    del known[next(iter(known))]
+                if d.size <= MOST_DEPTHS and _among(known.rising, found.max()):  # else it is warned of each time
+                    known.radii[asked] = found
+                    if len(known.radii) > MOST_ANSWERS:
+                        known.radii.pop(next(iter(known.radii)), None)
         return plain(found.reshape(d.shape).copy())
 
     def profile_area(self, a: ArrayLike) -> Array:
@@ -453,24 +453,23 @@ class Indenter(Record, ABC):
         if _among(known.rising, a):
             return
         x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
-        self._check_map(x[::10])
+        mapped = self._check_map(x[::10])
         ahead = np.linspace(a, min(AHEAD * a, self.max_radius), 33)  # for contacts that are a little wider
         with np.errstate(all="ignore"):
             g, more = in_chunks(self._g, x), in_chunks(self._g, ahead)
-            refuse_falling(
-                self, x, g, float(np.nan_to_num(more[1], posinf=0.0))
-            )  # at a flat face g is rounding up to a
+            further = float(np.nan_to_num(more[1], posinf=0.0))  # at a flat face g is rounding up to a
+            refuse_falling(self, x, g, further)
             rises = np.all(np.diff(more) >= -FALL * np.abs(more[-1]))  # NaN does not
             good = rises and np.isfinite(more[-1]) and self._map_error(ahead[::8]) <= MAPPING_ERROR
-        known.rising.append(float(ahead[-1]) if good else a)
-        if good:
-            known.mapped.append(float(ahead[-1]))
+        if mapped:
+            known.rising.append(float(ahead[-1]) if good else a)
+            known.mapped.append(known.rising[-1])
 
-    def _check_map(self, x: Array) -> None:
-        """ValueError for a mapped profile that is not finite; a warning where a second quadrature rule disagrees."""
+    def _check_map(self, x: Array) -> bool:
+        """Whether two quadrature rules agree on g(x), with a warning if not; ValueError where g is not finite."""
         known = _answers(self._f).mapped
         if self._gives_g or x.size == 0 or _among(known, x.max()):
-            return
+            return True
         error = self._map_error(np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest")))
         if not np.isfinite(error):
             raise ValueError(
@@ -483,8 +482,9 @@ class Indenter(Record, ABC):
                 "name every radius where f or its slope is not smooth in kinks=",
                 stacklevel=3,
             )
-        else:
-            known.append(float(x.max()))
+            return False
+        known.append(float(x.max()))
+        return True
 
     def _map_error(self, x: Array) -> float:
         """Difference of two quadrature rules, over the height; infinite where g is not finite."""
