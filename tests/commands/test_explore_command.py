@@ -1,6 +1,7 @@
 """`mdr explore` until its page is served: what it refuses, and what it prints. The page itself: tests/explorer/."""
 
 import json
+import logging
 import socket
 import sys
 from types import SimpleNamespace
@@ -96,3 +97,18 @@ def test_without_panel_it_says_how_to_install_it(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "panel", None)
     assert main(["explore"]) == 2
     assert ".[explore]" in capsys.readouterr().err
+
+
+def test_a_page_that_is_closed_is_no_fault():
+    """A picture on its way to it is lost, of which the server would print a traceback."""
+    pytest.importorskip("panel")
+    from tornado.websocket import WebSocketClosedError
+
+    from mdr.explorer.server import is_worth_saying
+
+    def told(error):
+        return is_worth_saying(logging.LogRecord("asyncio", 40, "", 0, "", None, error and (type(error), error, None)))
+
+    assert not told(WebSocketClosedError())
+    assert told(ValueError())
+    assert told(None)
