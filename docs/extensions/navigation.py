@@ -1,4 +1,4 @@
-"""What pages leave to be filled in: the order of all, at the foot of the first one, and the records of a module."""
+"""Fills in the order of the pages, at the foot of the first one, and the records of a module in the reference."""
 
 import re
 from importlib import import_module

@@ -1,6 +1,6 @@
 """Starting files: a commented case for each shape, material, motion, pull and shake that a file can carry.
 
-Every example is a small body of rubber 20 µm deep, which touches over a disc of about 1 mm.
+Every example is a small body of rubber some 20 µm deep, which touches over a disc of about 1 mm.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ Lengths r, x, d, a in m, E* and p in Pa, F_N in N; any other consistent units do
 
 A shape of one's own is a frozen dataclass with ``profile_3d`` or ``profile_1d``; the rest follows by
 quadrature (`mdr.indenters.mapping.abel`), to 1e-9 or better, and every closed form it adds makes it faster.
-What g it has been asked for from f is kept (`mdr.indenters.mapping.chebyshev_panels`), so that a shape must not change.
+What it has been asked for is kept (`Answers`; g from f in `mdr.indenters.mapping.chebyshev_panels`), so that a
+shape must not change.
 """
 
 import warnings
@@ -61,8 +62,14 @@ class Answers(NamedTuple):
 
 @lru_cache(256)
 def _answers(heights: Function) -> Answers:
-    """The answers of a shape so far; heights: its `_f`, as a record of one's own may have no hash."""
+    """The answers of a shape so far. heights: its method `_f`, which is equal to that of the very same object alone."""
     return Answers({}, [], [], [])
+
+
+def _add(known: list[float], radius: float) -> None:
+    """Keep a radius, and forget the oldest of many."""
+    known.append(radius)
+    del known[:-16]
 
 
 def _among(known: list[float], radius: float) -> bool:
@@ -181,7 +188,7 @@ class Indenter(Record, ABC):
         """
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
-        asked, known = d.tobytes(), _answers(self._f)
+        asked, known = d.tobytes(), self._known
         if (found := known.radii.get(asked)) is None:
             found = np.zeros(d.size)
             pressed = d.ravel() > 0
@@ -191,7 +198,7 @@ class Indenter(Record, ABC):
                 if d.size <= MOST_DEPTHS and _among(known.rising, found.max()):  # else it is warned of each time
                     known.radii[asked] = found
                     if len(known.radii) > MOST_ANSWERS:
-                        known.radii.pop(next(iter(known.radii)), None)
+                        known.radii.clear()
         return plain(found.reshape(d.shape).copy())
 
     def profile_area(self, a: ArrayLike) -> Array:
@@ -365,6 +372,12 @@ class Indenter(Record, ABC):
     def _edges(self) -> tuple[float, ...]:
         return (0.0, *self.kinks, self.max_radius)
 
+    @property
+    def _known(self) -> Answers:
+        """What was found out of this shape; nothing of one that can be changed."""
+        params = getattr(type(self), "__dataclass_params__", None)
+        return _answers(self._f) if params is not None and params.frozen else Answers({}, [], [], [])
+
     def _f(self, r: Array) -> Array:
         """f(r) for r >= 0 as it comes out, unchecked."""
         return self.profile_3d(r)
@@ -440,16 +453,16 @@ class Indenter(Record, ABC):
     def _refuse_beyond(self, d: Array) -> None:
         if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:
             return
-        if not (known := _answers(self._f).reach):
+        if not (known := self._known.reach):
             with np.errstate(all="ignore"):
                 known.append(float(self._g(np.array([self.max_radius]))[0]))
-        (reach,) = known
+        reach = known[-1]
         if d.max() > reach * (1 + 64 * EPS):
             raise ValueError(f"d = {d.max():.6g} m is deeper than {type(self).__name__} {self._why_too_deep(reach)}")
 
     def _refuse_annular(self, a: float) -> None:
         """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
-        known = _answers(self._f)
+        known = self._known
         if _among(known.rising, a):
             return
         x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
@@ -462,12 +475,12 @@ class Indenter(Record, ABC):
             rises = np.all(np.diff(more) >= -FALL * np.abs(more[-1]))  # NaN does not
             good = rises and np.isfinite(more[-1]) and self._map_error(ahead[::8]) <= MAPPING_ERROR
         if mapped:
-            known.rising.append(float(ahead[-1]) if good else a)
-            known.mapped.append(known.rising[-1])
+            _add(known.rising, float(ahead[-1]) if good else a)
+            _add(known.mapped, known.rising[-1])
 
     def _check_map(self, x: Array) -> bool:
         """Whether two quadrature rules agree on g(x), with a warning if not; ValueError where g is not finite."""
-        known = _answers(self._f).mapped
+        known = self._known.mapped
         if self._gives_g or x.size == 0 or _among(known, x.max()):
             return True
         error = self._map_error(np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest")))
@@ -483,7 +496,7 @@ class Indenter(Record, ABC):
                 stacklevel=3,
             )
             return False
-        known.append(float(x.max()))
+        _add(known, float(x.max()))
         return True
 
     def _map_error(self, x: Array) -> float:

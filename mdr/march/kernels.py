@@ -1226,7 +1226,7 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
 def watch(e, s, held, body, springs, motion, table, at_once, out, seen):
     """March one period as `march` does, with a close look at every step; arrays of at_once steps are in use at a time.
 
-    out: Trace of the period, of which e and s are kept or (0, 1 + J, n); seen: as of `observe`.
+    out: Trace of the period, with as many rows of e and s as are to be kept, or none; seen: as of `observe`.
     """
     (n_x, n), n_steps = e.shape, out.y.size
     elastic = n_x == 1 and table[L_DECAY, 0] == 0.0
@@ -1260,7 +1260,7 @@ def watch(e, s, held, body, springs, motion, table, at_once, out, seen):
         observe(e_all[: m + 1], s_all[: m + 1], y[done : end + 3], springs, motion, body.light, table, done, look)
         if out.e.shape[0] > 0:
             for j in range(m):
-                for a in range(n_x):
+                for a in range(out.e.shape[1]):
                     put(e_all[j + 1, a], out.e[done + j, a])
                     put(s_all[j + 1, a], out.s[done + j, a])
         done = end

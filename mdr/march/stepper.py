@@ -141,14 +141,16 @@ class Stepper:
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
-        scaled, (n_x, n), n_steps = self.scaled, self.scaled.normal.s.shape, self.scaled.steps
+        scaled, n, n_steps = self.scaled, self.scaled.gap.size, self.scaled.steps
         before, state = state, state.copy()
         kept = n_steps if keep else 0
         F_x, F_z, slip = np.empty((3, n_steps))
         f_x, f_z = np.empty((2, kept, n))
         seen = kernels.Seen(np.zeros(kernels.N_SUMS), F_x, F_z, slip, np.zeros((kept, n), dtype=np.uint8), f_x, f_z)
         seen.sums[kernels.LEAST_SLIP] = np.inf
-        trace = kernels.Trace(np.empty(n_steps), np.empty(n_steps), *np.empty((2, kept, n_x, n)))
+        trace = kernels.Trace(
+            np.empty(n_steps), np.empty(n_steps), *np.empty((2, kept, 1, n))
+        )  # of the springs, not of their arms
         at_once = min(n_steps, max(8, IN_CACHE // state.e.size))  # in cache, in not too many parts
         motion = self.springs, self.motion, scaled.table
         as_one = kernels.watch(state.e, state.s, state.body, scaled.body, *motion, at_once, trace, seen)

@@ -119,7 +119,7 @@ def _rise(shape: Indenter, stretch: _Stretch, share: Array, u_z0: float) -> Arra
 
 
 def _missing_mean(u_z0: float, stretch: _Stretch, mean: float) -> float:
-    """Error of the quadrature in the mean of g over a stretch, which F_N gives exactly; rounding is not corrected."""
+    """Error of the quadrature in the mean of g over a stretch, from the area below g; rounding is not corrected."""
     span = stretch.x_hi - stretch.x_lo
     missing = stretch.area / span - u_z0 - mean
     noise = 64 * EPS * stretch.x_hi * abs(u_z0 + stretch.gap_hi) / span

@@ -2,6 +2,8 @@
 
 import math
 import warnings
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -115,6 +117,28 @@ def test_many_depths_cost_no_more_than_a_few(digits):
     shape = Profile(counted)
     assert cost(Profile(counted), 5000) <= (first := cost(shape, 50))
     assert cost(shape, 5000) < first / 1.2  # asked again: what is left are the checks
+
+
+def test_nothing_is_kept_of_a_shape_that_can_be_changed():
+    @dataclass
+    class Bowl(Indenter):
+        R: float
+
+        def profile_1d(self, x):
+            return x * x / self.R
+
+    bowl = Bowl(0.05)
+    before = bowl.contact_radius(2e-5)
+    bowl.R = 0.2
+    assert_allclose(bowl.contact_radius(2e-5), 2 * before, rtol=MAP)
+
+
+def test_threads_may_ask_one_shape():
+    shape = Profile(lambda r: r * r / 1e-2, r_max=4e-3)
+    d = np.linspace(1e-6, 1e-4, 400)
+    with ThreadPoolExecutor(6) as pool:
+        a = list(pool.map(shape.contact_radius, d))
+    assert_allclose(a, np.sqrt(d * R), rtol=MAP)
 
 
 def test_a_new_profile_asks_its_function_anew():

@@ -1,5 +1,6 @@
-"""g(x), the area below it and its inverse a(d) from f(r), panel by panel: a quadrature at a few nodes once, polynomials
-afterwards. What is said of g here holds of the area too.
+"""g(x), the area below it and its inverse a(d) from f(r), by polynomials on panels, each made by quadrature once.
+
+What is said of g here holds of the area too, but for the power of t behind a kink.
 
 The x axis is cut at powers of two, at the kinks b, and behind each of them at b + h, b + 2h, b + 4h … with h
 the way back to the kink before (or to the tip): no length is special. On a panel [x_lo, x_hi]
