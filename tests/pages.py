@@ -31,6 +31,9 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
+sys.path.append(str(DOCS / "extensions"))
+from navigation import with_records  # noqa: E402
+
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
 FENCE = re.compile(r"^(`{3,})([^\n`]*)\n(.*?)^\1 *$", re.DOTALL | re.MULTILINE)
 FIGURE = re.compile(r"!\[[^\]]+\]\((?:\.\./)?figures/([\w.-]+)\)")
@@ -216,13 +219,11 @@ def optional_dependencies() -> set[str]:
 
 
 def documented(text: str) -> list[str]:
-    """Dotted names that autodoc directives of a text document; each is imported. `mdr.indenters.*`: see the guide."""
-    found = re.findall(r"^\.\. \w+:: (\S+)$", text, re.MULTILINE)
-    for path in [path for path in found if path.endswith(".*")]:
-        names = [f"mdr.{name}" for name in pkgutil.resolve_name(path[:-2]).__all__]
-        found[found.index(path) :] = [*(name for name in names if name not in found), *found[found.index(path) + 1 :]]
-    for path in found:
+    """Dotted names that autodoc directives of a text document; each is imported."""
+    found = []
+    for path in re.findall(r"^\.\. \w+:: (\S+)$", with_records(text), re.MULTILINE):
         pkgutil.resolve_name(path)
+        found.append(path)
     return found
 
 

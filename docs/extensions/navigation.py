@@ -1,9 +1,13 @@
 """Fills in the order of the pages, at the foot of the first one, and the records of a module in the reference."""
 
+from __future__ import annotations
+
 import re
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from sphinx.application import Sphinx
+if TYPE_CHECKING:  # tests read pages where sphinx is not installed
+    from sphinx.application import Sphinx
 
 
 def add_contents(app: Sphinx, page: str, source: list[str]) -> None:
@@ -15,14 +19,19 @@ def add_contents(app: Sphinx, page: str, source: list[str]) -> None:
         source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {heading}\n\n{entries}\n```\n"
 
 
-def add_records(app: Sphinx, page: str, source: list[str]) -> None:
-    """In place of `.. autoclass:: mdr.indenters.*` a line for each name of the module that the page does not have."""
+def with_records(text: str) -> str:
+    """In place of `.. autoclass:: mdr.indenters.*` a line for each name of the module that the text does not have."""
 
     def lines(found: re.Match[str]) -> str:
         names = [f"mdr.{name}" for name in import_module(found[1]).__all__]
-        return "\n".join(f".. autoclass:: {name}" for name in names if f":: {name}\n" not in source[0])
+        return "\n".join(f".. autoclass:: {name}" for name in names if f":: {name}\n" not in text)
 
-    source[0] = re.sub(r"^\.\. autoclass:: (\S+)\.\*$", lines, source[0], flags=re.MULTILINE)
+    return re.sub(r"^\.\. autoclass:: (\S+)\.\*$", lines, text, flags=re.MULTILINE)
+
+
+def add_records(app: Sphinx, page: str, source: list[str]) -> None:
+    """As `with_records`."""
+    source[0] = with_records(source[0])
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -55,7 +55,7 @@ def _no_amplitudes(name: str, value: Any, note: str = "") -> tuple[float, ...]:
 FREQUENCY = facts(
     "rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$", example=314.159
 )
-SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  # m
+SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  #: of the example [m]
 PLACE = facts("", "where the motion acts", _place)
 
 

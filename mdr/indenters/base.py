@@ -30,6 +30,7 @@ from mdr.indenters.mapping.quadrature import Function, double_exponential, in_ch
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import between, finite_array, plain, positive_array
 from mdr.tools.fields import Record, facts
+from mdr.tools.memoise import is_frozen
 
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
 MOST_DEPTHS, MOST_ANSWERS = 64, 256  #: of a question that is kept, and questions that are
@@ -375,8 +376,7 @@ class Indenter(Record, ABC):
     @property
     def _known(self) -> Answers:
         """What was found out of this shape; nothing of one that can be changed."""
-        params = getattr(type(self), "__dataclass_params__", None)
-        return _answers(self._f) if params is not None and params.frozen else Answers({}, [], [], [])
+        return _answers(self._f) if is_frozen(type(self)) else Answers({}, [], [], [])
 
     def _f(self, r: Array) -> Array:
         """f(r) for r >= 0 as it comes out, unchecked."""

@@ -28,8 +28,8 @@ N_POINTS = 7  #: fewer make no spline
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 SLACK = 1e-9  #: of an exponent or a radius: rounding
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
-DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))
-FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  # of a paraboloid
+DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
+FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:

@@ -65,10 +65,10 @@ def has_example(record: Any) -> bool:
     return all(facts_of(one).example is not None for one in asked)
 
 
-def example_of(record: type[T], **given: Any) -> T:
-    """A record made of the examples of its fields, and of what is given."""
+def example_of(record: type[T]) -> T:
+    """A record made of the examples of its fields."""
     known = {one.name: facts_of(one).example for one in fields(record)}  # type: ignore[arg-type]
-    return record(**{name: value for name, value in known.items() if value is not None} | given)
+    return record(**{name: value for name, value in known.items() if value is not None})
 
 
 def checked(field: Field[Any], value: Any) -> Any:

@@ -64,6 +64,11 @@ def _records(args: tuple[Any, ...]) -> Iterator[Any]:
             yield from (part for part in parts if not isinstance(part, PLAIN))
 
 
+def is_frozen(record: type[Any]) -> bool:
+    """Whether records of a class cannot be changed and have a hash."""
+    return _kind(record)[0]  # type: ignore[arg-type]
+
+
 @lru_cache(256)
 def _kind(record: type[Any]) -> tuple[bool, tuple[str, ...]]:
     """Whether records of a class cannot be changed and have a hash, and their fields."""

@@ -1,6 +1,7 @@
 """g(x) and a(d) of a profile from its panels: as good as the quadrature they are made of, and as good everywhere."""
 
 import math
+import time
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -134,8 +135,11 @@ def test_nothing_is_kept_of_a_shape_that_can_be_changed():
 
 
 def test_threads_may_ask_one_shape():
-    shape = Profile(lambda r: r * r / 1e-2, r_max=4e-3)
-    d = np.linspace(1e-6, 1e-4, 400)
+    def slow(r):
+        time.sleep(1e-4)  # another one begins
+        return r * r / 1e-2
+
+    shape, d = Profile(slow, r_max=4e-3), np.linspace(1e-6, 1e-4, 12)
     with ThreadPoolExecutor(6) as pool:
         a = list(pool.map(shape.contact_radius, d))
     assert_allclose(a, np.sqrt(d * R), rtol=MAP)
