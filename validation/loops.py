@@ -62,7 +62,7 @@ class Start:
         return float(np.exp(-self.scaled.h / self.scaled.T)) if self.scaled.T else 0.0
 
 
-March = Callable[[Start, int], tuple[Any, Any]]  # n_steps -> extensions (n,) at the end, sum of w e (n_steps,)
+March = Callable[[Start, int], tuple[Any, Any]]  # n_steps -> extensions (n,) at the end, sums of w e (n_steps,)
 
 
 def compiled(start: Start, n_steps: int) -> tuple[Any, Any]:
@@ -84,13 +84,13 @@ def vectorised(start: Start, n_steps: int) -> tuple[Any, Any]:
     s = start.normal[0]
     e, S = s, np.empty(n_steps)
     for j in range(n_steps):
-        e, s = _step(start, e, s, j % start.scaled.steps)
-        S[j] = start.scaled.w @ e
+        e, s, more = _step(start, e, s, j % start.scaled.steps)
+        S[j] = start.scaled.w @ (e + more)
     return e, S
 
 
-def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any]:
-    """New extensions and compressions."""
+def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any, Any]:
+    """New extensions and compressions, and what the paths to them add to the means of the extensions."""
     scaled, v, decay, rate = start.scaled, start.v, start.decay, start.rate
     z_0, z_1, zd_0, zd_1, h = scaled.z[k], scaled.z[k + 1], scaled.z_dot[k], scaled.z_dot[k + 1], scaled.h
     du, pressed = v * h, z_1 - scaled.gap
@@ -99,7 +99,14 @@ def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any]:
         way = np.minimum(s / (z_1 - z_0), 1) if z_1 > z_0 else np.minimum(s * 1e300, 1)
         travelled = way * (1 - kernels.bend_of.py_func(zd_0, zd_1) * (1 - way))
         late = float(_after_change(zd_0 - v, zd_1 - v, h, 0.0)) if zd_0 < v else 0.0
-        return np.maximum(np.minimum(e + travelled * du, s - travelled * late), -s), s
+        above, trial = z_0 - scaled.gap, e + travelled * du
+        over = trial - np.clip(trial, -s, s)
+        left = np.where(over > 0, above - e, above + e)
+        slips = 0.5 * over * left / (left + np.abs(over) + 1e-300)
+        new = np.maximum(np.minimum(trial, s - travelled * late), -s)
+        stays = np.where(pressed > 0, slips, _end_of_touch(e, np.maximum(above, 0), du, -np.minimum(pressed, 0)))
+        touches = new * (1 / (12 * np.maximum(travelled, 1e-9)) - 0.5 * (1 - travelled)) * (travelled > 0)
+        return new, s, np.where(above > 0, stays, touches)
     relaxed = s_0 * decay
     ahead = s_0 - (z_0 - scaled.gap)
     leaving = np.where(ahead <= 0, _after_change(-(zd_0 + s_0 * rate), -(zd_1 + pressed * rate), h, rate), 0)
@@ -118,7 +125,18 @@ def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any]:
     change = _after_change(sign * D_0, sign * D_1, h, rate)
     forward = s - lag * decay
     first = np.minimum(np.where(sticks, trial, forward) - travelled * change, forward)
-    return np.maximum(first, (s_0 + e) * decay - s), s
+    new = np.maximum(first, (s_0 + e) * decay - s)
+    touches = (new - e * decay) * (1 / (12 * np.maximum(travelled, 1e-9)) - 0.5 * (1 - travelled))
+    return new, s, np.where((travelled > 0) & (ahead > 1e-14 * (1 + np.abs(scaled.gap))), touches, 0)
+
+
+def _end_of_touch(e: Any, s: Any, du: float, opened: Any) -> Any:
+    """What elastic springs that let go within the step add, see mdr/march/kernels.py."""
+    share = s / (s + opened + 1e-300)
+    ahead, behind = (np.maximum(s + way * share * du, 1e-300) for way in (1, -1))
+    slips = share * np.minimum(np.minimum((s - e) / ahead, (s + e) / behind), 1)
+    met = e + du * slips
+    return 0.5 * (e * (slips - 1) + met * share) + np.where(s > 0, np.copysign((s + opened) / 12, met), 0)
 
 
 def _after_change(D_0: Any, D_1: Any, h: float, rate: float) -> Any:

@@ -2,7 +2,8 @@
 
    e (n,): extensions; e_next: of Kelvin springs, in two places by turns. s, s_next: their compressions. gap, w (n,). z, zd
    (n_z + 1,): normal motion over a period and its rate. spans (2, n_z): the springs before the
-   first number press throughout a step, those from the second on are free throughout it. S (n_steps,): sum of w e after each step. The compiler may reorder sums, so that a spring in contact is ahead of the indenter by a rounding: 1e-12
+   first number press throughout a step, those from the second on are free throughout it. S (n_steps,): sum of w e after
+   each step, with what the paths to it add to the mean. The compiler may reorder sums, so that a spring in contact is ahead of the indenter by a rounding: 1e-12
    tells it from one that is free. With an even number of steps the last state is in e and s. */
 
 #include <math.h>
@@ -35,6 +36,22 @@ static inline double kelvin_friction(double s, double trial, double travelled, d
     return most(first, s_free + s_free - lag_free - s);
 }
 
+/* of an elastic spring that lets go within a step */
+static inline double end_of_touch(double e, double s, double du, double opened)
+{
+    double share = s / (s + opened + 1e-300);
+    double ahead = most(s + share * du, 1e-300), behind = most(s - share * du, 1e-300);
+    double slips = share * least(least((s - e) / ahead, (s + e) / behind), 1.0);
+    double met = e + du * slips, jump = (s + opened) / 12.0;
+    return 0.5 * (e * (slips - 1.0) + met * share) + (met >= 0.0 ? jump : -jump);
+}
+
+/* of a spring that flies, to `flown` at the end, and touches for the last share of the step */
+static inline double first_touch(double x, double flown, double travelled)
+{
+    return travelled > 0.0 ? (x - flown) * (1.0 / (12.0 * most(travelled, 1e-9)) - 0.5 * (1.0 - travelled)) : 0.0;
+}
+
 static inline void span_of(const long *spans, long k, long n, long n_z, long *n_in, long *n_out)
 {
     long high = (spans[n_z + k] + VECTOR - 1) / VECTOR * VECTOR;
@@ -53,16 +70,26 @@ void elastic_march(double *restrict e, const double *restrict gap, const double 
         double z_1 = z[k + 1], inverse_dz = z[k + 1] > z[k] ? 1.0 / (z[k + 1] - z[k]) : 1e300;
         double bend = bend_of(zd[k], zd[k + 1]), total = 0.0;
         double late = zd[k] < v ? after_change(zd[k] - v, zd[k + 1] - v, h, 0.0) : 0.0;
+        double z_0 = z[k], pace = most(du - (z_1 - z_0), 0.0), pace_back = most(-du - (z_1 - z_0), 0.0);
+        double half = 0.5 / (pace + 1e-300), half_back = 0.5 / (pace_back + 1e-300);
         for (long i = 0; i < n_in; i++) {
-            double s = z_1 - gap[i];
+            double s = z_1 - gap[i], left = z_0 - gap[i] - e[i], left_back = z_0 - gap[i] + e[i];
+            double more = half * most(left * (pace - left), 0.0) - half_back * most(left_back * (pace_back - left_back), 0.0);
             e[i] = most(least(e[i] + du, s - late), -s);
-            total += w[i] * e[i];
+            total += w[i] * (e[i] + more);
         }
         for (long i = n_in; i < n_out; i++) {
-            double s = most(z_1 - gap[i], 0.0), way = least(s * inverse_dz, 1.0);
-            double travelled = way * ((1.0 - bend) + bend * way);
-            e[i] = most(least(e[i] + travelled * du, s - travelled * late), -s);
-            total += w[i] * e[i];
+            double above = z_0 - gap[i], pressed = z_1 - gap[i], e_0 = e[i], left = above - e_0, left_back = above + e_0;
+            double s = most(pressed, 0.0), way = least(s * inverse_dz, 1.0);
+            double travelled = way * ((1.0 - bend) + bend * way), more;
+            e[i] = most(least(e_0 + travelled * du, s - travelled * late), -s);
+            if (above <= 0.0)
+                more = first_touch(e[i], 0.0, travelled);
+            else if (pressed <= 0.0)
+                more = end_of_touch(e_0, above, du, -pressed);
+            else
+                more = half * most(left * (pace - left), 0.0) - half_back * most(left_back * (pace_back - left_back), 0.0);
+            total += w[i] * (e[i] + more);
         }
         for (long i = n_out; i < n_at_rest; i++)
             e[i] = 0.0;
@@ -101,7 +128,8 @@ void kelvin_march(double *restrict e, double *restrict e_next, double *restrict 
             q[i] = now;
             b[i] = kelvin_friction(now, trial, travelled, zd_0 - v, zd_1 - v, h, rate, s_free, lag_free, lag * rate,
                                    lag_free * rate);
-            total += w[i] * b[i];
+            int flies = ahead > 1e-14 * (1.0 + fabs(gap[i]));
+            total += w[i] * (b[i] + (flies ? first_touch(b[i], s_free - lag_free, travelled) : 0.0));
         }
         for (long i = n_out; i < n; i++) {
             b[i] = a[i] * decay;

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,11 +44,12 @@ class NormalState:
 
     s: Array  #: (1 + J, n) compressions at phase 0, and their arms
     spans: NDArray[np.int64]  #: (2, n_steps) of springs that press, or are free, throughout a step
-    S: Array  #: (n_steps,) sum of w s at the nodes; in full slip, where e = s, that of w e too
+    S: Array  #: (n_steps,) sum of w s at the nodes, as the march has that of w e; in full slip, where e = s, the same
+    load: float  #: mean of F_z over the period, of the nodes alone: where springs touch they miss both ways
 
     @cached_property
     def mean(self) -> float:
-        """Mean of S over the period, which is that of F_z."""
+        """Mean of S over the period, by which the COF divides: that of F_z but for the second order in the step."""
         return float(self.S.mean())
 
 
@@ -134,9 +136,12 @@ class ScaledContact:
         cycle, kappa, rheology = case.cycle, case.material.mindlin_ratio, case.rheology
         width = float(springs.width.sum())
         gap, w, margin, n_lumped = springs.gap / cycle.unit, springs.width / width, -np.inf, 1
-        core = gap[: springs.n_core]
-        if lump and core.size > 1 and (not case.is_shaken or core.max() == core.min()):  # a shake has edges slip back
-            gap, w, margin, n_lumped = _lumped(gap, w, springs.n_core)
+        core, n_core = gap[: springs.n_core], springs.n_core
+        if lump and gap.max() == gap.min():  # springs that stand alike do alike
+            gap, w, n_lumped, n_core = gap[:1], np.ones(1), gap.size, min(n_core, 1)
+        elif lump and core.size > 1 and (not case.is_shaken or core.max() == core.min()):  # a shake has edges slip back
+            gap, w, margin, n_lumped = _lumped(gap, w, n_core)
+            n_core -= n_lumped - 1
         length_x = case.mu_0 * kappa * cycle.unit
         z, z_dot = cycle.over_a_period(steps)
         way = case.way
@@ -166,7 +171,7 @@ class ScaledContact:
             K=K,
             lump_margin=margin,
             n_lumped=n_lumped,
-            n_core=springs.n_core - n_lumped + 1,
+            n_core=n_core,
             length_x=length_x,
             length_z=cycle.unit,
             stiffness_x=springs.G_star * width,
@@ -179,13 +184,13 @@ class ScaledContact:
         """The springs in their periodic normal motion."""
         s, spans = np.zeros((1 + self.n_arms, self.gap.size)), np.empty((2, self.steps), dtype=np.int64)
         S = np.empty(self.steps)
-        kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans, S)
+        load = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans, S)
         if np.isnan(S).any():
             raise ValueError(
                 f"steps_per_period = {self.steps} is too coarse for the normal motion of springs with these arms, "
                 "which does not become periodic; raise it"
             )
-        return NormalState(s, spans, S)
+        return NormalState(s, spans, S, float(load))
 
     @property
     def springs(self) -> kernels.Springs:
@@ -295,15 +300,14 @@ class ScaledContact:
         """Amplitude of the velocity that each harmonic of the motion has."""
         return np.asarray(2 * np.arange(y_n.size) * np.abs(y_n) / self.steps)
 
-    def mean_force(self, ends: Array, inner: Array, arms: Array, time: float) -> Array:
-        """Mean of L[e] over times in which S runs from ends[:-1] to ends[1:], (n,), with the mean `inner` of S itself
-        and arms (n + 1, J) at the ends.
+    def mean_force(self, change: Any, inner: Any, of_arms: Any, time: float) -> Any:
+        """Mean of L[e] over times in which S has the mean `inner` and changes by `change`, (n,) or one, and the sums
+        over the arms by of_arms (..., J).
         """
-        change = ends[1:] - ends[:-1]
         mean = inner + self.T * change / time
         for j, (rho, theta) in enumerate(zip(self.rheology.rho, self.rheology.theta, strict=True)):
-            mean = mean + rho * theta / time * (change - np.diff(arms[:, j]))  # x_j' = x' - x_j/theta_j
-        return np.asarray(mean)
+            mean = mean + rho * theta / time * (change - of_arms[..., j])  # x_j' = x' - x_j/theta_j
+        return mean
 
     def arms_at_ends(self, S: Array, S_start: float, arms: Array) -> Array:
         """Sums over the arms (n_periods + 1, J) at the ends of periods, from those at the start (J,) and S (n_t,)."""

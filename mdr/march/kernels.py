@@ -130,6 +130,8 @@ class Step(NamedTuple):
 
     n_in: int  #: the springs before it press throughout the step
     n_out: int  #: those from it on are free throughout
+    first: int  #: those from it on may touch or let go
+    last: int  #: those before it
     z_0: float
     z_1: float
     zd_0: float
@@ -163,7 +165,7 @@ class Free(NamedTuple):
     s: float  #: compression at the end of the step
     s_rate: float  #: rate at which it falls at the start
     s_end: float  #: and at the end
-    s_shed: float  #: part of it that the static force has shed by then
+    s_shed: float  #: with a dashpot, what the arms leave of it at the end without static force; else its elastic part
     lag: float  #: the same of the lag
     lag_rate: float
     lag_end: float
@@ -191,6 +193,7 @@ class Seen(NamedTuple):
     f_z: Array  #: (m, n)
 
 
+UNSEEN = 1e-4  #: of a step: elastic lag that springs which slip may have, as arms are followed to the third order
 VECTOR = 16  #: springs that a loop takes at once, or a multiple of it
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state
 STEADY = 1e-12  #: change over a period up to which a spring does the same in every period, of du_z
@@ -205,6 +208,37 @@ def after_change(D_0, D_1, h, rate):
     """What the new mode adds in a step through which its lead D runs from D_0 < 0 to D_1 > 0; rate = 1/T damps it."""
     lead = max(D_1, 0.0)  # the rest of the step, after the change, is h lead/(lead + max(-D_0, 0))
     return 0.5 * h * lead * lead / (lead + max(-D_0, 0.0) + 0.5 * rate * h * lead + 1e-300)
+
+
+@_inline
+def end_of_stick(trial, least, most, left_back, left):
+    """What the end of stick within a step adds to the mean of the extension over it, and how much of a further move of
+    the body goes into that. least, most: extensions of slip, backward and forward, at the end of the step; left_back,
+    left: how far from them the spring begins. This falls to zero at the pace at which the trial step then leads, so
+    that the path is two straight lines.
+    """
+    over = trial - max(min(trial, most), least)
+    before = max(left if over > 0.0 else left_back, 0.0)
+    share = before / (before + abs(over) + 1e-300)
+    return 0.5 * over * share, 0.5 * share * share
+
+
+TWELFTH = 1.0 / 12.0  #: of h times the jump of a rate within a step, that the sum over nodes misses where paths bend
+
+
+@_inline
+def end_of_touch(force, limit, du, opened):
+    """What the end of contact within a step adds to that mean: of an elastic force that falls from `force` to zero with
+    its limit. opened: by how much the contact is open at the end of the step, du: travel of the body in it.
+    """
+    limit = max(limit, 0.0)
+    force = max(min(force, limit), -limit)
+    share = limit / (limit + opened + 1e-300)  # of the step in contact
+    ahead, behind = max(limit + share * du, 1e-300), max(limit - share * du, 1e-300)
+    slips = share * min((limit - force) / ahead, (limit + force) / behind, 1.0)
+    met = force + du * slips
+    jump = TWELFTH * (limit + opened) if limit > 0.0 else 0.0
+    return 0.5 * (force * (slips - 1.0) + met * share) + (jump if met >= 0.0 else -jump)
 
 
 @_inline
@@ -273,6 +307,21 @@ def elastic_spring(e, gap, z_1, move, inverse_dz, bend, late, late_back):
     travelled = way * ((1.0 - bend) + bend * way)
     trial = e + travelled * ((move.du + move.surge) - travelled * move.surge) + (1.0 - travelled) * move.jump
     return max(min(trial, s - travelled * late), travelled * late_back - s), s, travelled, trial
+
+
+@_inline
+def first_touch(x, flown, travelled, flies):
+    """What a path adds to that mean which flies, to `flown` at the end of the step if it did so throughout, and goes
+    another way for the last share of it, `travelled`, to x. flies: whether it does as the step begins.
+    """
+    touches = flies and travelled > 0.0
+    return (x - flown) * (TWELFTH / max(travelled, 1e-9) - 0.5 * (1.0 - travelled)) if touches else 0.0
+
+
+@_inline
+def in_flight(s, above, gap):
+    """Whether a spring compressed to s as a step begins is then ahead of the indenter, and not by rounding."""
+    return s - above > 1e-14 * (1.0 + abs(gap))
 
 
 @_inline
@@ -345,62 +394,120 @@ def indices(first, last):
 
 
 @_inline
-def elastic_step_in_place(e, springs, step, move, n_at_rest):
-    """All elastic springs over one step of a rigid pull, which asks for no state twice: updates e, returns sum(w e).
-
-    n_at_rest: the springs from it on were free in the step before.
+def at_edge(e_0, e_1, above, travelled, inverse_fall):
+    """What an elastic spring that may touch or let go within a step adds to the mean of its extension, if it slips
+    forward until it lets go. above: z - gap at the start; inverse_fall: 1/(z_0 - z_1), or 0 of an indenter that sinks.
     """
-    gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
-    inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
+    share = above * inverse_fall  # of the step in contact
+    if 0.0 < share <= 1.0:
+        return 0.5 * e_0 * (share - 1.0) + TWELFTH / inverse_fall
+    return first_touch(e_1, 0.0, travelled, above <= 0.0)
+
+
+@_inline
+def paces(step, du):
+    """How fast the limits of slip close in on pressed elastic springs that stick, over a step: forward and backward;
+    not positive where they draw away.
+    """
+    sinks = step.z_1 - step.z_0
+    return du - sinks, -du - sinks
+
+
+@_inline
+def elastic_step_in_place(e, springs, step, move, n_at_rest, ends):
+    """All elastic springs over one step of a rigid pull, which asks for no state twice: updates e, returns sum(w e) and
+    how far those that stick are from slipping forward, all together.
+
+    n_at_rest: the springs from it on were free in the step before. ends: whether some may have stuck and slip forward
+    by now, known when this is compiled; then that is told, and the sum has what the end of stick adds.
+    """
+    gap, w, z_0, z_1, du = springs.gap, springs.w, step.z_0, step.z_1, move.du
+    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
+    inverse_fall = 1.0 / (z_0 - z_1) if z_1 < z_0 else 0.0
     bend = bend_of(step.zd_0, step.zd_1)
     late, late_back = latenesses(step, move, move.shaken)
-    total = 0.0
+    pace = paces(step, du)[0]
+    total, away, added = 0.0, 0.0, 0.0
     for i in indices(0, step.n_in):
         s = z_1 - gap[i]
+        if ends:
+            left = (z_0 - gap[i]) - e[0, i]
+            added += w[i] * max(left * (pace - left), 0.0)
+            away += max(left - pace, 0.0)
         e[0, i] = max(min(e[0, i] + du, s - late), late_back - s)
         total += w[i] * e[0, i]
     for i in indices(step.n_in, step.n_out):
-        e[0, i] = elastic_spring(e[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)[0]
-        total += w[i] * e[0, i]
+        if ends:
+            left = (z_0 - gap[i]) - e[0, i]
+            added += w[i] * (max(left * (pace - left), 0.0) if gap[i] < min(z_0, z_1) else 0.0)
+            away += max(left - pace, 0.0)
+        e_0 = e[0, i]
+        e_1, _, travelled, _ = elastic_spring(e_0, gap[i], z_1, move, inverse_dz, bend, late, late_back)
+        e[0, i] = e_1
+        total += w[i] * (e_1 + at_edge(e_0, e_1, z_0 - gap[i], travelled, inverse_fall))
     for i in indices(step.n_out, n_at_rest):
         e[0, i] = 0.0
-    return total
+    return total + 0.5 * added / (pace if ends else 1.0), away
 
 
 @_jit
 def elastic_step(e_0, e_1, springs, step, move):
     """All elastic springs over one step: fills e_1 and returns sum(w e) and the stiffness that stuck."""
-    return elastic_springs(e_0, e_1, springs, step, move, False)
+    return elastic_springs(e_0, e_1, springs, step, move, False, False)
+
+
+@_jit
+def slipping_elastic_step(e_0, e_1, springs, step, move):
+    """The same where springs that stuck may slip forward; functions of their own, as the march is faster where it can
+    take one of them in.
+    """
+    return elastic_springs(e_0, e_1, springs, step, move, False, True)
 
 
 @_jit
 def shaken_elastic_step(e_0, e_1, springs, step, move):
-    """The same under a shake; a function of its own, as the march is faster where it can take one of them in."""
-    return elastic_springs(e_0, e_1, springs, step, move, True)
+    """The same under a shake."""
+    return elastic_springs(e_0, e_1, springs, step, move, True, True)
 
 
 @_inline
-def elastic_springs(e_0, e_1, springs, step, move, shaken):
-    """As `elastic_step`; whether they are shaken is known when this is compiled."""
-    gap, w, z_1, du = springs.gap, springs.w, step.z_1, move.du
-    inverse_dz = 1.0 / (z_1 - step.z_0) if z_1 > step.z_0 else 1e300
+def elastic_springs(e_0, e_1, springs, step, move, shaken, ends):
+    """As `elastic_step`; whether they are shaken, and whether springs that stuck may slip forward, is known when this
+    is compiled.
+    """
+    gap, w, z_0, z_1, du = springs.gap, springs.w, step.z_0, step.z_1, move.du
+    inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
+    inverse_fall = 1.0 / (z_0 - z_1) if z_1 < z_0 else 0.0
     bend = bend_of(step.zd_0, step.zd_1)
     late, late_back = latenesses(step, move, shaken)
+    pace = paces(step, du)[0]
+    half = 0.5 / pace if pace > 0.0 else 0.0
+    given = 0.0 if shaken else 2.0 * half * half  # how much of a further move goes into the sum where stick ends
     total = 0.0
     stuck = 0.0
     for i in indices(0, step.n_in):
         s = z_1 - gap[i]
         e = max(min(e_0[0, i] + du, s - late), late_back - s)
         e_1[0, i] = e
-        total += w[i] * e
         turned = (late > 0.0 and e > 0.0) or (shaken and late_back > 0.0 and e < 0.0)
-        stuck += w[i] if (e == e_0[0, i] + du or turned) else 0.0
+        if ends:
+            left = max((z_0 - gap[i]) - e_0[0, i], 0.0)
+            total += w[i] * (e + max(left * (pace - left), 0.0) * half)
+            stuck += w[i] * (1.0 if (e == e_0[0, i] + du or turned) else given * left * left)
+        else:
+            total += w[i] * e
+            stuck += w[i] if (e == e_0[0, i] + du or turned) else 0.0
     for i in indices(step.n_in, step.n_out):
-        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)
+        e, s, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)
         e_1[0, i] = e
-        total += w[i] * e
+        total += w[i] * (e + at_edge(e_0[0, i], e, z_0 - gap[i], travelled, inverse_fall))
         turned = (late > 0.0 and e > 0.0) or (shaken and late_back > 0.0 and e < 0.0)
         stuck += w[i] * (1.0 if move.jumps else travelled) if (e == trial or turned) else 0.0
+        if ends:
+            left = max((z_0 - gap[i]) - e_0[0, i], 0.0)
+            presses = gap[i] < min(z_0, z_1)
+            total += w[i] * (max(left * (pace - left), 0.0) * half if presses else 0.0)
+            stuck += w[i] * (given * left * left if presses and not (e == trial or turned) else 0.0)
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = 0.0
     return total, stuck
@@ -438,7 +545,8 @@ def kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, shaken)
         e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
-        total += w[i] * e
+        flies = in_flight(s_0[0, i], step.z_0 - gap[i], gap[i])
+        total += w[i] * (e + first_touch(e, free.s - free.lag, travelled, flies))
         stuck += w[i] * (1.0 if move.jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = e_0[0, i] * decay
@@ -455,21 +563,31 @@ def put(x, out):
 
 
 @_jit
-def free_response(e, s, table, step, shaken, out):
-    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows as in Free, as
-    far as they are asked for: rates where a spring may be in contact, those of the compression where it may touch, or,
-    where slip backward asks for them too, in contact.
+def free_response(e, s, table, first, n_out, out):
+    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows, as
+    in Free, of springs from n_out on, which are free throughout, only the ends, of those before `first` without the
+    rates of the compression.
     """
-    out[:] = 0.0
-    for row in range(L_SHED + 1 if table[L_STIFFNESS, 0] > 0.0 else L_SHED):  # only a dashpot asks what arms shed
-        first, last = (0, e.shape[1]) if row == L_FREE else (0 if shaken else step.n_in, step.n_out)
-        end_of_lag = e.shape[1] if row == L_FREE else step.n_out
-        for k in range(e.shape[0]):
-            share = table[row, k]
-            for i in indices(first, last):
-                out[row, i] += share * s[k, i]
-            for i in indices(0, end_of_lag):
-                out[4 + row, i] += share * (s[k, i] - e[k, i])
+    for k in range(0, e.shape[0], 2):  # two columns at once
+        j, last, keep = min(k + 1, e.shape[0] - 1), 1.0 if k + 1 < e.shape[0] else 0.0, 0.0 if k == 0 else 1.0
+        s_k, s_j, e_k, e_j = s[k], s[j], e[k], e[j]
+        end, rate, rate_end, shed = table[L_FREE, k], table[L_RATE, k], table[L_END, k], table[L_SHED, k]
+        end_j, rate_j = last * table[L_FREE, j], last * table[L_RATE, j]
+        rate_end_j, shed_j = last * table[L_END, j], last * table[L_SHED, j]
+        for i in indices(0, n_out):
+            x, y, p, q = s_k[i], s_j[i], s_k[i] - e_k[i], s_j[i] - e_j[i]
+            out[0, i] = keep * out[0, i] + end * x + end_j * y
+            out[3, i] = keep * out[3, i] + shed * x + shed_j * y
+            out[4, i] = keep * out[4, i] + end * p + end_j * q
+            out[5, i] = keep * out[5, i] + rate * p + rate_j * q
+            out[6, i] = keep * out[6, i] + rate_end * p + rate_end_j * q
+            out[7, i] = keep * out[7, i] + shed * p + shed_j * q
+        for i in indices(first, n_out):
+            out[1, i] = keep * out[1, i] + rate * s_k[i] + rate_j * s_j[i]
+            out[2, i] = keep * out[2, i] + rate_end * s_k[i] + rate_end_j * s_j[i]
+        for i in indices(n_out, e.shape[1]):
+            out[0, i] = keep * out[0, i] + end * s_k[i] + end_j * s_j[i]
+            out[4, i] = keep * out[4, i] + end * (s_k[i] - e_k[i]) + end_j * (s_j[i] - e_j[i])
 
 
 @_inline
@@ -479,46 +597,126 @@ def free_of(look, i):
 
 
 @_jit
-def arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
-    """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck.
+def arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law):
+    """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck, and
+    whether the stick of any ends in the step.
 
-    look (8, n): of `free_response`.
+    look (8, n): of `free_response`; along (2, n): filled with what the paths at the edge add to the means of extension
+    and compression.
     """
-    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, False)
+    return arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, False)
 
 
 @_jit
-def shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
+def shaken_arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law):
     """The same under a shake."""
-    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True)
+    return arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, True)
 
 
 @_inline
-def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
+def arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, shaken):
     """As `arms_step`; whether they are shaken is known when this is compiled."""
     gap, w, du = springs.gap, springs.w, move.du
-    total = 0.0
-    stuck = 0.0
+    total, stuck, ended = 0.0, 0.0, 0.0
     for i in indices(0, step.n_in):
         s = step.z_1 - gap[i]
         trial = e_0[0, i] + du
-        e = slip_or_stick(s, trial, 1.0, step, move, law, free_of(look, i), shaken)
+        free = free_of(look, i)
+        e = slip_or_stick(s, trial, 1.0, step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
         total += w[i] * e
-        stuck += w[i] if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+        sticks = abs(e - trial) <= 1e-9 * abs(du)
+        stuck += w[i] if sticks else 0.0
+        ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
     for i in indices(step.n_in, step.n_out):
         free = free_of(look, i)
         e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
-        total += w[i] * e
-        stuck += w[i] * (1.0 if move.jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
+        flies = in_flight(s_0[0, i], step.z_0 - gap[i], gap[i])
+        along[0, i] = first_touch(e, free.s - free.lag, travelled, flies)
+        along[1, i] = first_touch(s, free.s, travelled, flies)
+        total += w[i] * (e + along[0, i])
+        sticks = abs(e - trial) <= 1e-9 * abs(du)
+        stuck += w[i] * (1.0 if move.jumps else travelled) if sticks else 0.0
+        ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = look[0, i] - look[4, i]
         s_1[0, i] = look[0, i]
         total += w[i] * e_1[0, i]
-    return total, stuck
+    return total, stuck, ended > UNSEEN * step.h and not law.dashpot
+
+
+# --- what happens between both ends of a step: by how much the mean of sum(w e) over it is more than they tell ---
+
+
+@_jit
+def between_elastic(e, springs, step, du):
+    """What elastic springs that stick as a step begins add more, where they let go in it or slip backward by its end;
+    e: at its start.
+    """
+    gap, w, total, pace, added = springs.gap, springs.w, 0.0, paces(step, du)[1], 0.0
+    for i in range(step.first, step.last if step.z_1 < step.z_0 else step.first):
+        above, opened = step.z_0 - gap[i], gap[i] - step.z_1
+        if above > 0.0 and opened >= 0.0:  # beyond what `at_edge` knows
+            total += w[i] * (end_of_touch(e[0, i], above, du, opened) - TWELFTH * (above + opened))
+            total += w[i] * 0.5 * e[0, i] * opened / (above + opened)
+    if pace > 0.0:
+        for i in indices(0, step.last):
+            left = (step.z_0 - gap[i]) + e[0, i]
+            added += w[i] * (max(left * (pace - left), 0.0) if gap[i] < min(step.z_0, step.z_1) else 0.0)
+        total -= 0.5 * added / pace
+    return total
+
+
+@_inline
+def end_of_pressed_stick(trial, s, free):
+    """`end_of_stick` of a spring with arms and no dashpot that presses throughout a step."""
+    flown, reach, limit, force = free.s - free.lag, s - free.s, free.s_shed, free.s_shed - free.lag_shed
+    return end_of_stick(trial, flown - reach, flown + reach, limit + force, limit - force)
+
+
+@_jit
+def between_arms(e, s_0, s_1, look, along, springs, step, du, ended):
+    """What springs with arms and no dashpot add that end their stick in a step (where some have `ended` it), or let go,
+    and how much of a further move of the body goes into that. e, s_0, s_1: extension at its start, compression at both
+    ends.
+
+    Puts into along (2, n) what each path adds, of extension and compression.
+    """
+    gap, w, total, given = springs.gap, springs.w, 0.0, 0.0
+    for i in indices(0, step.first if ended else 0):
+        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free_of(look, i))
+        along[0, i] = more
+        total += w[i] * more
+        given += w[i] * part
+    for i in range(step.first, step.last):
+        free, opened = free_of(look, i), gap[i] - step.z_1
+        if in_flight(s_0[0, i], step.z_0 - gap[i], gap[i]):
+            continue
+        if free.s + opened >= 0.0:
+            limit, force, opened = free.s_shed, free.s_shed - free.lag_shed, free.s + opened
+            along[0, i] = end_of_touch(force, limit, du - (free.s - free.lag - e[0, i] + force), opened)
+            along[1, i] = end_of_touch(limit, limit, 0.0, opened)
+            total += w[i] * along[0, i]
+        elif ended:
+            more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free)
+            along[0, i] = more
+            total += w[i] * more
+            given += w[i] * part
+    return total, given
+
+
+@_jit
+def relax_more(x, along, table, first, last):
+    """What arms, the rows 1 to J of x, relax more in a step whose path adds `along` (n,) to the mean of a straight one,
+    of the springs from first to last.
+    """
+    for k in range(1, x.shape[0]):
+        share = table[L_GAIN, k] * (1.0 - table[L_DECAY, k])
+        for i in indices(first, last):
+            x[k, i] -= share * along[i]
 
 
 @_jit
@@ -546,11 +744,12 @@ def law_of(table):
 
 
 @_jit
-def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
+def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path, along):
     """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
 
-    force, touches, path (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before in
-    which it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), its compression.
+    force, touches, path, along (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before
+    in which it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), its compression,
+    and what the path in that step adds to the mean of it.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
@@ -564,11 +763,16 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
             rate += table[L_RATE, a] * x[a]
             end += table[L_END, a] * x[a]
             shed += table[L_SHED, a] * x[a]
-        step = Step(0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
+        step = Step(0, 0, 0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
         alone = Free(free, rate, end, shed, 0.0, 0.0, 0.0, 0.0)
         _, value, share, _ = viscous_spring(0.0, x[0], gap, step, at_rest, law, alone, False)
+        flies = in_flight(x[0], z[k] - gap, gap)
+        more = first_touch(value, free, share, flies)
+        if not (law.dashpot or flies):
+            more = end_of_touch(shed, shed, 0.0, free - (z[k + 1] - gap)) if z[k + 1] - gap <= free else 0.0
         for a in range(1, x.size):
-            x[a] = table[L_DECAY, a] * x[a] + table[L_GAIN, a] * (value - x[0])
+            decay = table[L_DECAY, a]
+            x[a] = decay * x[a] + table[L_GAIN, a] * (value - x[0] - (1.0 - decay) * more)
         x[0] = value
         total += value
         if force.size > 0:
@@ -580,11 +784,12 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
             force[(k + 1) % n_z] = normal if presses else 0.0
             touches[(k + 1) % n_z] = share if presses else (-1.0 if follows else 0.0)
             path[(k + 1) % n_z] = value
+            along[(k + 1) % n_z] = more
     return total
 
 
 @_jit
-def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
+def settle_spring(x, guess, gap, z, zd, table, force, touches, path, along):
     """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions, NaN if none is
     found, and what it still changes by over a period.
 
@@ -603,7 +808,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
     trust, before, change, size = 1.0, np.inf, 0.0, 0.0
     for turn in range(MOST_PASSES):
         put(x, start)
-        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches, path)
+        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches, path, along)
         change, size = 0.0, 0.0
         for j in range(x.size):
             change = max(change, abs(x[j] - start[j]))
@@ -613,21 +818,22 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
         grows = change > before
         trust = 0.5 * trust if grows else trust
         before = change
-        along = length = 0.0
+        shared = length = 0.0
         for j in range(1, x.size):
             plain = x[j] - start[j]
             far = -plain / np.expm1(-2.0 * np.pi / table[L_TIME, j])
             last[j], move[j] = move[j], plain + trust * (far - plain)
-            along += table[L_RATIO, j] * last[j] * move[j]
+            shared += table[L_RATIO, j] * last[j] * move[j]
             length += table[L_RATIO, j] * last[j] * last[j]
-        rate = along / length if turn % 3 == 2 and length > 0.0 and not grows else 0.0
+        rate = shared / length if turn % 3 == 2 and length > 0.0 and not grows else 0.0
         more = 1.0 / (1.0 - rate) if 0.0 < rate < 0.9999 else 1.0
         for j in range(1, x.size):
             x[j] = start[j] + more * move[j]
     if not change <= SETTLED:
         total = np.nan
     put(x, guess)
-    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0), np.empty(0))
+    nothing = np.empty(0)
+    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, nothing, nothing, nothing, nothing)
     return total, change
 
 
@@ -640,11 +846,11 @@ def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
     stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
     """
     x, guess = np.empty(table.shape[1]), np.zeros(table.shape[1])
-    force, touches, path = np.empty(F.size), np.empty(F.size), np.empty(F.size)
+    force, touches, path, along = np.empty(F.size), np.empty(F.size), np.empty(F.size), np.empty(F.size)
     outermost[:] = -1
     at_edge[:] = 0.0
     for i in range(gap.size):
-        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
+        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path, along)
         n_touches = 0
         for k in range(F.size):
             F[k] += w[i] * force[k]
@@ -661,7 +867,8 @@ def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
 @_jit
 def settle_normal(s, gap, w, z, zd, table, spans, S):
     """Put every spring into the periodic normal motion, at its start z[0]; fills S (n_z,) with sum(w s) at z[0] to
-    z[n_z - 1], NaN if springs with arms find none.
+    z[n_z - 1] and what the paths in the step before add to the mean of it, NaN if springs with arms find none. Returns
+    the mean of sum(w s) alone.
 
     s: (1 + J, n). Without arms one period is the memory of a spring in the normal direction, so a second pass over the
     period is periodic; springs with arms are settled one by one. Fills spans (2, n_z): how many of the first springs
@@ -671,20 +878,21 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
     h = 2.0 * np.pi / n_z
     n_x = table.shape[1]
     decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
-    steady, found = True, True
+    steady, found, mean = True, True, 0.0
     S[:] = 0.0
     inner, outer = np.full(n_z + 1, n), np.zeros(n_z + 1, dtype=np.int64)  # at z[0] ... z[n_z]
     if n_x > 1:
-        force, touches, path = np.empty(n_z), np.empty(n_z), np.empty(n_z)
+        force, touches, path, along = np.empty(n_z), np.empty(n_z), np.empty(n_z), np.empty(n_z)
         x, guess = np.empty(n_x), np.zeros(n_x)
         for i in range(n):
-            total, change = settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
+            total, change = settle_spring(x, guess, gap[i], z, zd, table, force, touches, path, along)
             for a in range(n_x):
                 s[a, i] = x[a]
             found = found and not np.isnan(total)
             steady = steady and change <= STEADY
             for k in range(n_z):
-                S[k] += w[i] * path[k]
+                S[k] += w[i] * (path[k] + along[k])
+                mean += w[i] * path[k]
                 if touches[k] == 0.0:
                     inner[k] = min(inner[k], i)
                 else:
@@ -697,18 +905,29 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
         law, at_rest = Law(True, rate, rate), Move(0.0, 0.0, 0.0, 0.0, 0.0, False, False)
         for turn in range(1 if decay == 0.0 else 3):  # the third is for spans, and tells whether it is like the second
             put(s[0], once)
+            mean = 0.0
             for k in range(n_z):
-                step = Step(0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
+                step = Step(0, 0, 0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
+                inverse_dz = 1.0 / (z[k + 1] - z[k]) if z[k + 1] > z[k] else 1e300
+                bend = bend_of(zd[k], zd[k + 1])
                 total = 0.0
                 least, most = n, 0
                 for i in range(n):
+                    above, pressed = z[k] - gap[i], z[k + 1] - gap[i]
                     if decay == 0.0:
-                        value = max(z[k + 1] - gap[i], 0.0)
+                        value, more = max(pressed, 0.0), 0.0
+                        if above <= 0.0 and pressed > 0.0:
+                            share = elastic_spring(0.0, gap[i], z[k + 1], at_rest, inverse_dz, bend, 0.0, 0.0)[2]
+                            more = first_touch(value, 0.0, share, True)
+                        elif above > 0.0 and pressed <= 0.0:
+                            more = end_of_touch(above, above, 0.0, -pressed)
                     else:
                         alone = kelvin_free(s[0, i], s[0, i], rate, decay)
-                        _, value, _, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone, False)
+                        _, value, share, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone, False)
+                        more = first_touch(value, alone.s, share, in_flight(s[0, i], above, gap[i]))
                     s[0, i] = value
-                    total += w[i] * value
+                    total += w[i] * (value + more)
+                    mean += w[i] * value
                     follows = value > 0.0 and value <= z[k + 1] - gap[i]
                     least = min(least, n if follows else i)
                     most = max(most, i + 1 if follows else 0)
@@ -724,33 +943,45 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
         spans[0, k], spans[1, k] = min(inner[k], inner[k + 1]), max(outer[k], outer[k + 1])
     if not found:
         S[:] = np.nan
+    return mean / n_z
 
 
 @_inline
-def span_of(spans, k, n):
-    """n_in, n_out of step k, the one rounded down and the other up so that whole vectors go through each loop."""
-    return spans[0, k] // VECTOR * VECTOR, min((spans[1, k] + VECTOR - 1) // VECTOR * VECTOR, n)
+def step_of(motion, k, n, h):
+    """Step k of the period; n_in rounded down and n_out up so that whole vectors go through each loop."""
+    first, last, z, zd = motion.spans[0, k], motion.spans[1, k], motion.z, motion.z_dot
+    n_in, n_out = first // VECTOR * VECTOR, min((last + VECTOR - 1) // VECTOR * VECTOR, n)
+    return Step(n_in, n_out, first, last, z[k], z[k + 1], zd[k], zd[k + 1], h)
 
 
 @_jit
 def glide(e, held, springs, motion, k_0, out):
     """The march of elastic springs under a rigid pull, where no spring knows of another; arguments as of `march`."""
-    z, zd, n_z, n = motion.z, motion.z_dot, motion.dx.size, springs.gap.size
+    z, n_z, n = motion.z, motion.dx.size, springs.gap.size
     h = 2.0 * np.pi / n_z
     k, n_at_rest = k_0 % n_z, n
     S_0, S_m = held.S[0], held.S[1]
-    as_one = True
+    as_one, sticks = True, True
     v = motion.v
     for j in range(out.S.size):
-        n_in, n_out = span_of(motion.spans, k, n)
-        step = Step(n_in, n_out, z[k], z[k + 1], zd[k], zd[k + 1], h)
+        step = step_of(motion, k, n, h)
         S_m = S_0
-        if motion.shaken:
+        shaken = motion.shaken
+        if shaken:
             move = moved(motion.dx[k], motion.x_dot[k], motion.x_dot[k + 1], h, False, True)
-            S_0 = elastic_step_in_place(e, springs, step, move, n_at_rest)
         else:  # of a steady pull most of it is known to be zero as this is compiled
-            S_0 = elastic_step_in_place(e, springs, step, Move(motion.dx[k], v, v, 0.0, 0.0, False, False), n_at_rest)
-        n_at_rest = n_out
+            move = Move(motion.dx[k], v, v, 0.0, 0.0, False, False)
+        pace, pace_back = paces(step, move.du)
+        sought = sticks and (step.z_1 < step.z_0 or pace_back > 0.0)
+        more = between_elastic(e, springs, step, move.du) if sought else 0.0
+        if sticks and pace > 0.0:
+            S_0, away = elastic_step_in_place(e, springs, step, move, n_at_rest, True)
+            sticks = away > 0.0
+        else:
+            S_0, _ = elastic_step_in_place(e, springs, step, move, n_at_rest, False)
+            sticks = pace <= 0.0
+        S_0 += more
+        n_at_rest = step.n_out
         out.S[j] = S_0
         as_one = as_one and e[0, 0] + max(z[k + 1] - springs.gap[0], 0.0) >= springs.lump_margin
         if j < out.e.shape[0]:
@@ -766,17 +997,13 @@ def glide(e, held, springs, motion, k_0, out):
 
 @_jit
 def begin(e, pressed, held, springs):
-    """Bring extensions e (1 + J, n) into the cone of friction, within the compressions pressed (n,), and put their sums
-    over the springs into held: a combination of states may leave that cone.
+    """Bring extensions e (1 + J, n) into the cone of friction, within the compressions pressed (n,), and their sum in
+    held with them: a combination of states may leave that cone.
     """
-    held.S[0] = 0.0
     for i in range(pressed.size):
-        e[0, i] = max(min(e[0, i], pressed[i]), -pressed[i])
-        held.S[0] += springs.w[i] * e[0, i]
-    for a in range(held.arms.shape[1]):
-        held.arms[0, a] = 0.0
-        for i in range(pressed.size):
-            held.arms[0, a] += springs.w[i] * e[1 + a, i]
+        within = max(min(e[0, i], pressed[i]), -pressed[i])
+        held.S[0] += springs.w[i] * (within - e[0, i])
+        e[0, i] = within
 
 
 @_jit
@@ -787,7 +1014,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
     Body, springs: Springs, motion: Motion, out: Trace. table: of the material over a step (operator.py). Returns
     whether the core moved as one all the way.
     """
-    gap, z, zd, n_z = springs.gap, motion.z, motion.z_dot, motion.dx.size
+    gap, z, n_z = springs.gap, motion.z, motion.dx.size
     n_arms = table.shape[1] - 1
     h = 2.0 * np.pi / n_z
     rigid, b_1 = body.rigid, body.b_1
@@ -797,28 +1024,32 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
     decay, rate = table[L_DECAY, 0], table[L_RATE, 0]
     law = law_of(table)
     elastic = n_arms == 0 and decay == 0.0
-    look = np.empty((8, gap.size if n_arms > 0 else 0))
+    look = np.zeros((8, gap.size if n_arms > 0 else 0))
+    along = np.zeros((2, look.shape[1]))
     if elastic and rigid:
         return glide(e, held, springs, motion, k_0, out)
-    as_one = True
+    as_one, sticks = True, True  # whether any spring may stick as the step begins
     for j in range(out.y.size):
         k = (k_0 + j) % n_z
         z_1, v_0, v_1 = z[k + 1], motion.x_dot[k], motion.x_dot[k + 1]
-        n_in, n_out = span_of(motion.spans, k, gap.size)
-        step = Step(n_in, n_out, z[k], z_1, zd[k], zd[k + 1], h)
+        step = step_of(motion, k, gap.size, h)
         jumps = body.light and motion.spans[1, k - 1] == 0 and touches_flat(gap, springs.w, z_1)  # in flight before
         pull = 0.0 if rigid else body.a_1 * y_0 + body.a_2 * y_m - body.b_0 * S_0 - body.b_m * S_m
         for a in range(n_arms):
             pull -= body.arms[0, a] * held.arms[0, a] + body.arms[1, a] * held.arms[1, a]
         if n_arms > 0:
-            free_response(e_0, s_0, table, step, motion.shaken, look)
+            free_response(e_0, s_0, table, 0 if motion.shaken else step.n_in, step.n_out, look)
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
         ud_0 = v_0 + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
+        ended, lets_go = False, n_arms > 0 and not law.dashpot and z_1 < step.z_0 and step.first < step.last
         for turn in range(80):
             ud_1 = v_1 + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             move = moved(motion.dx[k] + (y_1 - y_0), ud_0, ud_1, h, jumps, motion.shaken)
-            if elastic and not motion.shaken:
+            pace, pace_back = paces(step, move.du)
+            if elastic and not motion.shaken and sticks and pace > 0.0:
+                S_1, stuck = slipping_elastic_step(e_0, e_1, springs, step, move)
+            elif elastic and not motion.shaken:
                 S_1, stuck = elastic_step(e_0, e_1, springs, step, move)
             elif elastic:
                 S_1, stuck = shaken_elastic_step(e_0, e_1, springs, step, move)
@@ -827,9 +1058,14 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
             elif n_arms == 0:
                 S_1, stuck = shaken_kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
             elif not motion.shaken:
-                S_1, stuck = arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
+                S_1, stuck, ended = arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law)
             else:
-                S_1, stuck = shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
+                S_1, stuck, ended = shaken_arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law)
+            if elastic and sticks and (step.z_1 < step.z_0 or pace_back > 0.0):
+                S_1 += between_elastic(e_0, springs, step, move.du)
+            if ended or lets_go:
+                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du, ended)
+                S_1, stuck = S_1 + more, stuck + given
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
             if abs(excess) <= rounding:
@@ -854,10 +1090,13 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         else:
             stretch_arms(e_0, e_1, table)
             stretch_arms(s_0, s_1, table)
+            relax_more(e_1, along[0], table, 0 if ended else step.n_in, step.n_out)
+            relax_more(s_1, along[1], table, step.n_in, step.n_out)
             core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
             for a in range(n_arms + 1):
                 core += table[L_RATIO, a] * (e_1[a, 0] + s_1[a, 0])
         as_one = as_one and core >= springs.lump_margin
+        sticks = stuck > 1e-12
         y_mm, y_m, y_0, S_m, S_0 = y_m, y_0, y_1, S_0, S_1
         e_0, e_1 = e_1, e_0
         s_0, s_1 = s_1, s_0
@@ -996,9 +1235,8 @@ def search(at, s, pressed, roots, body, springs, motion, table, n_periods, out):
 FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3
 
 # what `observe` adds up, in the order of its `sums`
-N_SUMS = 10
+N_SUMS = 9
 (
-    SUM_S,
     STICK_TIME,
     CONTACT_TIME,
     SHEAR_WORK,
@@ -1021,7 +1259,7 @@ def mode_of(normal, excess, limit):
 @_inline
 def contact_share(s_0, s_free, s_rate, s_end, s_1, gap, step):
     """Share of a step that a spring spends in contact, as the march has it: 1 in contact throughout, 0 in flight."""
-    rise = max(s_1 - s_free, 0.0)
+    rise = max(s_1 - s_free - 1e-14 * abs(s_1), 0.0)  # no rounding, of a spring that lets go
     way = rise / (rise + max(s_0 - (step.z_0 - gap), 0.0) + 1e-300)
     return way * (1.0 - bend_of(step.zd_0 + s_rate, step.zd_1 + s_end) * (1.0 - way))
 
@@ -1119,9 +1357,8 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
     sums = seen.sums
     for j in range(e.shape[0] - 1):
         k = (k_0 + j) % n_z
-        n_in, n_out = span_of(motion.spans, k, n)
-        step = Step(n_in, n_out, motion.z[k], motion.z[k + 1], motion.z_dot[k], motion.z_dot[k + 1], h)
-        z_1, zd_1 = step.z_1, step.zd_1
+        step = step_of(motion, k, n, h)
+        n_in, n_out, z_1, zd_1 = step.n_in, step.n_out, step.z_1, step.zd_1
         ux_dot_0 = motion.x_dot[k] + (3.0 * y[j + 2] - 4.0 * y[j + 1] + y[j]) / (2.0 * h)
         ux_dot = motion.x_dot[k + 1] + (3.0 * y[j + 3] - 4.0 * y[j + 2] + y[j + 1]) / (2.0 * h)
         jumps = light and not presses_0 and touches_flat(gap, w, z_1)
@@ -1208,7 +1445,6 @@ def observe(e, s, y, springs, motion, light, table, k_0, seen):
         shear = 0.5 * h * (S_0 + S_1) + T * (S_1 - S_0) + shear_arms
         press = 0.5 * h * (P_0 + P_1) + T * (P_1 - P_0) + press_arms
         seen.F_x[j], seen.F_z[j], seen.slip[j] = sum_x, sum_z, least
-        sums[SUM_S] += 0.5 * (P_0 + P_1)
         sums[STICK_TIME] += stick * h
         sums[CONTACT_TIME] += sum_z * h
         sums[SHEAR_WORK] += shear * move.du / h

@@ -26,7 +26,7 @@ from mdr.march.orbit_search import (
     search_from_full_slip,
 )
 from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
-from mdr.march.stepper import MarchState, PeriodRecord, Stepper
+from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.march.theorems import outside
 from mdr.march.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
@@ -103,7 +103,7 @@ class Steady:
     def off_load(self) -> float:
         """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
         load, scaled = self.case.oscillation.load, self.scaled
-        return 0.0 if load is None else abs(self.mean_F_z * scaled.stiffness_z * scaled.length_z / load.F_z0 - 1)
+        return 0.0 if load is None else abs(scaled.normal.load * scaled.stiffness_z * scaled.length_z / load.F_z0 - 1)
 
     @property
     def missing_load(self) -> float:
@@ -255,13 +255,27 @@ def check(case: SlidingContact, v_0: float) -> None:
 def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Orbit | None:
     """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
+    simple = scaled.rigid and not scaled.n_arms and from_full_slip and not scaled.is_shaken
+    if simple and not scaled.remembers:
+        return _after_a_period(stepper)
     if near is not None and near.settling.solved and not (from_full_slip and near.slips_fully):
         start = at_other_resolution(near.state, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else None
         orbit = search(stepper, (start,), gain_at_other_resolution(gain, near.scaled, scaled), near=True)
-    if orbit is None and from_full_slip and (scaled.n_arms or not scaled.rigid):
+    if orbit is None and from_full_slip and (scaled.n_arms or not scaled.rigid or simple):
         orbit = search_from_full_slip(stepper)
     return orbit
+
+
+def _after_a_period(stepper: Stepper) -> Orbit:
+    """The periodic state of elastic springs under a rigid pull, which know nothing of each other.
+
+    From full slip on a spring is never behind its periodic state; where that slips, as it does in every period, it is
+    at the limit of friction, and the spring with it.
+    """
+    state, periods = stepper.advance(stepper.full_slip(), 2)
+    last = Periods(periods.cof[-1:], periods.swing[-1:], periods.as_one)
+    return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0))
 
 
 def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
@@ -296,7 +310,7 @@ def at_hand(case: SlidingContact, knobs: Knobs) -> tuple[SpringArray, ScaledCont
     if knobs.n_springs > MOST_SHARED:
         springs = SpringArray.of(case, knobs.n_springs)
         return springs, ScaledContact.of(case, springs, knobs.steps, lump)
-    return _springs(case, knobs.n_springs), _scaled(case, knobs.n_springs, knobs.steps, lump)
+    return _scaled(case, knobs.n_springs, knobs.steps, lump)
 
 
 @remembered(maxsize=8)
@@ -305,5 +319,6 @@ def _springs(case: SlidingContact, n_springs: int) -> SpringArray:
 
 
 @remembered(maxsize=24)
-def _scaled(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> ScaledContact:
-    return ScaledContact.of(case, _springs(case, n_springs), steps, lump)
+def _scaled(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
+    springs = _springs(case, n_springs)
+    return springs, ScaledContact.of(case, springs, steps, lump)

@@ -68,7 +68,7 @@ def search(
             return stepper.period(stepper.within_friction(like.with_vector(x))).x
 
         for close in (*loose, periodic.CLOSE, periodic.CLOSEST):
-            how = replace(how, close=close)
+            how = how if close == how.close else replace(how, close=close)
             try:
                 arrived = _by_anderson(stepper, start.with_vector(x), norm, how)
                 if arrived is not None and (full := _full_slip(stepper, start, arrived, norm)) is not None:
@@ -122,15 +122,16 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
 
 def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
     """A state of a march with other springs or steps, on the springs and steps of this one."""
-    step, e = on.h / of.h, state.e
+    step, e, moved = on.h / of.h, state.e, np.zeros(1 + of.n_arms)
     if not np.array_equal(on.gap, of.gap):
         order = np.argsort(of.gap, kind="stable")
         e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
-    (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S
+        moved = e @ on.w - state.e @ of.w
+    (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S + moved[0]
     rate, bend = 1.5 * y - 2 * y_old + 0.5 * y_older, y - 2 * y_old + y_older  # per step of the other, and its step
     at = -step * np.arange(3)
     body = kernels.BodyState(
-        y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms.copy()
+        y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms + moved[1:]
     )
     return MarchState.of(e, on.normal.s, body)
 
@@ -195,16 +196,22 @@ class EnergyNorm:
 
     @cached_property
     def pushes(self) -> tuple[Array, ...]:
-        """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body."""
+        """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body; of
+        the springs themselves where there is neither.
+        """
         scaled, n = self.scaled, self.n_e
         pushes = []
         for j, rho in enumerate(scaled.rheology.rho, start=1):
             arm = np.zeros(self.n_x)
-            arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = 1 / np.sqrt(rho)
+            arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = arm[n + 4 + j] = 1 / np.sqrt(rho)
             pushes.append(arm)
         if not scaled.rigid:
             position, velocity = np.zeros((2, self.n_x))
             position[n : n + 3] = 1 / np.sqrt(scaled.K)
             velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
             pushes += [position, velocity]
+        elif not pushes:
+            springs = np.zeros(self.n_x)
+            springs[: scaled.gap.size] = springs[n + 3] = 1.0
+            pushes.append(springs)
         return tuple(pushes)

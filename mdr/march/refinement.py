@@ -22,7 +22,19 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dimensionless import RESOLVED, fast_ratio
-from mdr.march.march import BUDGET, MOST_BESIDE, Knobs, March, Steady, check, looked_at, steady, too_coarse, touches
+from mdr.march.march import (
+    BUDGET,
+    MOST_BESIDE,
+    Knobs,
+    March,
+    Steady,
+    at_hand,
+    check,
+    looked_at,
+    steady,
+    too_coarse,
+    touches,
+)
 from mdr.march.run import SlidingRun, finish
 from mdr.tools.progress import time_is_over
 
@@ -33,10 +45,13 @@ N_SPRINGS, _STEPS = 96, 256  # first choice; refined while cof_error exceeds the
 _STEPS_OF_JOLTS = 1024  # the same for a body without mass on dashpots, whose error falls at first order
 MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
-LEFT = 0.1  #: share of what is extrapolated that counts as error
+LEFT = 0.05  #: share of what is extrapolated that counts as error
 FIRST = (0.5, 0.75, 0.25)  #: of the steps, of runs whose periodic state the main one may begin in
 CONFIRMED = 0.2  #: share by which two estimates of what the steps miss, of second order, may differ, over 2 - ratio
-APART = 2.5  #: times their difference that counts as error, times 2 - ratio
+APART = 3.0  #: times their difference that counts as error, times 2 - ratio
+KINK = 0.015  #: of a mean over a period, times h², that a jump of the rate between two nodes can hide
+BEND, BEND_OF_DASHPOT = 0.05, 0.15  #: the same, times h³, of a change of mode whose instant and path the march knows
+KINK_OF_SPRINGS = 0.03  #: the same, over n_springs², of a change of mode between two springs
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
 SPRINGS_OF_A_SHAKE = (0.5, 0.7, 0.83)  #: of the springs, of companions where modes change anywhere among them
@@ -103,7 +118,7 @@ def check_size(n_springs: int, steps: int, record: int) -> None:
 
 @dataclass(frozen=True)
 class _Bounded:
-    """A main run, the bound on the numerical error of its COF, over mu_0, and what the steps miss of it."""
+    """A main run, the bound on the numerical error of its COF, over mu_0, and what steps and springs miss of it."""
 
     main: Steady
     error: float
@@ -131,7 +146,9 @@ def within(
     check(case, v_0)
     runs, knobs, coarser = _Runs(case, v_0, near), that_touch(case, knobs, free[1]), None
     few_steps, between = knobs.steps if runs.jolts else knobs.steps // 2, 3 * knobs.steps // 4
-    first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps))) for share in FIRST)), None)
+    alike = at_hand(case, knobs)[1].gap.size == 1
+    few = knobs.n_springs // 2 if free[0] and not alike else knobs.n_springs
+    first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps), few)) for share in FIRST)), None)
     if first is not None and first.settling.settled and not first.slips_fully and free[0] and not runs.jolts:
         knobs = _enough_springs(runs, first, knobs, few_steps)
     while True:
@@ -149,8 +166,8 @@ def within(
                 return _Bounded(main, 0.0).finished(knobs.record) if knobs.record else finish(march), main
         most = runs.beside(main, knobs.coarser(between))
         uneven = main.scaled.light and main.scaled.remembers and not case.keeps_contact
-        error_springs = _of_springs(runs, main, knobs, knobs.steps if runs.jolts else few_steps)
-        missing, error_steps = _of_steps(runs, main, half, most, UNEVEN if uneven else (), free[1])
+        of_springs, error_springs = _of_springs(runs, main, knobs, knobs.steps if runs.jolts else few_steps, free[0])
+        of_steps, error_steps = _of_steps(runs, main, half, most, UNEVEN if uneven else (), free[1])
         error_steps += ringing
         if time_is_over():
             if coarser is None:
@@ -158,6 +175,7 @@ def within(
                 unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
                 coarser = _Bounded(replace(main, settling=unknown), 0.0)
             return coarser.finished(knobs.record), coarser.main
+        missing = of_springs + of_steps
         bounded, share = _Bounded(main, error_springs + error_steps, missing), knobs.accuracy / 2
         most_steps = MOST_UNEVEN if uneven else MOST_STEPS
         finer = min(2 * knobs.steps if uneven else 2 * between, most_steps)
@@ -185,25 +203,40 @@ def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) ->
     while knobs.n_springs < MOST_SPRINGS and not time_is_over():
         if not runs.beside(first, knobs.coarser(few_steps)).settling.settled:
             break
-        if _of_springs(runs, first, knobs, few_steps) <= knobs.accuracy / 2:
+        if _of_springs(runs, first, knobs, few_steps, extrapolate=True)[1] <= knobs.accuracy / 2:
             break
         knobs = knobs._replace(n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
     return knobs
 
 
-def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int) -> float:
-    """Bound on the error of the springs, over mu_0, from runs of few steps with all springs and with half of them.
+def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int, extrapolate: bool) -> tuple[float, float]:
+    """What the springs miss of the COF, over mu_0, and the bound on the error of that, from runs of few steps with all
+    springs, with half of them and, where that is not enough, with three quarters; zero and the bound on the whole where
+    the order is not confirmed.
 
     Under a shake the modes change at places within a cell, and a place near the edge of one is missed by as much with
     half of the cells; further companions in no simple ratio tell.
     """
     every = runs.beside(main, knobs.coarser(few_steps))
-    shares = SPRINGS_OF_A_SHAKE if main.scaled.is_shaken else (0.5,)
-    fewer = [runs.beside(main, knobs.coarser(few_steps, int(share * knobs.n_springs))) for share in shares]
-    missed = max(_missed(every, other) + _kink(every, other) for other in fewer) + _of_held_springs(every)
-    if not main.settling.solved or every is main:
-        return missed
-    return missed + max(every.settling.spread, 0.0 if every.settling.settled else BUDGET)
+    if every.scaled.gap.size == 1:  # springs that all stand alike are one
+        return 0.0, 0.0
+    shaken, solved = main.scaled.is_shaken, main.settling.solved
+
+    def with_fewer(share: float) -> Steady:
+        return runs.beside(main, knobs.coarser(few_steps, int(share * knobs.n_springs)))
+
+    shares, half = SPRINGS_OF_A_SHAKE if shaken else (), with_fewer(0.5)
+    hidden = KINK_OF_SPRINGS / knobs.n_springs**2 * _deficit(every)
+    plain = max(_missed(every, one) for one in (half, *map(with_fewer, shares))) + hidden + _of_held_springs(every)
+    unsettled = solved and every is not main
+    unsure = max(every.settling.spread, 0.0 if every.settling.settled else BUDGET) if unsettled else 0.0
+    if extrapolate and not shaken and not runs.jolts and half.settling.settled and plain > knobs.accuracy / 2:
+        most = with_fewer(0.75)
+        missing, bound = extrapolated(every.cof, half.cof, most.cof, every.knobs.n_springs / most.knobs.n_springs)
+        bound += hidden + every.settling.spread + half.settling.spread + most.settling.spread
+        if most.settling.settled and bound < plain:
+            return missing, bound + unsure
+    return 0.0, plain + unsure
 
 
 def _of_held_springs(every: Steady) -> float:
@@ -228,7 +261,7 @@ def _of_steps(
 
     half, most: companions with half of the steps and with more. uneven: shares of the steps of further ones.
     """
-    steps, hidden, margin = main.knobs.steps, _kink(main, half), _erratic(runs.fast)
+    steps, hidden, margin = main.knobs.steps, _hidden_by_steps(main, half), _erratic(runs.fast)
     lost = (steps / most.knobs.steps) ** 2 - 1  # what `most` misses more than main, over what main misses
     plain = (max(_missed(main, half), 14 / 9 * _missed(main, most) / lost) + hidden) * margin
     others = [runs.beside(main, main.knobs.coarser(int(share * steps))) for share in uneven]
@@ -323,15 +356,24 @@ def _missed(main: Steady, companion: Steady) -> float:
     return missing + abs(main.cof - companion.cof)
 
 
-def _kink(main: Steady, companion: Steady) -> float:
-    """What a kink between two nodes can hide of the COF, over mu_0.
+def _hidden_by_steps(main: Steady, companion: Steady) -> float:
+    """What changes of mode between two nodes can hide of the COF, over mu_0.
 
-    A kink of size [e'] at the end of stick costs a mean up to [e'] h²/8 of one step. Near v_c, with psi ~ (1 - v)² the
-    deficit of one spring, [e'] falls only like psi^(1/4); so the allowance follows this, not the deficit.
+    The march knows the path between the nodes but for its third order in the step. Where the body is light it is left
+    with a kink of size [e'], which costs a mean up to [e'] h²/8 of one step.
     """
     if abs(main.cof - companion.cof) <= ROUNDING:
         return 0.0
-    finer_steps = main.knobs.steps > companion.knobs.steps
-    coarseness = (2 * np.pi / main.knobs.steps) ** 2 if finer_steps else 4.0 / main.knobs.n_springs**2
+    scaled, h = main.scaled, main.scaled.h
+    bend = BEND_OF_DASHPOT if scaled.T else BEND
+    return (KINK * h**2 if scaled.light else bend * h**3) * _deficit(main)
+
+
+def _deficit(main: Steady) -> float:
+    """A measure of the changes of mode in a period, over the mean force.
+
+    Near v_c, with psi ~ (1 - v)² the deficit of one spring, the jump of e' falls only like psi^(1/4); so what is
+    allowed for a change follows this, not the deficit.
+    """
     psi = min(max(1 - main.cof, 0.0) * main.mean_F_z, 1.0)
-    return 0.015 * coarseness / main.mean_F_z * float(psi**0.25)
+    return float(psi**0.25) / main.mean_F_z

@@ -159,11 +159,10 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
     """From scaled form to SI. error: bound on that of the COF, over mu_0; missing: what the steps are known to miss."""
     case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
     mu_0, sums = case.mu_0, seen.sums
-    n_steps = seen.F_x.size
     force_z = scaled.stiffness_z * scaled.length_z
     if not march.sees_contact:
         raise too_coarse(scaled.steps)
-    mean_F_z = float(sums[kernels.SUM_S]) / n_steps * force_z
+    mean_F_z = scaled.normal.load * force_z
     error += march.end.missing_load
     cof = max(min(settling.mean + missing, 1.0), -1.0) if missing else settling.mean
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])

@@ -32,11 +32,10 @@ class MarchState:
     __slots__ = ("body", "e", "s", "x")
 
     def __init__(self, x: Array, s: Array) -> None:
-        n = s.size
         self.x = x  #: (n_x,) extensions, y, S and the sums over arms
         self.s = s  #: (1 + J, n) compressions, and their arms
-        self.e = x[:n].reshape(s.shape)  #: (1 + J, n) extensions, and their arms
-        self.body = kernels.BodyState(x[n : n + 3], x[n + 3 : n + 5], x[n + 5 :].reshape(2, -1))
+        self.e = x[: s.size].reshape(s.shape)  #: (1 + J, n) extensions, and their arms
+        self.body = self.body_of(x)
 
     @classmethod
     def of(cls, e: Array, s: Array, body: kernels.BodyState) -> MarchState:
@@ -46,6 +45,11 @@ class MarchState:
     def copy(self) -> MarchState:
         """A state that can be marched on without a change of this one."""
         return MarchState(self.x.copy(), self.s.copy())
+
+    def body_of(self, x: Array) -> kernels.BodyState:
+        """The body in the state that a vector stands for; views of it."""
+        n = self.s.size
+        return kernels.BodyState(x[n : n + 3], x[n + 3 : n + 5], x[n + 5 :].reshape(2, -1))
 
     def with_vector(self, x: Array) -> MarchState:
         """The state that a vector stands for; a copy."""
@@ -136,8 +140,17 @@ class Stepper:
         ends = np.concatenate([before.S[:1], S[scaled.steps - 1 :: scaled.steps]])
         inner = S.reshape(-1, scaled.steps).mean(axis=1) - 0.5 * (ends[1:] - ends[:-1]) / scaled.steps
         arms = scaled.arms_at_ends(S, float(before.S[0]), before.arms[0])
-        mean = scaled.mean_force(ends, inner, arms, 2 * np.pi)
+        mean = scaled.mean_force(np.diff(ends), inner, np.diff(arms, axis=0), 2 * np.pi)
         return Periods(mean / self.mean_F_z, np.ptp(trace.y.reshape(-1, scaled.steps), axis=1), as_one)
+
+    def _period_of(
+        self, before: kernels.BodyState, after: kernels.BodyState, trace: kernels.Trace, as_one: bool
+    ) -> Periods:
+        """The same of one period, of which the body is known at both ends."""
+        change = float(after.S[0] - before.S[0])
+        inner = (float(trace.S.sum()) - 0.5 * change) / trace.S.size
+        cof = self.scaled.mean_force(change, inner, after.arms[0] - before.arms[0], 2 * np.pi) / self.mean_F_z
+        return Periods(np.array([cof]), np.array([trace.y.max() - trace.y.min()]), as_one)
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
@@ -157,7 +170,7 @@ class Stepper:
         self.n_periods += 1
         y = np.concatenate([before.body.y[::-1], trace.y])
         stored = self.stored_energy(before), self.stored_energy(state)
-        period = self._periods_of(before.body, trace, bool(as_one))
+        period = self._period_of(before.body, state.body, trace, bool(as_one))
         return state, PeriodRecord(seen, y, trace.e[:, 0], trace.s[:, 0], stored, period)
 
     def within_friction(self, state: MarchState) -> MarchState:
@@ -167,7 +180,7 @@ class Stepper:
 
     def search(self, at: kernels.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
         """Go on with a search for its periodic state, for at most so many periods; whether it has come to its end, and
-        the last period. like: a state of this march.
+        the last period, if it was the one that moved least. like: a state of this march.
         """
         n_before, nothing = int(at.counts[kernels.PERIODS]), np.empty((0, *like.e.shape))
         trace = kernels.Trace(np.empty(self.scaled.steps), np.empty(self.scaled.steps), nothing, nothing)
@@ -176,7 +189,8 @@ class Stepper:
             at, like.s, self._compression(like), roots, self.scaled.body, *motion, n_periods, trace
         )
         self._count(int(at.counts[kernels.PERIODS]) - n_before)
-        return bool(ended), self._periods_of(like.with_vector(at.start).body, trace, bool(as_one))
+        start, end = like.body_of(at.start), like.body_of(at.best)
+        return bool(ended), self._period_of(start, end, trace, bool(as_one))
 
     def _compression(self, state: MarchState) -> Array:
         """Compressions at phase 0; the elastic march does not keep them."""

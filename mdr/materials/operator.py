@@ -33,7 +33,8 @@ L_ROWS = 9
     L_FREE,  # x at the end of a step without force, a functional of the state (x, x_1 ... x_J)
     L_RATE,  # -x' at its start, another
     L_END,  # -x' at its end
-    L_SHED,  # x that the arms would leave without static force at the end of the step
+    L_SHED,  # with a dashpot, x that the arms leave without static force at the end of the step; else the part of x
+    # that is elastic: what goes at once with the force, at the start
     L_DECAY,  # exp(-h/theta_j); exp(-h/T) for x itself
     L_GAIN,  # what a linear step of x leaves in the arm; 1 for x itself
     L_RATIO,  # modulus over the long-time one; 1 for x itself
@@ -106,6 +107,8 @@ def _table(T: float, rho: tuple[float, ...], theta: tuple[float, ...], h: float)
         table[L_FREE] = table[L_DECAY]
         table[L_END] = table[L_RATE] * table[L_DECAY]
         return _read_only(table)
+    if not table[L_STIFFNESS, 0]:
+        table[L_SHED] = ratios / ratios.sum()
     shed, rates = _free_motion(T if table[L_STIFFNESS, 0] else 0.0, ratios, times)
     from scipy.linalg import expm
 

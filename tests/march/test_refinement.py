@@ -9,6 +9,7 @@ from conftest import contact, unit_of_velocity
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march import refinement
+from mdr.march.march import Knobs, march
 
 BODY = contact("paraboloid", 3.0, 0.0, 2.0, 1.6, 0.1)
 FAST = contact("paraboloid", 3.0, 0.0, 2.0, 6.4, 0.1)  # omega_1/omega is 7.8
@@ -43,10 +44,15 @@ def test_less_accuracy_takes_fewer_steps():
     assert sizes[0] < sizes[1]
 
 
+def as_marched(case, run):
+    """The COF of the march alone, of as many springs and steps."""
+    return case.mu_0 * march(case, run.v_0, Knobs(run.n_springs, run.steps_per_period, "full_slip", lump=True)).cof
+
+
 def test_steps_that_are_given_are_not_extrapolated_and_chosen_ones_are():
-    given, chosen = (mdr.slide(BODY, 5e-4, n_springs=192, steps_per_period=n, record=1) for n in (256, None))
+    given, chosen = (mdr.slide(BODY, 5e-4, n_springs=192, steps_per_period=n) for n in (256, None))
     assert chosen.steps_per_period == 256
-    assert given.cof == pytest.approx(given.F_x.mean() / given.F_z.mean(), rel=1e-9)
+    assert given.cof == pytest.approx(as_marched(BODY, given), rel=1e-8)
     assert 1e-6 < abs(chosen.cof - given.cof) <= given.cof_error
     finest = mdr.slide(BODY, 5e-4, n_springs=192, steps_per_period=4096)
     assert abs(chosen.cof - finest.cof) < 0.25 * abs(given.cof - finest.cof)  # six times nearer
@@ -54,9 +60,19 @@ def test_steps_that_are_given_are_not_extrapolated_and_chosen_ones_are():
 
 def test_a_body_that_rings_fast_is_not_extrapolated():
     v_0 = 0.5 * mdr.full_slip_critical_velocity(FAST)
-    run = mdr.slide(FAST, v_0, record=1)
+    run = mdr.slide(FAST, v_0, n_springs=192)
     assert run.steps_per_period >= 512
-    assert run.cof == pytest.approx(run.F_x.mean() / run.F_z.mean(), rel=1e-9)
+    assert run.cof == pytest.approx(as_marched(FAST, run), rel=1e-8)
+
+
+def test_springs_are_extrapolated_where_more_would_be_needed_and_not_where_they_are_given():
+    case = contact("cone", 1.5, 0.0, 2.0, 1.6, 0.1)
+    v_0 = 0.4 * mdr.full_slip_critical_velocity(case)
+    chosen = mdr.slide(case, v_0)
+    given, finest = (mdr.slide(case, v_0, n_springs=n) for n in (chosen.n_springs, 3072))
+    assert chosen.n_springs <= 192
+    assert abs(chosen.cof - finest.cof) < 0.5 * abs(given.cof - finest.cof)
+    assert abs(given.cof - finest.cof) <= given.cof_error
 
 
 @pytest.mark.parametrize("wrong", [0.0, 1e-9, 2e-3, math.nan, -1e-5])

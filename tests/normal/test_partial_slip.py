@@ -124,7 +124,7 @@ def test_depth_alone_moves_no_tangential_force_of_a_spring_in_stick():
     for z_0, z_1 in ((1.0, 2.0), (2.0, 1.0)):
         new, s = np.empty(3), np.empty(3)
         step, still = (
-            kernels.Step(0, 3, z_0, z_1, z_1 - z_0, z_1 - z_0, 1.0),
+            kernels.Step(0, 3, 0, 3, z_0, z_1, z_1 - z_0, z_1 - z_0, 1.0),
             kernels.Move(0.0, 0.0, 0.0, 0.0, 0.0, False, False),
         )
         springs = kernels.Springs(gap, w, -np.inf)
