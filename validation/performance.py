@@ -332,7 +332,7 @@ def against(there: Path, n_random: int, n_study: int) -> dict[str, list[Row]]:
     slow = (f"study of {n_study}",) if n_study else ()
     numbers = [str(i) for i in range(n_random)]
     found: dict[str, list[Row]] = {"medians": []}
-    for asked, names, repeats in ((tasks, list(STANDING), 3), (slow, list(STANDING), 1), (tasks[:4], numbers, 1)):
+    for asked, names, repeats in ((tasks, list(STANDING), 3), (slow, list(STANDING), 1), (tasks[:4], numbers, 3)):
         for task, name, ours, theirs in alternately(here, there, asked, names, repeats, say):
             kind = f"{task}, random cases" if name.isdigit() else task
             row = ratio(f"{name}: {1e3 * float(np.median(ours)):.3g} ms", theirs, ours)

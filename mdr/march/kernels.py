@@ -1201,6 +1201,34 @@ def combine(at, image, reached):
     return False
 
 
+@_inline
+def parts_of(x, s):
+    """Views of a state vector: extensions, as s (1 + J, n), and body."""
+    n_x, n_e = s.shape[0], s.size
+    held = BodyState(x[n_e : n_e + 3], x[n_e + 3 : n_e + 5], x[n_e + 5 :].reshape((2, n_x - 1)))
+    return x[:n_e].reshape(s.shape), held
+
+
+@_jit
+def settle_in(states, s, pressed, body, springs, motion, table, n_periods, out, before, after):
+    """March states (k, n_x) for some periods and one more, each on its own: fills before and after, of that shape.
+
+    s, pressed, out: as of `search`.
+    """
+    now, first = np.empty_like(s), np.int64(0)
+    for j in range(states.shape[0]):
+        x = after[j]
+        put(states[j], x)
+        e, held = parts_of(x, s)
+        for turn in range(n_periods + 1):
+            if turn == n_periods:
+                put(x, before[j])
+            for a in range(s.shape[0]):
+                put(s[a], now[a])
+            begin(e, pressed, held, springs)
+            march(e, now, held, body, springs, motion, table, first, out)
+
+
 @_jit
 def search(at, s, pressed, roots, body, springs, motion, table, n_periods, out):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end,
@@ -1209,11 +1237,9 @@ def search(at, s, pressed, roots, body, springs, motion, table, n_periods, out):
     s: (1 + J, n) compressions at the start of a period, pressed (n,) those of the springs, also where s keeps none.
     out: Trace of the last period.
     """
-    n_x, n = s.shape
-    n_e, first = n_x * n, np.int64(0)  # a plain 0 would have the march compiled once more
-    now, image, reached = np.empty((n_x, n)), np.empty(at.x.size), np.empty(at.x.size)
-    e, arms = image[:n_e].reshape((n_x, n)), image[n_e + 5 :].reshape((2, n_x - 1))
-    held = BodyState(image[n_e : n_e + 3], image[n_e + 3 : n_e + 5], arms)
+    n_x, n_e, first = s.shape[0], s.size, np.int64(0)  # a plain 0 would have the march compiled once more
+    now, image, reached = np.empty_like(s), np.empty(at.x.size), np.empty(at.x.size)
+    e, held = parts_of(image, s)
     as_one, ended = True, False
     while n_periods > 0 and not ended:
         n_periods -= 1

@@ -7,7 +7,6 @@ the norm of energy of springs, system spring and mass.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -60,13 +59,7 @@ def search(
     loose = (periodic.LOOSE,) if near and not slow else ()
     how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
     for start in starts:
-        x, orbit = start.x, None
-
-        def period(x: Array, like: MarchState = start) -> Array:
-            if time_is_over():
-                raise _OutOfTime
-            return stepper.period(stepper.within_friction(like.with_vector(x))).x
-
+        x, orbit, period = start.x, None, _Period(stepper, start)
         for close in (*loose, periodic.CLOSE, periodic.CLOSEST):
             how = how if close == how.close else replace(how, close=close)
             try:
@@ -89,6 +82,23 @@ def search(
             return orbit
     stepper.n_periods = n_before
     return None
+
+
+class _Period(periodic.PeriodMap):
+    """The map of one period of the march; it stops where the time limit of the caller is over."""
+
+    def __init__(self, stepper: Stepper, like: MarchState) -> None:
+        self.stepper, self.like = stepper, like
+
+    def __call__(self, x: Array) -> Array:
+        if time_is_over():
+            raise _OutOfTime
+        return self.stepper.period(self.stepper.within_friction(self.like.with_vector(x))).x
+
+    def settled_in(self, states: Array) -> tuple[Array, Array]:
+        if time_is_over():
+            raise _OutOfTime
+        return self.stepper.settled_in(states, self.like, periodic.AFTER)
 
 
 def _by_anderson(
@@ -194,7 +204,6 @@ class EnergyNorm:
             kernels.measure(one, self.roots, self.n_e, measured)
         return out
 
-    @cached_property
     def pushes(self) -> tuple[Array, ...]:
         """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body; of
         the springs themselves where there is neither.

@@ -28,8 +28,8 @@ from mdr.march import kernels
 from mdr.march.stepper import Periods
 from mdr.tools.arrays import Array
 
-Step = Callable[[Array], Array]
 Measure = Callable[[Array], Array]
+Pushes = Callable[[], tuple[Array, ...]]
 
 MEMORY = 8  #: periods that are combined
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
@@ -51,6 +51,22 @@ STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms 
 TURNS = 30  #: corrections of the Newton-Picard method
 SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes on without it
 LOST = 5  #: corrections in a row of which no share is a gain, after which it ends
+
+
+class PeriodMap:
+    """The map of one period, of a state (n,) to the one that it comes to."""
+
+    def __init__(self, step: Callable[[Array], Array]) -> None:
+        self.step = step
+
+    def __call__(self, x: Array) -> Array:
+        """The state a period later."""
+        return self.step(x)
+
+    def settled_in(self, states: Array) -> tuple[Array, Array]:
+        """What states (k, n) have come to after some periods, and a period later: both (k, n)."""
+        pairs = [_settled_in(self, x) for x in states]
+        return np.array([one for one, _ in pairs]), np.array([later for _, later in pairs])
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,31 +143,33 @@ class Options:
 
 
 def find(
-    step: Step,
+    step: PeriodMap,
     near: Iterate | None,
     measure: Measure,
-    pushes: tuple[Array, ...],
+    pushes: Pushes,
     how: Options,
     gain: float | None = None,
 ) -> FixedPoint | None:
     """The fixed point of `step` near the state that Anderson's method has come to, shape (n,); None where there is none
     of either.
 
-    measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: displacements of unit
-    length along the slow motions. gain: that of the same motion at another resolution, where it is known.
+    measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: gives displacements of
+    unit length along the slow motions. gain: that of the same motion at another resolution, where it is known.
     """
     if near is None:
         return None
     if near.change > how.closest:
-        near = _newton_picard(step, near, measure, pushes, how.closest)
+        near = _newton_picard(step, near, measure, pushes(), how.closest)
     if near.change > how.enough:
         return None
     if gain is None:
-        gain = _gain(step, near, measure, pushes, how.slow, how.stable)
+        gain = _gain(step, near, measure, pushes(), how.slow, how.stable)
     return FixedPoint(near, gain) if gain is not None else None
 
 
-def _newton_picard(step: Step, start: Iterate, measure: Measure, pushes: tuple[Array, ...], close: float) -> Iterate:
+def _newton_picard(
+    step: PeriodMap, start: Iterate, measure: Measure, pushes: tuple[Array, ...], close: float
+) -> Iterate:
     """The state of least change that corrections along the pushed motions lead to.
 
     The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go the
@@ -190,7 +208,7 @@ def _newton_picard(step: Step, start: Iterate, measure: Measure, pushes: tuple[A
     return best
 
 
-def _settled_in(step: Step, x: Array) -> tuple[Array, Array]:
+def _settled_in(step: PeriodMap, x: Array) -> tuple[Array, Array]:
     """A state after some periods, and its image."""
     for _ in range(AFTER):
         x = step(x)
@@ -198,19 +216,18 @@ def _settled_in(step: Step, x: Array) -> tuple[Array, Array]:
 
 
 def _displaced(
-    step: Step, x: Array, here: tuple[Array, Array], measure: Measure, pushes: tuple[Array, ...], push: float
+    step: PeriodMap, x: Array, here: tuple[Array, Array], measure: Measure, pushes: tuple[Array, ...], push: float
 ) -> tuple[Array, Array]:
     """What pushes of the state x have become after some periods, and a period later: displacements (k, n) from `here`,
     the two states that x itself comes to.
     """
     size = push * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
-    displaced = [_settled_in(step, x + size * one) for one in pushes]
-    before, after = (np.array([other[k] - here[k] for other in displaced]) for k in (0, 1))
-    return before, after
+    before, after = step.settled_in(x + size * np.array(pushes))
+    return before - here[0], after - here[1]
 
 
 def _gain(
-    step: Step,
+    step: PeriodMap,
     found: Iterate,
     measure: Measure,
     pushes: tuple[Array, ...],

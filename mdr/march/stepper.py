@@ -192,6 +192,17 @@ class Stepper:
         start, end = like.body_of(at.start), like.body_of(at.best)
         return bool(ended), self._period_of(start, end, trace, bool(as_one))
 
+    def settled_in(self, states: Array, like: MarchState, n_periods: int) -> tuple[Array, Array]:
+        """What states (k, n_x) of this march have come to after so many periods, and a period later; like: one of it."""
+        steps, nothing = self.scaled.steps, np.empty((0, *like.e.shape))
+        trace = kernels.Trace(np.empty(steps), np.empty(steps), nothing, nothing)
+        before, after = np.empty_like(states), np.empty_like(states)
+        motion = self.springs, self.motion, self.scaled.table
+        pressed = self._compression(like)
+        kernels.settle_in(states, like.s, pressed, self.scaled.body, *motion, n_periods, trace, before, after)
+        self._count(len(states) * (n_periods + 1))
+        return before, after
+
     def _compression(self, state: MarchState) -> Array:
         """Compressions at phase 0; the elastic march does not keep them."""
         return np.asarray(state.s[0]) if self._remembers else self._pressed

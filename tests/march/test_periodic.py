@@ -34,7 +34,7 @@ def find(step, x):
         at.measured[:] = at.x
     change = at.changes[kernels.BEST]
     near = periodic.Iterate(at.best, change) if math.isfinite(change) else None
-    return periodic.find(step, near, itself, PUSHES, how)
+    return periodic.find(periodic.PeriodMap(step), near, itself, lambda: PUSHES, how)
 
 
 def linear(slow, fast=0.01):
