@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
+MOST_KEPT = 2**14  #: instants of a cosine that is kept for the next contact
 DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
 
 
@@ -96,7 +97,9 @@ class Cycle(ArrayRecord):
         return total
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:
-        """z and its rate at equidistant phases, both ends included: (steps + 1,)."""
+        """z and its rate at equidistant phases, both ends included: (steps + 1,), not to be written to."""
+        if self.is_harmonic and steps <= MOST_KEPT:
+            return _cosine(steps)
         phase = 2 * np.pi * np.arange(steps + 1) / steps
         if 2 * self.cos.size >= steps or self.cos.size < 32:
             return self.z(phase), self.rate(phase)
@@ -113,6 +116,13 @@ class Cycle(ArrayRecord):
         response: of the material to harmonics n (N,), over its long-time modulus.
         """
         return -peak(-self.harmonics * response(np.arange(1.0, self.cos.size + 1)))
+
+
+@lru_cache(maxsize=32)
+def _cosine(steps: int) -> tuple[Array, Array]:
+    """cos(phase) and its rate at equidistant phases, both ends included: (steps + 1,)."""
+    phase = 2 * np.pi * np.arange(steps + 1) / steps
+    return np.cos(phase), -np.sin(phase)
 
 
 def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:

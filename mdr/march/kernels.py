@@ -17,6 +17,11 @@ One spring in one step, with compression s and extension e at its start:
   slip gave way to stick, stick to slip and contact to flight, not only between which two steps.
 * First touch. A spring that touched at a fraction of the step has travelled only the rest of it; without
   this the scheme is of first order.
+* Between both ends. Where a rate jumps within a step, as stick ends or contact begins or lets go, the mean of e over
+  the step is not that of its ends. What is missing follows from what was left to slip, or to open, and is added to the
+  sum of the forces at the end of the step. So the body gets the impulse, and the mean over a period, that belong to the
+  instant of the change, and their error falls smoothly with the second power of the step, wherever between two nodes
+  the changes fall. Arms relax along that path too.
 
 T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
 
@@ -395,12 +400,12 @@ def indices(first, last):
 
 @_inline
 def at_edge(e_0, e_1, above, travelled, inverse_fall):
-    """What an elastic spring that may touch or let go within a step adds to the mean of its extension, if it slips
-    forward until it lets go. above: z - gap at the start; inverse_fall: 1/(z_0 - z_1), or 0 of an indenter that sinks.
+    """What an elastic spring that may touch or let go within a step adds to the mean of its extension, where it slips
+    until it lets go. above: z - gap at the start; inverse_fall: 1/(z_0 - z_1), or 0 of an indenter that sinks.
     """
     share = above * inverse_fall  # of the step in contact
     if 0.0 < share <= 1.0:
-        return 0.5 * e_0 * (share - 1.0) + TWELFTH / inverse_fall
+        return 0.5 * e_0 * (share - 1.0) + (TWELFTH if e_0 >= 0.0 else -TWELFTH) / inverse_fall
     return first_touch(e_1, 0.0, travelled, above <= 0.0)
 
 
@@ -660,8 +665,8 @@ def between_elastic(e, springs, step, du):
     for i in range(step.first, step.last if step.z_1 < step.z_0 else step.first):
         above, opened = step.z_0 - gap[i], gap[i] - step.z_1
         if above > 0.0 and opened >= 0.0:  # beyond what `at_edge` knows
-            total += w[i] * (end_of_touch(e[0, i], above, du, opened) - TWELFTH * (above + opened))
-            total += w[i] * 0.5 * e[0, i] * opened / (above + opened)
+            known = at_edge(e[0, i], 0.0, above, 0.0, 1.0 / (above + opened))
+            total += w[i] * (end_of_touch(e[0, i], above, du, opened) - known)
     if pace > 0.0:
         for i in indices(0, step.last):
             left = (step.z_0 - gap[i]) + e[0, i]
@@ -948,9 +953,12 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
 
 @_inline
 def step_of(motion, k, n, h):
-    """Step k of the period; n_in rounded down and n_out up so that whole vectors go through each loop."""
+    """Step k of the period; n_in rounded down, unless all press, and n_out up, so that whole vectors go through each
+    loop.
+    """
     first, last, z, zd = motion.spans[0, k], motion.spans[1, k], motion.z, motion.z_dot
-    n_in, n_out = first // VECTOR * VECTOR, min((last + VECTOR - 1) // VECTOR * VECTOR, n)
+    n_in = n if first == n else first // VECTOR * VECTOR
+    n_out = min((last + VECTOR - 1) // VECTOR * VECTOR, n)
     return Step(n_in, n_out, first, last, z[k], z[k + 1], zd[k], zd[k + 1], h)
 
 
@@ -1090,8 +1098,9 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         else:
             stretch_arms(e_0, e_1, table)
             stretch_arms(s_0, s_1, table)
-            relax_more(e_1, along[0], table, 0 if ended else step.n_in, step.n_out)
-            relax_more(s_1, along[1], table, step.n_in, step.n_out)
+            if ended or step.n_in < step.n_out:
+                relax_more(e_1, along[0], table, 0 if ended else step.n_in, step.n_out)
+                relax_more(s_1, along[1], table, step.n_in, step.n_out)
             core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
             for a in range(n_arms + 1):
                 core += table[L_RATIO, a] * (e_1[a, 0] + s_1[a, 0])

@@ -6,12 +6,14 @@ difference to half the steps is three times the error, that to three quarters 7/
 first, or 14/9 of the error by the other if that is more, bounds the error of the COF, together with springs and spread
 of the windows. Where the three numbers of steps confirm the order, the COF is extrapolated, and what the two estimates
 differ by bounds what is left; not under a shake in the plane, where kinks are so many that three may agree by chance.
+The same goes for springs: where half of them differ by more than is asked for, three quarters tell whether the order
+is the second, in which cells miss the COF; else the springs are doubled.
 
 Refined steps grow by a half and by a third in turn, 256, 384, 512, 768 ..., so that the two runs before are companions
 of the next. Where dashpots touch a body that no mass holds, its velocity jumps, and the error falls at first order and
 erratically: there steps double, and companions of steps in no simple ratio are added.
 
-A search begins with few springs and steps. Each run begins in the periodic state of the one before.
+A search begins with half of the springs and of the steps. Each run begins in the periodic state of the one before.
 """
 
 from __future__ import annotations

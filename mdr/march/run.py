@@ -39,8 +39,9 @@ class SlidingRun(Summarised, ArrayRecord):
     """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
     `cof` may be extrapolated to steps of no length (`slide`); recorded forces and energies are those of the run itself.
-    Recorded forces are those at the end of a step. Where dashpots make them jump within a step, as under a Kelvin punch
-    that loses contact, mean F_x over mean F_z of the record differs from `cof` by up to 1e-4.
+    Recorded forces are those at the end of a step; `cof` also counts what happens between two of them, so that mean F_x
+    over mean F_z of the record differs from it by some 1e-6, and by up to 1e-4 where dashpots make forces jump within a
+    step, as under a Kelvin punch that loses contact.
     """
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]

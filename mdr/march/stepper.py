@@ -193,7 +193,7 @@ class Stepper:
         return bool(ended), self._period_of(start, end, trace, bool(as_one))
 
     def settled_in(self, states: Array, like: MarchState, n_periods: int) -> tuple[Array, Array]:
-        """What states (k, n_x) of this march have come to after so many periods, and a period later; like: one of it."""
+        """What states (k, n_x) of the march have come to after so many periods, and a period later; like: one of it."""
         steps, nothing = self.scaled.steps, np.empty((0, *like.e.shape))
         trace = kernels.Trace(np.empty(steps), np.empty(steps), nothing, nothing)
         before, after = np.empty_like(states), np.empty_like(states)
