@@ -78,6 +78,7 @@ class _Runs:
         self.fast = fast_ratio(case)
         self.jolts = bool(np.isinf(self.fast) and case.rheology.remembers)  # dashpots throw a body without mass
         self.ends: dict[Knobs, Steady] = {}
+        self.unconfirmed: dict[int, float] = {}  # by springs, what steps extrapolated to that did not confirm the order
 
     def first(self, knobs: Knobs) -> Steady | None:
         """The end of a run that may go before the main one; None where its periodic state would have to be awaited."""
@@ -271,6 +272,10 @@ def _of_steps(
     regular = not main.scaled.light and margin == 1 and not main.scaled.is_shaken  # whose kinks agree by chance
     if extrapolate and regular and half.settling.settled and most.settling.settled:
         missing, bound = extrapolated(main.cof, half.cof, most.cof, steps / most.knobs.steps)
+        before = runs.unconfirmed.pop(main.knobs.n_springs, main.cof + missing)
+        if np.isinf(bound):
+            runs.unconfirmed[main.knobs.n_springs] = main.cof + missing
+        bound += abs(main.cof + missing - before)  # finer steps may agree by chance
         bound += 2 * hidden + main.settling.spread + half.settling.spread + most.settling.spread
         if bound < plain:
             return missing, bound + _of_fast_relaxation(main)
