@@ -602,24 +602,23 @@ def free_of(look, i):
 
 
 @_jit
-def arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law):
+def arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
     """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck, and
     whether the stick of any ends in the step.
 
-    look (8, n): of `free_response`; along (2, n): filled with what the paths at the edge add to the means of extension
-    and compression.
+    look (8, n): of `free_response`.
     """
-    return arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, False)
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, False)
 
 
 @_jit
-def shaken_arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law):
+def shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
     """The same under a shake."""
-    return arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, True)
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True)
 
 
 @_inline
-def arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, shaken):
+def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
     """As `arms_step`; whether they are shaken is known when this is compiled."""
     gap, w, du = springs.gap, springs.w, move.du
     total, stuck, ended = 0.0, 0.0, 0.0
@@ -639,10 +638,7 @@ def arms_springs(e_0, s_0, e_1, s_1, look, along, springs, step, move, law, shak
         e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
-        flies = in_flight(s_0[0, i], step.z_0 - gap[i], gap[i])
-        along[0, i] = first_touch(e, free.s - free.lag, travelled, flies)
-        along[1, i] = first_touch(s, free.s, travelled, flies)
-        total += w[i] * (e + along[0, i])
+        total += w[i] * e
         sticks = abs(e - trial) <= 1e-9 * abs(du)
         stuck += w[i] * (1.0 if move.jumps else travelled) if sticks else 0.0
         ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
@@ -683,44 +679,32 @@ def end_of_pressed_stick(trial, s, free):
 
 
 @_jit
-def between_arms(e, s_0, s_1, look, along, springs, step, du, ended):
-    """What springs with arms and no dashpot add that end their stick in a step (where some have `ended` it), or let go,
-    and how much of a further move of the body goes into that. e, s_0, s_1: extension at its start, compression at both
-    ends.
+def between_arms(e, s_0, s_1, look, along, springs, step, du):
+    """What springs with arms and no dashpot add that end their stick in a step, and how much of a further move of the
+    body goes into that. e, s_0, s_1: extension at its start, compression at both ends. Puts what each path adds into
+    along (n,).
 
-    Puts into along (2, n) what each path adds, of extension and compression.
+    Where they touch or let go nothing is added: in a brief contact slow arms magnify what is then known of the path.
     """
     gap, w, total, given = springs.gap, springs.w, 0.0, 0.0
-    for i in indices(0, step.first if ended else 0):
-        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free_of(look, i))
-        along[0, i] = more
-        total += w[i] * more
-        given += w[i] * part
-    for i in range(step.first, step.last):
-        free, opened = free_of(look, i), gap[i] - step.z_1
-        if in_flight(s_0[0, i], step.z_0 - gap[i], gap[i]):
-            continue
-        if free.s + opened >= 0.0:
-            limit, force, opened = free.s_shed, free.s_shed - free.lag_shed, free.s + opened
-            along[0, i] = end_of_touch(force, limit, du - (free.s - free.lag - e[0, i] + force), opened)
-            along[1, i] = end_of_touch(limit, limit, 0.0, opened)
-            total += w[i] * along[0, i]
-        elif ended:
-            more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free)
-            along[0, i] = more
-            total += w[i] * more
-            given += w[i] * part
+    for i in indices(0, step.last):
+        free = free_of(look, i)
+        presses = s_0[0, i] - (step.z_0 - gap[i]) <= 1e-14 * (1.0 + abs(gap[i])) and step.z_1 - gap[i] > free.s
+        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free)
+        along[i] = more if presses else 0.0
+        total += w[i] * along[i]
+        given += w[i] * (part if presses else 0.0)
     return total, given
 
 
 @_jit
-def relax_more(x, along, table, first, last):
+def relax_more(x, along, table, last):
     """What arms, the rows 1 to J of x, relax more in a step whose path adds `along` (n,) to the mean of a straight one,
-    of the springs from first to last.
+    of the springs before `last`.
     """
     for k in range(1, x.shape[0]):
         share = table[L_GAIN, k] * (1.0 - table[L_DECAY, k])
-        for i in indices(first, last):
+        for i in indices(0, last):
             x[k, i] -= share * along[i]
 
 
@@ -749,12 +733,11 @@ def law_of(table):
 
 
 @_jit
-def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path, along):
+def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path):
     """One spring through normal motion from step k_0 on: x (1 + J,) is updated, the sum of its compressions returned.
 
-    force, touches, path, along (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before
-    in which it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), its compression,
-    and what the path in that step adds to the mean of it.
+    force, touches, path (n_z,), or empty: at z[0] ... z[n_z - 1] its normal force, the share of the step before in
+    which it was in contact (-1 where it follows the indenter without pressing, 0 where it is free), its compression.
     """
     n_z = z.size - 1
     h = 2.0 * np.pi / n_z
@@ -771,13 +754,8 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path, along
         step = Step(0, 0, 0, 0, z[k], z[k + 1], zd[k], zd[k + 1], h)
         alone = Free(free, rate, end, shed, 0.0, 0.0, 0.0, 0.0)
         _, value, share, _ = viscous_spring(0.0, x[0], gap, step, at_rest, law, alone, False)
-        flies = in_flight(x[0], z[k] - gap, gap)
-        more = first_touch(value, free, share, flies)
-        if not (law.dashpot or flies):
-            more = end_of_touch(shed, shed, 0.0, free - (z[k + 1] - gap)) if z[k + 1] - gap <= free else 0.0
         for a in range(1, x.size):
-            decay = table[L_DECAY, a]
-            x[a] = decay * x[a] + table[L_GAIN, a] * (value - x[0] - (1.0 - decay) * more)
+            x[a] = table[L_DECAY, a] * x[a] + table[L_GAIN, a] * (value - x[0])
         x[0] = value
         total += value
         if force.size > 0:
@@ -789,12 +767,11 @@ def press_spring(x, gap, z, zd, table, k_0, n_steps, force, touches, path, along
             force[(k + 1) % n_z] = normal if presses else 0.0
             touches[(k + 1) % n_z] = share if presses else (-1.0 if follows else 0.0)
             path[(k + 1) % n_z] = value
-            along[(k + 1) % n_z] = more
     return total
 
 
 @_jit
-def settle_spring(x, guess, gap, z, zd, table, force, touches, path, along):
+def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
     """One spring in its periodic normal motion: x (1 + J,) at z[0]; returns its sum of compressions, NaN if none is
     found, and what it still changes by over a period.
 
@@ -813,7 +790,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path, along):
     trust, before, change, size = 1.0, np.inf, 0.0, 0.0
     for turn in range(MOST_PASSES):
         put(x, start)
-        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches, path, along)
+        total = press_spring(x, gap, z, zd, table, deepest, n_z, force, touches, path)
         change, size = 0.0, 0.0
         for j in range(x.size):
             change = max(change, abs(x[j] - start[j]))
@@ -837,8 +814,7 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path, along):
     if not change <= SETTLED:
         total = np.nan
     put(x, guess)
-    nothing = np.empty(0)
-    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, nothing, nothing, nothing, nothing)
+    press_spring(x, gap, z, zd, table, deepest, (n_z - deepest) % n_z, np.empty(0), np.empty(0), np.empty(0))
     return total, change
 
 
@@ -851,11 +827,11 @@ def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
     stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
     """
     x, guess = np.empty(table.shape[1]), np.zeros(table.shape[1])
-    force, touches, path, along = np.empty(F.size), np.empty(F.size), np.empty(F.size), np.empty(F.size)
+    force, touches, path = np.empty(F.size), np.empty(F.size), np.empty(F.size)
     outermost[:] = -1
     at_edge[:] = 0.0
     for i in range(gap.size):
-        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path, along)
+        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
         n_touches = 0
         for k in range(F.size):
             F[k] += w[i] * force[k]
@@ -887,16 +863,16 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
     S[:] = 0.0
     inner, outer = np.full(n_z + 1, n), np.zeros(n_z + 1, dtype=np.int64)  # at z[0] ... z[n_z]
     if n_x > 1:
-        force, touches, path, along = np.empty(n_z), np.empty(n_z), np.empty(n_z), np.empty(n_z)
+        force, touches, path = np.empty(n_z), np.empty(n_z), np.empty(n_z)
         x, guess = np.empty(n_x), np.zeros(n_x)
         for i in range(n):
-            total, change = settle_spring(x, guess, gap[i], z, zd, table, force, touches, path, along)
+            total, change = settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
             for a in range(n_x):
                 s[a, i] = x[a]
             found = found and not np.isnan(total)
             steady = steady and change <= STEADY
             for k in range(n_z):
-                S[k] += w[i] * (path[k] + along[k])
+                S[k] += w[i] * path[k]
                 mean += w[i] * path[k]
                 if touches[k] == 0.0:
                     inner[k] = min(inner[k], i)
@@ -1033,7 +1009,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
     law = law_of(table)
     elastic = n_arms == 0 and decay == 0.0
     look = np.zeros((8, gap.size if n_arms > 0 else 0))
-    along = np.zeros((2, look.shape[1]))
+    along = np.zeros(look.shape[1])
     if elastic and rigid:
         return glide(e, held, springs, motion, k_0, out)
     as_one, sticks = True, True  # whether any spring may stick as the step begins
@@ -1050,7 +1026,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
         ud_0 = v_0 + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
-        ended, lets_go = False, n_arms > 0 and not law.dashpot and z_1 < step.z_0 and step.first < step.last
+        ended = False
         for turn in range(80):
             ud_1 = v_1 + (1.5 * y_1 - 2.0 * y_0 + 0.5 * y_m) / h
             move = moved(motion.dx[k] + (y_1 - y_0), ud_0, ud_1, h, jumps, motion.shaken)
@@ -1066,13 +1042,13 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
             elif n_arms == 0:
                 S_1, stuck = shaken_kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
             elif not motion.shaken:
-                S_1, stuck, ended = arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law)
+                S_1, stuck, ended = arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             else:
-                S_1, stuck, ended = shaken_arms_step(e_0, s_0, e_1, s_1, look, along, springs, step, move, law)
+                S_1, stuck, ended = shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             if elastic and sticks and (step.z_1 < step.z_0 or pace_back > 0.0):
                 S_1 += between_elastic(e_0, springs, step, move.du)
-            if ended or lets_go:
-                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du, ended)
+            if ended:
+                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du)
                 S_1, stuck = S_1 + more, stuck + given
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))
@@ -1098,9 +1074,8 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         else:
             stretch_arms(e_0, e_1, table)
             stretch_arms(s_0, s_1, table)
-            if ended or step.n_in < step.n_out:
-                relax_more(e_1, along[0], table, 0 if ended else step.n_in, step.n_out)
-                relax_more(s_1, along[1], table, step.n_in, step.n_out)
+            if ended:
+                relax_more(e_1, along, table, step.last)
             core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
             for a in range(n_arms + 1):
                 core += table[L_RATIO, a] * (e_1[a, 0] + s_1[a, 0])

@@ -95,10 +95,10 @@ class _Band:
 def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array]:
     """When the tip itself presses (n_t,), slightly longer than the first spring does; phases at which it touches."""
     z, rate = cycle.over_a_period(n_t)
-    force, shares, path, along = np.empty((4, n_t))
+    force, shares, path = np.empty((3, n_t))
     table = rheology.over_step(2 * np.pi / n_t)
     state, guess = np.zeros((2, table.shape[1]))
-    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.unit, z, rate, table, force, shares, path, along)
+    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.unit, z, rate, table, force, shares, path)
     begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) <= 0))
     return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
 

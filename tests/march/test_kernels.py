@@ -423,12 +423,12 @@ def test_a_spring_with_stiff_slow_arms_that_touches_briefly_becomes_periodic():
     """Its arms change by a thousandth of the way in a period, so that plain passes would not get there."""
     n, gap, law = 3328, 1 - 1e-5, Rheology(0.13, (1300.0, 480.0), (54.0, 0.038))
     t, table, nothing = 2 * np.pi * np.arange(n + 1) / n, law.over_step(2 * np.pi / n), np.empty(0)
-    x, z, z_dot, each = np.zeros(3), np.cos(t), -np.sin(t), np.empty((4, n))
+    x, z, z_dot, each = np.zeros(3), np.cos(t), -np.sin(t), np.empty((3, n))
     total, change = kernels.settle_spring(x, np.zeros(3), gap, z, z_dot, table, *each)
     assert total > 0
     assert change <= 1e-9 * x[0]
     again = x.copy()
-    kernels.press_spring(again, gap, z, z_dot, table, 0, n, nothing, nothing, nothing, nothing)
+    kernels.press_spring(again, gap, z, z_dot, table, 0, n, nothing, nothing, nothing)
     assert_allclose(again, x, rtol=1e-9)
 
 
