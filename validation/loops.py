@@ -126,8 +126,7 @@ def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any, Any]:
     forward = s - lag * decay
     first = np.minimum(np.where(sticks, trial, forward) - travelled * change, forward)
     new = np.maximum(first, (s_0 + e) * decay - s)
-    touches = (new - e * decay) * (1 / (12 * np.maximum(travelled, 1e-9)) - 0.5 * (1 - travelled))
-    return new, s, np.where((travelled > 0) & (ahead > 1e-14 * (1 + np.abs(scaled.gap))), touches, 0)
+    return new, s, 0.0
 
 
 def _end_of_touch(e: Any, s: Any, du: float, opened: Any) -> Any:

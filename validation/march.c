@@ -46,10 +46,10 @@ static inline double end_of_touch(double e, double s, double du, double opened)
     return 0.5 * (e * (slips - 1.0) + met * share) + (met >= 0.0 ? jump : -jump);
 }
 
-/* of a spring that flies, to `flown` at the end, and touches for the last share of the step */
-static inline double first_touch(double x, double flown, double travelled)
+/* of an elastic spring that touches for the last share of the step */
+static inline double first_touch(double x, double travelled)
 {
-    return travelled > 0.0 ? (x - flown) * (1.0 / (12.0 * most(travelled, 1e-9)) - 0.5 * (1.0 - travelled)) : 0.0;
+    return travelled > 0.0 ? x * (1.0 / (12.0 * most(travelled, 1e-9)) - 0.5 * (1.0 - travelled)) : 0.0;
 }
 
 static inline void span_of(const long *spans, long k, long n, long n_z, long *n_in, long *n_out)
@@ -84,7 +84,7 @@ void elastic_march(double *restrict e, const double *restrict gap, const double 
             double travelled = way * ((1.0 - bend) + bend * way), more;
             e[i] = most(least(e_0 + travelled * du, s - travelled * late), -s);
             if (above <= 0.0)
-                more = first_touch(e[i], 0.0, travelled);
+                more = first_touch(e[i], travelled);
             else if (pressed <= 0.0)
                 more = end_of_touch(e_0, above, du, -pressed);
             else
@@ -128,8 +128,7 @@ void kelvin_march(double *restrict e, double *restrict e_next, double *restrict 
             q[i] = now;
             b[i] = kelvin_friction(now, trial, travelled, zd_0 - v, zd_1 - v, h, rate, s_free, lag_free, lag * rate,
                                    lag_free * rate);
-            int flies = ahead > 1e-14 * (1.0 + fabs(gap[i]));
-            total += w[i] * (b[i] + (flies ? first_touch(b[i], s_free - lag_free, travelled) : 0.0));
+            total += w[i] * b[i];
         }
         for (long i = n_out; i < n; i++) {
             b[i] = a[i] * decay;

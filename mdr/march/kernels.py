@@ -17,11 +17,11 @@ One spring in one step, with compression s and extension e at its start:
   slip gave way to stick, stick to slip and contact to flight, not only between which two steps.
 * First touch. A spring that touched at a fraction of the step has travelled only the rest of it; without
   this the scheme is of first order.
-* Between both ends. Where a rate jumps within a step, as stick ends or contact begins or lets go, the mean of e over
-  the step is not that of its ends. What is missing follows from what was left to slip, or to open, and is added to the
-  sum of the forces at the end of the step. So the body gets the impulse, and the mean over a period, that belong to the
-  instant of the change, and their error falls smoothly with the second power of the step, wherever between two nodes
-  the changes fall. Arms relax along that path too.
+* Between both ends. Where a rate jumps within a step, as stick ends without a dashpot, or an elastic spring touches or
+  lets go, the mean of e over the step is not that of its ends. What is missing follows from what was left to slip, or
+  to open, and is added to the sum of the forces at the end of the step. So the body gets the impulse, and the mean over
+  a period, that belong to the instant of the change, and their error falls smoothly with the second power of the step,
+  wherever between two nodes the changes fall. Arms relax along that path too.
 
 T = 0 is the limit exp(-h/T) = 0, where the bounds become the return mapping |e| <= s; it has a leaner loop.
 
@@ -315,18 +315,11 @@ def elastic_spring(e, gap, z_1, move, inverse_dz, bend, late, late_back):
 
 
 @_inline
-def first_touch(x, flown, travelled, flies):
-    """What a path adds to that mean which flies, to `flown` at the end of the step if it did so throughout, and goes
-    another way for the last share of it, `travelled`, to x. flies: whether it does as the step begins.
+def first_touch(x, travelled):
+    """What the path of an elastic spring adds to that mean which touches and goes to x in the last share of the step,
+    `travelled`.
     """
-    touches = flies and travelled > 0.0
-    return (x - flown) * (TWELFTH / max(travelled, 1e-9) - 0.5 * (1.0 - travelled)) if touches else 0.0
-
-
-@_inline
-def in_flight(s, above, gap):
-    """Whether a spring compressed to s as a step begins is then ahead of the indenter, and not by rounding."""
-    return s - above > 1e-14 * (1.0 + abs(gap))
+    return x * (TWELFTH / max(travelled, 1e-9) - 0.5 * (1.0 - travelled)) if travelled > 0.0 else 0.0
 
 
 @_inline
@@ -406,7 +399,7 @@ def at_edge(e_0, e_1, above, travelled, inverse_fall):
     share = above * inverse_fall  # of the step in contact
     if 0.0 < share <= 1.0:
         return 0.5 * e_0 * (share - 1.0) + (TWELFTH if e_0 >= 0.0 else -TWELFTH) / inverse_fall
-    return first_touch(e_1, 0.0, travelled, above <= 0.0)
+    return first_touch(e_1, travelled) if above <= 0.0 else 0.0
 
 
 @_inline
@@ -550,8 +543,7 @@ def kelvin_springs(e_0, s_0, e_1, s_1, springs, step, move, rate, decay, shaken)
         e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
         e_1[0, i] = e
         s_1[0, i] = s
-        flies = in_flight(s_0[0, i], step.z_0 - gap[i], gap[i])
-        total += w[i] * (e + first_touch(e, free.s - free.lag, travelled, flies))
+        total += w[i] * e
         stuck += w[i] * (1.0 if move.jumps else travelled) if abs(e - trial) <= 1e-9 * abs(du) else 0.0
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = e_0[0, i] * decay
@@ -684,7 +676,7 @@ def between_arms(e, s_0, s_1, look, along, springs, step, du):
     body goes into that. e, s_0, s_1: extension at its start, compression at both ends. Puts what each path adds into
     along (n,).
 
-    Where they touch or let go nothing is added: in a brief contact slow arms magnify what is then known of the path.
+    Where they touch or let go nothing is added: in a brief contact slow arms magnify what is not known of the path.
     """
     gap, w, total, given = springs.gap, springs.w, 0.0, 0.0
     for i in indices(0, step.last):
@@ -894,18 +886,17 @@ def settle_normal(s, gap, w, z, zd, table, spans, S):
                 total = 0.0
                 least, most = n, 0
                 for i in range(n):
-                    above, pressed = z[k] - gap[i], z[k + 1] - gap[i]
+                    above, pressed, more = z[k] - gap[i], z[k + 1] - gap[i], 0.0
                     if decay == 0.0:
-                        value, more = max(pressed, 0.0), 0.0
+                        value = max(pressed, 0.0)
                         if above <= 0.0 and pressed > 0.0:
                             share = elastic_spring(0.0, gap[i], z[k + 1], at_rest, inverse_dz, bend, 0.0, 0.0)[2]
-                            more = first_touch(value, 0.0, share, True)
+                            more = first_touch(value, share)
                         elif above > 0.0 and pressed <= 0.0:
                             more = end_of_touch(above, above, 0.0, -pressed)
                     else:
                         alone = kelvin_free(s[0, i], s[0, i], rate, decay)
-                        _, value, share, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone, False)
-                        more = first_touch(value, alone.s, share, in_flight(s[0, i], above, gap[i]))
+                        _, value, _, _ = viscous_spring(s[0, i], s[0, i], gap[i], step, at_rest, law, alone, False)
                     s[0, i] = value
                     total += w[i] * (value + more)
                     mean += w[i] * value

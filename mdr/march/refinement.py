@@ -367,13 +367,13 @@ def _hidden_by_steps(main: Steady, companion: Steady) -> float:
     """What changes of mode between two nodes can hide of the COF, over mu_0.
 
     The march knows the path between the nodes but for its third order in the step. Where the body is light, and where
-    springs with arms touch, it is left with a kink of size [e'], which costs a mean up to [e'] h²/8 of one step.
+    springs that remember touch, it is left with a kink of size [e'], which costs a mean up to [e'] h²/8 of one step.
     """
     if abs(main.cof - companion.cof) <= ROUNDING:
         return 0.0
     scaled, h = main.scaled, main.scaled.h
     bend = BEND_OF_DASHPOT if scaled.T else BEND
-    loses = scaled.n_arms > 0 and scaled.n_core < scaled.gap.size
+    loses = scaled.remembers and scaled.n_core < scaled.gap.size
     return (KINK * h**2 if scaled.light or loses else bend * h**3) * _deficit(main)
 
 
