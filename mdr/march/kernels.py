@@ -233,16 +233,15 @@ TWELFTH = 1.0 / 12.0  #: of h times the jump of a rate within a step, that the s
 
 @_inline
 def end_of_touch(force, limit, du, opened):
-    """What the end of contact within a step adds to that mean: of an elastic force that falls from `force` to zero with
-    its limit. opened: by how much the contact is open at the end of the step, du: travel of the body in it.
+    """What the end of contact within a step adds to that mean, of an elastic spring: its force falls from `force` to
+    zero with its limit, which is positive at the start. opened: by how much the contact is open at the end of the step,
+    du: travel of the body in it.
     """
-    limit = max(limit, 0.0)
-    force = max(min(force, limit), -limit)
-    share = limit / (limit + opened + 1e-300)  # of the step in contact
+    share = limit / (limit + opened)  # of the step in contact
     ahead, behind = max(limit + share * du, 1e-300), max(limit - share * du, 1e-300)
     slips = share * min((limit - force) / ahead, (limit + force) / behind, 1.0)
     met = force + du * slips
-    jump = TWELFTH * (limit + opened) if limit > 0.0 else 0.0
+    jump = TWELFTH * (limit + opened)
     return 0.5 * (force * (slips - 1.0) + met * share) + (jump if met >= 0.0 else -jump)
 
 

@@ -6,8 +6,8 @@ difference to half the steps is three times the error, that to three quarters 7/
 first, or 14/9 of the error by the other if that is more, bounds the error of the COF, together with springs and spread
 of the windows. Where the three numbers of steps confirm the order, the COF is extrapolated, and what the two estimates
 differ by bounds what is left; not under a shake in the plane, where kinks are so many that three may agree by chance.
-The same goes for springs: where half of them differ by more than is asked for, three quarters tell whether the order
-is the second, in which cells miss the COF; else the springs are doubled.
+Springs are extrapolated likewise: where half of them differ by more than is asked for, three quarters of them tell
+whether the error is of second order in the size of a cell; if it is not, the springs are doubled.
 
 Refined steps grow by a half and by a third in turn, 256, 384, 512, 768 ..., so that the two runs before are companions
 of the next. Where dashpots touch a body that no mass holds, its velocity jumps, and the error falls at first order and
@@ -223,7 +223,7 @@ def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int, extrapo
     every = runs.beside(main, knobs.coarser(few_steps))
     if every.scaled.gap.size == 1:  # springs that all stand alike are one
         return 0.0, 0.0
-    shaken, solved = main.scaled.is_shaken, main.settling.solved
+    shaken = main.scaled.is_shaken
 
     def with_fewer(share: float) -> Steady:
         return runs.beside(main, knobs.coarser(few_steps, int(share * knobs.n_springs)))
@@ -231,8 +231,9 @@ def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int, extrapo
     shares, half = SPRINGS_OF_A_SHAKE if shaken else (), with_fewer(0.5)
     hidden = KINK_OF_SPRINGS / knobs.n_springs**2 * _deficit(every)
     plain = max(_missed(every, one) for one in (half, *map(with_fewer, shares))) + hidden + _of_held_springs(every)
-    unsettled = solved and every is not main
-    unsure = max(every.settling.spread, 0.0 if every.settling.settled else BUDGET) if unsettled else 0.0
+    unsure = 0.0
+    if main.settling.solved and every is not main:
+        unsure = max(every.settling.spread, 0.0 if every.settling.settled else BUDGET)
     if extrapolate and not shaken and not runs.jolts and half.settling.settled and plain > knobs.accuracy / 2:
         most = with_fewer(0.75)
         missing, bound = extrapolated(every.cof, half.cof, most.cof, every.knobs.n_springs / most.knobs.n_springs)
