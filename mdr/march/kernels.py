@@ -558,32 +558,66 @@ def put(x, out):
         out[i] = x[i]
 
 
-@_jit
-def free_response(e, s, table, first, n_out, out):
-    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows, as
-    in Free, of springs from n_out on, which are free throughout, only the ends, of those before `first` without the
-    rates of the compression.
+class Column(NamedTuple):
+    """The weights of one row of a state, x or an arm, in the functionals of the operator's table (operator.py)."""
+
+    free: float
+    rate: float
+    end: float
+    shed: float
+
+
+@_inline
+def column_of(table, k):
+    """Column k of the table; all zero beyond its last."""
+    j, weight = min(k, table.shape[1] - 1), 1.0 if k < table.shape[1] else 0.0
+    free, rate, end, shed = table[L_FREE, j], table[L_RATE, j], table[L_END, j], table[L_SHED, j]
+    return Column(weight * free, weight * rate, weight * end, weight * shed)
+
+
+@_inline
+def add_three(e, s, table, k, first, n_out, sheds, adds, out):
+    """What rows k to k + 2 of the state have in `free_response`; sheds: whether to fill rows 3 and 7, adds: whether to
+    add to what is there, both known when this is compiled. Beyond its end the last row stands again, without weight.
     """
-    for k in range(0, e.shape[0], 2):  # two columns at once
-        j, last, keep = min(k + 1, e.shape[0] - 1), 1.0 if k + 1 < e.shape[0] else 0.0, 0.0 if k == 0 else 1.0
-        s_k, s_j, e_k, e_j = s[k], s[j], e[k], e[j]
-        end, rate, rate_end, shed = table[L_FREE, k], table[L_RATE, k], table[L_END, k], table[L_SHED, k]
-        end_j, rate_j = last * table[L_FREE, j], last * table[L_RATE, j]
-        rate_end_j, shed_j = last * table[L_END, j], last * table[L_SHED, j]
-        for i in indices(0, n_out):
-            x, y, p, q = s_k[i], s_j[i], s_k[i] - e_k[i], s_j[i] - e_j[i]
-            out[0, i] = keep * out[0, i] + end * x + end_j * y
-            out[3, i] = keep * out[3, i] + shed * x + shed_j * y
-            out[4, i] = keep * out[4, i] + end * p + end_j * q
-            out[5, i] = keep * out[5, i] + rate * p + rate_j * q
-            out[6, i] = keep * out[6, i] + rate_end * p + rate_end_j * q
-            out[7, i] = keep * out[7, i] + shed * p + shed_j * q
-        for i in indices(first, n_out):
-            out[1, i] = keep * out[1, i] + rate * s_k[i] + rate_j * s_j[i]
-            out[2, i] = keep * out[2, i] + rate_end * s_k[i] + rate_end_j * s_j[i]
-        for i in indices(n_out, e.shape[1]):
-            out[0, i] = keep * out[0, i] + end * s_k[i] + end_j * s_j[i]
-            out[4, i] = keep * out[4, i] + end * (s_k[i] - e_k[i]) + end_j * (s_j[i] - e_j[i])
+    a, b, c, last = column_of(table, k), column_of(table, k + 1), column_of(table, k + 2), e.shape[0] - 1
+    s_a, s_b, s_c = s[k], s[min(k + 1, last)], s[min(k + 2, last)]
+    e_a, e_b, e_c = e[k], e[min(k + 1, last)], e[min(k + 2, last)]
+    for i in indices(0, n_out):
+        x, y, z = s_a[i], s_b[i], s_c[i]
+        p, q, r = x - e_a[i], y - e_b[i], z - e_c[i]
+        out[0, i] = (out[0, i] if adds else 0.0) + (a.free * x + b.free * y + c.free * z)
+        out[4, i] = (out[4, i] if adds else 0.0) + (a.free * p + b.free * q + c.free * r)
+        out[5, i] = (out[5, i] if adds else 0.0) + (a.rate * p + b.rate * q + c.rate * r)
+        out[6, i] = (out[6, i] if adds else 0.0) + (a.end * p + b.end * q + c.end * r)
+        if sheds:
+            out[3, i] = (out[3, i] if adds else 0.0) + (a.shed * x + b.shed * y + c.shed * z)
+            out[7, i] = (out[7, i] if adds else 0.0) + (a.shed * p + b.shed * q + c.shed * r)
+    for i in indices(first, n_out):
+        x, y, z = s_a[i], s_b[i], s_c[i]
+        out[1, i] = (out[1, i] if adds else 0.0) + (a.rate * x + b.rate * y + c.rate * z)
+        out[2, i] = (out[2, i] if adds else 0.0) + (a.end * x + b.end * y + c.end * z)
+    for i in indices(n_out, e.shape[1]):
+        x, y, z = s_a[i], s_b[i], s_c[i]
+        p, q, r = x - e_a[i], y - e_b[i], z - e_c[i]
+        out[0, i] = (out[0, i] if adds else 0.0) + (a.free * x + b.free * y + c.free * z)
+        out[4, i] = (out[4, i] if adds else 0.0) + (a.free * p + b.free * q + c.free * r)
+
+
+@_jit
+def free_response(e, s, table, first, n_out, sheds, out):
+    """What compression and lag of every spring do if left alone over the step: fills out (8, n), rows as in Free; of
+    springs from n_out on, which are free throughout, only the ends; of those before `first` not the rates of the
+    compression; without `sheds` not what is shed.
+    """
+    if sheds:
+        add_three(e, s, table, 0, first, n_out, True, False, out)
+        for k in range(3, e.shape[0], 3):
+            add_three(e, s, table, k, first, n_out, True, True, out)
+    else:
+        add_three(e, s, table, 0, first, n_out, False, False, out)
+        for k in range(3, e.shape[0], 3):
+            add_three(e, s, table, k, first, n_out, False, True, out)
 
 
 @_inline
@@ -597,20 +631,35 @@ def arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
     """All springs of a material with arms over one step: fills e_1 and s_1, returns sum(w e) and what stuck, and
     whether the stick of any ends in the step.
 
-    look (8, n): of `free_response`.
+    look (8, n): of `free_response`, without what is shed: with a dashpot see `dashpot_arms_step`.
     """
-    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, False)
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, Law(False, 0.0, law.damping), False, False)
+
+
+@_jit
+def slipping_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
+    """The same where springs that stuck may slip by the end; look is full."""
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, Law(False, 0.0, law.damping), False, True)
+
+
+@_jit
+def dashpot_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
+    """The same with a dashpot; look is full."""
+    law = Law(True, law.stiffness, law.damping)
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, False, False)
 
 
 @_jit
 def shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law):
-    """The same under a shake."""
-    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True)
+    """The same under a shake; look is full."""
+    return arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, True, True)
 
 
 @_inline
-def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
-    """As `arms_step`; whether they are shaken is known when this is compiled."""
+def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken, ends):
+    """As `arms_step`; whether they are shaken, and whether springs that stuck may slip by the end, is known when this
+    is compiled.
+    """
     gap, w, du = springs.gap, springs.w, move.du
     total, stuck, ended = 0.0, 0.0, 0.0
     for i in indices(0, step.n_in):
@@ -623,7 +672,8 @@ def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
         total += w[i] * e
         sticks = abs(e - trial) <= 1e-9 * abs(du)
         stuck += w[i] if sticks else 0.0
-        ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
+        if ends:
+            ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
     for i in indices(step.n_in, step.n_out):
         free = free_of(look, i)
         e, s, travelled, trial = viscous_spring(e_0[0, i], s_0[0, i], gap[i], step, move, law, free, shaken)
@@ -632,7 +682,8 @@ def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken):
         total += w[i] * e
         sticks = abs(e - trial) <= 1e-9 * abs(du)
         stuck += w[i] * (1.0 if move.jumps else travelled) if sticks else 0.0
-        ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
+        if ends:
+            ended += 0.0 if sticks else w[i] * min(free.lag_shed, 2.0 * free.s_shed - free.lag_shed)
     for i in indices(step.n_out, gap.size):
         e_1[0, i] = look[0, i] - look[4, i]
         s_1[0, i] = look[0, i]
@@ -700,12 +751,15 @@ def relax_more(x, along, table, last):
 
 
 @_jit
-def stretch_arms(x_0, x_1, table):
+def stretch_arms(e_0, e_1, s_0, s_1, table):
     """The arms (rows 1 to J) of all springs at the end of a step, from their start and from the path of row 0."""
-    for k in range(1, x_0.shape[0]):
+    for k in range(1, e_0.shape[0]):
         decay, gain = table[L_DECAY, k], table[L_GAIN, k]
-        for i in range(x_0.shape[1]):
-            x_1[k, i] = decay * x_0[k, i] + gain * (x_1[0, i] - x_0[0, i])
+        before, after, path_0, path_1 = e_0[k], e_1[k], e_0[0], e_1[0]
+        below, pressed, way_0, way_1 = s_0[k], s_1[k], s_0[0], s_1[0]
+        for i in indices(0, e_0.shape[1]):
+            after[i] = decay * before[i] + gain * (path_1[i] - path_0[i])
+            pressed[i] = decay * below[i] + gain * (way_1[i] - way_0[i])
 
 
 @_inline
@@ -969,15 +1023,29 @@ def glide(e, held, springs, motion, k_0, out):
     return as_one
 
 
+@_inline
+def sum_of(w, x):
+    """Sum of x (n,) over springs of the shares w."""
+    total = 0.0
+    for i in indices(0, w.size):
+        total += w[i] * x[i]
+    return total
+
+
 @_jit
-def begin(e, pressed, held, springs):
-    """Bring extensions e (1 + J, n) into the cone of friction, within the compressions pressed (n,), and their sum in
+def begin(e, pressed, held, springs, table):
+    """Bring extensions e (1 + J, n) into the cone of friction, within the compressions pressed (n,), and the sums in
     held with them: a combination of states may leave that cone.
+
+    S also has what the path in the step before added to the mean, which goes again in the next; so have the sums over
+    arms, which are not carried from state to state: a slow arm would magnify what is wrong in them.
     """
-    for i in range(pressed.size):
-        within = max(min(e[0, i], pressed[i]), -pressed[i])
-        held.S[0] += springs.w[i] * (within - e[0, i])
-        e[0, i] = within
+    added = held.S[0] - sum_of(springs.w, e[0])
+    for i in indices(0, pressed.size):
+        e[0, i] = max(min(e[0, i], pressed[i]), -pressed[i])
+    held.S[0] = sum_of(springs.w, e[0]) + added
+    for a in range(1, e.shape[0]):
+        held.arms[0, a - 1] = sum_of(springs.w, e[a]) + table[L_GAIN, a] * (2.0 - table[L_DECAY, a]) * added
 
 
 @_jit
@@ -1012,7 +1080,8 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         for a in range(n_arms):
             pull -= body.arms[0, a] * held.arms[0, a] + body.arms[1, a] * held.arms[1, a]
         if n_arms > 0:
-            free_response(e_0, s_0, table, 0 if motion.shaken else step.n_in, step.n_out, look)
+            sheds = law.dashpot or motion.shaken or sticks
+            free_response(e_0, s_0, table, 0 if motion.shaken else step.n_in, step.n_out, sheds, look)
         y_1 = 0.0 if rigid else 3.0 * (y_0 - y_m) + y_mm
         low, high = -np.inf, np.inf
         ud_0 = v_0 + (1.5 * y_0 - 2.0 * y_m + 0.5 * y_mm) / h
@@ -1031,6 +1100,10 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
                 S_1, stuck = kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
             elif n_arms == 0:
                 S_1, stuck = shaken_kelvin_step(e_0, s_0, e_1, s_1, springs, step, move, rate, decay)
+            elif not motion.shaken and law.dashpot:
+                S_1, stuck, ended = dashpot_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
+            elif not motion.shaken and sticks:
+                S_1, stuck, ended = slipping_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             elif not motion.shaken:
                 S_1, stuck, ended = arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             else:
@@ -1062,8 +1135,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
         elif n_arms == 0:
             core = (e_1[0, 0] + s_1[0, 0] - (e_0[0, 0] + s_0[0, 0]) * decay) / (1.0 - decay)
         else:
-            stretch_arms(e_0, e_1, table)
-            stretch_arms(s_0, s_1, table)
+            stretch_arms(e_0, e_1, s_0, s_1, table)
             if ended:
                 relax_more(e_1, along, table, step.last)
             core = table[L_TIME, 0] * (e_1[0, 0] + s_1[0, 0] - e_0[0, 0] - s_0[0, 0]) / h
@@ -1199,7 +1271,7 @@ def settle_in(states, s, pressed, body, springs, motion, table, n_periods, out, 
                 put(x, before[j])
             for a in range(s.shape[0]):
                 put(s[a], now[a])
-            begin(e, pressed, held, springs)
+            begin(e, pressed, held, springs, table)
             march(e, now, held, body, springs, motion, table, first, out)
 
 
@@ -1220,12 +1292,15 @@ def search(at, s, pressed, roots, body, springs, motion, table, n_periods, out):
         put(at.x, image)
         for a in range(n_x):
             put(s[a], now[a])
-        begin(e, pressed, held, springs)
+        begin(e, pressed, held, springs, table)
         put(image, at.start)
         as_one = march(e, now, held, body, springs, motion, table, first, out)
         measure(image, roots, n_e, reached)
+        added = held.S[0] - sum_of(springs.w, e[0])
         ended = combine(at, image, reached)
         if not ended:
+            found, body_found = parts_of(at.x, s)
+            body_found.S[0] = sum_of(springs.w, found[0]) + added  # no combination of what no length measures
             measure(at.x, roots, n_e, at.measured)
     return ended, as_one
 

@@ -135,6 +135,11 @@ class March:
         """COF over mu_0."""
         return self.settling.mean
 
+    def contradicted(self, why: str) -> March:
+        """The same, not settled, as its COF contradicts a theorem."""
+        settling = replace(self.settling, settled=False, kind="unsettled", why=why, contradicts=True)
+        return replace(self, settling=settling)
+
     @property
     def sees_contact(self) -> bool:
         """Whether any spring presses for longer than an instant between two steps."""
@@ -218,9 +223,10 @@ def looked_at(end: Steady) -> March:
             waited.append(record.period)
         settling = waited.assess()
     account = records[0] if end.waited is None else records[-1]  # the same period however many are kept
-    if settling.settled and (why := _contradiction(stepper, account, settling)):
-        settling = replace(settling, settled=False, kind="unsettled", why=why, contradicts=True)
-    return March(end, settling, account, tuple(records))
+    march = March(end, settling, account, tuple(records))
+    return (
+        march.contradicted(why) if settling.settled and (why := _contradiction(stepper, account, settling)) else march
+    )
 
 
 def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
@@ -262,8 +268,9 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Or
         start = at_other_resolution(near.state, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else None
         orbit = search(stepper, (start,), gain_at_other_resolution(gain, near.scaled, scaled), near=True)
-    if orbit is None and from_full_slip and (scaled.n_arms or not scaled.rigid or simple):
-        orbit = search_from_full_slip(stepper)
+    if from_full_slip and (orbit is None or not orbit.settling.settled):
+        again = search_from_full_slip(stepper) if scaled.n_arms or not scaled.rigid or simple else None
+        orbit = again if orbit is None or (again is not None and again.settling.settled) else orbit
     return orbit
 
 

@@ -132,17 +132,15 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
 
 def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
     """A state of a march with other springs or steps, on the springs and steps of this one."""
-    step, e, moved = on.h / of.h, state.e, np.zeros(1 + of.n_arms)
+    step, e, moved = on.h / of.h, state.e, 0.0
     if not np.array_equal(on.gap, of.gap):
         order = np.argsort(of.gap, kind="stable")
         e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
-        moved = e @ on.w - state.e @ of.w
-    (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S + moved[0]
+        moved = float(e[0] @ on.w - state.e[0] @ of.w)
+    (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S + moved
     rate, bend = 1.5 * y - 2 * y_old + 0.5 * y_older, y - 2 * y_old + y_older  # per step of the other, and its step
     at = -step * np.arange(3)
-    body = kernels.BodyState(
-        y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms + moved[1:]
-    )
+    body = kernels.BodyState(y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms)
     return MarchState.of(e, on.normal.s, body)
 
 
@@ -212,7 +210,7 @@ class EnergyNorm:
         pushes = []
         for j, rho in enumerate(scaled.rheology.rho, start=1):
             arm = np.zeros(self.n_x)
-            arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = arm[n + 4 + j] = 1 / np.sqrt(rho)
+            arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = 1 / np.sqrt(rho)
             pushes.append(arm)
         if not scaled.rigid:
             position, velocity = np.zeros((2, self.n_x))

@@ -38,6 +38,8 @@ from mdr.march.march import (
     touches,
 )
 from mdr.march.run import SlidingRun, finish
+from mdr.march.steady_state import TOLERANCE
+from mdr.march.theorems import outside
 from mdr.tools.progress import time_is_over
 
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
@@ -81,10 +83,13 @@ class _Runs:
         self.unconfirmed: dict[int, float] = {}  # by springs, what steps extrapolated to that did not confirm the order
 
     def first(self, knobs: Knobs) -> Steady | None:
-        """The end of a run that may go before the main one; None where its periodic state would have to be awaited."""
+        """The end of a run that may go before the main one; None where its periodic state would have to be awaited, or
+        is found too roughly.
+        """
         if knobs.start != "full_slip" or not (self.case.keeps_contact or touches(self.case, knobs)):
             return None
-        return self._at(knobs, None, None if self.case.pull.is_rigid else 0)
+        end = self._at(knobs, None, None if self.case.pull.is_rigid else 0)
+        return end if end is not None and end.settling.settled else None
 
     def main(self, knobs: Knobs, most: int | None) -> Steady:
         """The end of a run that goes on until it settles, or for at most so many periods."""
@@ -106,7 +111,7 @@ class _Runs:
             if end is None:
                 return None
             self.ends[knobs] = end
-            self.near = end if end.settling.solved else self.near
+            self.near = end if end.settling.solved and end.settling.settled else self.near
         return self.ends[knobs]
 
 
@@ -128,9 +133,13 @@ class _Bounded:
     missing: float = 0.0
 
     def looked_at(self, record: int) -> March:
-        """The run after a close look, with so many periods kept."""
+        """The run after a close look, with so many periods kept; one beyond a theorem by more than its error is not
+        called settled.
+        """
         check_size(self.main.knobs.n_springs, self.main.knobs.steps, record)
-        return looked_at(replace(self.main, knobs=self.main.knobs._replace(record=record)))
+        march = looked_at(replace(self.main, knobs=self.main.knobs._replace(record=record)))
+        why = outside(march.cof, -1.0, self.error + march.settling.spread + TOLERANCE)
+        return march.contradicted(why) if march.settling.settled and why else march
 
     def finished(self, record: int) -> SlidingRun:
         """The run in SI, with so many periods kept."""
@@ -152,7 +161,7 @@ def within(
     alike = at_hand(case, knobs)[1].gap.size == 1
     few = knobs.n_springs // 2 if free[0] and not alike else knobs.n_springs
     first = next(filter(None, (runs.first(knobs.coarser(int(share * knobs.steps), few)) for share in FIRST)), None)
-    if first is not None and first.settling.settled and not first.slips_fully and free[0] and not runs.jolts:
+    if first is not None and not first.slips_fully and free[0] and not runs.jolts:
         knobs = _enough_springs(runs, first, knobs, few_steps)
     while True:
         main = runs.main(knobs, None if coarser is None or case.pull.is_rigid else MOST_BESIDE)

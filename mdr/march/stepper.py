@@ -175,7 +175,7 @@ class Stepper:
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction, and the sums that belong to it; in place."""
-        kernels.begin(state.e, self._compression(state), state.body, self.springs)
+        kernels.begin(state.e, self._compression(state), state.body, self.springs, self.scaled.table)
         return state
 
     def search(self, at: kernels.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:

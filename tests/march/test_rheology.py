@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 import mdr
 from mdr.march.dimensionless import ScaledContact
+from mdr.march.march import Knobs, at_hand
 from mdr.march.stepper import Stepper
 from mdr.materials import operator as k
 from mdr.materials.operator import Rheology, over_step
@@ -230,6 +231,30 @@ def test_so_do_springs_of_fast_motions_in_coarse_steps(seed, n_springs, steps):
         pytest.skip("too coarse for the normal motion")
     for one, two in ((plain[0].e, state.e), (plain[1], cofs), (plain[2].F_z, seen.F_z)):
         assert_allclose(two, one, rtol=0, atol=1e-10 * (1 + np.abs(one).max()))
+
+
+@pytest.mark.parametrize(("v", "least"), [(3.0, 1.0), (0.3, 0.5)])
+@pytest.mark.parametrize("shape", ["cone", "paraboloid"])
+def test_stiff_slow_arms_do_not_magnify_what_is_wrong_in_a_state_that_a_search_begins_in(shape, v, least):
+    """A force ten thousand times the static one relaxes over 26 periods: sums over arms must belong to their springs,
+    also in the combinations of states that a search tries and in states of other steps and springs.
+    """
+    contact = case(0.0, (1e4,), (164.0,), shape, depth_ratio=0.0)
+    run = mdr.slide(contact, v * contact.unit_velocity)
+    assert run.settled
+    assert run.cof_error <= 1e-5 * contact.mu_0
+    assert least - 1e-5 <= run.cof / contact.mu_0 <= 1 + 1e-5
+
+
+def test_the_sums_over_arms_that_a_march_begins_with_are_those_of_its_springs():
+    contact = case(0.0, *ARMS["two"], depth_ratio=0.5)
+    stepper = Stepper(at_hand(contact, Knobs(32, 256, "full_slip", lump=False))[1], 0.4)
+    state = stepper.advance(stepper.full_slip(), 2)[0]
+    wrong = state.copy()
+    wrong.body.arms[0] += 1.0
+    right, mended = stepper.within_friction(state.copy()), stepper.within_friction(wrong)
+    assert_allclose(mended.body.arms[0], right.body.arms[0], rtol=0, atol=0)
+    assert_allclose(right.body.arms[0], state.body.arms[0], rtol=0, atol=1e-6 * np.abs(state.e).max())
 
 
 def test_springs_that_find_no_periodic_motion_are_refused():
