@@ -102,7 +102,8 @@ def _step(start: Start, e: Any, s_0: Any, k: int) -> tuple[Any, Any, Any]:
         above, trial = z_0 - scaled.gap, e + travelled * du
         over = trial - np.clip(trial, -s, s)
         left = np.where(over > 0, above - e, above + e)
-        slips = 0.5 * over * left / (left + np.abs(over) + 1e-300)
+        pace = left + np.abs(over)  # at which the trial leads; a sum over nodes misses a twelfth of it
+        slips = np.where(left > 0, 0.5 * over * left / (pace + 1e-300) - np.sign(over) * pace / 12, 0)
         new = np.maximum(np.minimum(trial, s - travelled * late), -s)
         stays = np.where(pressed > 0, slips, _end_of_touch(e, np.maximum(above, 0), du, -np.minimum(pressed, 0)))
         touches = new * (1 / (12 * np.maximum(travelled, 1e-9)) - 0.5 * (1 - travelled)) * (travelled > 0)

@@ -59,6 +59,13 @@ static inline void span_of(const long *spans, long k, long n, long n_z, long *n_
     *n_out = high < n ? high : n;
 }
 
+/* what the end of stick adds, of a spring `left` from slip that closes at this pace: the path, and the sum over nodes */
+static inline double end_of_stick(double left, double pace)
+{
+    double more = left * (pace - left);
+    return more > 0.0 ? 0.5 * more / pace - pace / 12.0 : 0.0;
+}
+
 void elastic_march(double *restrict e, const double *restrict gap, const double *restrict w, const double *z,
                    const double *zd, const long *spans, double v, double h, long n, long n_z, long n_steps, double *S)
 {
@@ -71,10 +78,9 @@ void elastic_march(double *restrict e, const double *restrict gap, const double 
         double bend = bend_of(zd[k], zd[k + 1]), total = 0.0;
         double late = zd[k] < v ? after_change(zd[k] - v, zd[k + 1] - v, h, 0.0) : 0.0;
         double z_0 = z[k], pace = most(du - (z_1 - z_0), 0.0), pace_back = most(-du - (z_1 - z_0), 0.0);
-        double half = 0.5 / (pace + 1e-300), half_back = 0.5 / (pace_back + 1e-300);
         for (long i = 0; i < n_in; i++) {
             double s = z_1 - gap[i], left = z_0 - gap[i] - e[i], left_back = z_0 - gap[i] + e[i];
-            double more = half * most(left * (pace - left), 0.0) - half_back * most(left_back * (pace_back - left_back), 0.0);
+            double more = end_of_stick(left, pace) - end_of_stick(left_back, pace_back);
             e[i] = most(least(e[i] + du, s - late), -s);
             total += w[i] * (e[i] + more);
         }
@@ -88,7 +94,7 @@ void elastic_march(double *restrict e, const double *restrict gap, const double 
             else if (pressed <= 0.0)
                 more = end_of_touch(e_0, above, du, -pressed);
             else
-                more = half * most(left * (pace - left), 0.0) - half_back * most(left_back * (pace_back - left_back), 0.0);
+                more = end_of_stick(left, pace) - end_of_stick(left_back, pace_back);
             total += w[i] * (e[i] + more);
         }
         for (long i = n_out; i < n_at_rest; i++)

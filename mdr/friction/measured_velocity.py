@@ -34,7 +34,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.in_plane import sign_of
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.march.refinement import N_SPRINGS, default_steps
+from mdr.march.refinement import default_springs, default_steps
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide, slide_without_bound
 from mdr.normal.resolved import resolved
@@ -185,7 +185,7 @@ class _Search:
     def __init__(self, case: SlidingContact, start: str, margin: float) -> None:
         self.case, self.start, self.margin, self.n_runs = case, start, margin, 0
         self.ticker = Ticker("critical velocity from runs", parts="runs")
-        self.steps, self.n_springs = default_steps(case), N_SPRINGS
+        self.steps, self.n_springs = default_steps(case), default_springs(case)
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity
 

@@ -44,7 +44,7 @@ class NormalState:
 
     s: Array  #: (1 + J, n) compressions at phase 0, and their arms
     spans: NDArray[np.int64]  #: (2, n_steps) of springs that press, or are free, throughout a step
-    S: Array  #: (n_steps,) sum of w s at the nodes, as the march has that of w e; in full slip, where e = s, the same
+    S: Array  #: (n_steps,) sum of w s, as the march has that of w e; in full slip, where e = s, the same
     load: float  #: mean of F_z over the period, of the nodes alone: where springs touch they miss both ways
 
     @cached_property

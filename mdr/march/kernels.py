@@ -117,7 +117,7 @@ class BodyState(NamedTuple):
     """The memory of the body and of the force on it, updated in place."""
 
     y: Array  #: (3,) its motion relative to the pull: now, one step before, two steps before
-    S: Array  #: (2,) sum of w e, now and one step before
+    S: Array  #: (2,) sum of w e, with what paths add to its mean over a step, now and one step before
     arms: Array  #: (2, J) sums of w e over each arm, now and one step before
 
 
@@ -125,7 +125,7 @@ class Trace(NamedTuple):
     """What a march leaves of each of its steps."""
 
     y: Array  #: (n_steps,) motion of the body relative to the pull
-    S: Array  #: (n_steps,) sum of w e
+    S: Array  #: (n_steps,) sum of w e, with what paths add to its mean over the step
     e: Array  #: (n_steps, 1 + J, n) extensions, or (0, 1 + J, n) for none
     s: Array  #: (n_steps, 1 + J, n) compressions, or (0, 1 + J, n) for none
 
@@ -416,7 +416,8 @@ def elastic_step_in_place(e, springs, step, move, n_at_rest, ends):
     how far those that stick are from slipping forward, all together.
 
     n_at_rest: the springs from it on were free in the step before. ends: whether some may have stuck and slip forward
-    by now, known when this is compiled; then that is told, and the sum has what the end of stick adds.
+    by now, known when this is compiled; then that is told, and the sum has what the end of stick adds, with what a jump
+    of the rate costs a sum over nodes. A body gets no more than the impulse: its force must not fall as it moves on.
     """
     gap, w, z_0, z_1, du = springs.gap, springs.w, step.z_0, step.z_1, move.du
     inverse_dz = 1.0 / (z_1 - z_0) if z_1 > z_0 else 1e300
@@ -424,19 +425,23 @@ def elastic_step_in_place(e, springs, step, move, n_at_rest, ends):
     bend = bend_of(step.zd_0, step.zd_1)
     late, late_back = latenesses(step, move, move.shaken)
     pace = paces(step, du)[0]
-    total, away, added = 0.0, 0.0, 0.0
+    total, away, added, ended = 0.0, 0.0, 0.0, 0.0
     for i in indices(0, step.n_in):
         s = z_1 - gap[i]
         if ends:
             left = (z_0 - gap[i]) - e[0, i]
-            added += w[i] * max(left * (pace - left), 0.0)
+            more = w[i] * max(left * (pace - left), 0.0)
+            added += more
+            ended += w[i] if more > 0.0 else 0.0
             away += max(left - pace, 0.0)
         e[0, i] = max(min(e[0, i] + du, s - late), late_back - s)
         total += w[i] * e[0, i]
     for i in indices(step.n_in, step.n_out):
         if ends:
             left = (z_0 - gap[i]) - e[0, i]
-            added += w[i] * (max(left * (pace - left), 0.0) if gap[i] < min(z_0, z_1) else 0.0)
+            more = w[i] * (max(left * (pace - left), 0.0) if gap[i] < min(z_0, z_1) else 0.0)
+            added += more
+            ended += w[i] if more > 0.0 else 0.0
             away += max(left - pace, 0.0)
         e_0 = e[0, i]
         e_1, _, travelled, _ = elastic_spring(e_0, gap[i], z_1, move, inverse_dz, bend, late, late_back)
@@ -444,7 +449,7 @@ def elastic_step_in_place(e, springs, step, move, n_at_rest, ends):
         total += w[i] * (e_1 + at_edge(e_0, e_1, z_0 - gap[i], travelled, inverse_fall))
     for i in indices(step.n_out, n_at_rest):
         e[0, i] = 0.0
-    return total + 0.5 * added / (pace if ends else 1.0), away
+    return total + (0.5 * added / pace - TWELFTH * ended * pace if ends else 0.0), away
 
 
 @_jit
@@ -495,7 +500,7 @@ def elastic_springs(e_0, e_1, springs, step, move, shaken, ends):
             total += w[i] * e
             stuck += w[i] if (e == e_0[0, i] + du or turned) else 0.0
     for i in indices(step.n_in, step.n_out):
-        e, s, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)
+        e, _, travelled, trial = elastic_spring(e_0[0, i], gap[i], z_1, move, inverse_dz, bend, late, late_back)
         e_1[0, i] = e
         total += w[i] * (e + at_edge(e_0[0, i], e, z_0 - gap[i], travelled, inverse_fall))
         turned = (late > 0.0 and e > 0.0) or (shaken and late_back > 0.0 and e < 0.0)
@@ -695,11 +700,11 @@ def arms_springs(e_0, s_0, e_1, s_1, look, springs, step, move, law, shaken, end
 
 
 @_jit
-def between_elastic(e, springs, step, du):
+def between_elastic(e, springs, step, du, rigid):
     """What elastic springs that stick as a step begins add more, where they let go in it or slip backward by its end;
-    e: at its start.
+    e: at its start. rigid: whether the pull is, see `elastic_step_in_place`.
     """
-    gap, w, total, pace, added = springs.gap, springs.w, 0.0, paces(step, du)[1], 0.0
+    gap, w, total, pace, added, ended = springs.gap, springs.w, 0.0, paces(step, du)[1], 0.0, 0.0
     for i in range(step.first, step.last if step.z_1 < step.z_0 else step.first):
         above, opened = step.z_0 - gap[i], gap[i] - step.z_1
         if above > 0.0 and opened >= 0.0:  # beyond what `at_edge` knows
@@ -708,23 +713,32 @@ def between_elastic(e, springs, step, du):
     if pace > 0.0:
         for i in indices(0, step.last):
             left = (step.z_0 - gap[i]) + e[0, i]
-            added += w[i] * (max(left * (pace - left), 0.0) if gap[i] < min(step.z_0, step.z_1) else 0.0)
-        total -= 0.5 * added / pace
+            more = w[i] * (max(left * (pace - left), 0.0) if gap[i] < min(step.z_0, step.z_1) else 0.0)
+            added += more
+            ended += w[i] if more > 0.0 else 0.0
+        total -= 0.5 * added / pace - (TWELFTH * ended * pace if rigid else 0.0)
     return total
 
 
 @_inline
-def end_of_pressed_stick(trial, s, free):
-    """`end_of_stick` of a spring with arms and no dashpot that presses throughout a step."""
+def end_of_pressed_stick(trial, s, free, unseen, rigid):
+    """`end_of_stick` of a spring with arms and no dashpot that presses throughout a step; rigid: see
+    `elastic_step_in_place`.
+    """
     flown, reach, limit, force = free.s - free.lag, s - free.s, free.s_shed, free.s_shed - free.lag_shed
-    return end_of_stick(trial, flown - reach, flown + reach, limit + force, limit - force)
+    least, most = flown - reach, flown + reach
+    more, part = end_of_stick(trial, least, most, limit + force, limit - force)
+    over = trial - max(min(trial, most), least)
+    before = limit - force if over > 0.0 else limit + force
+    jump = before + abs(over) if rigid and before > unseen and over != 0.0 else 0.0
+    return more - TWELFTH * (jump if over > 0.0 else -jump), part
 
 
 @_jit
-def between_arms(e, s_0, s_1, look, along, springs, step, du):
+def between_arms(e, s_0, s_1, look, along, springs, step, du, rigid):
     """What springs with arms and no dashpot add that end their stick in a step, and how much of a further move of the
     body goes into that. e, s_0, s_1: extension at its start, compression at both ends. Puts what each path adds into
-    along (n,).
+    along (n,). rigid: see `elastic_step_in_place`.
 
     Where they touch or let go nothing is added: in a brief contact slow arms magnify what is not known of the path.
     """
@@ -732,7 +746,7 @@ def between_arms(e, s_0, s_1, look, along, springs, step, du):
     for i in indices(0, step.last):
         free = free_of(look, i)
         presses = s_0[0, i] - (step.z_0 - gap[i]) <= 1e-14 * (1.0 + abs(gap[i])) and step.z_1 - gap[i] > free.s
-        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free)
+        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free, UNSEEN * step.h, rigid)
         along[i] = more if presses else 0.0
         total += w[i] * along[i]
         given += w[i] * (part if presses else 0.0)
@@ -1001,7 +1015,7 @@ def glide(e, held, springs, motion, k_0, out):
             move = Move(motion.dx[k], v, v, 0.0, 0.0, False, False)
         pace, pace_back = paces(step, move.du)
         sought = sticks and (step.z_1 < step.z_0 or pace_back > 0.0)
-        more = between_elastic(e, springs, step, move.du) if sought else 0.0
+        more = between_elastic(e, springs, step, move.du, True) if sought else 0.0
         if sticks and pace > 0.0:
             S_0, away = elastic_step_in_place(e, springs, step, move, n_at_rest, True)
             sticks = away > 0.0
@@ -1109,9 +1123,9 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
             else:
                 S_1, stuck, ended = shaken_arms_step(e_0, s_0, e_1, s_1, look, springs, step, move, law)
             if elastic and sticks and (step.z_1 < step.z_0 or pace_back > 0.0):
-                S_1 += between_elastic(e_0, springs, step, move.du)
+                S_1 += between_elastic(e_0, springs, step, move.du, False)
             if ended:
-                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du)
+                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du, rigid)
                 S_1, stuck = S_1 + more, stuck + given
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))

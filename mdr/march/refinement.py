@@ -47,6 +47,7 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 LIGHT = 4.0  #: omega_1/omega from which on a body rings within the period
 N_SPRINGS, _STEPS = 96, 256  # first choice; refined while cof_error exceeds the accuracy asked for
 _STEPS_OF_JOLTS = 1024  # the same for a body without mass on dashpots, whose error falls at first order
+CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS = 4096  #: that are chosen
 MOST_STEPS = 16384  #: of a period, that are chosen
 LEFT = 0.05  #: share of what is extrapolated that counts as error
@@ -56,20 +57,45 @@ APART = 3.0  #: times their difference that counts as error, times 2 - ratio
 KINK = 0.015  #: of a mean over a period, times h², that a jump of the rate between two nodes can hide
 BEND, BEND_OF_DASHPOT = 0.05, 0.15  #: the same, times h³, of a change of mode whose instant and path the march knows
 KINK_OF_SPRINGS = 0.03  #: the same, over n_springs², of a change of mode between two springs
+PHASES = 1024  #: of a period, to find its greatest depth
+OF_DEPARTURE = 2.0  #: steps while a spring on slow dashpots lets go
+SEVERAL = 0.1  #: of the largest harmonic of a motion, from which on another counts
+MARGIN = 1.5  #: on differences of companions of an erratic error
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
 SPRINGS_OF_A_SHAKE = (0.5, 0.7, 0.83)  #: of the springs, of companions where modes change anywhere among them
 UNEVEN = (0.53, 0.61, 0.69, 0.83, 0.91)  #: of the steps, of companions of motions that jump as dashpots touch
 
 
+def default_springs(case: SlidingContact) -> int:
+    """Springs with which a search for the accuracy begins: half of them still serve all pieces of a kinked shape."""
+    return max(N_SPRINGS, 4 * (len(case.indenter.kinks) + CUTS))
+
+
 def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: they resolve the oscillation of the body on the
     contact, if that can be afforded, and more where a body without mass jolts as dashpots touch.
     """
-    fast, plain = fast_ratio(case), _STEPS * max(1, *case.repeats)
+    fast, plain = fast_ratio(case), max(_STEPS * max(1, *case.repeats), _steps_of_departure(case))
     if np.isinf(fast):
         return max(_STEPS_OF_JOLTS, plain) if case.rheology.remembers and not case.keeps_contact else plain
     return plain if fast * 2 * RESOLVED < plain else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
+
+
+def _steps_of_departure(case: SlidingContact) -> int:
+    """Steps per period that resolve how springs on slow dashpots let go of the indenter; 0 where none does.
+
+    Past its greatest depth d a spring of relaxation time T (omega tau) presses only for the phase d/(T |z''|). In steps
+    that are longer, stick, slip and flight follow each other within one, and any number of such steps may agree.
+    """
+    T = case.rheology.T
+    if T <= 1 or case.keeps_contact:
+        return 0
+    z, z_dot = case.cycle.over_a_period(PHASES)
+    crest = int(np.argmax(z[:-1]))
+    bend = (z_dot[crest - 1 if crest else -2] - z_dot[crest + 1]) * PHASES / (4 * np.pi)
+    phase = (z[crest] + case.cycle.u_z0 / case.cycle.unit) / (T * max(bend, 1e-300))
+    return int(min(64 * np.ceil(OF_DEPARTURE * np.pi / (32 * max(phase, 1e-9))), MOST_STEPS))
 
 
 class _Runs:
@@ -80,7 +106,7 @@ class _Runs:
         self.fast = fast_ratio(case)
         self.jolts = bool(np.isinf(self.fast) and case.rheology.remembers)  # dashpots throw a body without mass
         self.ends: dict[Knobs, Steady] = {}
-        self.unconfirmed: dict[int, float] = {}  # by springs, what steps extrapolated to that did not confirm the order
+        self.unconfirmed: dict[tuple[str, int], float] = {}  # what was extrapolated to without the order confirmed
 
     def first(self, knobs: Knobs) -> Steady | None:
         """The end of a run that may go before the main one; None where its periodic state would have to be awaited, or
@@ -98,6 +124,18 @@ class _Runs:
     def beside(self, main: Steady, knobs: Knobs) -> Steady:
         """The end of a companion: solved for by itself if the main run was, else of as many periods."""
         return self._there(knobs, None if main.settling.solved else main.n_periods, MOST_BESIDE)
+
+    def guarded(self, of: str, end: Steady, found: tuple[float, float]) -> tuple[float, float]:
+        """What is missing and the bound on its error (`extrapolated`), with what coarser ones extrapolated to that did
+        not confirm the order: finer ones may agree by chance. of: "steps" or "springs".
+        """
+        (missing, bound), key = found, (of, end.knobs.n_springs if of == "steps" else end.knobs.steps)
+        before = self.unconfirmed.get(key, end.cof + missing)
+        if np.isinf(bound):
+            self.unconfirmed[key] = end.cof + missing
+        else:
+            self.unconfirmed.pop(key, None)
+        return missing, bound + abs(end.cof + missing - before)
 
     def _there(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
         end = self._at(knobs, n_periods, most)
@@ -170,9 +208,9 @@ def within(
             best = coarser or _Bounded(main, 0.0)
             return best.finished(knobs.record), best.main
         half = runs.beside(main, knobs.coarser(knobs.steps // 2))
-        ringing = _of_ringing(runs, main)
+        unresolved = _of_unresolved(runs, main)
         carried = main.off_load <= knobs.accuracy / 2 or not any(free)
-        if main.slips_fully and carried and ringing == 0:
+        if main.slips_fully and carried and unresolved == 0:
             march = looked_at(main)
             if _clear_of_stick(march, looked_at(half)):
                 return _Bounded(main, 0.0).finished(knobs.record) if knobs.record else finish(march), main
@@ -180,7 +218,7 @@ def within(
         uneven = main.scaled.light and main.scaled.remembers and not case.keeps_contact
         of_springs, error_springs = _of_springs(runs, main, knobs, knobs.steps if runs.jolts else few_steps, free[0])
         of_steps, error_steps = _of_steps(runs, main, half, most, UNEVEN if uneven else (), free[1])
-        error_steps += ringing
+        error_steps += unresolved
         if time_is_over():
             if coarser is None:
                 why = "the time limit is over before the runs beside it, which bound cof_error, were done"
@@ -197,7 +235,8 @@ def within(
         more_steps = may_refine[1] and (error_steps > share or off_load)
         met = bounded.error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
-        if met or awaited or not (more_springs or more_steps) or main.settling.spread > knobs.accuracy / 4:
+        repeats = main.settling.spread <= max(knobs.accuracy, bounded.error) / 4  # else finer runs bound no better
+        if met or awaited or not (more_springs or more_steps) or not repeats:
             march = bounded.looked_at(knobs.record)
             if march.sees_contact or not may_refine[1]:
                 return finish(march, bounded.error, missing), main
@@ -211,11 +250,15 @@ def within(
 
 
 def _enough_springs(runs: _Runs, first: Steady, knobs: Knobs, few_steps: int) -> Knobs:
-    """The knobs with so many springs as the accuracy takes, as long as their runs settle and there is time."""
+    """The knobs with so many springs as the accuracy takes, as long as their runs settle, so closely that more springs
+    may help, and there is time.
+    """
     while knobs.n_springs < MOST_SPRINGS and not time_is_over():
-        if not runs.beside(first, knobs.coarser(few_steps)).settling.settled:
+        settling = runs.beside(first, knobs.coarser(few_steps)).settling
+        if not settling.settled:
             break
-        if _of_springs(runs, first, knobs, few_steps, extrapolate=True)[1] <= knobs.accuracy / 2:
+        error = _of_springs(runs, first, knobs, few_steps, extrapolate=True)[1]
+        if error <= knobs.accuracy / 2 or settling.spread > max(knobs.accuracy, error) / 4:
             break
         knobs = knobs._replace(n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
     return knobs
@@ -238,14 +281,16 @@ def _of_springs(runs: _Runs, main: Steady, knobs: Knobs, few_steps: int, extrapo
         return runs.beside(main, knobs.coarser(few_steps, int(share * knobs.n_springs)))
 
     shares, half = SPRINGS_OF_A_SHAKE if shaken else (), with_fewer(0.5)
+    regular = not (shaken or runs.jolts or (main.scaled.T and _erratic(runs, main)))
     hidden = KINK_OF_SPRINGS / knobs.n_springs**2 * _deficit(every)
     plain = max(_missed(every, one) for one in (half, *map(with_fewer, shares))) + hidden + _of_held_springs(every)
     unsure = 0.0
     if main.settling.solved and every is not main:
         unsure = max(every.settling.spread, 0.0 if every.settling.settled else BUDGET)
-    if extrapolate and not shaken and not runs.jolts and half.settling.settled and plain > knobs.accuracy / 2:
+    if extrapolate and regular and half.settling.settled and plain > knobs.accuracy / 2:
         most = with_fewer(0.75)
-        missing, bound = extrapolated(every.cof, half.cof, most.cof, every.knobs.n_springs / most.knobs.n_springs)
+        ratio = every.knobs.n_springs / most.knobs.n_springs
+        missing, bound = runs.guarded("springs", every, extrapolated(every.cof, half.cof, most.cof, ratio))
         bound += hidden + every.settling.spread + half.settling.spread + most.settling.spread
         if most.settling.settled and bound < plain:
             return missing, bound + unsure
@@ -274,18 +319,16 @@ def _of_steps(
 
     half, most: companions with half of the steps and with more. uneven: shares of the steps of further ones.
     """
-    steps, hidden, margin = main.knobs.steps, _hidden_by_steps(main, half), _erratic(runs.fast)
+    steps, hidden = main.knobs.steps, _hidden_by_steps(main, half)
+    margin = MARGIN if _erratic(runs, main) else 1.0
     lost = (steps / most.knobs.steps) ** 2 - 1  # what `most` misses more than main, over what main misses
     plain = (max(_missed(main, half), 14 / 9 * _missed(main, most) / lost) + hidden) * margin
     others = [runs.beside(main, main.knobs.coarser(int(share * steps))) for share in uneven]
     plain = max(plain, *(2 * (_missed(main, other) + hidden) for other in others)) if others else plain
     regular = not main.scaled.light and margin == 1 and not main.scaled.is_shaken  # whose kinks agree by chance
     if extrapolate and regular and half.settling.settled and most.settling.settled:
-        missing, bound = extrapolated(main.cof, half.cof, most.cof, steps / most.knobs.steps)
-        before = runs.unconfirmed.pop(main.knobs.n_springs, main.cof + missing)
-        if np.isinf(bound):
-            runs.unconfirmed[main.knobs.n_springs] = main.cof + missing
-        bound += abs(main.cof + missing - before)  # finer steps may agree by chance
+        ratio = steps / most.knobs.steps
+        missing, bound = runs.guarded("steps", main, extrapolated(main.cof, half.cof, most.cof, ratio))
         bound += 2 * hidden + main.settling.spread + half.settling.spread + most.settling.spread
         if bound < plain:
             return missing, bound + _of_fast_relaxation(main)
@@ -328,24 +371,32 @@ def _clear_of_stick(main: March, half: March) -> bool:
     return least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12
 
 
-def _of_ringing(runs: _Runs, main: Steady) -> float:
-    """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
-    companions do: found beside steps that resolve it. Those that are chosen do, as far as that can be afforded.
+def _of_unresolved(runs: _Runs, main: Steady) -> float:
+    """What steps miss, over mu_0, as their companions do, that resolve neither the oscillation of a mass on the
+    contact, but damp it, nor how springs on slow dashpots let go: found beside steps that do. Those that are chosen do,
+    as far as that can be afforded.
     """
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.light and main.scaled.M else 0
-    if not main.knobs.steps < steps <= MOST_STEPS:
+    steps = max(steps if steps <= MOST_STEPS else 0, _steps_of_departure(runs.case))
+    if main.knobs.steps >= steps:
         return 0.0
     resolved = runs.beside(main, main.knobs.coarser(steps))
     missed = resolved.settling.spread if resolved.settling.settled else 1.0
     return missed + RINGING * abs(main.cof - resolved.cof)
 
 
-def _erratic(fast: float) -> float:
-    """Margin on the differences of companions: a light body rings on the contact through stick and slip, and where the
-    nodes meet its oscillation makes the error of a step erratic; of ten random bodies with omega_1 from 4 to 40 omega,
-    two exceeded the plain differences, by 2 and 3 % (tests/table_of_errors.py).
+def _erratic(runs: _Runs, main: Steady) -> bool:
+    """Whether the error is less regular than the differences of companions tell, so that they get a margin.
+
+    A light body rings on the contact through stick and slip, and where the nodes meet its oscillation makes the error
+    of a step erratic; of ten random bodies with omega_1 from 4 to 40 omega, two exceeded the plain differences, by 2
+    and 3 % (tests/table_of_errors.py). On dashpots a motion of several harmonics has many kinks, of which companions
+    may miss the same.
     """
-    return 1.5 if LIGHT < fast < np.inf else 1.0
+    if not main.scaled.T or LIGHT < runs.fast < np.inf:
+        return LIGHT < runs.fast < np.inf
+    swings = np.abs(np.fft.rfft(main.scaled.z[:-1]))[1:]
+    return bool(np.sort(swings)[-2] > SEVERAL * swings.max())
 
 
 def _of_fast_relaxation(main: Steady) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, Knobs, accuracy_of, check, march, steady
-from mdr.march.refinement import N_SPRINGS, check_size, default_steps, that_touch, within
+from mdr.march.refinement import check_size, default_springs, default_steps, that_touch, within
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, finite, positive
@@ -118,7 +118,7 @@ def slide(
     count("record", record, 0)
     if n_periods is not None and record > n_periods:
         raise ValueError(f"record = {record} periods cannot be kept of n_periods = {n_periods}")
-    resolution = n_springs or N_SPRINGS, steps_per_period or default_steps(case)
+    resolution = n_springs or default_springs(case), steps_per_period or default_steps(case)
     knobs = Knobs(*resolution, start, lump, record, accuracy_of(accuracy))
     check_size(knobs.n_springs, knobs.steps, record)
     if limit_s is not None:
@@ -151,7 +151,7 @@ def slides(
     accuracy: float = BUDGET,
 ) -> Iterator[SlidingRun]:
     """Runs at rising velocities, each begun in the state of the one before: what `slide` answers, sooner."""
-    resolution = n_springs or N_SPRINGS, steps_per_period or default_steps(case)
+    resolution = n_springs or default_springs(case), steps_per_period or default_steps(case)
     knobs, near = Knobs(*resolution, "full_slip", lump=True, accuracy=accuracy_of(accuracy)), None
     check_size(knobs.n_springs, knobs.steps, 0)
     for v_0 in velocities:
