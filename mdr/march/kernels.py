@@ -721,24 +721,17 @@ def between_elastic(e, springs, step, du, rigid):
 
 
 @_inline
-def end_of_pressed_stick(trial, s, free, unseen, rigid):
-    """`end_of_stick` of a spring with arms and no dashpot that presses throughout a step; rigid: see
-    `elastic_step_in_place`.
-    """
+def end_of_pressed_stick(trial, s, free):
+    """`end_of_stick` of a spring with arms and no dashpot that presses throughout a step."""
     flown, reach, limit, force = free.s - free.lag, s - free.s, free.s_shed, free.s_shed - free.lag_shed
-    least, most = flown - reach, flown + reach
-    more, part = end_of_stick(trial, least, most, limit + force, limit - force)
-    over = trial - max(min(trial, most), least)
-    before = limit - force if over > 0.0 else limit + force
-    jump = before + abs(over) if rigid and before > unseen and over != 0.0 else 0.0
-    return more - TWELFTH * (jump if over > 0.0 else -jump), part
+    return end_of_stick(trial, flown - reach, flown + reach, limit + force, limit - force)
 
 
 @_jit
-def between_arms(e, s_0, s_1, look, along, springs, step, du, rigid):
+def between_arms(e, s_0, s_1, look, along, springs, step, du):
     """What springs with arms and no dashpot add that end their stick in a step, and how much of a further move of the
     body goes into that. e, s_0, s_1: extension at its start, compression at both ends. Puts what each path adds into
-    along (n,). rigid: see `elastic_step_in_place`.
+    along (n,).
 
     Where they touch or let go nothing is added: in a brief contact slow arms magnify what is not known of the path.
     """
@@ -746,7 +739,7 @@ def between_arms(e, s_0, s_1, look, along, springs, step, du, rigid):
     for i in indices(0, step.last):
         free = free_of(look, i)
         presses = s_0[0, i] - (step.z_0 - gap[i]) <= 1e-14 * (1.0 + abs(gap[i])) and step.z_1 - gap[i] > free.s
-        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free, UNSEEN * step.h, rigid)
+        more, part = end_of_pressed_stick(e[0, i] + du, s_1[0, i], free)
         along[i] = more if presses else 0.0
         total += w[i] * along[i]
         given += w[i] * (part if presses else 0.0)
@@ -1125,7 +1118,7 @@ def march(e, s, held, body, springs, motion, table, k_0, out):
             if elastic and sticks and (step.z_1 < step.z_0 or pace_back > 0.0):
                 S_1 += between_elastic(e_0, springs, step, move.du, False)
             if ended:
-                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du, rigid)
+                more, given = between_arms(e_0, s_0, s_1, look, along, springs, step, move.du)
                 S_1, stuck = S_1 + more, stuck + given
             excess = y_1 - pull + b_1 * S_1
             rounding = 2e-15 * (abs(y_1) + abs(pull) + abs(b_1 * S_1))

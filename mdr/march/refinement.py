@@ -40,6 +40,7 @@ from mdr.march.march import (
 from mdr.march.run import SlidingRun, finish
 from mdr.march.steady_state import TOLERANCE
 from mdr.march.theorems import outside
+from mdr.tools.memoise import remembered
 from mdr.tools.progress import time_is_over
 
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
@@ -59,7 +60,6 @@ BEND, BEND_OF_DASHPOT = 0.05, 0.15  #: the same, times h³, of a change of mode 
 KINK_OF_SPRINGS = 0.03  #: the same, over n_springs², of a change of mode between two springs
 PHASES = 1024  #: of a period, to find its greatest depth
 OF_DEPARTURE = 2.0  #: steps while a spring on slow dashpots lets go
-SEVERAL = 0.1  #: of the largest harmonic of a motion, from which on another counts
 MARGIN = 1.5  #: on differences of companions of an erratic error
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 MOST_UNEVEN = 4096  #: of such a motion, whose error falls at first order only
@@ -82,6 +82,7 @@ def default_steps(case: SlidingContact) -> int:
     return plain if fast * 2 * RESOLVED < plain else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
 
 
+@remembered(maxsize=8)
 def _steps_of_departure(case: SlidingContact) -> int:
     """Steps per period that resolve how springs on slow dashpots let go of the indenter; 0 where none does.
 
@@ -393,10 +394,7 @@ def _erratic(runs: _Runs, main: Steady) -> bool:
     and 3 % (tests/table_of_errors.py). On dashpots a motion of several harmonics has many kinks, of which companions
     may miss the same.
     """
-    if not main.scaled.T or LIGHT < runs.fast < np.inf:
-        return LIGHT < runs.fast < np.inf
-    swings = np.abs(np.fft.rfft(main.scaled.z[:-1]))[1:]
-    return bool(np.sort(swings)[-2] > SEVERAL * swings.max())
+    return LIGHT < runs.fast < np.inf or bool(main.scaled.T and main.scaled.several_harmonics)
 
 
 def _of_fast_relaxation(main: Steady) -> float:
