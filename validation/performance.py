@@ -20,9 +20,9 @@ What the loop must do, per spring and step (mdr/march/kernels.py), in doubles:
 
 Where stick may end within the step, an elastic spring takes a dozen operations more, and springs that touch or let go
 some dozens; neither is in the account, so that the elastic kernel stays behind its least time. An operation is an add,
-multiply, multiply-add, minimum, maximum, comparison or choice, each one instruction on a whole vector. The others, those
-at the edge, are a few dozen in any step, whatever the number of springs. The least time is the greatest of three, as
-loads and stores, operations and divisions go on side by side; `floors` measures what this machine takes for each, on
+multiply, multiply-add, minimum, maximum, comparison or choice, each one instruction on a whole vector. The others,
+those at the edge, are a few dozen in any step, whatever the number of springs. The least time is the greatest of three,
+as loads and stores, operations and divisions go on side by side; `floors` measures what this machine takes for each, on
 arrays of the same size, by three loops that do nothing else. Beside it stands what every step costs however few the
 springs are. On two cores with vectors of four doubles, otherwise idle, the kernels came to 0.5 (elastic) and 1.0
 (Kelvin) of the speed that this least time allows, 0.7 and 1.2 with what a step costs, and to 1.8 and 1.0 of the C
