@@ -20,6 +20,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
 MOST_KEPT = 2**14  #: instants of a cosine that is kept for the next contact
+SEVERAL = 0.1  #: of the largest harmonic of a motion, from which on another counts
 DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
 
 
@@ -74,6 +75,12 @@ class Cycle(ArrayRecord):
     def is_harmonic(self) -> bool:
         """Whether it is cos(phase) alone."""
         return self.cos.size == 1 and self.cos[0] == 1 and self.sin[0] == 0
+
+    @property
+    def has_several_harmonics(self) -> bool:
+        """Whether more than one harmonic counts."""
+        swings = np.abs(self.harmonics)
+        return bool(np.sum(swings > SEVERAL * swings.max()) > 1)
 
     @property
     def harmonics(self) -> NDArray[np.complex128]:

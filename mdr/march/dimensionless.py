@@ -35,7 +35,6 @@ from mdr.normal.springs import SpringArray
 from mdr.tools.arrays import Array
 
 FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
-SEVERAL = 0.1  #: of the largest harmonic of a motion, from which on another counts
 RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
 
 
@@ -179,12 +178,6 @@ class ScaledContact:
             stiffness_z=springs.E_star * width,
             omega=cycle.omega,
         )
-
-    @cached_property
-    def several_harmonics(self) -> bool:
-        """Whether the normal motion has more than one that counts."""
-        swings = np.sort(np.abs(np.fft.rfft(self.z[:-1]))[1:])
-        return bool(swings[-2] > SEVERAL * swings[-1])
 
     @cached_property
     def normal(self) -> NormalState:

@@ -219,8 +219,7 @@ def after_change(D_0, D_1, h, rate):
 def end_of_stick(trial, least, most, left_back, left):
     """What the end of stick within a step adds to the mean of the extension over it, and how much of a further move of
     the body goes into that. least, most: extensions of slip, backward and forward, at the end of the step; left_back,
-    left: how far from them the spring begins. This falls to zero at the pace at which the trial step then leads, so
-    that the path is two straight lines.
+    left: how far from them the spring begins. The path is taken as two straight lines, along stick and along slip.
     """
     over = trial - max(min(trial, most), least)
     before = max(left if over > 0.0 else left_back, 0.0)

@@ -224,9 +224,8 @@ def looked_at(end: Steady) -> March:
         settling = waited.assess()
     account = records[0] if end.waited is None else records[-1]  # the same period however many are kept
     march = March(end, settling, account, tuple(records))
-    return (
-        march.contradicted(why) if settling.settled and (why := _contradiction(stepper, account, settling)) else march
-    )
+    why = _contradiction(stepper, account, settling) if settling.settled else ""
+    return march.contradicted(why) if why else march
 
 
 def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:

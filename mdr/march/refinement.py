@@ -96,7 +96,8 @@ def _steps_of_departure(case: SlidingContact) -> int:
     crest = int(np.argmax(z[:-1]))
     bend = (z_dot[crest - 1 if crest else -2] - z_dot[crest + 1]) * PHASES / (4 * np.pi)
     phase = (z[crest] + case.cycle.u_z0 / case.cycle.unit) / (T * max(bend, 1e-300))
-    return int(min(64 * np.ceil(OF_DEPARTURE * np.pi / (32 * max(phase, 1e-9))), MOST_STEPS))
+    steps = 2 * np.pi * OF_DEPARTURE / max(phase, 1e-9)
+    return int(min(64 * np.ceil(steps / 64), MOST_STEPS))
 
 
 class _Runs:
@@ -394,7 +395,7 @@ def _erratic(runs: _Runs, main: Steady) -> bool:
     and 3 % (tests/table_of_errors.py). On dashpots a motion of several harmonics has many kinks, of which companions
     may miss the same.
     """
-    return LIGHT < runs.fast < np.inf or bool(main.scaled.T and main.scaled.several_harmonics)
+    return LIGHT < runs.fast < np.inf or bool(main.scaled.T and runs.case.cycle.has_several_harmonics)
 
 
 def _of_fast_relaxation(main: Steady) -> float:
