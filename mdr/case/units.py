@@ -15,6 +15,9 @@ NO_FIELDS = {
     "v_0/v_c": facts(
         "-", "pulling velocity over the critical velocity of the case, Eq. (15)", label="pulling velocity $v_0/v_c$"
     ),
+    "load": facts("N", "mean load; of a prescribed depth, the load that rests at its mean", label="load"),
+    "frequency": facts("Hz", "frequency", label="frequency"),
+    "tan_delta": facts("-", "loss tangent at the frequency", label=r"loss tangent $\tan\delta$"),
     "alpha": facts("-", "relative amplitude du_z/u_z0", label=r"amplitude $\alpha = \Delta u_z/u_{z0}$"),
     "T": facts("-", "omega tau, the loss tangent of a Kelvin material", label=r"loss tangent $T = \omega\tau$"),
     "k_x/k_xc": facts(

@@ -64,7 +64,7 @@ def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
             kept = f"all of it is safe in {args.store}; the same call writes it" if args.store else "nothing is kept"
             return complain(f"interrupted while the study was written; {kept}", INTERRUPTED)
     if args.json:
-        print_json(args, _told(study), asked.case)
+        print_json(args, _told(study))
     else:
         print(study)
     return _end(args, study)
@@ -120,6 +120,7 @@ def _told(study: Study) -> dict[str, Any]:
     from mdr.studies import Status
 
     return {
+        "case": study.case,
         "identity": study.identity,
         "complete": study.complete,
         "counts": {status.name.lower(): study.count(status) for status in Status},

@@ -52,11 +52,12 @@ from mdr.case.in_plane import Shake
 from mdr.case.motion import LoadOscillation, Motion, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
-from mdr.files.spellings import SPELLINGS, as_written, meant, other_spellings, respelled, with_depth_of_load
+from mdr.files.spellings import SPELLINGS, as_written, left_open, meant, other_spellings, respelled
 from mdr.files.toml_text import NESTED, CaseFileError, fault_error, parse_toml, read_text, toml_value
 from mdr.indenters import Indenter, Paraboloid
 from mdr.materials import Elastic, Material
 from mdr.normal.doubts import warn_outside
+from mdr.normal.vary import contact_of, fields_set
 from mdr.tools.fields import checked
 from mdr.tools.messages import nearest, offer, one_line, short
 
@@ -164,6 +165,11 @@ def write_case(case: SlidingContact) -> str:
     theta = 0.0127
     ...
     """
+    return written(case, {})
+
+
+def written(case: SlidingContact, held: Mapping[str, float]) -> str:
+    """The same, with loads, frequencies and loss tangents for the fields that they set."""
     top, tables = [], []
     case = as_given(case)
     for field in _inputs(SlidingContact):
@@ -171,7 +177,7 @@ def write_case(case: SlidingContact) -> str:
         if field.name not in _TABLES:
             top.append(f"{field.name} = {toml_value(value)}")
         elif value is not None and not isinstance(value, RigidPull):
-            tables.append(_written(_TABLES[field.name], value))
+            tables.append(_written(_TABLES[field.name], value, held))
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
 
@@ -191,7 +197,7 @@ def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequen
     case: Any = None
     whole: list[str] = []
     if not faults:  # whether the parts fit each other shows whatever mu_0 is
-        case, whole = _tried(SlidingContact, **parts, **({"mu_0": 1.0} if refused else given))
+        case, whole = _tried(contact_of, parts, {**({"mu_0": 1.0} if refused else given), **left_open(content)})
     if faults := [*faults, *refused, *whole]:
         raise fault_error(source, faults)
     assert isinstance(case, SlidingContact)
@@ -221,7 +227,8 @@ def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str
     """
     parts, faults = _read_tables(content)
     sound = {name: part for name, part in parts.items() if name not in faults}
-    return _tried(SlidingContact, **{**_HARMLESS, **sound, "mu_0": 1.0})[0], set(faults)
+    said = left_open({name: table for name, table in content.items() if name in sound})
+    return _tried(contact_of, {**_HARMLESS, **sound}, {"mu_0": 1.0, **said})[0], set(faults)
 
 
 def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, list[str]]]:
@@ -230,19 +237,19 @@ def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, 
     parts: dict[str, Any] = {}
     wrong: dict[str, list[str]] = {}
     for name, table in _TABLES.items():
-        faults: list[str] = []
-        if name == "oscillation" and isinstance(tables.get(name), dict):
-            tables[name], faults = with_depth_of_load(tables[name], parts.get("indenter"), parts.get("material"))
-        part, more = table.read(tables)
-        if found := [*(f"[{name}] {fault}" for fault in faults), *more]:
-            wrong[name] = found
+        part, faults = table.read(tables)
+        if faults:
+            wrong[name] = faults
         elif part is not None:
             parts[name] = part
     return parts, wrong
 
 
 def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
-    """The record that a table [name] describes, or None; and the faults."""
+    """The record that a table [name] of a list describes, or None; and the faults."""
+    for alias in left_open({name: table}):
+        fields = " or ".join(fields_set(alias))
+        return None, [f"[{name}] {alias} cannot stand in a list of tables: give {fields}"]
     return _TABLES[name].read({name: table})
 
 
@@ -447,7 +454,7 @@ def _number(value: Any) -> Any:
 # --- from records to text ---
 
 
-def _written(table: _Table, record: Any) -> str:
+def _written(table: _Table, record: Any, held: Mapping[str, float]) -> str:
     """One table of the file."""
     name, writable = type(record).__name__, table.writable()
     if table.records().get(name) is not type(record):
@@ -456,7 +463,9 @@ def _written(table: _Table, record: Any) -> str:
         way_out = f"keep the case in a script, or use one of {', '.join(writable)}"
         raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
     values = {field.name: getattr(record, field.name) for field in _inputs(type(record))}
-    lines = [f"{key} = {toml_value(value)}" for key, value in values.items() if value is not None]
+    spelt = {key: alias for alias in held for key in values if f"{table.name}.{key}" in fields_set(alias)}
+    told = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
+    lines = [f"{key} = {toml_value(value)}" for key, value in told.items() if value is not None]
     named = table._told_by(values) is not type(record) if table.unnamed else True
     head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if named else [])]
     return "\n".join(head + lines)

@@ -2,7 +2,8 @@
 
 A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, chi =
 du_x/(mu_0 kappa u_z0) shake.du_x, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega
-pull.m.
+pull.m. Or it is what a rig is set to: load [N] sets F_z0, or of a prescribed depth u_z0, at which this load rests;
+frequency [Hz] sets omega of all that moves; and tan_delta = omega tau sets material.tau.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
 refers to is solved for under a load, which is why this stands beside the normal problem.
@@ -10,6 +11,7 @@ refers to is solved for under a load, which is why this stands beside the normal
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
@@ -17,8 +19,10 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact, common_frequency
+from mdr.materials import KelvinVoigt
+from mdr.normal.load_control import static_depth
 from mdr.normal.resolved import at_rest, resolved
-from mdr.tools.checks import positive
+from mdr.tools.checks import not_negative, positive
 
 GROUPS = {
     "alpha": "oscillation.du_z",
@@ -27,31 +31,68 @@ GROUPS = {
     "k_x/k_xc": "pull.k_x",
     "omega_0/omega": "pull.m",
 }
+RIG = {
+    "load": ("oscillation.F_z0", "oscillation.u_z0"),
+    "frequency": ("oscillation.omega", "shake.omega"),
+    "tan_delta": ("material.tau",),
+}
 MOVING = ("oscillation", "shake")
+
+
+def fields_set(path: str) -> tuple[str, ...]:
+    """The fields, of which one or all are set by a path."""
+    return RIG.get(path, (GROUPS.get(path, path),))
 
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
     """The case with these paths set to these values; what its records refuse is raised as they word it."""
-    parts = {slot: settings.get(slot, getattr(case, slot)) for slot in KINDS}
+    return contact_of({slot: getattr(case, slot) for slot in KINDS}, {"mu_0": case.mu_0, **settings})
+
+
+def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> SlidingContact:
+    """The contact of these parts with these paths, mu_0 among them, set to these values."""
+    parts = {slot: settings.get(slot, part) for slot, part in parts.items()}
     changes: dict[str, dict[str, Any]] = {slot: {} for slot in KINDS}
+
+    def changed(slot: str) -> Any:
+        return replace(parts[slot], **changes[slot]) if changes[slot] else parts.get(slot)
+
     for path, value in settings.items():
         slot, _, field = path.partition(".")
         if field:
-            _require_field(path, parts[slot], field)
+            _require_field(path, parts.get(slot), field)
             changes[slot][field] = value
+    if "frequency" in settings:
+        _one_omega("frequency", *map(changed, MOVING))
+        omega = angular(settings["frequency"])
+        for slot in MOVING:
+            if "omega" in fields_of(parts.get(slot)):
+                changes[slot]["omega"] = omega
+    if "load" in settings:
+        load = positive("load", settings["load"], "mean load in N")
+        if "F_z0" in fields_of(parts["oscillation"]):
+            changes["oscillation"]["F_z0"] = load
+        else:
+            _require_field("load", parts["oscillation"], "u_z0")
+            changes["oscillation"]["u_z0"] = static_depth(changed("indenter"), changed("material"), load)
     if "alpha" in settings:
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
+    if "tan_delta" in settings:
+        if not isinstance(parts["material"], KelvinVoigt):
+            raise ValueError(
+                f"tan_delta is of KelvinVoigt alone, and the material is {type(parts['material']).__name__}"
+            )
+        tan_delta = not_negative("tan_delta", settings["tan_delta"], "loss tangent")
+        changes["material"]["tau"] = tan_delta / _one_omega("tan_delta", *map(changed, MOVING))
     if "T" in settings:
         _require_field("T", parts["material"], "tau")
-        moving = (replace(parts[slot], **changes[slot]) if changes[slot] else parts[slot] for slot in MOVING)
-        changes["material"]["tau"] = settings["T"] / common_frequency(*moving)
+        changes["material"]["tau"] = settings["T"] / common_frequency(*map(changed, MOVING))
     if "chi" in settings:
-        _require_field("chi", parts["shake"], "du_x")
+        _require_field("chi", parts.get("shake"), "du_x")
         changes["shake"]["du_x"] = 1.0  # until the depth is known that it refers to
-    changed = {slot: replace(part, **changes[slot]) if changes[slot] else part for slot, part in parts.items()}
-    contact = SlidingContact(mu_0=settings.get("mu_0", case.mu_0), **changed)
+    contact = SlidingContact(mu_0=settings["mu_0"], **{slot: changed(slot) for slot in parts})
     if "chi" in settings:
         kept: Any = contact.shake
         if not np.isfinite(unit := at_rest(contact).chi):
@@ -92,6 +133,22 @@ def _group(case: SlidingContact, path: str) -> float:
     if path == "chi":
         return known.chi
     return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
+
+
+def angular(frequency: Any) -> float:
+    """Angular frequency [rad/s] of a frequency [Hz]."""
+    return 2 * math.pi * positive("frequency", frequency, "in Hz")
+
+
+def _one_omega(path: str, *moving: Any) -> float:
+    """The one angular frequency [rad/s] of what moves."""
+    found = [one.omega for one in moving if one is not None and one.omega]
+    if not found:
+        raise ValueError(f"{path} needs something that moves at a frequency: an oscillation or a shake")
+    if max(found) > (1 + 1e-9) * min(found):
+        way_out = "give tau" if path == "tan_delta" else "give omega of each"
+        raise ValueError(f"{path} belongs to one frequency, and oscillation and shake have two: {way_out}")
+    return float(found[0])
 
 
 def fields_of(record: Any) -> tuple[str, ...]:

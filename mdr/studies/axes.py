@@ -1,7 +1,11 @@
 """The axes of a study: which field, group or velocity each one sets, and to which values.
 
-A path is a field of the contact ("mu_0", "indenter", "material.tau"), a dimensionless group, or the velocity:
+A path is a field of the contact ("mu_0", "indenter", "material.tau"), what a rig is set to, a dimensionless group, or
+the velocity:
 
+    load            mean load [N]            sets oscillation.F_z0, or u_z0 to the depth at which the load rests
+    frequency       [Hz]                     sets omega of oscillation and shake
+    tan_delta       at this frequency        sets material.tau
     alpha           du_z/u_z0                sets oscillation.du_z
     chi             du_x/(mu_0 kappa u_z0)   sets shake.du_x
     T               omega tau                sets material.tau
@@ -9,7 +13,7 @@ A path is a field of the contact ("mu_0", "indenter", "material.tau"), a dimensi
     omega_0/omega   sqrt(k_x/m)/omega        sets pull.m
     v_0, v_0/v_c    pulling velocity [m/s], or over the critical velocity of each case; 0 is the static limit
 
-The groups are set last, in this order, so that each has its value in the end. A path that none of the cases has is
+These are set last, in this order, so that each has its value in the end. A path that none of the cases has is
 refused at once; one that some of them lack is a failure of those points.
 """
 
@@ -18,13 +22,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.units import facts_at
-from mdr.normal.vary import GROUPS, fields_of
+from mdr.normal.vary import GROUPS, RIG, fields_of, fields_set
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.messages import nearest, one_line, short
@@ -132,6 +137,14 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
     return tuple(_axis(path, values, parts) for path, values in axes.items())
 
 
+def read_held(case: SlidingContact, axes: Mapping[str, Any], held: Mapping[str, Any]) -> dict[str, float]:
+    """What every case of the study has besides; ValueError or TypeError for what can never be set, or is an axis."""
+    if unknown := [path for path in held if path not in RIG]:
+        raise ValueError(f"held takes {', '.join(RIG)}, got {short(repr(unknown[0]))}")
+    together = read_axes(case, {**{path: [value] for path, value in held.items()}, **axes})
+    return {axis.path: axis[0] for axis in together if axis.path in held}
+
+
 def _own(case: SlidingContact, slot: str) -> tuple[Any, ...]:
     """The part of the case, none where it has none."""
     part = getattr(case, slot)
@@ -221,11 +234,12 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     """Refuse a path that no case of the study has."""
     if path in VELOCITIES or path == "mu_0" or path in parts:
         return
-    slot, _, field = GROUPS.get(path, path).partition(".")
-    if any(field in fields_of(part) for part in parts.get(slot, ())):
-        return
+    for sets in fields_set(path):
+        slot, _, field = sets.partition(".")
+        if any(field in fields_of(part) for part in parts.get(slot, ())):
+            return
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
-    if path in GROUPS:
+    if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
     known = _known_paths(parts)
     homes = [one for one in known if one.endswith(f".{path}")]
@@ -237,10 +251,10 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
 
 def _known_paths(parts: Mapping[str, tuple[Any, ...]]) -> list[str]:
     of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
-    return [*VELOCITIES, "mu_0", *parts, *GROUPS, *dict.fromkeys(of_parts)]
+    return [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *dict.fromkeys(of_parts)]
 
 
 def _refuse_two_for_one(axes: Mapping[str, Any]) -> None:
-    for one, two in [VELOCITIES, *GROUPS.items()]:
-        if one in axes and two in axes:
-            raise ValueError(f"{one} and {two} set the same; keep one of the two axes")
+    for one, two in combinations(axes, 2):
+        if {one, two} == set(VELOCITIES) or set(fields_set(one)) & set(fields_set(two)):
+            raise ValueError(f"{one} and {two} set the same; keep one of the two")

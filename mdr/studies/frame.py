@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.files.case_files import write_case
+from mdr.files.case_files import written
 from mdr.files.toml_text import CaseFileError
 from mdr.studies.axes import Axis, without_addresses
 from mdr.studies.quantities import CurveQuantity, Quantity
@@ -51,7 +51,7 @@ class Frame:
     def of(cls, work: Work, identity: str) -> Frame:
         """The frame of the study that this work makes."""
         columns = tuple(Column.of(one) for one in work.quantities)
-        return cls(work.axes, columns, _text(work.case), version.__version__, identity)
+        return cls(work.axes, columns, _text(work.case, work.held), version.__version__, identity)
 
     def tree(self) -> dict[str, Any]:
         """All but the numbers of its axes, for JSON."""
@@ -74,8 +74,8 @@ def _axis(path: str, labels: list[str] | None, numbers: Mapping[str, Any]) -> Ax
     return Axis(path, np.array(numbers[path], dtype=float))
 
 
-def _text(case: SlidingContact) -> str:
+def _text(case: SlidingContact, held: Mapping[str, float]) -> str:
     try:
-        return write_case(case)
+        return written(case, held)
     except CaseFileError:
         return without_addresses(repr(case))

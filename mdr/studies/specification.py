@@ -25,7 +25,7 @@ MOST_TOLD = 4  #: differences
 def specification(work: Work) -> dict[str, Any]:
     """All that the values of a study depend on, as a tree for JSON. ValueError for what cannot be told by its data."""
     return {
-        "case": described(work.case),
+        "case": {**described(work.case), **work.held},
         "axes": {axis.path: described(axis.values) for axis in work.axes},
         "order of axes": [axis.path for axis in work.axes],
         "quantities": [_quantity(one) for one in work.quantities],

@@ -12,6 +12,8 @@
     indenter = [{ shape = "Cone", theta = 0.05 }, { shape = "Paraboloid", R = 5e-3 }]
     pull = [{}, { k_x = 2e4, m = 0.1 }]       # {} is a rigid pull
 
+A load, frequency or loss tangent that the file gives holds in every case, unless an axis sets what it sets.
+
 A file that is wrong is refused with every fault at once.
 """
 
@@ -27,10 +29,11 @@ import numpy as np
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.files.case_files import case_of, record_of, stand_in
+from mdr.files.spellings import left_open
 from mdr.files.toml_text import NESTED, CaseFileError, fault_error, parse_toml, read_text
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.normal.vary import GROUPS
+from mdr.normal.vary import fields_set
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.tools.checks import count, finite
@@ -51,6 +54,7 @@ class StudyFile:
     n_springs: int | None
     steps_per_period: int | None
     accuracy: float
+    held: dict[str, float]  #: load [N] and tan_delta [-] that every case has
 
 
 def read_study_file(path: str | PathLike[str]) -> StudyFile:
@@ -84,7 +88,17 @@ def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
     faults = faults or _tried(read_quantities, quantities, axes)
     if faults:
         raise fault_error(source, faults)
-    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy)
+    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy, held=_held(content, axes))
+
+
+def _held(content: Mapping[str, Any], axes: Mapping[str, Any]) -> dict[str, float]:
+    """What the tables leave open, where no axis sets it."""
+    varied = {field for path in axes for field in fields_set(path)}
+
+    def is_free(alias: str) -> bool:
+        return not any(varied & {field, field.partition(".")[0]} for field in fields_set(alias))
+
+    return {alias: value for alias, value in left_open(content).items() if is_free(alias)}
 
 
 # --- axes ---
@@ -165,8 +179,8 @@ def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
 def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[str]:
     """Faults of the axes although the case is refused: of those axes that do not set what is wrong in the case."""
     case, unsound = stand_in(content)
-    slots = {path: GROUPS.get(path, path).partition(".")[0] for path in axes}
-    seen = {path: axes[path] for path, slot in slots.items() if slot not in unsound}
+    slots = {path: {field.partition(".")[0] for field in fields_set(path)} for path in axes}
+    seen = {path: axes[path] for path, those in slots.items() if not those & unsound}
     return _faults_of_axes(case, seen) if case is not None else []
 
 

@@ -13,7 +13,7 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.resolved import at_rest
-from mdr.studies.axes import read_axes
+from mdr.studies.axes import read_axes, read_held
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
 from mdr.studies.points import Part
@@ -44,6 +44,7 @@ def sweep(
     n_springs: int | None = None,
     steps_per_period: int | None = None,
     accuracy: float = BUDGET,
+    held: Mapping[str, float] | None = None,
 ) -> Study:
     """Quantities, each in its unit, over a grid of cases: a parameter study.
 
@@ -74,6 +75,11 @@ def sweep(
     accuracy : float
         Bound on the error of every friction over mu_0 [-] that is asked for, as in `slide`.
 
+    held : mapping of str to float, optional
+        What every case of the study has besides: "load" [N], "frequency" [Hz] or "tan_delta" [-]. A load is held where
+        shape or material vary, by another depth in every case; a loss tangent where the frequency varies, by another
+        tau. A study file holds what it gives.
+
     Returns
     -------
     Study
@@ -100,11 +106,12 @@ def sweep(
     case = as_given(case)
     with suppress(ValueError):  # the base case may be one that cannot be; its points say so themselves
         at_rest(case)  # warns of what is unlikely
-    axes_read = read_axes(case, axes)
+    axes_read, held = read_axes(case, axes), read_held(case, axes, held or {})
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)
-    work = Work(case, axes_read, read_quantities(quantities, axes), n_springs, steps_per_period, accuracy_of(accuracy))
+    named = read_quantities(quantities, axes)
+    work = Work(case, axes_read, named, n_springs, steps_per_period, accuracy_of(accuracy), held)
     _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
     _require_executor(executor)

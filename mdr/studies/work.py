@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -26,6 +27,7 @@ class Work:
     n_springs: int | None = None  #: knobs of runs, None: chosen to meet the accuracy budget
     steps_per_period: int | None = None
     accuracy: float = BUDGET
+    held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, see `mdr.normal.vary.RIG`
 
     @cached_property
     def velocity_axis(self) -> Axis | None:
@@ -43,5 +45,5 @@ class Work:
     def case_of(self, unit: int) -> SlidingContact:
         """The case of a unit; what its records refuse is raised."""
         axes = (axis for axis in self.axes if not axis.is_velocity)
-        settings: dict[str, Any] = {axis.path: axis[i] for axis, i in zip(axes, self.layout.case(unit), strict=True)}
-        return case_at(self.case, settings)
+        varied: dict[str, Any] = {axis.path: axis[i] for axis, i in zip(axes, self.layout.case(unit), strict=True)}
+        return case_at(self.case, {**self.held, **varied})

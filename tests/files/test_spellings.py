@@ -71,7 +71,7 @@ REFUSED = [
     ({"motion": "omega=300\ndu_z=1e-6\ndF_z=1e-6\nload=1"}, "dF_z belongs to an oscillating load"),
     ({"motion": "omega=300\ndu_z=1e-6"}, "u_z0 is missing; or give load [N]"),
     ({"loss": ""}, "tau is missing; or give tan_delta"),
-    ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "tan_delta needs a frequency"),
+    ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "omega is missing; or give frequency"),
     ({"motion": "f = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "f is no key of NormalOscillation; did you mean frequency"),
     ({"motion": "frequenzy = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "did you mean frequency"),
     ({"motion": "frequency = '50 Hz'\nu_z0 = 2e-5\ndu_z = 2e-6"}, "frequency must be"),

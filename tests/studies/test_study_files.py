@@ -99,7 +99,7 @@ def test_what_is_left_out_is_the_default():
             '[axes] [indenter] shape "Kone" is unknown; did you mean Cone?',
         ]),
         (['"v_0" = [1]\nindenter = [3]'], ["[axes] [indenter] must be one table of keys, got 3"]),
-        (['"v_0" = [1]\n"v_0/v_c" = [1]'], ["[axes] v_0 and v_0/v_c set the same; keep one of the two axes"]),
+        (['"v_0" = [1]\n"v_0/v_c" = [1]'], ["[axes] v_0 and v_0/v_c set the same; keep one of the two"]),
         (['"mu_0" = [0.1, 0.1]\n"v_0" = [-1]'], [
             "[axes] mu_0 has the value 0.1 twice; give each once",
             "[axes] v_0 must not be negative, got -1.0; 0 is the static limit",
