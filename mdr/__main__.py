@@ -21,7 +21,7 @@ import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
 from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
-from mdr.files.case_files import read_case
+from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
 from mdr.normal.resolved import plausibility
@@ -114,7 +114,8 @@ def parser() -> argparse.ArgumentParser:
     ]
     for name, work, summary, add_options in with_case:
         command = _command(commands, name, work, summary)
-        _takes_file(command, "case.toml", "the case file; docs/example.toml is one", read_case)
+        read = read_said if name == "fit" else read_case  # what a fit varies leaves what the file says
+        _takes_file(command, "case.toml", "the case file; docs/example.toml is one", read)
         if add_options is not None:
             add_options(command)
     study = "a grid of cases, from a study file; the same call goes on after any end"

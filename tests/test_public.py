@@ -57,7 +57,7 @@ SIGNATURES = {
     'start="full_slip", record=0, lump=True, limit_s=None, accuracy=1e-05',
     "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None, accuracy=1e-05",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
-    "n_springs=None, steps_per_period=None, accuracy=1e-05",
+    "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",
     "read_study": "path",
     "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
     "measure_critical_velocity": 'case, direction=1, *, start="full_slip", limit_s=None, accuracy=1e-05',

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from mdr.case.contact import SlidingContact
 from mdr.commands.output import DONE, WrongInput, add_output, made_by, output_folder, path_of, print_json, write_figure
-from mdr.files.case_files import write_case
+from mdr.files.case_files import Said, write_case
 from mdr.files.toml_text import StandardInput
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented
@@ -33,7 +32,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add_output(command, FILES)
 
 
-def fit(args: argparse.Namespace, case: SlidingContact) -> int:
+def fit(args: argparse.Namespace, asked: Said) -> int:
     """Fit, write and print."""
     import mdr
 
@@ -42,7 +41,9 @@ def fit(args: argparse.Namespace, case: SlidingContact) -> int:
     folder = output_folder(args, FILES)
     try:
         data = mdr.read_friction_data(args.data)
-        found = mdr.fit(case, data, args.free, bounds=dict(args.bounds), confidence=args.confidence)
+        found = mdr.fit(
+            asked.case, data, args.free, bounds=dict(args.bounds), confidence=args.confidence, held=asked.held
+        )
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
     if folder is not None:

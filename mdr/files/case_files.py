@@ -43,7 +43,7 @@ from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from inspect import isabstract
 from os import PathLike, fsdecode
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 from mdr import indenters, materials
 from mdr.case import in_plane, motion
@@ -93,7 +93,19 @@ def read_case(path: str | PathLike[str]) -> SlidingContact:
     >>> mdr.read_case("case.toml") == case
     True
     """
-    return parse_case(read_text(path), source=fsdecode(path))
+    return read_said(path).case
+
+
+class Said(NamedTuple):
+    """What a case file says."""
+
+    case: SlidingContact
+    held: dict[str, Any]  #: load [N] and tan_delta [-] given for fields that other tables decide about too
+
+
+def read_said(path: str | PathLike[str]) -> Said:
+    """The sliding contact of a TOML file, and what holds whatever else varies. Raises CaseFileError."""
+    return _said(read_text(path), fsdecode(path))
 
 
 def parse_case(text: str, source: str = "<string>") -> SlidingContact:
@@ -127,8 +139,13 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     """
     if not isinstance(text, str):
         raise TypeError(f"text must be a string of TOML, got {text!r}")
+    return _said(text, source).case
+
+
+def _said(text: str, source: str) -> Said:
     try:
-        return case_of(parse_toml(text, source), source)
+        content = parse_toml(text, source)
+        return Said(case_of(content, source), left_open(content))
     except RecursionError:
         raise fault_error(source, [NESTED]) from None
 

@@ -21,6 +21,7 @@ from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
 from mdr.normal.resolved import at_rest
+from mdr.normal.vary import kept
 from mdr.tools.arrays import Array
 from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
@@ -102,6 +103,7 @@ def fit(
     *,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     confidence: float = 0.95,
+    held: Mapping[str, float] | None = None,
 ) -> Fit:
     """Parameters of a contact, in SI, from measured friction, by least squares, with confidence intervals.
 
@@ -119,6 +121,9 @@ def fit(
         one; else ten units of the contact either way, a phase half a turn; never beyond what the case can have.
     confidence : float
         Level of the intervals [-], between 0 and 1.
+    held : mapping of str to float, optional
+        "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold as parameters vary, unless a parameter sets the
+        same: a load by another depth for every shape and material. `mdr fit` holds what the case file gives.
 
     Returns
     -------
@@ -161,7 +166,7 @@ def fit(
     free = _parameters(case, parameters, bounds)
     if len(free) >= data.v_0.size:
         raise ValueError(f"{len(free)} parameters need more than {data.v_0.size} measurements")
-    model = _Model(case, data, free)
+    model = _Model(case, data, free, kept(held or {}, [one.path for one in free]))
     low, high = np.transpose([one.ends for one in free])
     first = np.array([one.first for one in free])
     found = least_squares(model.left, first, model.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-10)
@@ -211,8 +216,10 @@ def _refuse_wrong_signs(case: SlidingContact, data: FrictionData) -> None:
 class _Model:
     """What is left of the data at coordinates x (k,) of the parameters, and its derivatives."""
 
-    def __init__(self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...]) -> None:
-        self.case, self.data, self.free = case, data, free
+    def __init__(
+        self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...], held: Mapping[str, float]
+    ) -> None:
+        self.case, self.data, self.free, self.held = case, data, free, held
         self.error = 1.0 if data.error is None else data.error
         self._ticker = Ticker("fit", parts="curves")
         self._at = lru_cache(maxsize=2)(self._deviations)
@@ -220,6 +227,10 @@ class _Model:
     def values(self, x: Array) -> dict[str, float]:
         """{path: value}."""
         return {one.path: one.value(at) for one, at in zip(self.free, x.tolist(), strict=True)}
+
+    def case_at(self, x: Array) -> SlidingContact:
+        """The contact."""
+        return case_of(self.case, {**self.held, **self.values(x)})
 
     def left(self, x: Array) -> Array:
         """Fitted less measured, over the errors (n,)."""
@@ -237,11 +248,10 @@ class _Model:
 
     def _deviations(self, x: tuple[float, ...]) -> Array:
         self._ticker.tick()
-        values = self.values(np.array(x))
         try:
-            cof = friction_without_bound(case_of(self.case, values), self.data.v_0, N_SPRINGS, STEPS)
+            cof = friction_without_bound(self.case_at(np.array(x)), self.data.v_0, N_SPRINGS, STEPS)
         except ValueError as refusal:
-            where = ", ".join(f"{path} = {value:.6g}" for path, value in values.items())
+            where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(np.array(x)).items())
             raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None
         return np.asarray((cof - self.data.cof) / self.error)
 
@@ -260,7 +270,7 @@ def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence
     correlation = covariance / np.outer(sigma, sigma) if variance else np.eye(x.size)
     free = model.free
     names = [one.name for one in free]
-    case = case_of(model.case, model.values(x))
+    case = model.case_at(x)
     return Fit(
         case=case,
         data=model.data,

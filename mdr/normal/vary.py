@@ -12,7 +12,7 @@ refers to is solved for under a load, which is why this stands beside the normal
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
@@ -42,6 +42,18 @@ MOVING = ("oscillation", "shake")
 def fields_set(path: str) -> tuple[str, ...]:
     """The fields, of which one or all are set by a path."""
     return RIG.get(path, (GROUPS.get(path, path),))
+
+
+def kept(held: Mapping[str, float], paths: Iterable[str]) -> dict[str, float]:
+    """What is held besides, where none of these paths sets it too. ValueError for what cannot be held."""
+    if unknown := [path for path in held if path not in RIG]:
+        raise ValueError(f"held takes {', '.join(RIG)}, got {unknown[0]!r}")
+    taken = {field for path in paths for field in fields_set(path)}
+    return {
+        path: positive(path, value) if path != "tan_delta" else not_negative(path, value)
+        for path, value in held.items()
+        if not any(taken & {field, field.partition(".")[0]} for field in fields_set(path))
+    }
 
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:

@@ -137,14 +137,6 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
     return tuple(_axis(path, values, parts) for path, values in axes.items())
 
 
-def read_held(case: SlidingContact, axes: Mapping[str, Any], held: Mapping[str, Any]) -> dict[str, float]:
-    """What every case of the study has besides; ValueError or TypeError for what can never be set, or is an axis."""
-    if unknown := [path for path in held if path not in RIG]:
-        raise ValueError(f"held takes {', '.join(RIG)}, got {short(repr(unknown[0]))}")
-    together = read_axes(case, {**{path: [value] for path, value in held.items()}, **axes})
-    return {axis.path: axis[0] for axis in together if axis.path in held}
-
-
 def _own(case: SlidingContact, slot: str) -> tuple[Any, ...]:
     """The part of the case, none where it has none."""
     part = getattr(case, slot)

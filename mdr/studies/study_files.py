@@ -54,7 +54,7 @@ class StudyFile:
     n_springs: int | None
     steps_per_period: int | None
     accuracy: float
-    held: dict[str, float]  #: load [N] and tan_delta [-] that every case has
+    held: dict[str, float]  #: load [N] and tan_delta [-] that it gives
 
 
 def read_study_file(path: str | PathLike[str]) -> StudyFile:
@@ -88,17 +88,7 @@ def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
     faults = faults or _tried(read_quantities, quantities, axes)
     if faults:
         raise fault_error(source, faults)
-    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy, held=_held(content, axes))
-
-
-def _held(content: Mapping[str, Any], axes: Mapping[str, Any]) -> dict[str, float]:
-    """What the tables leave open, where no axis sets it."""
-    varied = {field for path in axes for field in fields_set(path)}
-
-    def is_free(alias: str) -> bool:
-        return not any(varied & {field, field.partition(".")[0]} for field in fields_set(alias))
-
-    return {alias: value for alias, value in left_open(content).items() if is_free(alias)}
+    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy, held=left_open(content))
 
 
 # --- axes ---

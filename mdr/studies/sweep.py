@@ -13,7 +13,8 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.resolved import at_rest
-from mdr.studies.axes import read_axes, read_held
+from mdr.normal.vary import kept
+from mdr.studies.axes import read_axes
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
 from mdr.studies.points import Part
@@ -76,9 +77,9 @@ def sweep(
         Bound on the error of every friction over mu_0 [-] that is asked for, as in `slide`.
 
     held : mapping of str to float, optional
-        What every case of the study has besides: "load" [N], "frequency" [Hz] or "tan_delta" [-]. A load is held where
-        shape or material vary, by another depth in every case; a loss tangent where the frequency varies, by another
-        tau. A study file holds what it gives.
+        What every case of the study has besides: "load" [N], "frequency" [Hz] or "tan_delta" [-], unless an axis sets
+        the same. A load is held where shape or material vary, by another depth in every case; a loss tangent where the
+        frequency varies, by another tau. A study file holds the load and the loss tangent that it gives.
 
     Returns
     -------
@@ -106,7 +107,7 @@ def sweep(
     case = as_given(case)
     with suppress(ValueError):  # the base case may be one that cannot be; its points say so themselves
         at_rest(case)  # warns of what is unlikely
-    axes_read, held = read_axes(case, axes), read_held(case, axes, held or {})
+    axes_read, held = read_axes(case, axes), kept(held or {}, axes)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)

@@ -27,7 +27,7 @@ class Work:
     n_springs: int | None = None  #: knobs of runs, None: chosen to meet the accuracy budget
     steps_per_period: int | None = None
     accuracy: float = BUDGET
-    held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, see `mdr.normal.vary.RIG`
+    held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
 
     @cached_property
     def velocity_axis(self) -> Axis | None:

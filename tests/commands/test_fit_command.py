@@ -5,6 +5,7 @@ import sys
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import mdr
@@ -89,3 +90,17 @@ def test_standard_input_stands_for_one_file(files, capsys, monkeypatch):
     monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(CASE.encode("utf-8")), encoding="utf-8"))
     assert main(["fit", "-", "-", "--free", "mu_0"]) == 2
     assert "standard input can be read once" in capsys.readouterr().err
+
+
+def test_a_load_of_the_file_holds_while_the_modulus_is_fitted(files, capsys):
+    """At a depth that is held the modulus has nothing to do with the friction."""
+    text = CASE.replace("u_z0 = 20e-6", "load = 0.5").replace("tau = 1e-3", "tan_delta = 0.1")
+    truth = mdr.parse_case(text)
+    v_0 = mdr.critical_velocity(truth) * np.linspace(0.1, 0.9, 6)
+    cof = mdr.cof_curve(truth, v_0).cof
+    rows = [f"{1e3 * v!r}, {one!r}, 1e-4" for v, one in zip(v_0.tolist(), cof.tolist(), strict=True)]
+    Path("data.csv").write_text("\n".join(["v_0 [mm/s], cof, error", *rows]))
+    Path("case.toml").write_text(text.replace("E = 3e6", "E = 2e6"))
+    assert main([*files, "--free", "material.E", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["parameters"]["material.E"]
+    assert found["value"] == pytest.approx(3e6, rel=1e-3)

@@ -180,3 +180,13 @@ def test_the_study_comes_back_without_numbers_lost(file, tmp_path):
     case = replace(case, material=replace(case.material, tau=0.1 / 300))
     curve = mdr.cof_curve(case, np.array([0.0, 0.6, 1.2]) * mdr.critical_velocity(case))
     assert_allclose(study["cof"][:, 0, 0], curve.cof, rtol=1e-14)
+
+
+def test_files_show_the_load_that_the_study_file_gives(file, tmp_path, capsys):
+    text = STUDY.replace("u_z0 = 6e-6", "load = 0.05").replace("tau = 1e-3", "tan_delta = 0.2").replace('"T"', '"mu_0"')
+    (tmp_path / "study.toml").write_text(text)
+    assert main(["sweep", file, "-o", str(tmp_path / "study.csv"), "--json"]) == 0
+    head, _ = commented_and_not((tmp_path / "study.csv").read_text())
+    assert {"# load = 0.05", "# tan_delta = 0.2"} < set(head)
+    case = json.loads(capsys.readouterr().out)["case"]
+    assert case == "\n".join(line[2:] for line in head[3:]) + "\n"

@@ -1,0 +1,200 @@
+"""Load, frequency and loss tangent of a file hold at every point of a study, which is the single case of its values."""
+
+import copy
+import itertools
+import json
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.studies import CATALOGUE
+from mdr.studies.study_files import parse_study
+
+TABLES = {
+    "mu_0": 0.3,
+    "indenter": {"shape": "Sphere", "R": 3e-3},
+    "material": {"model": "KelvinVoigt", "E": 3e9, "nu": 0.4, "tan_delta": 0.03},
+    "oscillation": {"frequency": 20e3, "load": 5.0, "du_z": 3e-6},
+}
+CONSTANTS = ("mean_F_N", "v_c", "k_zc", "T", "static_cof")
+SHAPES = [{"shape": "Sphere", "R": 3e-3}, {"shape": "Sphere", "R": 6e-3}, {"shape": "FlatPunch", "a": 1e-3}]
+N_STUDIES, N_RUN = 30, 4
+
+
+def inline(value):
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {inline(one)}" for key, one in value.items()) + "}"
+    return "[" + ", ".join(map(inline, value)) + "]" if isinstance(value, list) else json.dumps(value)
+
+
+def text(tables, axes=None, quantities=CONSTANTS):
+    lines = [] if axes is None else [f"quantities = {inline(list(quantities))}"]
+    for name, table in {**tables, **({} if axes is None else {"axes": axes})}.items():
+        keys = table.items() if isinstance(table, dict) else {}
+        lines += [f"[{name}]", *(f'"{k}" = {inline(v)}' for k, v in keys)] if keys else [f"{name} = {table}"]
+    return "\n".join(lines)
+
+
+def study(tables, axes, quantities=CONSTANTS):
+    return mdr.sweep(**vars(parse_study(text(tables, axes, quantities))))
+
+
+def single(tables, values):
+    """The case file in which these values are written down."""
+    tables = copy.deepcopy(tables)
+    homes = {"load": ["oscillation"], "tan_delta": ["material"], "frequency": ["oscillation", "shake"]}
+    for path, value in values.items():
+        slot, _, key = path.partition(".")
+        if path in homes:
+            for home in homes[path]:
+                if path in tables.get(home, {}):
+                    tables[home][path] = value
+        elif not key:
+            tables[slot] = value
+        else:
+            tables[slot].pop({"omega": "frequency", "theta": "theta_deg"}.get(key), None)
+            tables[slot][key] = value
+    return mdr.parse_case(text(tables))
+
+
+def agrees(tables, axes, runs=False):
+    """Compare every point with the single case of its values, and its friction with that of a run; returns how many."""
+    found = study(tables, axes)
+    curves = study(tables, {**axes, "v_0/v_c": [0.4]}, ("cof", "cof_error")) if runs else None
+    for where in np.ndindex(found.shape):
+        case = single(tables, {path: axes[path][i] for path, i in zip(axes, where, strict=True)})
+        expected = [CATALOGUE[name].of(case) for name in CONSTANTS]
+        assert_allclose([found[name][where] for name in CONSTANTS], expected, rtol=1e-12)
+        if curves is not None:
+            run = mdr.slide(case, 0.4 * mdr.critical_velocity(case))
+            assert abs(curves["cof"][where] - run.cof) <= run.cof_error + curves["cof_error"][where]
+    return found.status.size
+
+
+def drawn(seed):
+    """Tables of a random file, and two axes of it that move a depth or a frequency."""
+    rng = np.random.default_rng(seed)
+
+    def about(value):
+        return float(value * rng.uniform(0.6, 1.6))
+
+    shapes = [
+        {"shape": "Sphere", "R": about(5e-3)},
+        {"shape": "Paraboloid", "R": about(5e-3)},
+        {"shape": "Cone", "theta_deg": about(2.0)},
+        {"shape": "FlatPunch", "a": about(1e-3)},
+    ]
+    materials = [
+        {"model": "KelvinVoigt", "E": about(3e6), "nu": 0.45, "tan_delta": about(0.2)},
+        {"model": "KelvinVoigt", "E": about(3e6), "nu": 0.45, "tan_delta": about(0.02)},
+        {"model": "Elastic", "E": about(3e6), "nu": 0.3},
+        {"model": "Prony", "E_inf": about(2e6), "arms": [[about(1e6), about(1e-3)]], "nu": 0.45},
+    ]
+    shape, material = (options[rng.integers(4)] for options in (shapes, materials))
+    tables = {"mu_0": 0.4, "indenter": shape, "material": material}
+    motion = [{"du_z": about(5e-6)}, {"dF_z": about(0.05)}, {"motion": "ConstantLoad"}][
+        rng.choice(3, p=[0.6, 0.2, 0.2])
+    ]
+    tables["oscillation"] = {"load": about(0.5), **motion}
+    moving = "oscillation" if "motion" not in motion else "shake"
+    if moving == "shake":
+        tables["shake"] = {"du_x": about(2e-6)}
+    tables[moving]["frequency"] = about(50.0)
+    modulus = "material.E_inf" if material["model"] == "Prony" else "material.E"
+    axes = {
+        "indenter": shapes,
+        modulus: [0.9e6, 1e6, 1.1e6],
+        "material.nu": [0.3, 0.5],
+        f"{moving}.omega": [200.0, 300.0, 600.0],
+        "frequency": [30.0, 60.0],
+        "load": [0.3, 1.0],
+    }
+    if "tan_delta" in material:
+        axes["tan_delta"] = [0.05, 0.1]
+    free = [pair for pair in itertools.combinations(axes, 2) if pair != (f"{moving}.omega", "frequency")]
+    return tables, {path: axes[path] for path in free[rng.integers(len(free))]}
+
+
+@pytest.mark.parametrize(
+    "axes",
+    [{"indenter": SHAPES}, {"material.E": [2.7e9, 3e9, 3.3e9]}, {"oscillation.omega": [6e4, 1.2e5]},
+     {"load": [2.0, 5.0]}, {"frequency": [1e4, 2e4]}, {"tan_delta": [0.0, 0.1]}, {"material.tau": [1e-7, 1e-6]}],
+    ids=lambda axes: next(iter(axes)),
+)  # fmt: skip
+def test_a_point_is_the_single_case_of_its_values(axes):
+    tables = copy.deepcopy(TABLES)
+    if "material.tau" in axes:
+        tables["material"]["tau"] = tables["material"].pop("tan_delta")
+    assert agrees(tables, axes) >= 2
+
+
+def test_every_point_of_random_studies_is_the_single_case_of_its_values():
+    assert sum(agrees(*drawn(seed), runs=seed < N_RUN) for seed in range(N_STUDIES)) > 4 * N_STUDIES
+
+
+def test_shapes_under_one_load_have_each_their_own_depth():
+    found = study(TABLES, {"indenter": SHAPES}, ("k_zc", "mean_F_N"))
+    shapes, E_star = [mdr.Sphere(R=3e-3), mdr.Sphere(R=6e-3), mdr.FlatPunch(a=1e-3)], 3e9 / (1 - 0.4**2)
+    depths = [mdr.static_depth(shape, mdr.Elastic(3e9, 0.4), 5.0) for shape in shapes]
+    expected = [shape.stiffness(depth, E_star) for shape, depth in zip(shapes, depths, strict=True)]
+    assert_allclose(found["k_zc"], expected, rtol=1e-12)
+    assert found["mean_F_N"][2] < 10.0  # 51.17 N where the depth was the sphere's
+
+
+def test_an_axis_that_sets_the_same_comes_before_what_the_file_gives():
+    axes = {"oscillation.u_z0": [4e-6, 5e-6], "material.tau": [0.0, 1e-6]}
+    found = study(TABLES, axes, ("alpha", "T"))
+    assert_allclose(found["alpha"], [[3 / 4] * 2, [3 / 5] * 2], rtol=1e-12)
+    assert_allclose(found["T"][0], [0.0, 2e-6 * np.pi * 20e3], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("axes", "words"),
+    [
+        ({"load": [1.0], "oscillation.u_z0": [1e-6]}, "load and oscillation.u_z0 set the same"),
+        ({"tan_delta": [0.1], "T": [0.1]}, "tan_delta and T set the same"),
+        ({"frequency": [10.0], "oscillation.omega": [60.0]}, "frequency and oscillation.omega set the same"),
+        ({"tan_delta": [0.1], "material": [{"model": "Elastic", "E": 1e6, "nu": 0.3}]}, "which Elastic has not"),
+        ({"oscillation": [{"load": 3.0, "du_z": 1e-6, "frequency": 20e3}]}, "load cannot stand in a list of tables"),
+        ({"material": [{**TABLES["material"]}]}, "tan_delta cannot stand in a list of tables: give material.tau"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_by_name(axes, words):
+    with pytest.raises(mdr.CaseFileError, match=re.escape(words)):
+        parse_study(text(TABLES, axes))
+
+
+def test_a_point_with_two_frequencies_says_why_it_has_no_loss_tangent():
+    tables = {**TABLES, "shake": {"frequency": 20e3, "du_x": 1e-6}}
+    kept, lost = study(tables, {"shake.omega": [2 * np.pi * 20e3, 2 * np.pi * 40e3]}, ("T",)).why
+    assert kept == ""
+    assert lost == "tan_delta belongs to one frequency, and oscillation and shake have two: give tau"
+
+
+def test_a_store_knows_the_load_and_goes_on(tmp_path):
+    file = vars(parse_study(text(TABLES, {"material.E": [2e9, 3e9, 4e9]}, ("mean_F_N",))))
+    part = mdr.sweep(**file, store=tmp_path, shard="1/2", chunk_seconds=1e-6)
+    whole = mdr.sweep(**file, store=tmp_path)
+    assert (whole.identity, whole.complete) == (part.identity, True)
+    assert {"load = 5.0", "tan_delta = 0.03"} < set(whole.case.splitlines())
+    assert not re.search("u_z0|tau", whole.case)
+    assert mdr.parse_case(whole.case) == file["case"]
+    np.testing.assert_array_equal(mdr.sweep(**file)["mean_F_N"], whole["mean_F_N"])
+    for other in ({"load": 6.0, "tan_delta": 0.03}, {"load": 5.0, "tan_delta": 0.04}, {}):
+        assert mdr.sweep(**{**file, "held": other}).identity != whole.identity
+    with pytest.raises(mdr.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
+        mdr.sweep(**{**file, "held": {**file["held"], "load": 6}}, store=tmp_path)
+
+
+def test_in_python_what_is_held_is_named():
+    case = single(TABLES, {})
+    axes = {"material.E": [2.7e9, 3.3e9]}
+    found = mdr.sweep(case, axes, quantities=["mean_F_N"], held={"load": 5, "tan_delta": 0.03})
+    assert_allclose(found["mean_F_N"], study(TABLES, axes, ["mean_F_N"])["mean_F_N"], rtol=0)
+    with pytest.raises(ValueError, match="held takes load, frequency, tan_delta, got 'mu_0'"):
+        mdr.sweep(case, axes, quantities=["mean_F_N"], held={"mu_0": 0.3})
+    with pytest.raises(ValueError, match="load must be positive"):
+        mdr.sweep(case, axes, quantities=["mean_F_N"], held={"load": -1.0})
