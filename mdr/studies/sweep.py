@@ -56,8 +56,9 @@ def sweep(
     case : SlidingContact
         The contact that the axes vary.
     axes : mapping of str to array_like
-        Values by path (`mdr.studies.axes`): a field ("oscillation.u_z0", "indenter"), a dimensionless group ("alpha",
-        "T", "k_x/k_xc", "omega_0/omega") or the velocity ("v_0" in m/s, "v_0/v_c").
+        Values by path (`mdr.studies.axes`): a field ("oscillation.u_z0", "indenter"), what a rig is set to ("load",
+        "frequency", "tan_delta"), a dimensionless group ("alpha", "T", "k_x/k_xc", "omega_0/omega") or the velocity
+        ("v_0" in m/s, "v_0/v_c").
     store : str or path-like, optional
         Folder that finished chunks are kept in. The same call goes on from there, however the last one ended. None
         keeps the study in memory.

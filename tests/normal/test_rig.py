@@ -45,8 +45,8 @@ def test_a_shake_alone_is_under_a_constant_load():
 
 
 REFUSED = [
-    ({"load": None, "load_amplitude": 0.1}, "mean load once"),
-    ({"load_grams": 3.0, "load_amplitude": 0.1}, "mean load once"),
+    ({"load": None, "load_amplitude": 0.1}, "give the load once"),
+    ({"load_grams": 3.0, "load_amplitude": 0.1}, "give the load once"),
     ({"load": -1.0, "load_amplitude": 0.1}, "load must be positive"),
     ({"frequency": 0.0, "load_amplitude": 0.1}, "frequency must be positive"),
     ({"load_amplitude": 0.1, "acceleration": 3.0}, "give one of them"),
