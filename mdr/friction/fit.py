@@ -21,7 +21,7 @@ from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import kept
+from mdr.normal.vary import still_held
 from mdr.tools.arrays import Array
 from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
@@ -166,7 +166,7 @@ def fit(
     free = _parameters(case, parameters, bounds)
     if len(free) >= data.v_0.size:
         raise ValueError(f"{len(free)} parameters need more than {data.v_0.size} measurements")
-    model = _Model(case, data, free, kept(held or {}, [one.path for one in free]))
+    model = _Model(case, data, free, still_held(held or {}, [one.path for one in free]))
     low, high = np.transpose([one.ends for one in free])
     first = np.array([one.first for one in free])
     found = least_squares(model.left, first, model.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-10)

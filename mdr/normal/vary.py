@@ -31,6 +31,7 @@ GROUPS = {
     "k_x/k_xc": "pull.k_x",
     "omega_0/omega": "pull.m",
 }
+#: what rigs are set to, and the fields, of which one (load) or all that are there (frequency) are set
 RIG = {
     "load": ("oscillation.F_z0", "oscillation.u_z0"),
     "frequency": ("oscillation.omega", "shake.omega"),
@@ -44,7 +45,7 @@ def fields_set(path: str) -> tuple[str, ...]:
     return RIG.get(path, (GROUPS.get(path, path),))
 
 
-def kept(held: Mapping[str, float], paths: Iterable[str]) -> dict[str, float]:
+def still_held(held: Mapping[str, float], paths: Iterable[str]) -> dict[str, float]:
     """What is held besides, where none of these paths sets it too. ValueError for what cannot be held."""
     if unknown := [path for path in held if path not in RIG]:
         raise ValueError(f"held takes {', '.join(RIG)}, got {unknown[0]!r}")
@@ -75,7 +76,7 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
             _require_field(path, parts.get(slot), field)
             changes[slot][field] = value
     if "frequency" in settings:
-        _one_omega("frequency", *map(changed, MOVING))
+        _one_omega("frequency", *map(parts.get, MOVING))
         omega = angular(settings["frequency"])
         for slot in MOVING:
             if "omega" in fields_of(parts.get(slot)):

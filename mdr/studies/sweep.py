@@ -13,7 +13,7 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import kept
+from mdr.normal.vary import still_held
 from mdr.studies.axes import read_axes
 from mdr.studies.cut import Cut
 from mdr.studies.frame import Frame
@@ -108,7 +108,7 @@ def sweep(
     case = as_given(case)
     with suppress(ValueError):  # the base case may be one that cannot be; its points say so themselves
         at_rest(case)  # warns of what is unlikely
-    axes_read, held = read_axes(case, axes), kept(held or {}, axes)
+    axes_read, held = read_axes(case, axes), still_held(held or {}, axes)
     for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
         if knob is not None:
             count(name, knob, LEAST_KNOB)

@@ -81,6 +81,12 @@ def test_what_cannot_be_built_says_why(settings, words):
         case_at(BODY, settings)
 
 
+def test_the_frequency_is_that_of_the_record_that_is_made_in_the_end():
+    """A depth of -4e-6 with the old amplitude would never touch."""
+    motion = case_at(RIGID, {"oscillation.u_z0": -4e-6, "alpha": -1.5, "frequency": 50.0}).oscillation
+    assert_allclose([motion.u_z0, motion.du_z, motion.omega], [-4e-6, 6e-6, 100 * np.pi], rtol=1e-15)
+
+
 def test_velocities():
     ratios = np.array([0.0, 0.5])
     assert velocities_of(BODY, "v_0", ratios) is ratios
