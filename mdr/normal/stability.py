@@ -12,16 +12,14 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.depth_cycle import Cycle
 from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
-from mdr.march import kernels
 from mdr.materials.base import Material
 from mdr.materials.operator import L_DECAY, L_FREE, L_GAIN, Rheology
+from mdr.normal.followed_force import shares_of_contact
 from mdr.normal.spring_grid import cells
-from mdr.tools.arrays import Array
 from mdr.tools.memoise import remembered
 
 N_BAND = 32  #: springs that touch and leave
@@ -40,7 +38,8 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
     presses = np.ones((N_STEPS + 1, width.size), dtype=bool)
-    presses[:, n_kept:] = _modes(gap[n_core:] / cycle.unit, cycle, table)
+    presses[:-1, n_kept:] = shares_of_contact(rheology, gap[n_core:] / cycle.unit, cycle, N_STEPS).T > 0
+    presses[-1] = presses[0]
     M = load.m_z * load.omega**2 / material.E_star
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
     decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
@@ -59,15 +58,3 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
         arms = [one * x + share * (s_end - s) for one, share, x in zip(decay, gain, arms, strict=True)]
         s = s_end
     return float(np.abs(np.linalg.eigvals(np.concatenate([[v, p], s, *arms]))).max())
-
-
-def _modes(gaps: Array, cycle: Cycle, table: Array) -> NDArray[np.bool_]:
-    """Which springs of these gaps, over the unit of the cycle, press at the nodes of a period, (N_STEPS + 1, n)."""
-    z, rate = cycle.over_a_period(N_STEPS)
-    out, guess = np.empty((N_STEPS + 1, gaps.size), dtype=bool), np.zeros(table.shape[1])
-    for k, gap in enumerate(gaps):
-        force, shares, path = np.empty((3, N_STEPS))
-        kernels.settle_spring(np.zeros_like(guess), guess, gap, z, rate, table, force, shares, path)
-        out[:-1, k] = shares > 0
-    out[-1] = out[0]
-    return out
