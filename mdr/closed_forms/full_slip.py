@@ -45,6 +45,7 @@ from mdr.tools.memoise import remembered
 from mdr.tools.records import ArrayRecord
 
 N_INSTANTS = 8192  #: of the period; harmonics up to half of it
+NONE = 1e-9  #: of Eq. (1): a critical velocity that no pull is slower than
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -153,8 +154,8 @@ def static_cof(case: SlidingContact) -> float:
     Returns
     -------
     float
-        The static limit [-]; 0 where contact is lost in part of the period. Of a contact that is shaken in the plane
-        the limit of a pull forward, v_0 -> +0, which may be negative.
+        The static limit [-]; 0 where contact is lost in part of the period, mu_0 where the critical velocity is zero.
+        Of a contact that is shaken in the plane the limit of a pull forward, v_0 -> +0, which may be negative.
 
     Raises
     ------
@@ -188,12 +189,30 @@ def static_cof(case: SlidingContact) -> float:
                 "on an elastic or Kelvin material: ask holding_band(case), or cof_curve(case, [0])"
             )
         return case.mu_0 * band(ShakenPull.of(case))[1]
+    if _slips_at_any_pull(case):
+        return case.mu_0
     if not case.is_of_the_paper:
         F_N = force_of(case, followed(case, N_STEPS))
         return case.mu_0 * max(_least(F_N), 0.0) / float(F_N.mean())
     cycle = case.cycle
     least = case.indenter.force(cycle.u_z0 + cycle.unit * kept_gap(case.T), case.material.E_star)
     return case.mu_0 * float(least) / mean_normal_force(case)
+
+
+def _slips_at_any_pull(case: SlidingContact) -> bool:
+    """Whether the body follows mu_0 kappa u_z by itself, so that the critical velocity is zero: an undamped zero, such
+    as m omega² = k_x + k_xc of a flat punch.
+    """
+    pull = case.pull
+    if pull.is_rigid or pull.coefficients[1] > 0 or case.rheology.remembers or not case.keeps_contact:
+        return False
+    u_n = 0.5 * case.cycle.unit * case.cycle.harmonics
+    n = np.arange(1, u_n.size + 1)
+    F_n, H = normal_force_harmonics(case)[1 : u_n.size + 1], np.asarray(pull.receptance(n * case.omega))
+    if not np.isfinite(H).all():
+        return False
+    left = np.abs(n * (case.material.mindlin_ratio * u_n + H * F_n))
+    return bool(left.sum() <= NONE * case.material.mindlin_ratio * case.cycle.unit)
 
 
 def _least(values: Array) -> float:

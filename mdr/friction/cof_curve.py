@@ -287,7 +287,8 @@ def _from_rest_on(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
     elif case.material.contact_arms or case.pull.coefficients[0] > 0:
         limit = _slow_limit(*_runs(case, np.array(SLOW) * case.pace, *knobs))
     else:
-        limit = tuple(column[0] for column in _runs(case, np.zeros(1), *knobs))
+        cof, error, settled, sticks, why = (column[0] for column in _runs(case, np.zeros(1), *knobs))
+        limit = cof, error, settled, sticks, "" if settled else why  # a start at one end of the band ends there
     return _filled(moving, columns, limit)
 
 

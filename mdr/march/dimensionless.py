@@ -36,6 +36,7 @@ from mdr.tools.arrays import Array
 
 FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
 RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
+RINGING_PASSES = 20  #: of the iteration for that oscillation on springs with arms
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +115,11 @@ class ScaledContact:
     def light(self) -> bool:
         """Whether the body takes at once, for these steps, the velocity that a spring gives it as it touches."""
         return self.body.light
+
+    @property
+    def ringing(self) -> float:
+        """omega_1/omega of the body on springs that stick; infinite without mass, zero under a rigid pull."""
+        return 0.0 if self.rigid else _ringing(self.M, self.K, self.rheology)
 
     @property
     def n_arms(self) -> int:
@@ -356,9 +362,22 @@ def fast_ratio(case: SlidingContact) -> float:
     """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
     if case.pull.is_rigid:
         return 0.0
-    M, _, K = _body_groups(case, 1.0)
-    k_xc = float(case.indenter.stiffness(case.u_z_max, case.material.G_star))
-    return float(np.sqrt((K + k_xc) / M)) if M > 0 else np.inf
+    M, _, K = _body_groups(case, float(case.indenter.stiffness(case.u_z_max, case.material.G_star)))
+    return _ringing(M, K, case.rheology)
+
+
+def _ringing(M: float, K: float, rheology: Rheology) -> float:
+    """omega_1/omega of a body on springs that stick, infinite without mass: its oscillation is so fast that arms which
+    relax more slowly add their stiffness.
+
+    Stiffness rises with frequency, so that the iteration falls from that of all arms to the greatest solution.
+    """
+    if M == 0:
+        return np.inf
+    fast = float(np.sqrt((K + 1 + sum(rheology.rho)) / M))
+    for _ in range(RINGING_PASSES if rheology.rho else 0):
+        fast = float(np.sqrt((K + rheology.response(fast).real) / M))
+    return fast
 
 
 def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
@@ -375,11 +394,6 @@ def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int
     return gap, w, margin, n_core
 
 
-def _is_light(M: float, K: float, h: float) -> bool:
-    """Whether steps of h do not resolve the oscillation of a body on the contact, or it has no mass."""
-    return bool(M == 0 or np.sqrt((K + 1) / M) * h > 2 * np.pi / RESOLVED)
-
-
 def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> kernels.Body:
     """The recursion of the body; see the module's docstring."""
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
@@ -387,7 +401,7 @@ def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> ke
         return kernels.Body(True, False, 0.0, 0.0, 0.0, 0.0, 0.0, np.zeros((2, rho.size)))
     table = rheology.over_step(h)
     decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
-    if _is_light(M, K, h):
+    if _ringing(M, K, rheology) * h > 2 * np.pi / RESOLVED:  # or no mass
         inertia = M / h**2 + 1.5 * C / h + K
         # the end of an arm whose rate changes within the step, by the second difference of S
         bend = rho * theta / h * (0.5 * (1 + decay) - theta / h * (1 - decay))

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mdr.march import kernels
-from mdr.march.march import March
+from mdr.march.stepper import PeriodRecord, Stepper
+
+OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
+OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
 
 
 @dataclass(frozen=True)
@@ -29,19 +32,41 @@ class EnergyBalance:
     @property
     def residual(self) -> float:
         """Supply less use [J]."""
-        used = self.friction_loss + self.viscous_loss + self.damper_loss + self.stored_change
-        return self.pull_work + self.normal_work + self.shake_work - used
+        return self.pull_work + self.normal_work + self.shake_work - self.lost - self.stored_change
+
+    @property
+    def lost(self) -> float:
+        """Energy [J] that friction, material and damper turn into heat."""
+        return self.friction_loss + self.viscous_loss + self.damper_loss
 
     @property
     def relative(self) -> float:
         """Residual over the energy that was lost [-]."""
-        return self.residual / (self.friction_loss + self.viscous_loss + self.damper_loss)
+        return self.residual / self.lost
 
 
-def energy_balance(march: March) -> EnergyBalance:
-    """The account of the period that a march was looked at."""
-    scaled, account = march.end.scaled, march.account
-    sums, v, h = account.seen.sums, march.end.v_0 / scaled.speed, scaled.h
+def does_not_close(stepper: Stepper, account: PeriodRecord, error: float) -> str:
+    """Why the account of a period cannot be that of the motion; nothing if it can. error: of the COF, over mu_0.
+
+    What is missing is of second order in h n, over what is lost and what friction takes at the pace of the run; n omega
+    is the fastest oscillation that steps resolve: that of the body on the contact, or the drive where steps damp the
+    former. Arms and dashpots that are far stiffer than the spring add to it, by a small share of what is lost.
+    """
+    scaled, balance = stepper.scaled, energy_balance(stepper, account)
+    unit = scaled.stiffness_x * scaled.length_x**2
+    of_friction = 2 * np.pi * unit * stepper.mean_F_z * scaled.pace(stepper.v)
+    fastest = 1.0 if scaled.light else max(1.0, scaled.ringing)
+    of_steps = OF_STEPS * (scaled.h * fastest) ** 2 * (balance.lost + of_friction)
+    missing = abs(balance.residual)
+    if missing <= max(of_steps, OF_MEMORY * balance.lost) + error * of_friction:
+        return ""
+    return f"the energies of a period do not close: {missing:.2g} J are missing where {balance.lost:.2g} J are lost"
+
+
+def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
+    """The account of a period that was looked at closely."""
+    scaled, v = stepper.scaled, stepper.v
+    sums, h = account.seen.sums, scaled.h
     unit_x = scaled.stiffness_x * scaled.length_x**2
     unit_z = scaled.stiffness_z * scaled.length_z**2
     shake, damper = float(sums[kernels.SHAKE_WORK]), 0.0

@@ -141,6 +141,22 @@ class March:
         return replace(self, settling=settling)
 
     @property
+    def may_rest_elsewhere(self) -> bool:
+        """Whether a spring keeps its foot in place for good and might do so elsewhere: of two such states neither moves
+        towards the other.
+
+        A spring whose top goes the way x while it is pressed to z - gap, its foot at rest at -c, bears L[x] + c, which
+        friction holds between gap - L[z] and L[z] - gap. Some c do that throughout where gap is less than half the sum
+        of the least of L[z - x] and of L[z + x].
+        """
+        scaled = self.end.scaled
+        if self.end.v_0 != 0:
+            return False
+        x, z = self.account.y[3:] + scaled.x[1:], scaled.z[1:]
+        both = np.fft.rfft([z - x, z + x]) * scaled.rheology.response(np.arange(scaled.steps // 2 + 1))
+        return float(np.fft.irfft(both, scaled.steps).min(axis=1).sum()) > 2 * float(scaled.gap.min())
+
+    @property
     def sees_contact(self) -> bool:
         """Whether any spring presses for longer than an instant between two steps."""
         sums = self.account.seen.sums

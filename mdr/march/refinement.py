@@ -41,7 +41,7 @@ from mdr.march.run import SlidingRun, finish
 from mdr.march.steady_state import TOLERANCE
 from mdr.march.theorems import outside
 from mdr.tools.memoise import remembered
-from mdr.tools.progress import time_is_over
+from mdr.tools.progress import Ticker, time_is_over
 
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
@@ -109,6 +109,7 @@ class _Runs:
         self.jolts = bool(np.isinf(self.fast) and case.rheology.remembers)  # dashpots throw a body without mass
         self.ends: dict[Knobs, Steady] = {}
         self.unconfirmed: dict[tuple[str, int], float] = {}  # what was extrapolated to without the order confirmed
+        self.ticker = Ticker("slide", parts="runs")
 
     def first(self, knobs: Knobs) -> Steady | None:
         """The end of a run that may go before the main one; None where its periodic state would have to be awaited, or
@@ -151,6 +152,11 @@ class _Runs:
             if end is None:
                 return None
             self.ends[knobs] = end
+            self.ticker.what = (
+                f"slide, refined for an error of {knobs.accuracy:g} mu_0, {knobs.n_springs} springs and {knobs.steps} "
+                f"steps last"
+            )
+            self.ticker.tick()
             self.near = end if end.settling.solved and end.settling.settled else self.near
         return self.ends[knobs]
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march import kernels
-from mdr.march.energy import EnergyBalance, energy_balance
+from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.march import March, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
@@ -23,6 +23,11 @@ from mdr.tools.arrays import Array
 from mdr.tools.csv_table import csv_text
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, with_error
+
+HOLDS = (
+    "the contact holds: at rest it may stay in many states, of which this is one, and cof_error is the error of this "
+    "one alone; ask holding_band(case) for all that it holds"
+)
 
 
 class State(IntEnum):
@@ -38,6 +43,9 @@ class State(IntEnum):
 class SlidingRun(Summarised, ArrayRecord):
     """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
+    A run at v_0 = 0 whose contact holds may come to rest in many states (`kind` "holds"): `cof` is that of one of them,
+    and `cof_error` does not bound how far the others are from it; `holding_band` tells all.
+
     `cof` may be extrapolated to steps of no length (`slide`); recorded forces and energies are those of the run itself.
     Recorded forces are those at the end of a step; `cof` also counts what happens between two of them, so that mean F_x
     over mean F_z of the record differs from it by 1e-6 to 1e-5 at 256 steps, falling with their square, and by up to
@@ -47,7 +55,7 @@ class SlidingRun(Summarised, ArrayRecord):
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_error: float  #: bound on its numerical error: step, springs and settling [-]
     settled: bool  #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over
-    kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic" or "unsettled"
+    kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
     least_slip: float  #: smallest slip velocity, the way of the pull, of a spring in contact in that period [m/s]
@@ -84,7 +92,6 @@ class SlidingRun(Summarised, ArrayRecord):
 
     def _summary(self) -> Summary:
         spent = self.energy_balance
-        lost = spent.friction_loss + spent.viscous_loss + spent.damper_loss
         kept = "none; slide(..., record=1) keeps forces and springs" if self.t is None else f"{self.t.size} instants"
         size = f"{self.n_springs} springs, {self.steps_per_period} steps per period, {self.n_periods} periods"
         return Summary(
@@ -99,7 +106,7 @@ class SlidingRun(Summarised, ArrayRecord):
                 (
                     "energy",
                     f"{spent.residual:.1e} J",
-                    f"missing from the balance of one period, {lost:.4g} J lost in it",
+                    f"missing from the balance of one period, {spent.lost:.4g} J lost in it",
                 ),
                 ("march", size, ""),
                 ("record", kept, ""),
@@ -160,6 +167,9 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
     """From scaled form to SI. error: bound on that of the COF, over mu_0; missing: what steps and springs are known to
     miss of it.
     """
+    open_account = does_not_close(march.end.stepper, march.account, error + march.settling.spread)
+    if march.settling.settled and open_account:
+        march = march.contradicted(open_account)
     case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
     mu_0, sums = case.mu_0, seen.sums
     force_z = scaled.stiffness_z * scaled.length_z
@@ -170,6 +180,8 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
     cof = max(min(settling.mean + missing, 1.0), -1.0) if missing else settling.mean
     sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
+    if settling.settled and march.may_rest_elsewhere:
+        kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
     return SlidingRun(
         cof=mu_0 * cof,
         cof_error=mu_0 * (error + settling.spread + 1e-12),
@@ -180,7 +192,7 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
         least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
         mean_F_z=mean_F_z,
-        energy_balance=energy_balance(march),
+        energy_balance=energy_balance(march.end.stepper, march.account),
         v_0=march.end.v_0,
         mu_0=mu_0,
         omega=scaled.omega,

@@ -17,6 +17,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
+from mdr.normal.stability import floquet_multiplier
 from mdr.tools.memoise import remembered
 
 STEEPEST = 1.0  #: slope of the shape at the edge of contact; the theory is that of small slopes
@@ -26,8 +27,11 @@ GREATEST_MU_0 = 2.0
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
 STIFFEST = 1e4  #: stiffness of the spring over that of the contact
 SOFTEST = 1e-6  #: the same; metals on a soft spring, or a tip on its cantilever, are at 1e-4 to 1e-5
+N_PHASES, MOST_STEPS = 32, 8  #: of half a period of depth, and Newton's for its mean
 GRAVITY = 9.80665  #: standard gravity [m/s²]
 HEAVIEST = 10.0  #: weight of a mass that the load moves over the mean load; springs may carry some of it
+SOFTENED = 0.03  #: change of stiffness with amplitude over the dynamic stiffness less m_z omega², of a small amplitude
+UNSTABLE = 1.001  #: Floquet multiplier; without damping it is 1 of a stable depth
 LIGHTEST = 100.0  #: natural frequency of the body over that of the oscillation
 
 
@@ -115,16 +119,57 @@ def _of_load(known: SlidingContact) -> Iterator[str]:
             f"the amplitude of the load, dF_z = {load.dF_z:.4g} N, is above its mean, F_z0 = {load.F_z0:.4g} N: are "
             "the two swapped?"
         )
-    if known.oscillation.knows_depth and not known.keeps_contact:
+    if known.oscillation.knows_depth:
+        grows = floquet_multiplier(known.indenter, known.material, load, known.oscillation.cycle)
+        if grows > UNSTABLE:
+            yield (
+                f"the periodic depth that was found under the load is unstable: a deviation grows {grows:.3g} times in "
+                "a period (its Floquet multiplier), so that m_z will move in another way, in another rhythm or in "
+                "none; lower dF_z, move omega, or damp it"
+            )
+        elif not known.keeps_contact:
+            yield (
+                "the mass under the load leaves the surface in every period: the periodic motion that was found is "
+                f"stable (Floquet multiplier {grows:.3g}), but a bouncing mass may move in several ways"
+            )
+    softened = _softened(known, load)
+    if softened > SOFTENED:
+        what = "would open the contact, or leave the shape"
+        if softened < np.inf:
+            what = f"changes the stiffness of the contact by {softened:.2g} of what m_z omega² leaves of it"
         yield (
-            "the mass under the load leaves the surface in every period: a bouncing mass may move in several ways, "
-            "also without ever repeating itself, and the periodic motion that was found may be unstable"
+            "dF_z is too great for critical_velocity(case), or omega too near the natural frequency of m_z on the "
+            f"contact: the amplitude of depth that a small load would have {what}, and the closed form is off by "
+            "about as much; full_slip_critical_velocity(case) takes the depth that the load brings about"
         )
     if m_z * GRAVITY > HEAVIEST * load.F_z0:
         yield (
             f"the weight of m_z, {m_z * GRAVITY:.4g} N, is {m_z * GRAVITY / load.F_z0:.3g} times the mean load: is it "
             "in grams, or is the load given without the weight?"
         )
+
+
+def _softened(known: SlidingContact, load: LoadOscillation) -> float:
+    """How much the stiffness of the contact differs at the amplitude of depth of a small load, over K_z - m_z omega².
+
+    Its stiffness at an amplitude is the first harmonic of an elastic force over it, at the mean depth that carries the
+    mean load (describing function). Infinite where that amplitude would open the contact, or is beyond the shape.
+    """
+    shape, E_star, d = known.indenter, known.material.E_star, known.working_depth
+    k_z, K_z = known.k_zc, complex(known.dynamic_stiffness(load.omega))
+    left = abs(K_z - load.m_z * load.omega**2)
+    if load.dF_z >= d * left:
+        return np.inf
+    swing = load.dF_z / left * np.cos(np.pi * (np.arange(N_PHASES) + 0.5) / N_PHASES)
+    mean = d
+    try:
+        for _ in range(MOST_STEPS):
+            u_z = np.maximum(mean + swing, 0)
+            F_z = np.asarray(shape.force(u_z, E_star))
+            mean += (load.F_z0 - F_z.mean()) / np.asarray(shape.stiffness(u_z, E_star)).mean()
+    except ValueError:
+        return np.inf
+    return float(abs(F_z @ swing / (swing @ swing) / k_z - 1) * abs(K_z) / left)
 
 
 def _of_material(known: SlidingContact) -> Iterator[str]:

@@ -94,13 +94,21 @@ class _Band:
 
 def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array]:
     """When the tip itself presses (n_t,), slightly longer than the first spring does; phases at which it touches."""
-    z, rate = cycle.over_a_period(n_t)
-    force, shares, path = np.empty((3, n_t))
-    table = rheology.over_step(2 * np.pi / n_t)
-    state, guess = np.zeros((2, table.shape[1]))
-    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.unit, z, rate, table, force, shares, path)
+    shares = shares_of_contact(rheology, np.array([-cycle.u_z0 / cycle.unit]), cycle, n_t)[0]
     begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) <= 0))
     return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
+
+
+def shares_of_contact(rheology: Rheology, gaps: Array, cycle: Cycle, n_t: int) -> Array:
+    """For springs of these gaps, over the unit of the cycle, above zero at the nodes at which they press, (n, n_t):
+    there the share of the step since they touched.
+    """
+    z, rate = cycle.over_a_period(n_t)
+    table = rheology.over_step(2 * np.pi / n_t)
+    out, (force, path), (state, guess) = np.empty((gaps.size, n_t)), np.empty((2, n_t)), np.zeros((2, table.shape[1]))
+    for gap, shares in zip(gaps, out, strict=True):
+        kernels.settle_spring(state, guess, gap, z, rate, table, force, shares, path)
+    return out
 
 
 def of_harmonics(harmonics: NDArray[np.complex128], n_t: int) -> Array:

@@ -14,7 +14,8 @@ A small amplitude arrives in one step: there
 
 which is where the critical velocity of a load-controlled contact comes from. The mean depth is that of the long-time
 modulus, however slow the material: the search is for the periodic state, not for the way to it. With mass and great
-amplitude, or near its resonance on the contact, several periodic motions may exist, some unstable; found is one.
+amplitude, or near its resonance on the contact, several periodic motions may exist, some unstable; found is one,
+whose stability stability.py tells.
 """
 
 from __future__ import annotations

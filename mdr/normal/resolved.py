@@ -127,8 +127,9 @@ def plausibility(case: SlidingContact) -> tuple[str, ...]:
     -----
     Limits are pure numbers: slope of the shape at the edge of contact and depth over contact radius (1),
     du_z/u_z0 (5), mu_0 (2), omega tau of a Kelvin body (5), stiffness of the spring over that of the contact (1e4)
-    and the other way round (1e6), natural frequency of the body over that of the vibration (100). A case file is warned
-    of too that leaves out a mass: m of [pull], or m_z of a load that may ride on the body.
+    and the other way round (1e6), natural frequency of the body over that of the vibration (100). Of a mass that a load
+    moves: Floquet multiplier of the depth (1), and the error of the closed form beside its resonance (0.03). A case
+    file is warned of too that leaves out a mass: m of [pull], or m_z of a load that may ride on the body.
 
     Examples
     --------

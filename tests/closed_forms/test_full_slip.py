@@ -114,3 +114,24 @@ def test_a_contact_too_brief_to_follow_is_refused_by_name(question):
     case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e6), 0.4, motion)
     with pytest.raises(ValueError, match="the contact lasts less than 1/4096 of a period"):
         question(case)
+
+
+def test_the_static_limit_is_mu_0_where_the_critical_velocity_is_zero():
+    """A flat punch without damping at m omega² = k_x + k_xc goes with the vibration, and slips at any pull."""
+    case = mdr.SlidingContact(
+        mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.5), 0.4, mdr.NormalOscillation(20e-6, 6e-6, 300.0)
+    )
+    k_xc = case.k_xc
+
+    def at(k_x, c_x=0.0, mass=1.0):
+        return replace(case, pull=mdr.SpringPull(k_x, mass * (k_x + k_xc) / 300.0**2, c_x))
+
+    for k_x in k_xc * np.array([0.3, 1.0, 7.0]):
+        assert mdr.full_slip_critical_velocity(at(k_x)) < 1e-12 * case.unit_velocity
+        assert mdr.static_cof(at(k_x)) == 0.4
+        assert mdr.slide(at(k_x), 1e-3 * case.unit_velocity).cof == pytest.approx(0.4, rel=1e-10)
+    for other in (at(k_xc, c_x=0.01 * k_xc / 300.0), at(k_xc, mass=1.01), replace(at(k_xc), indenter=mdr.Cone(0.02))):
+        limit = mdr.static_cof(other)
+        assert limit < 0.3
+        slow = mdr.slide(other, 1e-2 * mdr.full_slip_critical_velocity(other))
+        assert limit <= slow.cof < 0.39

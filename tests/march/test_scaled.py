@@ -1,6 +1,7 @@
 """The scaled form: groups are all that is left, the recursion is the oscillator, the full-slip start repeats itself."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -116,6 +117,26 @@ def test_fast_ratio():
     assert math.isinf(fast_ratio(contact("paraboloid", 3.0, 0.0, 0.7, math.inf)))
     # flat punch: omega_1**2/omega_0**2 = (k_x + k_xc)/k_x
     assert_allclose(fast_ratio(contact("flat", 3.0, 0.0, 0.7, 1.6)), 1.6 * math.sqrt(1.7 / 0.7), rtol=1e-13)
+
+
+def on_an_arm(ratio, time):
+    """A flat punch on an arm of `ratio` times the static stiffness that relaxes within `time` of 1/omega; M = K = 1."""
+    arm = mdr.StandardLinearSolid(3e6, ratio * 3e6, time / 300.0, 0.4)
+    case = mdr.SlidingContact(SHAPES["flat"][0], arm, 0.4, mdr.NormalOscillation(6e-6, 2e-6, 300.0))
+    return replace(case, pull=mdr.SpringPull(case.k_xc, case.k_xc / 300.0**2))
+
+
+@pytest.mark.parametrize("ratio", [2.0, 1e4, 1e6])
+def test_fast_ratio_has_the_arms_that_do_not_relax_in_that_oscillation(ratio):
+    assert_allclose(fast_ratio(on_an_arm(ratio, 1e3)), math.sqrt(2 + ratio), rtol=1e-6)
+    assert_allclose(fast_ratio(on_an_arm(ratio, 1e-3 / ratio)), math.sqrt(2), rtol=1e-6)
+
+
+@pytest.mark.parametrize("time", [0.01, 0.1, 1.0])
+def test_fast_ratio_is_a_resonance_on_the_storage_modulus(time):
+    case = on_an_arm(30.0, time)
+    fast = fast_ratio(case)
+    assert_allclose(fast**2, 1 + case.rheology.response(fast).real, rtol=1e-6)
 
 
 # --- the recursion ---

@@ -327,3 +327,38 @@ def test_the_same_path_in_another_time_moves_no_force(shape, v_0):
     losses = [run.energy_balance.friction_loss for run in (one, other)]
     assert losses[1] == pytest.approx(losses[0], rel=1e-4)
     assert np.abs(other.F_x - one.F_x).max() > 0.1 * scale  # at the same time
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        contact("flat", chi=0.5),
+        contact("r4", chi=0.4, body=(1.0, 0.7, 0.3)),
+        contact("cone", alpha=0.3, T=0.5, chi=0.3),
+        contact("paraboloid", chi=0.3, material=mdr.StandardLinearSolid(3e6, 2e6, 2e-3, NU)),
+    ],
+    ids=["rigid", "body", "kelvin", "arms"],
+)
+def test_a_contact_that_holds_says_that_it_may_rest_elsewhere(case):
+    """From two starts it comes to rest in two states, each of them settled."""
+    runs = [mdr.slide(case, 0.0, start=start, n_springs=32, steps_per_period=128) for start in ("full_slip", "rest")]
+    assert abs(runs[0].cof - runs[1].cof) > 10 * (runs[0].cof_error + runs[1].cof_error)
+    for run in runs:
+        assert (run.settled, run.kind) == (True, "holds")
+        assert "holding_band(case)" in run.why
+
+
+@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.3)], ids=["rigid", "body"])
+@pytest.mark.parametrize("T", [0.0, 0.5])
+def test_a_contact_that_slips_in_every_period_rests_in_one_state(T, body):
+    """So does a punch whose springs are moved to and fro by more than twice the deflection at which they slip."""
+    case = contact("flat", alpha=0.3, T=T, chi=4.0, body=body)
+    runs = [mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest")]
+    assert [(run.settled, run.kind, run.why) for run in runs] == [(True, "periodic", "")] * 2
+    assert runs[0].cof == pytest.approx(runs[1].cof, abs=runs[0].cof_error + runs[1].cof_error)
+
+
+def test_a_contact_that_holds_moves_on_at_any_pull():
+    case = contact("flat", chi=0.5)
+    assert mdr.slide(case, 1e-3 * case.pace).kind == "periodic"
+    assert mdr.cof_curve(case, [0.0], method="march").why == ("",)  # the limit of slow pulls is one number

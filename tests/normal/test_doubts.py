@@ -47,11 +47,17 @@ def test_an_absurd_contact_is_warned_of_and_computed(what):
     assert tuple(str(one.message) for one in said) == mdr.plausibility(case)
 
 
-def test_a_mass_that_bounces_under_its_load_is_warned_of():
+def test_an_unstable_mass_under_its_load_is_warned_of_where_its_depth_is_asked_for():
     load = mdr.LoadOscillation(F_z0=1.0, dF_z=2.0, omega=314.0, m_z=0.1)
     case = mdr.SlidingContact(mdr.Sphere(5e-3), mdr.KelvinVoigt(3e6, 0.5, 6e-4), 0.8, load)
     with pytest.warns(mdr.PlausibilityWarning, match="dF_z = 2 N, is above its mean"):
         mdr.critical_velocity(case)
+    with pytest.warns(mdr.PlausibilityWarning, match="unstable: a deviation grows 2.0"):
+        mdr.full_slip_critical_velocity(case)
+
+
+def test_a_mass_that_bounces_under_its_load_is_warned_of():
+    case = beside_resonance(2.0, 1.5, tau=1e-3)
     with pytest.warns(mdr.PlausibilityWarning, match="leaves the surface in every period"):
         mdr.full_slip_critical_velocity(case)
 
@@ -117,3 +123,39 @@ def test_the_slope_at_the_edge_is_that_of_the_shape(shape):
     r = a * (1 - np.array([1e-6, 3e-6]))
     f = np.asarray(indenter.profile_3d(r))
     assert_allclose(slope, abs(f[0] - f[1]) / (r[0] - r[1]), rtol=1e-3, atol=1e-6)  # rounding of f over 2e-6 a
+
+
+def beside_resonance(detuning, share, shape=None, tau=0.0):
+    """m_z omega² = detuning times the stiffness of the contact."""
+    shape = shape or mdr.Paraboloid(5e-3)
+    material = mdr.KelvinVoigt(3e6, 0.5, tau) if tau else mdr.Elastic(3e6, 0.5)
+    F_z0, k_zc = (float(of(20e-6, material.E_star)) for of in (shape.force, shape.stiffness))
+    load = mdr.LoadOscillation(F_z0, share * F_z0, 300.0, detuning * k_zc / 300.0**2)
+    return mdr.SlidingContact(shape, material, 0.4, load)
+
+
+@pytest.mark.parametrize("detuning", [0.95, 1.05, 1.3, 2.0])
+@pytest.mark.parametrize("share", [0.005, 0.02])
+@pytest.mark.parametrize("shape", [mdr.Paraboloid(5e-3), mdr.Cone(0.02), mdr.FlatPunch(1e-3)])
+@pytest.mark.parametrize("tau", [0.0, 1e-4])
+def test_near_the_resonance_of_a_load_the_closed_form_is_doubted_where_it_is_wrong(detuning, share, shape, tau):
+    case = beside_resonance(detuning, share, shape, tau)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        v_c = mdr.critical_velocity(case)
+    doubted = any("natural frequency of m_z" in str(one.message) for one in said)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            off = abs(v_c / mdr.full_slip_critical_velocity(case) - 1)
+        except ValueError:  # no periodic depth at all
+            off = np.inf
+    assert doubted or off < 0.03
+    assert not doubted or off > 0.01
+
+
+@pytest.mark.parametrize(("share", "unstable"), [(0.3, False), (1.5, True)])
+def test_an_unstable_depth_under_a_load_is_named(share, unstable):
+    case = beside_resonance(1.1, share, tau=1e-3)
+    said = " ".join(mdr.plausibility(case))
+    assert ("unstable: a deviation grows 1.16 times in a period (its Floquet multiplier)" in said) == unstable
