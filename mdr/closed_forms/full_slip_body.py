@@ -171,7 +171,9 @@ def _time_panels(case: SlidingContact, rates: NDArray[np.complex128], cuts: Arra
     """Panels between the corners of the force and other cuts, short enough for harmonics, arms and free oscillation."""
     pull, load = case.pull, case.oscillation.load
     smallest = SMALLEST_RATE if pull.coefficients[:2] == (0, 0) else SMALLEST
-    most = min(np.pi * case.omega / pull.omega_0, PER_HARMONIC / _highest(rates))
+    most = PER_HARMONIC / _highest(rates)
+    if np.isfinite(pull.omega_0):
+        most = min(most, np.pi * case.omega / pull.omega_0)
     if case.material.contact_arms and load is None:
         most = min(most, PER_STEPS * 2 * np.pi / N_STEPS)
     if load is None:
