@@ -47,7 +47,6 @@ def edge(Z, T, phase):
     return np.minimum(least, tangent), np.where(least < tangent, np.exp(-flight / T), 1.0)
 
 
-
 class Row:
     """Springs of g = x**exponent without arms: force, its rate and contact at any phases."""
 

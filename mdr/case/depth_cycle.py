@@ -174,7 +174,7 @@ def roots(
     element. f answers values and slopes; x: a first guess; near: last step, of a phase.
     """
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
-    x = 0.5 * (low + high) if x is None else x
+    x = np.asarray(0.5 * (low + high)) if x is None else x
     for _ in range(100):
         value, slope = f(x)
         low, high = np.where(value < 0, x, low), np.where(value < 0, high, x)

@@ -75,7 +75,7 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
 @remembered(maxsize=8)
 def followed(case: SlidingContact, n_t: int = N_STEPS) -> NormalCycle:
     """The normal contact of a case spring by spring, at n_t instants."""
-    known = normal_cycle(case.indenter, case.rheology, case.cycle, n_t)
+    known = normal_cycle(case.indenter, case.rheology, case.cycle, n_t, beside=Rheology(case.T))
     if not known.in_contact.any() or not known.F_N.any():
         raise ValueError(
             f"u_z0 = {case.cycle.u_z0:.6g} m: the contact lasts less than 1/{n_t} of a period, as its springs are "
@@ -87,7 +87,7 @@ def followed(case: SlidingContact, n_t: int = N_STEPS) -> NormalCycle:
 @remembered(maxsize=8)
 def _added_by_arms(case: SlidingContact) -> Array:
     """What the arms of a material add to F_N [N], at N_STEPS instants."""
-    bare = normal_cycle(case.indenter, Rheology(case.T), case.cycle)
+    bare = normal_cycle(case.indenter, Rheology(case.T), case.cycle, beside=case.rheology)
     return case.material.E_star * (followed(case).F_N - bare.F_N)
 
 
@@ -117,14 +117,14 @@ def _without_arms(case: SlidingContact, phase: Array) -> Array:
     g_c = cycle.u_z0 + cycle.unit * edge
     above = cycle.unit * (cycle.z(phase) - edge + case.T * cycle.rate(phase))  # u_z - g_c + tau u_z'
     elastic = np.asarray(case.indenter.force(g_c, E_star))
-    return elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above
+    return np.asarray(elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above)
 
 
 def load_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]]:
     """Mean [N] and harmonics F_n [N], n = 1 ... N, of F_N = F_z(t) - m_z u_z'' under a load."""
     load, cycle = case.oscillation.load, case.cycle
     if not isinstance(load, LoadOscillation):
-        return load.F_z0, np.zeros(0, dtype=complex)
+        return getattr(load, "F_z0", 0.0), np.zeros(0, dtype=complex)
     n = np.arange(1, cycle.cos.size + 1)
     F_n = load.m_z * case.omega**2 * cycle.unit * n**2 * cycle.harmonics
     F_n[case.repeats[0] - 1] += load.dF_z

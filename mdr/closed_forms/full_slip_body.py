@@ -125,7 +125,7 @@ def _slip_rates(case: SlidingContact, X_n: NDArray[np.complex128]) -> NDArray[np
     out = np.zeros(max(Z.size, X_n.size), dtype=complex)
     out[: Z.size] = case.unit_velocity * Z
     out[: X_n.size] -= case.omega * X_n
-    return 1j * np.arange(1, out.size + 1) * out
+    return np.asarray(1j * np.arange(1, out.size + 1) * out)
 
 
 def contact_ends(case: SlidingContact) -> tuple[Array, Array]:

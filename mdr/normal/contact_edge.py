@@ -22,14 +22,14 @@ limit c = z. kelvin_edges.py has the closed form of one cosine.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.depth_cycle import Cycle, roots, turns
+from mdr.case.depth_cycle import Cycle, harmonic_sum, roots, turns
 from mdr.tools.arrays import Array
 
 NEAR = 1e-9  #: of a phase `off`, in which a chord is stationary
@@ -46,43 +46,42 @@ class Piece:
 
 
 class ContactEdge:
-    """The edge for one depth and one T: pieces that cover a period from the greatest depth on, which is piece 0."""
+    """The edge for one depth and one T: pieces that cover a period, from the greatest depth on."""
 
     def __init__(self, T: float, orders: Array, Z: NDArray[np.complex128]) -> None:
-        self.T, self.orders, self.Z = T, orders, Z
+        self.T, self._n, self._Z = T, orders, Z
         self.pieces = self._in_pieces()
         self.begins = np.array([piece.begin for piece in self.pieces])
-        self._advances: list[int] = [k for k, piece in enumerate(self.pieces) if not np.isnan(piece.low)]
+        self._offs: dict[int, tuple[Array, Array]] = {}  # phases in an advance and, to begin with, where springs left
         share = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
-        self._tables = {}
-        for k in self._advances:
-            one = self.pieces[k]
-            phase = one.begin + (one.end - one.begin) * share
-            self._tables[k] = phase, self._tangent(phase, one.low, one.high)[1]
-        ends = self.gap(np.append(self.begins, self.pieces[-1].end)).tolist()
-        self.ends = list(zip(ends[:-1], ends[1:], strict=True))  #: gaps at both ends of the pieces
+        for k, one in enumerate(self.pieces):
+            if not np.isnan(one.low):
+                phase = one.begin + (one.end - one.begin) * share
+                self._offs[k] = phase, self._tangent(phase, one.low, one.high)[1]
+        self._gaps = list(pairwise(self.gap(np.append(self.begins, self.pieces[-1].end)).tolist()))
 
     @classmethod
     def of(cls, cycle: Cycle, T: float) -> ContactEdge:
         """The edge under a depth."""
         harmonics = cycle.harmonics
-        orders = np.flatnonzero(harmonics)
-        return _edge(T, tuple((orders + 1).tolist()), tuple(harmonics[orders].tolist()))
+        used = np.flatnonzero(harmonics)
+        return _edge(T, tuple((used + 1).tolist()), tuple(harmonics[used].tolist()))
 
     def gap(self, phase: Array) -> Array:
         """Gap of the spring at the edge, at phases of any shape."""
-        at = self._within(np.asarray(phase, dtype=float))
-        out = np.asarray(self._R(at)[0])
-        which = np.searchsorted(self.begins, at, side="right") - 1
-        for k in self._advances:
-            here, one = which == k, self.pieces[k]
-            out[here] = self._tangent(at[here], one.low, one.high, np.interp(at[here], *self._tables[k]))[0]
-        return out
+        phase = self.begins[0] + np.mod(phase - self.begins[0], 2 * np.pi)
+        gap = np.asarray(self._R(phase)[0])
+        which = np.searchsorted(self.begins, phase, side="right") - 1
+        for k, table in self._offs.items():
+            here = which == k
+            at = phase[here]
+            gap[here] = self._tangent(at, self.pieces[k].low, self.pieces[k].high, np.interp(at, *table))[0]
+        return gap
 
     def crossings(self, gap: float) -> tuple[list[float], list[float]]:
         """Phases at which the spring of a gap touches, and at which it leaves."""
         touches, leaves = [], []
-        for one, (first, last) in zip(self.pieces, self.ends, strict=True):
+        for one, (first, last) in zip(self.pieces, self._gaps, strict=True):
             if first < gap <= last:
                 touches.append(self._touch(gap, one))
             elif last <= gap < first:
@@ -90,18 +89,19 @@ class ContactEdge:
         return touches, leaves
 
     def _touch(self, gap: float, one: Piece) -> float:
+        """Where the spring of a gap touches within a piece."""
         if np.isnan(one.low):
             return self._passes(gap, one.begin, one.end, 1)
         off = np.array(self._passes(gap, one.low, one.high, -1))
 
         def ahead(phase: Array) -> tuple[Array, Array]:
-            chord, rate = self._chord(off, phase)
-            return chord - gap, (self._R(phase)[0] - chord) * (rate + 1 / self.T)
+            chord, left = self._chord(off, phase)
+            return chord - gap, (self._R(phase)[0] - chord) * (left + 1 / self.T)
 
         return float(roots(ahead, one.begin, one.end))
 
     def _passes(self, gap: float, low: float, high: float, side: int) -> float:
-        """Where R, monotone between two phases, rises (side 1) or falls through a gap."""
+        """Where R, monotone between two phases, rises (side 1) or falls (-1) through a gap."""
 
         def past(phase: Array) -> tuple[Array, Array]:
             R, rate = self._R(phase)
@@ -109,85 +109,81 @@ class ContactEdge:
 
         return float(roots(past, low, high))
 
-    def _within(self, phase: Array) -> Array:
-        first = self.begins[0]
-        return first + np.mod(phase - first, 2 * np.pi)
-
     def _R(self, phase: Array) -> tuple[Array, Array]:
         """z + T z' and its rate."""
-        turn = self.Z * np.exp(1j * np.multiply.outer(phase, self.orders))
-        lag = self.orders * self.T
-        return (turn.real - lag * turn.imag).sum(-1), -(self.orders * (turn.imag + lag * turn.real)).sum(-1)
+        turn = self._Z * np.exp(1j * np.multiply.outer(phase, self._n))
+        lag = self._n * self.T
+        return (turn.real - lag * turn.imag).sum(-1), -(self._n * (turn.imag + lag * turn.real)).sum(-1)
 
     def _chord(self, off: Array, phase: Array) -> tuple[Array, Array]:
-        """chord(off, phase) and 1/T over exp((phase - off)/T) - 1."""
+        """chord(off, phase), and 1/T over exp((phase - off)/T) - 1."""
         flight = np.maximum(phase - off, 1e-30)
-        half = np.multiply.outer(0.5 * flight, self.orders)
-        middle = self.Z * np.exp(1j * (np.multiply.outer(phase, self.orders) - half))
-        rise = -2 * (np.sin(half) * middle.imag).sum(-1)
-        z = (self.Z * np.exp(1j * np.multiply.outer(phase, self.orders))).real.sum(-1)
+        half = np.multiply.outer(0.5 * flight, self._n)
+        turn = np.multiply.outer(phase, self._n)
+        rise = -2 * (np.sin(half) * (self._Z * np.exp(1j * (turn - half))).imag).sum(-1)  # no digits are cancelled
         with np.errstate(over="ignore"):
             left = 1 / np.expm1(flight / self.T)
-        return z + rise * left, left / self.T
+        return (self._Z * np.exp(1j * turn)).real.sum(-1) + rise * left, left / self.T
 
     def _tangent(self, phase: Array, low: float, high: float, guess: Array | None = None) -> tuple[Array, Array]:
         """Least chord to each phase from a retreat between low and high, and where it begins."""
 
         def beyond(off: Array) -> tuple[Array, Array]:
-            chord, rate = self._chord(off, phase)
-            R, slope = self._R(off)
-            return chord - R, (chord - R) * rate - slope
+            chord, left = self._chord(off, phase)
+            R, rate = self._R(off)
+            return chord - R, (chord - R) * left - rate
 
-        low, high = np.full(phase.shape, low), np.full(phase.shape, high)
-        off = roots(beyond, low, high, guess, NEAR)
+        off = roots(beyond, np.full(phase.shape, low), np.full(phase.shape, high), guess, NEAR)
         return self._chord(off, phase)[0], off
 
     def _in_pieces(self) -> list[Piece]:
-        harmonics = np.zeros(int(self.orders.max(initial=1)), dtype=complex)
-        harmonics[self.orders.astype(int) - 1] = self.Z
+        harmonics = np.zeros(int(self._n.max(initial=1)), dtype=complex)
+        harmonics[self._n.astype(int) - 1] = self._Z
         tops = turns(harmonics)
         if not tops.size:
             return [Piece(0.0, 2 * np.pi)]
-        z = (self.Z * np.exp(1j * np.multiply.outer(tops, self.orders))).real.sum(-1)
-        first = float(tops[np.argmax(z)])
-        n = np.arange(1, harmonics.size + 1)
-        ends = first + np.mod(turns(harmonics * (1 + 1j * n * self.T)) - first, 2 * np.pi)
+        first = float(tops[np.argmax(harmonic_sum(harmonics, tops))])
+        ends = first + np.mod(
+            turns(harmonics * (1 + 1j * self.T * np.arange(1, harmonics.size + 1))) - first, 2 * np.pi
+        )
         ends = np.append(np.sort(ends[ends > first]), first + 2 * np.pi)
         if self.T == 0:
-            ends[:-1][ends[:-1] > first + 2 * np.pi - 1e-12] = 0
-            return [Piece(low, high) for low, high in zip([first, *ends], ends, strict=False)]
+            return [Piece(low, high) for low, high in pairwise([first, *ends.tolist()])]
         return self._events(first, ends)
 
     def _events(self, at: float, ends: Array) -> list[Piece]:
-        """From the greatest depth at phase `at`, and the turns of R behind it, the last of `ends` one period later."""
-        pieces, left = [Piece(at, float(ends[0]))], [(at, float(ends[0]))]
-        at, R = left[0][1], self._R(ends)[0]
+        """Pieces from the greatest depth, at phase `at`, on; ends: the turns of R behind it, and the end of the period."""
+        R = self._R(ends)[0]
+        retreats = [(at, float(ends[0]))]  # those whose springs are still free, and the part of each
+        pieces, at = [Piece(*retreats[0])], float(ends[0])
         for k in range(1, ends.size):
-            end = stop = float(ends[k])
-            falls = R[k] < R[k - 1] and k + 1 < ends.size
-            again = falls and R[k] < self._tangent(ends[k], *left[-1])[0]
+            end = float(ends[k])
             while True:
-                low, high = left[-1]
-                if again:
-                    stop = float(roots(lambda phase, arc=(low, high): self._under(phase, *arc), max(at, ends[k - 1]), end))
-                if len(left) == 1 or self._chord(np.array(low), np.array(stop))[0] <= self._R(np.array(low))[0]:
+                low, high = retreats[-1]
+                leaves = R[k] < R[k - 1] and k + 1 < ends.size and R[k] < self._tangent(ends[k], low, high)[0]
+                stop = self._leaves(max(at, float(ends[k - 1])), end, low, high) if leaves else end
+                first_left = float(self._R(np.array(low))[0])
+                if len(retreats) == 1 or self._chord(np.array(low), np.array(stop))[0] <= first_left:
                     break
-                caught_up = self._touch(float(self._R(np.array(low))[0]), Piece(at, stop, low, low))
-                pieces.append(Piece(at, caught_up, low, high))
-                left.pop()
-                at = caught_up
-                again = falls and R[k] < self._tangent(ends[k], *left[-1])[0]
-            if again:
+                retreats.pop()  # the spring that left first touches before `stop`
+                pieces.append(Piece(at, self._touch(first_left, Piece(at, stop, low, low)), low, high))
+                at = pieces[-1].end
+            if leaves:
+                retreats[-1] = low, float(self._tangent(np.array(stop), low, high)[1])
+                retreats.append((stop, end))
                 pieces += [Piece(at, stop, low, high), Piece(stop, end)]
-                left[-1:] = [(low, float(self._tangent(np.array(stop), low, high)[1])), (stop, end)]
                 at = end
-        return [*pieces, Piece(at, float(ends[-1]), *left[-1])] if at < ends[-1] else pieces
+        return [*pieces, Piece(at, float(ends[-1]), *retreats[-1])]
 
-    def _under(self, phase: Array, low: float, high: float) -> tuple[Array, Array]:
-        """How far R is below the advancing edge, and the rate of that."""
-        chord, off = self._tangent(phase, low, high)
-        R, slope = self._R(phase)
-        return chord - R, (R - chord) * (self._chord(off, phase)[1] + 1 / self.T) - slope
+    def _leaves(self, begin: float, end: float, low: float, high: float) -> float:
+        """Where R, which falls from begin to end, falls below the advancing edge."""
+
+        def below(phase: Array) -> tuple[Array, Array]:
+            edge, off = self._tangent(phase, low, high)
+            R, rate = self._R(phase)
+            return edge - R, (R - edge) * (self._chord(off, phase)[1] + 1 / self.T) - rate
+
+        return float(roots(below, begin, end))
 
 
 @lru_cache(maxsize=64)

@@ -38,10 +38,18 @@ class NormalCycle(ArrayRecord):
 
 
 def normal_cycle(
-    shape: Indenter, rheology: Rheology, cycle: Cycle, n_t: int = N_STEPS, n_edge: int = N_EDGE
+    shape: Indenter,
+    rheology: Rheology,
+    cycle: Cycle,
+    n_t: int = N_STEPS,
+    n_edge: int = N_EDGE,
+    beside: Rheology | None = None,
 ) -> NormalCycle:
-    """Normal contact through a cycle of depth."""
-    kept = cycle.kept_gap(rheology.response)
+    """Normal contact through a cycle of depth.
+
+    beside: another operator, whose springs stand at the same places, so that the two differ by the material alone.
+    """
+    kept = min(cycle.kept_gap(one.response) for one in (rheology, beside or rheology))
     x, gap, width, n_core = cells(shape, cycle, kept, n_edge)
     gap = gap / cycle.unit
     F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
@@ -108,7 +116,8 @@ def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_],
     fall = force[last - 1] - force[last]
     with np.errstate(divide="ignore", invalid="ignore"):
         more = np.where((fall > 0) & (force[last] < fall), force[last] / fall, 0.0)
-    return presses, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t), 2 * np.pi / n_t * ((last + more) % n_t)
+    step = 2 * np.pi / n_t
+    return presses, step * ((begins - shares[begins]) % n_t), np.asarray(step * ((last + more) % n_t))
 
 
 def of_harmonics(harmonics: NDArray[np.complex128], n_t: int) -> Array:
