@@ -2,7 +2,7 @@
 
 Random contacts of each class of body, elastic, Kelvin and with an arm, kept and lost, of up to three harmonics, shaken
 at the tool or at the pull. Prints the greatest and the median difference between `full_slip_critical_velocity` and
-reference_full_slip.py, over v_c or a tenth of the greatest rate of the depth, where the latter is known to a third of it.
+reference_full_slip.py, over v_c or a tenth of the greatest rate of the depth, where the latter is known well enough.
 """
 
 import math

@@ -23,7 +23,9 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +43,9 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.memoise import remembered
 from mdr.tools.records import ArrayRecord
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 N_INSTANTS = 8192  #: of the period; harmonics up to half of it
 
@@ -101,23 +106,41 @@ def normal_force(case: SlidingContact, phase: Array) -> Array:
     if case.oscillation.load is not None:
         mean, F_n = load_harmonics(case)
         return mean + harmonic_sum(F_n, phase)
-    F_N = _without_arms(case, phase)
-    if case.material.contact_arms:
-        from scipy.interpolate import CubicSpline
-
-        added = _added_by_arms(case)
-        spline = CubicSpline(2 * np.pi * np.arange(added.size + 1) / added.size, [*added, added[0]], bc_type="periodic")
-        F_N = F_N + spline(phase)
-    return np.maximum(F_N, 0)
+    F_N = _without_arms(case, phase)[0]
+    return np.maximum(F_N + _of_arms(case)(phase) if case.material.contact_arms else F_N, 0)
 
 
-def _without_arms(case: SlidingContact, phase: Array) -> Array:
+def normal_force_rate(case: SlidingContact, phase: Array, slope: Callable[[Array], Array]) -> Array:
+    """dF_N/dphase [N], with 2 E* a(g_c) [d(u_z + tau u_z') + (u_z - g_c + tau u_z') d ln a(g_c)]: only the contact
+    radius has no derivative in closed form, which `slope` answers from its values at the phases.
+    """
+    n, cycle = np.arange(1, case.cycle.cos.size + 1), case.cycle
+    if case.oscillation.load is not None:
+        F_n = load_harmonics(case)[1]
+        return harmonic_sum(1j * np.arange(1, F_n.size + 1) * F_n, phase)
+    _, k_zc, above = _without_arms(case, phase)
+    rate = k_zc * cycle.unit * harmonic_sum(1j * n * (1 + 1j * n * case.T) * cycle.harmonics, phase) + above * slope(
+        k_zc
+    )
+    return np.asarray(rate + _of_arms(case)(phase, 1) if case.material.contact_arms else rate)
+
+
+def _without_arms(case: SlidingContact, phase: Array) -> tuple[Array, Array, Array]:
+    """F_N [N], 2 E* a(g_c) [N/m] and u_z - g_c + tau u_z' [m] of the material without its arms."""
     cycle, E_star = case.cycle, case.material.E_star
     edge = edge_of(case).gap(phase)
     g_c = cycle.u_z0 + cycle.unit * edge
-    above = cycle.unit * (cycle.z(phase) - edge + case.T * cycle.rate(phase))  # u_z - g_c + tau u_z'
-    elastic = np.asarray(case.indenter.force(g_c, E_star))
-    return np.asarray(elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above)
+    above = cycle.unit * (cycle.z(phase) - edge + case.T * cycle.rate(phase))
+    k_zc = np.asarray(case.indenter.stiffness(g_c, E_star))
+    return np.asarray(case.indenter.force(g_c, E_star)) + k_zc * above, k_zc, above
+
+
+def _of_arms(case: SlidingContact) -> CubicSpline:
+    """What the arms of a material add to F_N [N], over the phase."""
+    from scipy.interpolate import CubicSpline
+
+    added = _added_by_arms(case)
+    return CubicSpline(2 * np.pi * np.arange(added.size + 1) / added.size, [*added, added[0]], bc_type="periodic")
 
 
 def load_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]]:
@@ -160,7 +183,7 @@ def mean_normal_force(case: SlidingContact) -> float:
     instants, rule = corners(case, joints=True), double_exponential()
     instants = np.append(instants, instants[0] + 2 * np.pi)
     phase = rule.between(instants[:-1], instants[1:])
-    mean = float(np.diff(instants) @ (_without_arms(case, phase) @ rule.weight)) / (2 * np.pi)
+    mean = float(np.diff(instants) @ (_without_arms(case, phase)[0] @ rule.weight)) / (2 * np.pi)
     return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
 
 

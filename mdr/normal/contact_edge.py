@@ -152,7 +152,7 @@ class ContactEdge:
         return self._events(first, ends)
 
     def _events(self, at: float, ends: Array) -> list[Piece]:
-        """Pieces from the greatest depth, at phase `at`, on; ends: the turns of R behind it, and the end of the period."""
+        """Pieces from the greatest depth on, at phase `at`. ends: the turns of R behind it, and that of the period."""
         R = self._R(ends)[0]
         retreats = [(at, float(ends[0]))]  # those whose springs are still free, and the part of each
         pieces, at = [Piece(*retreats[0])], float(ends[0])

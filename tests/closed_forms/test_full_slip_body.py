@@ -312,19 +312,19 @@ def test_the_shake_of_a_cone_is_fastest_between_the_last_and_the_first_phase():
 
 #: error of full_slip_critical_velocity as its docstring states it, of a contact without arms and with them
 STATED = {
-    "rigid": (1e-8, 1e-5),
-    "mass": (1e-8, 1e-5),
-    "light": (1e-8, 1e-5),
-    "massless": (1e-7, 1e-2),
-    "no damper": (1e-7, 0.1),
+    "rigid": (1e-7, 1e-6),
+    "mass": (1e-7, 1e-4),
+    "light": (1e-7, 1e-3),
+    "massless": (1e-7, 0.02),
+    "no damper": (1e-6, 0.2),
 }
 
 
 @pytest.mark.parametrize("body", BODIES_DRAWN)
 def test_random_contacts_against_their_definition(body):
-    for seed in range(6):
-        case, numbers, unit, kept = drawn(seed, body, arms=seed == 5)
+    for seed in range(4):
+        case, numbers, unit, kept = drawn(seed, body, arms=seed == 3)
         found = difference(case, numbers, unit, n_t=512, n=200, most=2)
         if found is not None:
             off, unknown = found
-            assert off < STATED[body][seed == 5] + 3 * unknown, (seed, kept, case)
+            assert off < STATED[body][seed == 3] + 3 * unknown, (seed, kept, case)

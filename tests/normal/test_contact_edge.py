@@ -1,4 +1,4 @@
-"""The edge of the contact under any depth: the closed form of one cosine, the definition as an infimum, and its ends."""
+"""The edge of the contact under any depth: the closed form of one cosine, the definition as an infimum, its ends."""
 
 import numpy as np
 import pytest
