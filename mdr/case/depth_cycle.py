@@ -139,8 +139,52 @@ def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
 
 def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
     """Re of sum C_n exp(i n phase), n = 1 ... N, at phases of any shape."""
-    n = np.arange(1, harmonics.size + 1)
-    return np.asarray((harmonics * np.exp(1j * np.multiply.outer(np.asarray(phase), n))).real.sum(axis=-1))
+    used = np.flatnonzero(harmonics)
+    return np.asarray((harmonics[used] * np.exp(1j * np.multiply.outer(np.asarray(phase), used + 1))).real.sum(axis=-1))
+
+
+def turns(harmonics: NDArray[np.complex128]) -> Array:
+    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending."""
+    used = np.flatnonzero(harmonics)
+    n, C = used + 1, harmonics[used]
+    if n.size < 2:
+        return np.sort(np.mod((np.pi * np.arange(2 * n.sum()) - np.angle(C)) / n, 2 * np.pi)) if n.size else np.zeros(0)
+    count = 4 * instants(int(n[-1]))
+    spectrum = np.zeros(count // 2 + 1, dtype=complex)
+    spectrum[n] = 1j * n * C * count / 2
+    falls = np.fft.irfft(spectrum, count) < 0
+    low = np.flatnonzero(falls != np.roll(falls, -1))
+    side = np.where(falls[low], 1, -1)
+
+    def slope(phase: Array) -> tuple[Array, Array]:
+        turn = C * n * np.exp(1j * np.multiply.outer(phase, n))
+        return -side * turn.imag.sum(axis=-1), -side * (n * turn.real).sum(axis=-1)
+
+    return np.sort(np.mod(roots(slope, 2 * np.pi * low / count, 2 * np.pi * (low + 1) / count), 2 * np.pi))
+
+
+def roots(
+    f: Callable[[Array], tuple[Array, Array]],
+    low: Array | float,
+    high: Array | float,
+    x: Array | None = None,
+    near: float = 2e-16,
+) -> Array:
+    """Where functions rise through zero between low and high, by Newton's method kept within a bracket, element by
+    element. f answers values and slopes; x: a first guess; near: last step, of a phase.
+    """
+    low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    x = np.asarray(0.5 * (low + high)) if x is None else x
+    for _ in range(100):
+        value, slope = f(x)
+        low, high = np.where(value < 0, x, low), np.where(value < 0, high, x)
+        with np.errstate(all="ignore"):
+            better = x - value / slope
+        better = np.where((better >= low) & (better <= high), better, 0.5 * (low + high))
+        step, x = np.abs(better - x), better
+        if np.all(step <= near * (1 + np.abs(x))):
+            break
+    return x
 
 
 def peak(harmonics: NDArray[np.complex128]) -> float:
@@ -148,20 +192,18 @@ def peak(harmonics: NDArray[np.complex128]) -> float:
     return float(peaks(harmonics).max(initial=-np.inf))
 
 
-def peaks(harmonics: NDArray[np.complex128], some: int = 24, within: NDArray[np.bool_] | None = None) -> Array:
-    """Its greatest local maxima, Newton from those among equidistant instants; `within` marks those that count."""
+def peaks(harmonics: NDArray[np.complex128], some: int = 24) -> Array:
+    """Its greatest local maxima, Newton from those among equidistant instants."""
     harmonics = np.asarray(harmonics)
-    if harmonics.size == 1 and within is None:
+    if harmonics.size == 1:
         return np.abs(harmonics)
     n = np.arange(1, harmonics.size + 1)
-    count = instants(harmonics.size) if within is None else within.size
+    count = instants(harmonics.size)
     spectrum = np.zeros(count // 2 + 1, dtype=complex)
     spectrum[n] = harmonics * count / 2
     values = np.fft.irfft(spectrum, count)
-    if within is not None:
-        values = np.where(within, values, -np.inf)
     higher = (values >= np.roll(values, 1)) & (values >= np.roll(values, -1))
-    tops = np.flatnonzero(higher & np.isfinite(values))
+    tops = np.flatnonzero(higher)
     first = tops[np.argsort(values[tops])[-some:]]
     phase = 2 * np.pi * first / count
     best = values[first]

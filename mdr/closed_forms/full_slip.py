@@ -5,17 +5,13 @@ because the same operator acts on both sides of Coulomb's law. The tangential fo
 velocity, and every spring in contact slips at the same velocity u_x' - mu_0 kappa u_z'. They all reach the stick
 limit together: this is why one closed form can hold for an array.
 
-Contact edge. A spring of depth g has s(t) = sup over theta >= 0 of (u_z - g)(t - theta) exp(-theta/tau) and is in
-contact when the supremum is attained at theta = 0, i.e. for all g below
+Force. On an elastic or Kelvin material contact_edge.py knows the gap g_c of the spring at the edge of the contact at
+any instant, under any periodic depth. The force follows from the elastic law alone,
 
-    g_c(t) = inf over theta of [u_z(t) - u_z(t - theta) exp(-theta/tau)] / [1 - exp(-theta/tau)],
+    F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
 
-whose limits are u_z + tau u_z' (theta -> 0, the retreating edge, released while still compressed) and u_z (full
-relaxation). The force follows from the elastic law alone, F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
-
-That is for a harmonic depth on an elastic or Kelvin material, the case of the paper. Materials with arms and other
-motions have no such closed form: followed_force.py follows their springs, to 1e-6 or better of mean F_N. Under an
-oscillating load the force is known beforehand, F_N = F_z(t) - m_z u_z''.
+What arms add to it is followed spring by spring: the difference between the material and the same one without its arms
+(followed_force.py). Under an oscillating load the force is known beforehand, F_N = F_z(t) - m_z u_z''.
 
 Body and critical velocity. With harmonics F_n of F_N and the receptance H, y = -mu_0 sum F_n H(n omega) exp(i n omega
 t), and
@@ -27,22 +23,29 @@ One harmonic gives Eq. (15); a rigid pull, H = 0, gives Eq. (1) when contact is 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.depth_cycle import harmonic_sum
 from mdr.case.motion import LoadOscillation
 from mdr.closed_forms.shaken_pull import ShakenPull, band, has_shaken_form
 from mdr.indenters.mapping.quadrature import double_exponential
-from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle, of_harmonics
-from mdr.normal.kelvin_edges import contact_edge, kept_gap, leaving_phase, touching_phase, turning_phase
+from mdr.materials.operator import Rheology
+from mdr.normal.contact_edge import ContactEdge
+from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.memoise import remembered
 from mdr.tools.records import ArrayRecord
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 N_INSTANTS = 8192  #: of the period; harmonics up to half of it
 NONE = 1e-9  #: of Eq. (1): a critical velocity that no pull is slower than
@@ -66,19 +69,19 @@ def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
     n_t = count("n_t", n_t, 16)
     phase = 2 * np.pi * np.arange(n_t) / n_t
     u_z_dot = cycle.omega * cycle.unit * cycle.over_a_period(n_t)[1][:-1]
-    if not case.is_of_the_paper:
+    if case.material.contact_arms:
         known = followed(case, n_t)
-        return FullSlip(phase / cycle.omega, force_of(case, known), known.contact_radius, u_z_dot, known.in_contact)
-    edge = contact_edge(phase, case.T)
-    g_c = np.maximum(cycle.u_z0 + cycle.unit * edge, 0)
-    F_N = _force(case, phase, edge)
-    return FullSlip(phase / cycle.omega, F_N, np.asarray(case.indenter.contact_radius(g_c)), u_z_dot, g_c > 0)
+        radius, in_contact = known.contact_radius, known.in_contact
+    else:
+        g_c = np.maximum(cycle.u_z0 + cycle.unit * edge_of(case).gap(phase), 0)
+        radius, in_contact = np.asarray(case.indenter.contact_radius(g_c)), g_c > 0
+    return FullSlip(phase / cycle.omega, normal_force(case, phase), radius, u_z_dot, in_contact)
 
 
 @remembered(maxsize=8)
-def followed(case: SlidingContact, n_t: int) -> NormalCycle:
-    """The normal contact of a case that has no closed form, at n_t instants."""
-    known = normal_cycle(case.indenter, case.rheology, case.cycle, n_t)
+def followed(case: SlidingContact, n_t: int = N_STEPS) -> NormalCycle:
+    """The normal contact of a case spring by spring, at n_t instants."""
+    known = normal_cycle(case.indenter, case.rheology, case.cycle, n_t, beside=Rheology(case.T))
     if not known.in_contact.any() or not known.F_N.any():
         raise ValueError(
             f"u_z0 = {case.cycle.u_z0:.6g} m: the contact lasts less than 1/{n_t} of a period, as its springs are "
@@ -87,32 +90,69 @@ def followed(case: SlidingContact, n_t: int) -> NormalCycle:
     return known
 
 
-def force_of(case: SlidingContact, known: NormalCycle) -> Array:
-    """F_N [N] at its instants."""
-    load, n_t = case.oscillation.load, known.F_N.size
-    if load is None:
-        return case.material.E_star * known.F_N
-    if not isinstance(load, LoadOscillation):
-        return np.full(n_t, load.F_z0)
-    F_z = load.F_z0 + load.dF_z * np.cos(2 * np.pi * case.repeats[0] * np.arange(n_t) / n_t)
-    if not load.m_z:
-        return F_z
-    cycle = case.cycle
-    n = np.arange(1.0, cycle.cos.size + 1)
-    return F_z + load.m_z * case.omega**2 * cycle.unit * of_harmonics(n**2 * cycle.harmonics, n_t)
+@remembered(maxsize=8)
+def _added_by_arms(case: SlidingContact) -> Array:
+    """What the arms of a material add to F_N [N], at N_STEPS instants."""
+    bare = normal_cycle(case.indenter, Rheology(case.T), case.cycle, beside=case.rheology)
+    return case.material.E_star * (followed(case).F_N - bare.F_N)
+
+
+def edge_of(case: SlidingContact) -> ContactEdge:
+    """The edge of the contact without what arms change of it."""
+    return ContactEdge.of(case.cycle, case.T)
 
 
 def normal_force(case: SlidingContact, phase: Array) -> Array:
-    """F_N [N] in full slip at phases omega t in [0, 2 pi], of a case of the paper."""
-    return _force(case, phase, contact_edge(phase, case.T))
+    """F_N [N] in full slip at phases omega t of any shape, of a case of known depth."""
+    if case.oscillation.load is not None:
+        mean, F_n = load_harmonics(case)
+        return mean + harmonic_sum(F_n, phase)
+    F_N = _without_arms(case, phase)[0]
+    return np.maximum(F_N + _of_arms(case)(phase) if case.material.contact_arms else F_N, 0)
 
 
-def _force(case: SlidingContact, phase: Array, edge: Array) -> Array:
+def normal_force_rate(case: SlidingContact, phase: Array, slope: Callable[[Array], Array]) -> Array:
+    """dF_N/dphase [N], with 2 E* a(g_c) [d(u_z + tau u_z') + (u_z - g_c + tau u_z') d ln a(g_c)]: only the contact
+    radius has no derivative in closed form, which `slope` answers from its values at the phases.
+    """
+    n, cycle = np.arange(1, case.cycle.cos.size + 1), case.cycle
+    if case.oscillation.load is not None:
+        F_n = load_harmonics(case)[1]
+        return harmonic_sum(1j * np.arange(1, F_n.size + 1) * F_n, phase)
+    _, k_zc, above = _without_arms(case, phase)
+    rate = k_zc * cycle.unit * harmonic_sum(1j * n * (1 + 1j * n * case.T) * cycle.harmonics, phase) + above * slope(
+        k_zc
+    )
+    return np.asarray(rate + _of_arms(case)(phase, 1) if case.material.contact_arms else rate)
+
+
+def _without_arms(case: SlidingContact, phase: Array) -> tuple[Array, Array, Array]:
+    """F_N [N], 2 E* a(g_c) [N/m] and u_z - g_c + tau u_z' [m] of the material without its arms."""
     cycle, E_star = case.cycle, case.material.E_star
+    edge = edge_of(case).gap(phase)
     g_c = cycle.u_z0 + cycle.unit * edge
-    above = cycle.unit * (np.cos(phase) - edge - case.T * np.sin(phase))  # u_z - g_c + tau u_z'
-    elastic = np.asarray(case.indenter.force(g_c, E_star))
-    return np.maximum(elastic + np.asarray(case.indenter.stiffness(g_c, E_star)) * above, 0)
+    above = cycle.unit * (cycle.z(phase) - edge + case.T * cycle.rate(phase))
+    k_zc = np.asarray(case.indenter.stiffness(g_c, E_star))
+    return np.asarray(case.indenter.force(g_c, E_star)) + k_zc * above, k_zc, above
+
+
+def _of_arms(case: SlidingContact) -> CubicSpline:
+    """What the arms of a material add to F_N [N], over the phase."""
+    from scipy.interpolate import CubicSpline
+
+    added = _added_by_arms(case)
+    return CubicSpline(2 * np.pi * np.arange(added.size + 1) / added.size, [*added, added[0]], bc_type="periodic")
+
+
+def load_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]]:
+    """Mean [N] and harmonics F_n [N], n = 1 ... N, of F_N = F_z(t) - m_z u_z'' under a load."""
+    load, cycle = case.oscillation.load, case.cycle
+    if not isinstance(load, LoadOscillation):
+        return getattr(load, "F_z0", 0.0), np.zeros(0, dtype=complex)
+    n = np.arange(1, cycle.cos.size + 1)
+    F_n = load.m_z * case.omega**2 * cycle.unit * n**2 * cycle.harmonics
+    F_n[case.repeats[0] - 1] += load.dF_z
+    return load.F_z0, F_n
 
 
 def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
@@ -122,8 +162,15 @@ def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
     shape, cycle = case.indenter, case.cycle
     radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
     depths = {0.0, *(shape.profile_1d(np.array(radii)).tolist() if radii else ())}
-    gaps, kept = {(depth - cycle.u_z0) / cycle.unit for depth in depths}, kept_gap(case.T)
-    return tuple(sorted(gap for gap in gaps if kept < gap < 1))
+    gaps, kept = {(depth - cycle.u_z0) / cycle.unit for depth in depths}, cycle.kept_gap(Rheology(case.T).response)
+    return tuple(sorted(gap for gap in gaps if kept < gap < cycle.greatest))
+
+
+def corners(case: SlidingContact, joints: bool = False) -> Array:
+    """Phases at which F_N without arms is not smooth, ascending: the edge turns, or crosses one of the marks."""
+    edge = edge_of(case)
+    crossed = [phase for gap in edge_marks(case, joints) for some in edge.crossings(gap) for phase in some]
+    return np.unique(np.mod([*edge.begins, *crossed], 2 * np.pi))
 
 
 def mean_normal_force(case: SlidingContact) -> float:
@@ -132,15 +179,13 @@ def mean_normal_force(case: SlidingContact) -> float:
     While springs slide, stick or fly their mean force is that of their mean compression: it is the same in any run.
     """
     case = resolved(case)
-    if not case.is_of_the_paper:
-        return float(force_of(case, followed(case, N_STEPS)).mean())
-    T, rule = case.T, double_exponential()
-    turn, marks = turning_phase(T), edge_marks(case, joints=True)
-    ends = [0.0, *(float(leaving_phase(gap, T)) for gap in marks), turn, *(touching_phase(gap, T) for gap in marks)]
-    instants = np.sort([*ends, 2 * np.pi])
+    if case.oscillation.load is not None:
+        return load_harmonics(case)[0]
+    instants, rule = corners(case, joints=True), double_exponential()
+    instants = np.append(instants, instants[0] + 2 * np.pi)
     phase = rule.between(instants[:-1], instants[1:])
-    force = normal_force(case, phase.ravel()).reshape(phase.shape)
-    return float(np.diff(instants) @ (force @ rule.weight)) / (2 * np.pi)
+    mean = float(np.diff(instants) @ (_without_arms(case, phase)[0] @ rule.weight)) / (2 * np.pi)
+    return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
 
 
 def static_cof(case: SlidingContact) -> float:
@@ -167,10 +212,10 @@ def static_cof(case: SlidingContact) -> float:
 
     Notes
     -----
-    Eq. (7) for any shape. On an elastic or Kelvin material under a harmonic depth every spring presses least, or not at
-    all, at the same phase pi - arctan T, T = omega tau. Springs shallower than u_z0 - du_z sqrt(1 + T²) are lost there.
-    The others press as elastic springs at that depth would. So min F_N is the elastic force there. For materials with
-    arms and for other motions the least force is computed.
+    Eq. (7) for any shape. On an elastic or Kelvin material every spring presses least, or not at all, at the same
+    instant, at which u_z + tau u_z' is least: u_z0 - du_z sqrt(1 + T²) of a harmonic depth, T = omega tau. Springs
+    shallower than this are lost there. The others press as elastic springs at that depth would. So min F_N is the
+    elastic force there. For materials with arms the least force is computed.
 
     Examples
     --------
@@ -191,12 +236,11 @@ def static_cof(case: SlidingContact) -> float:
         return case.mu_0 * band(ShakenPull.of(case))[1]
     if _slips_at_any_pull(case):
         return case.mu_0
-    if not case.is_of_the_paper:
-        F_N = force_of(case, followed(case, N_STEPS))
-        return case.mu_0 * max(_least(F_N), 0.0) / float(F_N.mean())
-    cycle = case.cycle
-    least = case.indenter.force(cycle.u_z0 + cycle.unit * kept_gap(case.T), case.material.E_star)
-    return case.mu_0 * float(least) / mean_normal_force(case)
+    if case.material.contact_arms:
+        least = max(_least(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
+    else:
+        least = float(case.indenter.force(case.cycle.u_z0 + case.cycle.unit * case.kept_gap, case.material.E_star))
+    return case.mu_0 * least / mean_normal_force(case)
 
 
 def _slips_at_any_pull(case: SlidingContact) -> bool:

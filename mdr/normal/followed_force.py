@@ -34,13 +34,22 @@ class NormalCycle(ArrayRecord):
     contact_radius: Array  #: half the width of the springs that press [m]
     in_contact: NDArray[np.bool_]  #: whether the deepest spring presses
     touches: Array  #: phases at which it touches, (n,); none where it keeps contact
+    leaves: Array  #: and at which it leaves
 
 
 def normal_cycle(
-    shape: Indenter, rheology: Rheology, cycle: Cycle, n_t: int = N_STEPS, n_edge: int = N_EDGE
+    shape: Indenter,
+    rheology: Rheology,
+    cycle: Cycle,
+    n_t: int = N_STEPS,
+    n_edge: int = N_EDGE,
+    beside: Rheology | None = None,
 ) -> NormalCycle:
-    """Normal contact through a cycle of depth."""
-    kept = cycle.kept_gap(rheology.response)
+    """Normal contact through a cycle of depth.
+
+    beside: another operator, whose springs stand at the same places, so that the two differ by the material alone.
+    """
+    kept = min(cycle.kept_gap(one.response) for one in (rheology, beside or rheology))
     x, gap, width, n_core = cells(shape, cycle, kept, n_edge)
     gap = gap / cycle.unit
     F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
@@ -48,12 +57,12 @@ def normal_cycle(
         response, depth = rheology.response(np.arange(1.0, cycle.cos.size + 1)), float(width[:n_core] @ gap[:n_core])
         F += 2 * radius[0] * of_harmonics(cycle.harmonics * response, n_t) - depth
         S += 2 * radius[0] * of_harmonics(cycle.harmonics, n_t) - depth
-    in_contact, touches = np.ones(n_t, dtype=bool), np.empty(0)
+    in_contact, touches, leaves = np.ones(n_t, dtype=bool), np.empty(0), np.empty(0)
     if n_core < gap.size:
         F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, S, radius, rheology, cycle)
         if not n_core:
-            in_contact, touches = _tip(rheology, cycle, n_t)
-    return NormalCycle(F * cycle.unit, S * cycle.unit, radius, in_contact, touches)
+            in_contact, touches, leaves = _tip(rheology, cycle, n_t)
+    return NormalCycle(F * cycle.unit, S * cycle.unit, radius, in_contact, touches, leaves)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,11 +101,23 @@ class _Band:
         return F, np.where(some, edge, radius)
 
 
-def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array]:
-    """When the tip itself presses (n_t,), slightly longer than the first spring does; phases at which it touches."""
-    shares = shares_of_contact(rheology, np.array([-cycle.u_z0 / cycle.unit]), cycle, n_t)[0]
-    begins = np.flatnonzero((shares > 0) & (np.roll(shares, 1) <= 0))
-    return shares > 0, 2 * np.pi / n_t * ((begins - shares[begins]) % n_t)
+def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array, Array]:
+    """When the tip itself presses (n_t,), slightly longer than the first spring does; phases at which it touches, and
+    at which its force has fallen to zero.
+    """
+    z, rate = cycle.over_a_period(n_t)
+    force, shares, path = np.empty((3, n_t))
+    table = rheology.over_step(2 * np.pi / n_t)
+    state, guess = np.zeros((2, table.shape[1]))
+    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.unit, z, rate, table, force, shares, path)
+    presses = shares > 0
+    begins = np.flatnonzero(presses & ~np.roll(presses, 1))
+    last = np.flatnonzero(presses & ~np.roll(presses, -1))
+    fall = force[last - 1] - force[last]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        more = np.where((fall > 0) & (force[last] < fall), force[last] / fall, 0.0)
+    step = 2 * np.pi / n_t
+    return presses, step * ((begins - shares[begins]) % n_t), np.asarray(step * ((last + more) % n_t))
 
 
 def shares_of_contact(rheology: Rheology, gaps: Array, cycle: Cycle, n_t: int) -> Array:

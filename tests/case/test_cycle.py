@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.case.depth_cycle import Cycle, peak, peaks
+from mdr.case.depth_cycle import Cycle, peak, turns
 from mdr.materials.operator import Rheology
 
 RNG = np.random.default_rng(3)
@@ -81,9 +81,12 @@ def test_a_spike_beside_a_broad_crest_is_found():
     assert_allclose(peak(harmonics), values.max(), rtol=1e-7)
 
 
-def test_peaks_heed_where_they_may_lie():
-    harmonics = np.array([1.0 + 0j])  # cos: greatest at 0
-    within = np.zeros(64, dtype=bool)
-    within[16:32] = True  # pi/2 to pi
-    assert_allclose(peaks(harmonics, within=within).max(), 0, atol=1e-12)
-    assert_allclose(peak(harmonics), 1)
+@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
+def test_turns_are_all_extremes(series):
+    cycle = Cycle.series(5e-6, 300.0, *series)
+    phase = turns(cycle.harmonics)
+    assert_allclose(cycle.rate(phase), 0, atol=1e-11)
+    values = dense(cycle)[:-1]
+    beside = np.roll(values, 1), np.roll(values, -1)
+    assert phase.size == np.sum((values >= np.maximum(*beside)) | (values < np.minimum(*beside)))
+    assert_allclose(cycle.z(phase).max(), cycle.greatest, rtol=1e-13)

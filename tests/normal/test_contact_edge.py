@@ -1,0 +1,69 @@
+"""The edge of the contact under any depth: the closed form of one cosine, the definition as an infimum, its ends."""
+
+import numpy as np
+import pytest
+import reference_full_slip as reference
+from numpy.testing import assert_allclose
+
+from mdr.case.depth_cycle import Cycle
+from mdr.normal import kelvin_edges
+from mdr.normal.contact_edge import ContactEdge
+
+RELAXATION = [0.0, 1e-6, 1e-3, 0.1, 0.5, 3.0, 100.0]
+PHASE = np.linspace(0, 2 * np.pi, 401)
+
+
+def some_series():
+    rng = np.random.default_rng(11)
+    for _ in range(24):
+        n = rng.integers(2, 7)
+        Z = (rng.normal(size=n) + 1j * rng.normal(size=n)) / np.arange(1, n + 1) ** rng.choice([0, 1, 2])
+        yield Cycle.series(0.0, 1.0, Z.real, -Z.imag), float(10 ** rng.uniform(-2.5, 1.5))
+
+
+@pytest.mark.parametrize("T", RELAXATION)
+@pytest.mark.parametrize(("n", "shift"), [(1, 0.0), (1, 1.3), (3, 0.0), (3, -2.0)])
+def test_a_cosine_has_its_closed_form_however_written(T, n, shift):
+    Z = np.zeros(n, dtype=complex)
+    Z[-1] = np.exp(1j * shift)
+    edge = ContactEdge.of(Cycle.series(0.0, 1.0, Z.real, -Z.imag), T / n)
+    closed = kelvin_edges.contact_edge(np.mod(n * PHASE + shift, 2 * np.pi), T)
+    assert_allclose(edge.gap(PHASE), closed, rtol=0, atol=1e-13 * (1 + T))
+
+
+def test_the_edge_is_the_least_chord():
+    for cycle, T in some_series():
+        edge, _ = reference.edge(cycle.harmonics, T, PHASE)
+        # a parabola through three flights of the search, 2e-3 apart: 1e-9 of a bend of some N**3 (1 + T)
+        assert_allclose(ContactEdge.of(cycle, T).gap(PHASE), edge, rtol=0, atol=1e-7 * (1 + T))
+
+
+def test_it_is_continuous_and_monotone_in_pieces():
+    several = 0
+    for cycle, T in some_series():
+        edge = ContactEdge.of(cycle, T)
+        several += len(edge.pieces) > 4
+        for one in edge.pieces:
+            gap = edge.gap(np.linspace(one.begin, one.end, 103)[1:-1])
+            side = 1 if not np.isnan(one.low) else -1
+            assert np.all(side * np.diff(gap) >= -1e-12 * (1 + T))
+        before, after = edge.gap(edge.begins - 1e-9), edge.gap(edge.begins + 1e-9)
+        assert_allclose(before, after, rtol=0, atol=1e-7 * (1 + T))
+    assert several > 6
+
+
+@pytest.mark.parametrize("T", [0.0, 0.2, 4.0])
+def test_a_spring_touches_and_leaves_when_it_is_the_edge(T):
+    rng = np.random.default_rng(2)
+    for cycle, _ in some_series():
+        edge, kept = ContactEdge.of(cycle, T), cycle.kept_gap(lambda n: 1 + 1j * T * n)
+        gap = float(rng.uniform(kept, cycle.greatest))
+        touches, leaves = edge.crossings(gap)
+        assert len(touches) == len(leaves) > 0
+        assert_allclose(edge.gap(np.array(touches + leaves)), gap, rtol=0, atol=1e-12 * (1 + T))
+        assert np.all(edge.gap(np.array(touches) + 1e-6) > gap)
+        assert np.all(edge.gap(np.array(leaves) + 1e-6) < gap)
+
+
+def test_a_constant_depth_has_a_still_edge():
+    assert_allclose(ContactEdge.of(Cycle.constant(1.0, 1.0), 0.5).gap(PHASE), 0, atol=0)

@@ -1,0 +1,97 @@
+"""Full slip beside its definition: `python tests/table_of_full_slip.py 300`; takes some ten minutes.
+
+Random contacts of each class of body, elastic, Kelvin and with an arm, kept and lost, of up to three harmonics, shaken
+at the tool or at the pull. Prints the greatest and the median difference between `full_slip_critical_velocity` and
+reference_full_slip.py, over v_c or a tenth of the greatest rate of the depth, where the latter is known well enough.
+"""
+
+import math
+import sys
+from collections import defaultdict
+
+import numpy as np
+import reference_full_slip as reference
+from conftest import SHAPES
+
+import mdr
+
+BODIES = ("rigid", "mass", "light", "massless", "no damper")
+UNIT, OMEGA, MU_0 = 2e-6, 300.0, 0.4
+
+
+def series(rng, n, decay):
+    return (rng.normal(size=n) + 1j * rng.normal(size=n)) / np.arange(1, n + 1) ** decay
+
+
+def drawn(seed, body, arms):
+    """A contact, the numbers of the reference, the velocity these are in, and whether contact is kept."""
+    rng = np.random.default_rng(seed)
+    shape, exponent = SHAPES[rng.choice(list(SHAPES))]
+    n = int(rng.choice([1, 1, 2, 3]))
+    Z = series(rng, n, 1) if n > 1 else np.ones(1, dtype=complex)
+    Z /= np.abs(Z).sum()
+    T = float(rng.choice([0, 0.3] if arms else [0, 0.1, 0.5, 2, 5]))
+    branch = ((float(rng.uniform(0.1, 3)),), (float(10 ** rng.uniform(-1, 0.7)),)) if arms else None
+    if branch:
+        pairs = [(3e6 * rho, theta / OMEGA) for rho, theta in zip(*branch, strict=True)]
+        material = mdr.Prony(E_inf=3e6, arms=pairs, nu=0.4, tau=T / OMEGA)
+    else:
+        material = mdr.KelvinVoigt(E=3e6, nu=0.4, tau=T / OMEGA)
+    motion = mdr.PeriodicMotion(OMEGA, 1.0, tuple(Z.real * UNIT), tuple(-Z.imag * UNIT))
+    deep = mdr.SlidingContact(shape, material, MU_0, motion)
+    kept_from = -deep.kept_gap * deep.cycle.unit / UNIT
+    kept = bool(rng.random() < 0.5)
+    highest = deep.cycle.unit * deep.cycle.greatest / UNIT
+    depth = float(kept_from * rng.uniform(1.05, 4) if kept else rng.uniform(-0.3 * highest, 0.9 * kept_from))
+    size = max(depth, 0.5) ** (1 / exponent)
+    M, C, K = 0.0, 0.0, math.inf
+    if body != "rigid":
+        K = size * float(10 ** rng.uniform(-1, 1))
+    if body == "mass":
+        M, C = K / float(rng.choice([0.4, 1.25, 2.3, 3.4, 10.3])) ** 2, size * float(rng.uniform(0, 0.3))
+    if body == "light":
+        M, C = K / float(10 ** rng.uniform(1.3, 2.3)) ** 2, size * float(rng.uniform(0.05, 0.5))
+    if body == "massless":
+        C = size * float(rng.uniform(0.05, 1))
+    k = float(shape.stiffness(UNIT, material.G_star))
+    pull = mdr.RigidPull() if body == "rigid" else mdr.SpringPull(K * k, M * k / OMEGA**2, C * k / OMEGA)
+    length, shake, X = MU_0 * material.mindlin_ratio * UNIT, None, np.zeros(0, dtype=complex)
+    if rng.random() < 0.5:
+        X = series(rng, int(rng.choice([1, 1, 2])), 1) * 10 ** rng.uniform(-1, 0.5)
+        at = "tool" if body == "rigid" else str(rng.choice(["tool", "pull"]))
+        shake = mdr.InPlaneMotion(OMEGA, tuple(X.real * length), tuple(-X.imag * length), at=at)
+        if at == "pull":
+            order = np.arange(1, X.size + 1)
+            X = X * (K + 1j * order * C) / (K - M * order**2 + 1j * order * C)
+    motion = mdr.PeriodicMotion(OMEGA, depth * UNIT, tuple(Z.real * UNIT), tuple(-Z.imag * UNIT))
+    case = mdr.SlidingContact(shape, material, MU_0, motion, pull, shake=shake)
+    return case, (Z, X, exponent, depth, T, branch, M, C, K), length * OMEGA, kept
+
+
+def difference(case, numbers, unit, **grid):
+    """Of the library and the reference, and what the latter does not know; None where v_c is infinite."""
+    found = mdr.full_slip_critical_velocity(case) / unit
+    if math.isinf(found):
+        return None
+    v_c, unknown = reference.converged(*numbers, **grid)
+    return abs(found - v_c) / max(abs(v_c), 0.1 * np.abs(reference.rate(numbers[0])).sum()), unknown
+
+
+def main(count):
+    rows = defaultdict(list)
+    for seed in range(count):
+        body, arms = BODIES[seed % len(BODIES)], seed % 4 == 3
+        case, numbers, unit, kept = drawn(seed, body, arms)
+        found = difference(case, numbers, unit, n_t=1024, n=300, most=2)
+        rows[body, "arms" if arms else "", "kept" if kept else "lost"].append(found)
+    for name, found in sorted(rows.items()):
+        known = [one for one in found if one is not None]
+        sure = [off for off, unknown in known if unknown < max(off / 3, 1e-6)]
+        worst = f"greatest {max(sure):.1e}, median {np.median(sure):.1e}" if sure else "none"
+        print(
+            f"{' '.join(name):24s} {len(found):3d} drawn, {len(found) - len(known)} infinite, {len(sure)} sure: {worst}"
+        )
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))
