@@ -157,8 +157,8 @@ def claim(effort: str) -> Claim:
         f"most "
         f"{100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
         verdict="holds",
-        sentence="The COF converges at least with the second power of step and spring spacing, and the error that a "
-        "run states bounded the true one in every run tested.",
+        sentence="The COF converges at least with the second power of step and spring spacing. The stated error bounds "
+        "the true one in all runs of this claim, and in 99 of 100 random ones of a harmonic motion.",
         checks=tuple(checks),
         figures=(_figure(studies),),
     )

@@ -76,10 +76,16 @@ def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: they resolve the oscillation of the body on the
     contact, if that can be afforded, and more where a body without mass jolts as dashpots touch.
     """
-    fast, plain = fast_ratio(case), max(_STEPS * max(1, *case.repeats), _steps_of_departure(case))
+    fast, plain = fast_ratio(case), max(min(_STEPS * _oscillations(case), MOST_STEPS), _steps_of_departure(case))
     if np.isinf(fast):
         return max(_STEPS_OF_JOLTS, plain) if case.rheology.remembers and not case.keeps_contact else plain
     return plain if fast * 2 * RESOLVED < plain else int(min(2 * RESOLVED * np.ceil(fast), MOST_STEPS))
+
+
+def _oscillations(case: SlidingContact) -> int:
+    """Of the depth or of the shake in the period of the case, by the strongest harmonic."""
+    motions = case.cycle.harmonics, case.shake_harmonics
+    return max(1 + int(np.abs(motion).argmax()) for motion in motions if motion.size)
 
 
 @remembered(maxsize=8)

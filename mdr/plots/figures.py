@@ -4,8 +4,8 @@ Functions with `ax` draw on it (or on a new one) and return it; the others retur
 by attribute only. Times are in periods of the oscillation, lengths and forces in the prefix that reads best.
 """
 
-from collections.abc import Iterable, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,26 +24,35 @@ _FREE = 0
 _MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
 
-def style() -> AbstractContextManager[None]:
-    """Font sizes, colours and layout of the figures, for use in a `with`."""
+@contextmanager
+def style(changes: Mapping[str, Any] | None = None) -> Iterator[None]:
+    """Font sizes, colours and layout of the figures, for use in a `with`; changes: more rcParams, or other values.
+
+    What it set is put back at its end, and nothing else: pyplot may load its backend inside, which sets rcParams too.
+    """
     import matplotlib as mpl
     from cycler import cycler
 
-    return mpl.rc_context(
-        {
-            "figure.figsize": (6.4, 4.2),
-            "figure.constrained_layout.use": True,
-            "font.size": 11,
-            "axes.titlesize": 11,
-            "legend.fontsize": 9.5,
-            "legend.frameon": False,
-            "axes.prop_cycle": cycler(color=COLOURS),
-            "axes.spines.top": False,
-            "axes.spines.right": False,
-            "lines.linewidth": 1.6,
-            "svg.hashsalt": "mdr",
-        }
-    )
+    look: dict[Any, Any] = {
+        "figure.figsize": (6.4, 4.2),
+        "figure.constrained_layout.use": True,
+        "font.size": 11,
+        "axes.titlesize": 11,
+        "legend.fontsize": 9.5,
+        "legend.frameon": False,
+        "axes.prop_cycle": cycler(color=COLOURS),
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "lines.linewidth": 1.6,
+        "svg.hashsalt": "mdr",
+        **(changes or {}),
+    }
+    before = {name: mpl.rcParams[name] for name in look}
+    try:
+        mpl.rcParams.update(look)
+        yield
+    finally:
+        mpl.rcParams.update(before)
 
 
 def plot_curve(
@@ -111,14 +120,12 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
     matplotlib.axes.Axes
         Where data and curve were drawn.
     """
-    import matplotlib.pyplot as plt
-
     data, curve = fitted.data, fitted.curve
     factor, unit = prefix(data.v_0, "m/s")
     velocity = f"pulling velocity $v_0$ [{unit}]"
     with style():
         if ax is None:
-            _, (ax, below) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.2), height_ratios=(3, 1))
+            _, (ax, below) = subplots(2, 1, sharex=True, figsize=(6.4, 5.2), height_ratios=(3, 1))
             below.errorbar(data.v_0 * factor, fitted.residuals, data.error, fmt="o", color=COLOURS[1], capsize=2)
             below.axhline(0, color=COLOURS[0], linewidth=1.0, zorder=0)
             below.set(xlabel=velocity, ylabel="measured\nless fitted")
@@ -158,15 +165,13 @@ def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
 
 def plot_spring_maps(runs: Sequence[Any], labels: Sequence[str]) -> "Figure":
     """Show the spring maps of several runs side by side, under their labels and on the same axes."""
-    import matplotlib.pyplot as plt
-
     runs, labels = [_recorded(run) for run in runs], list(labels)
     if not runs or len(labels) != len(runs):
         raise ValueError(f"labels must name each of the {len(runs)} runs (at least one), got {len(labels)}")
     unit = prefix(np.concatenate([run.x for run in runs]), "m")
     with style():
         size = (max(3.4, 1.2 + 2.4 * len(runs)), 3.4)
-        fig, axes = plt.subplots(1, len(runs), sharex=True, sharey=True, squeeze=False, figsize=size)
+        fig, axes = subplots(1, len(runs), sharex=True, sharey=True, squeeze=False, figsize=size)
         for ax, run, label in zip(axes[0], runs, labels, strict=True):
             _draw_map(ax, run, unit)
             ax.set_title(label)
@@ -208,10 +213,8 @@ def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
 
 def plot_run(run: Any) -> "Figure":
     """Show a recorded run: the spring map, and below it the forces that the springs add up to."""
-    import matplotlib.pyplot as plt
-
     with style():
-        fig, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 5.6), height_ratios=(3, 2))
+        fig, (above, below) = subplots(2, 1, sharex=True, figsize=(6.4, 5.6), height_ratios=(3, 2))
         plot_spring_map(run, above)
         plot_forces(run, below)
         above.set_xlabel("")
@@ -234,11 +237,9 @@ def plot_traces(run: Any) -> "Figure":
     matplotlib.figure.Figure
         The figure.
     """
-    import matplotlib.pyplot as plt
-
     t = periods_of(_recorded(run))
     with style():
-        fig, (forces, places, velocities) = plt.subplots(3, 1, sharex=True, figsize=(6.4, 7.2))
+        fig, (forces, places, velocities) = subplots(3, 1, sharex=True, figsize=(6.4, 7.2))
         plot_forces(run, forces)
         forces.set_xlabel("")
         _draw_places(places, t, run)
@@ -268,8 +269,6 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLi
     matplotlib.figure.Figure
         The figure. Heights are exaggerated: the two axes have their own scales.
     """
-    import matplotlib.pyplot as plt
-
     a = float(indenter.contact_radius(d))
     if springs is None:
         x = (np.arange(-(-n_springs // 2)) + 0.5) * 1.5 * a / (n_springs / 2)
@@ -277,7 +276,7 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLi
         x = np.sort(np.asarray(getattr(springs, "x", springs), dtype=float))
     units = prefix([1.5 * a], "m"), prefix([d], "m")
     with style():
-        fig, (left, right) = plt.subplots(1, 2, sharex=True, sharey=True, figsize=(7.4, 3.6))
+        fig, (left, right) = subplots(1, 2, sharex=True, sharey=True, figsize=(7.4, 3.6))
         _draw_shape(left, indenter.profile_3d, a, d, units)
         _draw_springs(right, indenter.profile_1d, x, a, d, units)
         _draw_shape(right, indenter.profile_1d, a, d, units)
@@ -474,9 +473,16 @@ def _draw_springs(ax: "Axes", profile: Any, x: Any, a: float, d: float, units: A
 
 def axes_of(ax: "Axes | None") -> "Axes":
     """The axes given, or those of a new figure."""
+    return subplots()[1] if ax is None else ax
+
+
+def subplots(*args: Any, **kwargs: Any) -> "tuple[Figure, Any]":
+    """pyplot's, of a figure that a notebook shows once."""
     import matplotlib.pyplot as plt
 
-    return plt.subplots()[1] if ax is None else ax
+    from mdr.plots.picture import Picture
+
+    return plt.subplots(*args, FigureClass=Picture, **kwargs)
 
 
 def colours(n: int) -> list[Any]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.units import facts_at
-from mdr.plots.figures import axes_of, colours, edges_of, prefix, style
+from mdr.plots.figures import axes_of, colours, edges_of, prefix, style, subplots
 from mdr.studies.axes import Axis
 from mdr.studies.points import Status
 from mdr.tools.arrays import Array
@@ -147,8 +147,6 @@ def plot_multiples(
 
     All share their scales. x is the path across; knobs are those of `plot_map` for maps.
     """
-    import matplotlib.pyplot as plt
-
     if columns < 1:
         raise ValueError(f"columns must be at least 1, got {columns!r}")
     axis = _axis(study, over)
@@ -160,7 +158,7 @@ def plot_multiples(
     rows = -(-len(parts) // columns)
     with style():
         size = (1.2 + 2.9 * columns, 0.8 + 2.5 * rows)
-        fig, grid = plt.subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
+        fig, grid = subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
         if is_map:
             knobs = {"limits": _limits(study[quantity], knobs.get("log", False))} | knobs
         marks: dict[str, Any] = {}

@@ -1,6 +1,6 @@
 """Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
 
-What takes long is said on standard error: the first run on a machine waits some 20 seconds for it.
+What takes long is said on standard error: the first run on a machine waits for it, nearly a minute on one core.
 """
 
 from __future__ import annotations
@@ -14,9 +14,11 @@ from typing import Any
 from numba import njit
 from numba.core import event
 
-from mdr.tools.progress import PATIENCE
+from mdr.tools.progress import BETWEEN, PATIENCE
 
 Function = Callable[..., Any]
+
+FUNCTIONS = 80  #: that all kinds of runs need together
 
 
 def compiled(**options: Any) -> Callable[[Function], Function]:
@@ -34,7 +36,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
-                "own, which takes some 20 seconds; let NUMBA_CACHE_DIR name a folder that can"
+                "own, which takes nearly a minute of one core; let NUMBA_CACHE_DIR name a folder that can"
             )
             ready = njit(**options)(function)
         return ready
@@ -43,24 +45,30 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
 
 
 class Notice(event.Listener):
-    """Says once, on standard error, that functions of this package are being compiled, if it takes long."""
+    """Says on standard error how many functions of this package have been compiled, if it takes long."""
 
     def __init__(self) -> None:
-        self.since, self.open, self.said = 0.0, 0, False
+        self.next, self.open, self.done = 0.0, 0, 0
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
         if not _is_ours(event):
             return
-        self.since = self.since if self.open else time.monotonic()
+        if not self.open:
+            self.next = max(self.next, time.monotonic() + PATIENCE)
         self.open += 1
-        if not self.said and time.monotonic() - self.since > PATIENCE:
-            self.said = True
-            print("compiling, once on this machine: some 20 seconds", file=sys.stderr, flush=True)
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
-        self.open -= _is_ours(event)
+        if not _is_ours(event):
+            return
+        self.open -= 1
+        self.done += 1
+        now = time.monotonic()
+        if now > self.next:
+            self.next = now + BETWEEN
+            done = f"{self.done} of at most some {FUNCTIONS} functions, which take nearly a minute of one core"
+            print(f"compiling, once on this machine: {done}", file=sys.stderr, flush=True)
 
 
 def _is_ours(event: Any) -> bool:

@@ -125,6 +125,17 @@ def test_measured_velocity_scales():
     assert_allclose(measured, measured[0], rtol=TOLERANCE)
 
 
+@pytest.mark.parametrize("n", [2, 3, 8])
+def test_a_motion_as_harmonic_of_a_lower_frequency_is_the_same(n):
+    """Steps are chosen for the oscillation: of half as many companions agreed by chance, 2.5e-5 from the limit."""
+    case = contact("flat", 1 / 1.09)
+    cos = (*(0.0,) * (n - 1), case.oscillation.du_z)
+    motion = mdr.PeriodicMotion(case.omega / n, case.oscillation.u_z0, cos)
+    one, other = (mdr.slide(each, 0.4 * unit_of_velocity(case)) for each in (case, replace(case, oscillation=motion)))
+    assert other.steps_per_period == n * one.steps_per_period
+    assert_allclose(other.cof, one.cof, rtol=TOLERANCE)
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_closed_forms_scale(size):
     omega, du_z, E, a_0 = SIZES[size]
