@@ -114,7 +114,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     rates = _slip_rates(case, direction * X_n)
     touches, leaves = contact_ends(case)
     if case.pull.is_rigid:
-        phase = turns(rates)
+        phase = np.append(turns(rates), 0.0)  # a sum that is still has no turns
         phase = np.concatenate([phase[_in_contact(phase, touches, leaves)], touches, leaves])
         return float(harmonic_sum(rates, phase).max())
     panels = _time_panels(case, rates, np.concatenate([touches, leaves]))

@@ -379,8 +379,10 @@ def test_a_close_look_is_the_same_in_parts_and_whatever_it_keeps(T):
     whole, parts, sums = (watched(scaled, *how) for how in ((steps, steps), (50, steps), (50, 0)))
     assert whole[0][kernels.CONTACT_TIME] > 0
     assert whole[4].shape == (steps, n)
-    for one, other in zip(whole, parts, strict=True):
-        assert_allclose(other, one, rtol=1e-14)  # the sums over springs at the seams are made in another order
+    # sums over springs at the seams are made in another order; of the normal work of elastic springs rounding is left
+    assert_allclose(parts[0], whole[0], rtol=1e-14, atol=1e-14 * whole[0].max())
+    for one, other in zip(whole[1:], parts[1:], strict=True):
+        assert_allclose(other, one, rtol=1e-14)
     for one, other in zip(parts[:4], sums[:4], strict=True):
         assert_array_equal(other, one)
 
