@@ -301,8 +301,8 @@ def _greatest(values: Array) -> float:
     series = values @ _series().T
     x = np.cos(np.linspace(np.pi, 0, 4 * N_NODES))
     dense = series @ legendre.legvander(x, N_NODES - 1).T
-    inner = dense[:, 1:-1]
-    tops = np.where((inner > dense[:, :-2]) & (inner >= dense[:, 2:]), inner, -np.inf).max(axis=1)
+    rises = (legendre.legvander(x, N_NODES - 2) @ legendre.legder(series.T)).T > 0
+    tops = np.where(rises[:, :-1] & ~rises[:, 1:], np.maximum(dense[:, :-1], dense[:, 1:]), -np.inf).max(axis=1)
     best = float(dense.max())
     for k in np.argsort(tops)[-8:]:
         if np.isfinite(tops[k]):
