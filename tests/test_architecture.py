@@ -22,7 +22,7 @@ ORDER = (
     ("case",),
     ("normal",),
     ("files",),
-    ("closed_forms", "march"),
+    ("closed_forms", "half_space", "march"),
     ("friction",),
     ("studies",),
     ("plots",),
@@ -199,6 +199,17 @@ def test_the_compiled_march_knows_numbers_alone(house):
     _, imports = house
     assert {room_of(module) for module in reach(imports, ["mdr.march.kernels"])} == {"march", "materials", "tools"}
     assert [one for one in reach(imports, ["mdr.march.kernels"]) if room_of(one) == "march"] == ["mdr.march.kernels"]
+
+
+def test_the_half_space_and_the_springs_know_nothing_of_each_other(house):
+    """So that the springs have a judge."""
+    known, imports = house
+    half_space = inside({"half_space"}, known)
+    springs = inside({"march", "friction"}, known) | {module for module in known if "spring" in module}
+    assert half_space
+    assert "mdr.normal.springs" in springs
+    assert ways_between(imports, known, half_space, springs) == []
+    assert ways_between(imports, known, springs, half_space) == []
 
 
 def test_the_measured_velocity_knows_no_closed_form(house):

@@ -18,10 +18,10 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
+from mdr.half_space.friction import Settings, in_three_dimensions, last_period
 from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space import pictures, tables
-from validation.half_space.friction import Knobs, in_three_dimensions, march
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Figure
 from validation.words import span
@@ -40,7 +40,9 @@ def claim(effort: str) -> Claim:
     quick = effort == "quick"
     if effort == "long":
         columns = [_column(shape, nu, mu_0) for mu_0 in FRICTIONS for nu in RATIOS for shape in SHAPES]
-        tables.write("coupled", tables.compute(columns, tables.KNOBS), tables.KNOBS, "elastic, rigid pull, coupled")
+        tables.write(
+            "coupled", tables.compute(columns, tables.SETTINGS), tables.SETTINGS, "elastic, rigid pull, coupled"
+        )
     rows = tables.read("coupled")
     most = max(rows, key=lambda row: row.loss)
     return Claim(
@@ -54,8 +56,8 @@ def claim(effort: str) -> Claim:
         range=(
             f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
             f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
-            f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.KNOBS.cells}² cells and {tables.KNOBS.steps} steps,"
-            " errors beside each"
+            f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.SETTINGS.cells}² cells and"
+            f" {tables.SETTINGS.steps} steps, errors beside each"
             " (validation/half_space/tables/coupled.csv)"
         ),
         measured=_measured(rows),
@@ -117,9 +119,9 @@ def _equal_checks(quick: bool) -> list[Check]:
     checks = []
     for shape in SHAPES:
         case = contact(shape, ALPHA, mu_0=0.3, nu=NEARLY)
-        knobs = Knobs(17 if quick else 31, 24 if quick else 50, cycles=2)
+        settings = Settings(17 if quick else 31, 24 if quick else 50, cycles=2)
         both = [
-            in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), replace(knobs, coupled=on)).cof
+            in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), replace(settings, coupled=on)).cof
             for on in (True, False)
         ]
         checks.append(
@@ -133,7 +135,7 @@ def _equal_checks(quick: bool) -> list[Check]:
         )
     pair = Point("paraboloid", 0.5, 0.3, ALPHA, 0.0, 0.6, nu_2=0.0)  # beta < 0
     turned = replace(pair, nu=0.0, nu_2=0.5)
-    one, two = (tables.loss(point, Knobs(cells=17, steps=24, cycles=3)) for point in (pair, turned))
+    one, two = (tables.loss(point, Settings(cells=17, steps=24, cycles=3)) for point in (pair, turned))
     checks.append(
         Check("two bodies, β → −β: loss over that of +β", one / two, 1, 1e-3, "of the solver, over a loss of 2 %")
     )
@@ -157,10 +159,10 @@ def _table_checks(rows: list[Row]) -> list[Check]:
 def _again_checks(rows: list[Row], quick: bool) -> list[Check]:
     """Points computed now on a coarser grid."""
     known = {row.point: row for row in rows}
-    knobs = Knobs(17 if quick else 21, 24 if quick else 32, cycles=4, settled=1e-3)
+    settings = Settings(17 if quick else 21, 24 if quick else 32, cycles=4, settled=1e-3)
     checks = []
     for shape in SHAPES[:1] if quick else SHAPES:
-        for new in tables.column([Point(shape, 0.3, 0.3, ALPHA, 0.0, v) for v in (1.2, 0.6)], knobs):
+        for new in tables.column([Point(shape, 0.3, 0.3, ALPHA, 0.0, v) for v in (1.2, 0.6)], settings):
             old = known[new.point]
             name = f"{shape}, ν = μ_0 = 0.3, {new.point.v:g} v_c: loss computed again"
             checks.append(Check(name, new.loss, old.loss, new.error + old.error, "errors of both"))
@@ -210,7 +212,7 @@ def _curve_figure(rows: list[Row]) -> Figure:
 def _map_figure(cells: int, steps: int) -> Figure:
     """Stick and slip at four instants."""
     case = contact("paraboloid", ALPHA, mu_0=0.3, nu=0.3)
-    found = march(case, SHOWN * mdr.critical_velocity(case), Knobs(cells, steps, cycles=2))
+    found = last_period(case, SHOWN * mdr.critical_velocity(case), Settings(cells, steps, cycles=2))
     return Figure(
         name="map",
         caption=f"The contact of a paraboloid from above at {SHOWN:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {ALPHA:g}). Dark:"

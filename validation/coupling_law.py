@@ -24,11 +24,11 @@ from scipy.optimize import curve_fit
 
 import mdr
 from mdr.closed_forms import coupling
+from mdr.half_space.friction import Settings
 from mdr.plots import style
 from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
 from validation.half_space import tables
-from validation.half_space.friction import Knobs
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Equation, Figure
 
@@ -133,8 +133,8 @@ def tried(columns: Iterable[Column], constants: dict[float | None, Array]) -> li
 def claim(effort: str) -> Claim:
     """Fit to one shape at one amplitude, and try the rest."""
     if effort == "long":
-        rows = tables.compute(held_out(), tables.KNOBS)
-        tables.write("coupling_held_out", rows, tables.KNOBS, "shapes, amplitudes, rheology, two bodies")
+        rows = tables.compute(held_out(), tables.SETTINGS)
+        tables.write("coupling_held_out", rows, tables.SETTINGS, "shapes, amplitudes, rheology, two bodies")
     everything = columns_of([*tables.read("coupled"), *tables.read("coupling_held_out")])
     training = [column for column in everything if _is_training(column[0].point)]
     rest = [column for column in everything if column[0].point not in {one[0].point for one in training}]
@@ -247,8 +247,8 @@ def _group_checks(quick: bool) -> list[Check]:
     for nu in (0.3, 0.45) if quick else (0.2, 0.3, 0.45):
         body = mdr.Elastic(E=1.0, nu=nu)
         point = Point("paraboloid", nu, 2 * body.dundurs_beta / (np.pi * body.mindlin_ratio), 0.3, 0.0, 0.8)
-        knobs = Knobs(17 if quick else 25, 24 if quick else 40, cycles=4, settled=1e-3)
-        losses.append(tables.loss(point, knobs))
+        settings = Settings(17 if quick else 25, 24 if quick else 40, cycles=4, settled=1e-3)
+        losses.append(tables.loss(point, settings))
     name = "λ = 1 by several ν and μ_0, 0.8 v_c: least loss over greatest"
     return [Check(name, min(losses) / max(losses), 1, 0.08, "β²/κ differs, by up to 0.1")]
 

@@ -35,10 +35,10 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
+from mdr.half_space.friction import LastPeriod, Settings, contact_of, in_three_dimensions, last_period, path, stuck
 from mdr.plots import style
 from validation.cases import LOOKS, contact, shape_label
 from validation.half_space import pictures, tables
-from validation.half_space.friction import Knobs, March, contact_of, in_three_dimensions, march, path, stuck
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
 from validation.report import Check, Claim, Equation, Figure
@@ -158,20 +158,20 @@ def end(shape: str, nu: float, mu_0: float, alpha: float, cells: int) -> float:
     low, high = 1.0, 1 + 2 * radial_rub(case)
     while high - low > FOUND * radial_rub(case):
         v = (low + high) / 2
-        low, high = (v, high) if _sticks(case, v, Knobs(cells, STEPS)) else (low, v)
+        low, high = (v, high) if _sticks(case, v, Settings(cells, STEPS)) else (low, v)
     return (low + high) / 2
 
 
-def _sticks(case: mdr.SlidingContact, v: float, knobs: Knobs) -> bool:
-    judged, half = contact_of(case, knobs), knobs.steps // 2 + 1
-    depth, way, dt = path(case, v * mdr.critical_velocity(case), knobs)
-    steps = judged.march(judged.full_slip(float(depth[0])), depth[:half], way[:half], dt)
+def _sticks(case: mdr.SlidingContact, v: float, settings: Settings) -> bool:
+    judged, half = contact_of(case, settings), settings.steps // 2 + 1
+    depth, x, dt = path(case, v * mdr.critical_velocity(case), settings)
+    steps = judged.march(judged.full_slip(float(depth[0])), depth[:half], x[:half], dt)
     return any(stuck(judged, step).any() for step in steps)
 
 
-def _map(cells: int, steps: int) -> March:
+def _map(cells: int, steps: int) -> LastPeriod:
     case = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3)
-    return march(case, ABOVE * mdr.critical_velocity(case), Knobs(cells, steps, cycles=2))
+    return last_period(case, ABOVE * mdr.critical_velocity(case), Settings(cells, steps, cycles=2))
 
 
 def _before(alpha: float, shape: str) -> float:
@@ -213,7 +213,7 @@ def _table_checks() -> list[Check]:
     ]
 
 
-def _place_checks(found: March) -> list[Check]:
+def _place_checks(found: LastPeriod) -> list[Check]:
     """Above Eq. (1): what sticks does so at the trailing edge, while the depth grows fastest."""
     shares = found.stick
     i = int(np.nanargmax(shares))
@@ -240,8 +240,8 @@ def _tail_checks(quick: bool) -> list[Check]:
     for shape, mean in MEANS.items():
         for nu, mu_0, alpha in known:
             v, case = FAST / alpha, _case((shape, nu, mu_0, alpha))
-            knobs = Knobs(17 if quick else 31, 32, cycles=1)
-            cof = in_three_dimensions(case, v * mdr.critical_velocity(case), knobs).cof
+            settings = Settings(17 if quick else 31, 32, cycles=1)
+            cof = in_three_dimensions(case, v * mdr.critical_velocity(case), settings).cof
             scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
             name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
             why = "(v_c/α v_0)² and α² of it, and cells"
@@ -286,7 +286,7 @@ def _end_figure(ends: dict[Known, float], cells: int) -> Figure:
     )
 
 
-def _map_figure(found: March) -> Figure:
+def _map_figure(found: LastPeriod) -> Figure:
     """Stick and slip at four instants."""
     return Figure(
         name="map",

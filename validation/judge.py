@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 import mdr
+from mdr.half_space.friction import Settings, in_three_dimensions
 from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space import rings
 from validation.half_space.benchmarks import PartialSlip, cattaneo_mindlin, hertz, punch, spence
-from validation.half_space.friction import Knobs, in_three_dimensions
 from validation.report import Check, Claim, Figure
 
 SHARES = (0.2, 0.5, 0.8)  #: of the way to full slip
@@ -153,8 +153,8 @@ def _beta(nu: float) -> float:
 
 @cache
 def _stepped(steps: int) -> float:
-    case, knobs = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3), Knobs(cells=17, steps=steps, cycles=2)
-    return in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), knobs).cof / case.mu_0
+    case, settings = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3), Settings(cells=17, steps=steps, cycles=2)
+    return in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), settings).cof / case.mu_0
 
 
 def _order_checks(quick: bool) -> list[Check]:

@@ -17,8 +17,9 @@ import numpy as np
 
 import mdr
 from mdr import laws
+from mdr.half_space.friction import Settings, in_three_dimensions
 from validation.cases import LOOKS, SHAPES, shaken, shape_label
-from validation.half_space.friction import Knobs, in_three_dimensions, of_springs
+from validation.half_space.springs import of_springs
 from validation.measured import with_band
 from validation.report import Check, Claim, Figure
 
@@ -151,18 +152,18 @@ def _order_check() -> Check:
 
 def _half_space_checks() -> list[Check]:
     """The springs beside three dimensions without coupling, in the same steps."""
-    knobs = Knobs(cells=40, steps=48, cycles=6, coupled=False, settled=1e-6)
+    settings = Settings(cells=40, steps=48, cycles=6, coupled=False, settled=1e-6)
     checks = []
     for alpha, chi in ((0.0, 1.0), (ALPHA_3D, 1.0)):
         case = shaken("paraboloid", alpha, chi, 0.7)
         case = replace(case, material=replace(case.material, nu=0.0))
         v_0 = 0.3 * mdr.critical_velocity(case)
-        apart = (in_three_dimensions(case, v_0, knobs).cof - of_springs(case, v_0, knobs).cof) / case.mu_0
+        apart = (in_three_dimensions(case, v_0, settings).cof - of_springs(case, v_0, settings).cof) / case.mu_0
         pressed = f"Δu_z/u_z0 = {alpha:g}" if alpha else "constant depth"
         name = (
             f"COF/μ_0 in three dimensions less that of springs in the same steps: paraboloid, {pressed}, v_0 = 0.3 v_c"
         )
-        checks.append(Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {knobs.cells}² cells"))
+        checks.append(Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells"))
     return checks
 
 

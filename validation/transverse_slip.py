@@ -10,9 +10,10 @@ from functools import cache
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
+from mdr.half_space.friction import Settings, in_three_dimensions
 from mdr.plots import COLOURS, style
 from validation.cases import contact
-from validation.half_space.friction import Knobs, in_three_dimensions, of_springs
+from validation.half_space.springs import of_springs
 from validation.report import Check, Claim, Figure
 from validation.words import listed, number, span
 
@@ -20,7 +21,7 @@ ALPHA, FRICTION = 0.3, 0.3
 VELOCITIES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 2.0)  # over Eq. (1)
 POISSON = (0.15, 0.3, 0.5)
 CHECKED = 0.6  # v_0/v_c at which errors are looked for
-KNOBS = Knobs(cells=21, steps=32, cycles=4, settled=1e-3)
+SETTINGS = Settings(cells=21, steps=32, cycles=4, settled=1e-3)
 
 
 @dataclass(frozen=True)
@@ -51,20 +52,24 @@ def rub(nu: float) -> float:
 
 
 @cache
-def losses(nu: float, v: float, knobs: Knobs) -> Losses:
+def losses(nu: float, v: float, settings: Settings) -> Losses:
     """The four of one contact."""
     case = contact("paraboloid", ALPHA, mu_0=FRICTION, nu=nu)
     v_0 = v * mdr.critical_velocity(case)
-    springs = of_springs(case, v_0, knobs).cof
-    runs = (replace(knobs, coupled=c, transverse=t) for c in (True, False) for t in (True, False))
+    springs = of_springs(case, v_0, settings).cof
+    runs = (replace(settings, coupled=c, transverse=t) for c in (True, False) for t in (True, False))
     return Losses(nu, v, *((springs - in_three_dimensions(case, v_0, one).cof) / FRICTION for one in runs))
 
 
-def errors(knobs: Knobs) -> dict[str, float]:
+def errors(settings: Settings) -> dict[str, float]:
     """By how much half of the steps and half of the cells change the loss and its parts, together; at one point."""
     here, slow, wide = (
         losses(0.3, CHECKED, one)
-        for one in (knobs, replace(knobs, steps=knobs.steps // 2), replace(knobs, cells=(knobs.cells + 1) // 2))
+        for one in (
+            settings,
+            replace(settings, steps=settings.steps // 2),
+            replace(settings, cells=(settings.cells + 1) // 2),
+        )
     )
     names = ("coupled", "by_coupling", "by_itself")
     return {name: sum(abs(getattr(here, name) - getattr(other, name)) for other in (slow, wide)) for name in names}
@@ -73,21 +78,21 @@ def errors(knobs: Knobs) -> dict[str, float]:
 def claim(effort: str) -> Claim:
     """Run with and without slip across the pull."""
     quick = effort == "quick"
-    knobs = replace(KNOBS, cells=15, steps=24) if quick else KNOBS
+    settings = replace(SETTINGS, cells=15, steps=24) if quick else SETTINGS
     velocities = (0.6, 1.6) if quick else VELOCITIES
-    found = [losses(nu, v, knobs) for nu in (POISSON[1:2] if quick else POISSON) for v in velocities]
+    found = [losses(nu, v, settings) for nu in (POISSON[1:2] if quick else POISSON) for v in velocities]
     itself = max(abs(one.by_itself) for one in found)
     some = [one for one in found if one.nu < 0.5 and 0.3 < one.v < 0.9]
     below = [one.by_coupling / one.coupled for one in some]
-    error = errors(knobs)
+    error = errors(settings)
     return Claim(
         name="transverse_slip",
         title="Slip across the pull does not change friction noticeably",
         quote="",
         range=(
             f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
-            f" v_0/v_c = {listed(velocities)}; {knobs.cells}² cells,"
-            f" {knobs.steps} steps a period; at ν = 0.3 and {CHECKED:g} v_c half the steps and half the cells change"
+            f" v_0/v_c = {listed(velocities)}; {settings.cells}² cells,"
+            f" {settings.steps} steps a period; at ν = 0.3 and {CHECKED:g} v_c half the steps and half the cells change"
             f" the losses by up to {error['coupled']:.0e}, what slip across does with coupling by"
             f" {error['by_coupling']:.0e}"
             f" and without by {error['by_itself']:.0e}"

@@ -12,10 +12,10 @@ The table (validation/half_space/tables/uncoupled.csv) is computed by `python -m
 from collections.abc import Iterable
 from dataclasses import replace
 
+from mdr.half_space.friction import Settings
 from mdr.plots import style
 from validation.cases import LOOKS, SHAPES, loss, shape_label
 from validation.half_space import tables
-from validation.half_space.friction import Knobs
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Claim, Figure
 from validation.words import number
@@ -24,22 +24,22 @@ KEPT, LOST = 0.3, 1.5  # du_z/u_z0
 TIMES = (0.0, 1.0)
 VELOCITIES = (0.8, 0.4, 0.1)  # over Eq. (1)
 ALLOWED = 2e-4  # of mu_0
-KNOBS = Knobs(cells=48, steps=50, cycles=20, coupled=False, settled=1e-6)
-FINER = replace(KNOBS, cells=96)  # where contact is lost, and small for a part of the period
+SETTINGS = Settings(cells=48, steps=50, cycles=20, coupled=False, settled=1e-6)
+FINER = replace(SETTINGS, cells=96)  # where contact is lost, and small for a part of the period
 
 
 def claim(effort: str) -> Claim:
     """Read the table, and compute some of it again."""
     if effort == "long":
-        kept = tables.compute(_columns(SHAPES, KEPT, VELOCITIES), KNOBS)
+        kept = tables.compute(_columns(SHAPES, KEPT, VELOCITIES), SETTINGS)
         lost = tables.compute(_columns(SHAPES, LOST, VELOCITIES), FINER)
         tables.write("uncoupled", [*kept, *lost], FINER, "no coupling; 48 x 48 where contact is kept")
     rows = tables.read("uncoupled")
     if effort == "quick":
         columns = _columns(("paraboloid", "flat punch"), KEPT, VELOCITIES[1:2])
-        again = tables.compute(columns, replace(KNOBS, cells=32, steps=24))
+        again = tables.compute(columns, replace(SETTINGS, cells=32, steps=24))
     else:
-        again = tables.compute(_columns(SHAPES, KEPT, VELOCITIES[1:2]), KNOBS)
+        again = tables.compute(_columns(SHAPES, KEPT, VELOCITIES[1:2]), SETTINGS)
         again += tables.compute(_columns(("cone",), LOST, VELOCITIES[1:2])[:1], FINER)
     checks = (*_table_checks(rows), *_again_checks(again, rows))
     worst = max(abs(row.loss) for row in rows)
@@ -53,8 +53,8 @@ def claim(effort: str) -> Claim:
         range=(
             f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1, contact"
             f" kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
-            f" {max(VELOCITIES):g}; {KNOBS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
-            f" {KNOBS.steps} steps a period (validation/half_space/tables/uncoupled.csv)"
+            f" {max(VELOCITIES):g}; {SETTINGS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
+            f" {SETTINGS.steps} steps a period (validation/half_space/tables/uncoupled.csv)"
         ),
         measured=(
             f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in the"

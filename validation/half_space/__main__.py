@@ -9,19 +9,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import mdr
-from validation.half_space.friction import Knobs, in_three_dimensions
-from validation.half_space.normal import NotConverged
+from mdr.half_space.friction import Settings, in_three_dimensions
+from mdr.half_space.normal import NotConverged
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """0 done, 1 a step did not converge, 2 wrong input."""
     args = _arguments().parse_args(argv)
-    knobs = Knobs(args.cells, args.steps, args.cycles, coupled=not args.uncoupled)
+    settings = Settings(args.cells, args.steps, args.cycles, coupled=not args.uncoupled)
     try:
         case = mdr.read_case(args.case)
-        found = in_three_dimensions(case, args.v_0, knobs)
-        coarse = in_three_dimensions(case, args.v_0, replace(knobs, steps=args.steps // 2))
-        wide = in_three_dimensions(case, args.v_0, replace(knobs, cells=(args.cells + 1) // 2))
+        found = in_three_dimensions(case, args.v_0, settings)
+        coarse = in_three_dimensions(case, args.v_0, replace(settings, steps=args.steps // 2))
+        wide = in_three_dimensions(case, args.v_0, replace(settings, cells=(args.cells + 1) // 2))
     except NotConverged as fault:
         return _told(args, {"converged": False, "why": str(fault)}, 1)
     except ValueError as fault:

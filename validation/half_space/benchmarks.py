@@ -12,12 +12,12 @@ from functools import cache
 
 import numpy as np
 
+from mdr.half_space.friction import BELOW, MARGIN
+from mdr.half_space.influence import HalfSpace, X, Y, Z
+from mdr.half_space.normal import pressure
+from mdr.half_space.steps import Contact, Step
+from mdr.half_space.tangential import traction
 from mdr.tools.arrays import Array
-from validation.half_space.friction import BELOW, MARGIN
-from validation.half_space.influence import HalfSpace, X, Y, Z
-from validation.half_space.march import Contact, Step
-from validation.half_space.normal import pressure
-from validation.half_space.tangential import traction
 
 
 def body(n: int, nu: float, side: float) -> tuple[HalfSpace, Array]:

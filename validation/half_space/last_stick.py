@@ -18,10 +18,10 @@ from functools import cache
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
+from mdr.half_space.friction import MARGIN
+from mdr.half_space.influence import X, Y, Z
 from mdr.tools.arrays import Array
 from validation.half_space.benchmarks import body
-from validation.half_space.friction import MARGIN
-from validation.half_space.influence import X, Y, Z
 
 
 @cache

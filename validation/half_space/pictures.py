@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mdr.half_space.friction import MARGIN, LastPeriod, stuck
 from mdr.plots import style
 from mdr.tools.arrays import Array
-from validation.half_space.friction import MARGIN, March, stuck
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,7 +18,7 @@ OPEN, SLIPS, STICKS = "#FFFFFF", "#F6D98B", "#0B3C6F"
 ARROWS = 13  #: along a side, at most
 
 
-def places(found: March) -> tuple[Array, Array]:
+def places(found: LastPeriod) -> tuple[Array, Array]:
     """Coordinates x and y of the cells, (n, n) each, over the greatest radius of contact."""
     n = found.contact.half_space.n
     side = MARGIN * (2 * np.arange(n) + 1 - n) / n
@@ -26,14 +26,14 @@ def places(found: March) -> tuple[Array, Array]:
     return x, y
 
 
-def period(found: March) -> Figure:
+def period(found: LastPeriod) -> Figure:
     """Maps at four instants of the last period, a quarter apart."""
     n = len(found.steps)
     titles = ("fastest approach", "deepest", "fastest retreat", "least depth")
     return maps(found, [round(n * share) - 1 for share in (0.25, 0.5, 0.75, 1.0)], titles)
 
 
-def maps(found: March, moments: Sequence[int], titles: Sequence[str]) -> Figure:
+def maps(found: LastPeriod, moments: Sequence[int], titles: Sequence[str]) -> Figure:
     """Maps of stick and slip in these steps of the last period, with arrows of slip, one scale a map."""
     import matplotlib.pyplot as plt
     from matplotlib.colors import ListedColormap

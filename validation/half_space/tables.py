@@ -18,12 +18,13 @@ from pathlib import Path
 import numpy as np
 
 import mdr
+from mdr.half_space.friction import Settings, last_period
 from mdr.tools.provenance import commented, versions
 from validation.cases import E, contact
-from validation.half_space.friction import Knobs, march, of_springs
+from validation.half_space.springs import of_springs
 
 FOLDER = Path(__file__).with_name("tables")
-KNOBS = Knobs(cells=25, steps=40, cycles=30, settled=3e-4)
+SETTINGS = Settings(cells=25, steps=40, cycles=30, settled=3e-4)
 SPRING_CYCLES = 40  #: of the springs, which cost nothing
 
 
@@ -70,17 +71,17 @@ class Row:
         return self.step + self.grid + self.settling
 
 
-def compute(columns: Iterable[Sequence[Point]], knobs: Knobs) -> list[Row]:
+def compute(columns: Iterable[Sequence[Point]], settings: Settings) -> list[Row]:
     """The rows of all columns, each the points of one contact. Raises NotConverged."""
-    return [row for points in columns for row in column(points, knobs)]
+    return [row for points in columns for row in column(points, settings)]
 
 
-def column(points: Sequence[Point], knobs: Knobs) -> list[Row]:
+def column(points: Sequence[Point], settings: Settings) -> list[Row]:
     """The rows of one contact, fastest first."""
     points = sorted(points, key=lambda point: -point.v)
-    fine = _marched(points, knobs)
-    halved = _marched(points, replace(knobs, steps=knobs.steps // 2))
-    wide = _marched(points, replace(knobs, cells=(knobs.cells + 1) // 2))
+    fine = _marched(points, settings)
+    halved = _marched(points, replace(settings, steps=settings.steps // 2))
+    wide = _marched(points, replace(settings, cells=(settings.cells + 1) // 2))
     rows = []
     for point, one, slow, coarse in zip(points, fine, halved, wide, strict=True):
         loss = one[1] - one[0]
@@ -89,21 +90,21 @@ def column(points: Sequence[Point], knobs: Knobs) -> list[Row]:
     return rows
 
 
-def loss(point: Point, knobs: Knobs) -> float:
+def loss(point: Point, settings: Settings) -> float:
     """The loss at a point alone, over mu_0, without its errors, which ask for two runs more. Raises NotConverged."""
-    cof, springs, *_ = _marched([point], knobs)[0]
+    cof, springs, *_ = _marched([point], settings)[0]
     return springs - cof
 
 
-def _marched(points: Sequence[Point], knobs: Knobs) -> list[tuple[float, float, float, int, float]]:
+def _marched(points: Sequence[Point], settings: Settings) -> list[tuple[float, float, float, int, float]]:
     """COF and that of springs, what is not settled, all over mu_0, periods, and the greatest share that sticks."""
     found, state = [], None
     for point in points:
         case, mu_0 = point.case, point.mu_0
         v_0 = point.v * mdr.critical_velocity(case)
-        last = march(case, v_0, knobs, state)
+        last = last_period(case, v_0, settings, state)
         state = last.steps[-1]
-        springs = of_springs(case, v_0, replace(knobs, cycles=SPRING_CYCLES))
+        springs = of_springs(case, v_0, replace(settings, cycles=SPRING_CYCLES))
         stick = float(np.nanmax(last.stick))
         friction = last.friction
         found.append((friction.cof / mu_0, springs.cof / mu_0, friction.settling / mu_0, friction.cycles, stick))
@@ -113,11 +114,12 @@ def _marched(points: Sequence[Point], knobs: Knobs) -> list[tuple[float, float, 
 # --- files ---
 
 
-def write(name: str, rows: Sequence[Row], knobs: Knobs, what: str) -> Path:
+def write(name: str, rows: Sequence[Row], settings: Settings, what: str) -> Path:
     """Keep rows as FOLDER/name.csv, with what made them in its head."""
     FOLDER.mkdir(exist_ok=True)
     path = FOLDER / f"{name}.csv"
-    made = f"{what}; {knobs.cells} x {knobs.cells} cells, {knobs.steps} steps a period, {knobs.cycles} periods at most"
+    cells, steps, cycles = settings.cells, settings.steps, settings.cycles
+    made = f"{what}; {cells} x {cells} cells, {steps} steps a period, {cycles} periods at most"
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(commented(made, versions()))
         table = csv.writer(file, lineterminator="\n")

@@ -1,6 +1,5 @@
-"""The judge before it judges: coefficients, contact and friction on the half-space against closed forms."""
+"""Coefficients, contact and friction on the half-space against closed forms, symmetries and springs."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -9,18 +8,12 @@ from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
 
 import mdr
-from validation.cases import DEPTH, RADIUS, SHAPES
-from validation.end_of_stick import MEANS
-from validation.half_space import springs
-from validation.half_space.__main__ import main
-from validation.half_space.benchmarks import cattaneo_mindlin, hertz, punch, spence
-from validation.half_space.friction import Knobs, contact_of, in_three_dimensions, march, of_springs, stuck
-from validation.half_space.influence import HalfSpace, X, Y, Z
-from validation.half_space.last_stick import fastest
-from validation.half_space.march import Contact
-from validation.half_space.normal import NotConverged, pressure
-from validation.half_space.rings import stick_radius
-from validation.half_space.tangential import traction
+from mdr.half_space.friction import Settings, contact_of, in_three_dimensions, last_period, stuck
+from mdr.half_space.influence import HalfSpace, X, Y, Z
+from mdr.half_space.normal import NotConverged, pressure
+from mdr.half_space.steps import Contact
+from mdr.half_space.tangential import traction
+from validation.half_space.springs import of_springs
 
 NU, G = 0.3, 2.0
 E_STAR, G_STAR, BETA = 2 * G / (1 - NU), 4 * G / (2 - NU), (1 - 2 * NU) / (2 * (1 - NU))
@@ -70,37 +63,6 @@ def test_work_is_the_same_both_ways():
     assert_allclose(np.sum(one * BODY.displacement(two)), np.sum(two * BODY.displacement(one)), rtol=1e-13)
 
 
-def test_hertz():
-    for n, tolerance in ((32, 5e-4), (64, 1e-4)):
-        assert_allclose(hertz(n), 1, rtol=tolerance)
-
-
-@pytest.mark.parametrize("nu", [0.0, 0.5])
-@pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
-def test_cattaneo_and_mindlin(nu, share):
-    found = cattaneo_mindlin(64, nu, share)
-    # q_y, which the closed form leaves out, is of order nu/(4 - 2 nu)
-    assert_allclose(found.force, found.closed_form, rtol=1e-4 if nu == 0 else 5e-3)
-    assert_allclose(found.stick, np.sqrt(1 - share), atol=0.01)  # areas in whole cells
-    assert found.transverse < (1e-12 if nu == 0 else nu / (4 - 2 * nu))
-    assert found.traction < 3 / 64 + 0.1 * nu / (4 - 2 * nu)  # the infinite slope within a cell, and q_y
-
-
-@pytest.mark.parametrize("nu", [0.0, 0.3, 0.45])
-def test_a_bonded_punch_is_stiffer(nu):
-    """ln(3 - 4 nu)(1 - nu)/(1 - 2 nu) (Mossakovskii 1954), cells extrapolated in the first power of their size."""
-    smooth, bonded = (2 * fine - wide for fine, wide in zip(punch(64, nu), punch(32, nu), strict=True))
-    assert_allclose(smooth, 1, rtol=1e-3)
-    assert_allclose(bonded, np.log(3 - 4 * nu) * (1 - nu) / (1 - 2 * nu), rtol=1e-3)
-
-
-@pytest.mark.parametrize(("shape", "steps"), [("flat punch", 0), ("paraboloid", 12)])
-def test_spence(shape, steps):
-    """The disc that sticks under a rising load, by the axisymmetric equations."""
-    known = stick_radius((1 - 2 * 0.15) / (2 * (1 - 0.15)), 0.3)
-    assert_allclose(spence(31, 0.15, 0.3, steps), known, atol=1 / 31)  # half a cell, over a/2
-
-
 def test_the_edge_of_a_punch_is_drawn_to_the_middle():
     """At r the surface moves by 2 beta/pi d (1 - sqrt(1 - r²))/r under a punch of radius 1 at the depth d."""
     n = 63
@@ -123,15 +85,8 @@ BALL = mdr.SlidingContact(
     mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.3, mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
 )
 V = 0.4 * mdr.critical_velocity(BALL)
-COARSE = Knobs(cells=25, steps=24, cycles=2)
-SMALL = Knobs(cells=13, steps=12, cycles=2)
-
-
-def test_springs_in_coarse_steps_tend_to_the_closed_form():
-    exact = mdr.cof_curve(BALL, [V]).cof[0]
-    off = [of_springs(BALL, V, replace(COARSE, steps=n)).cof - exact for n in (50, 100, 200)]
-    assert abs(off[2]) < 2e-4
-    assert_allclose(off[1] / off[0], 0.5, atol=0.15)  # of first order
+COARSE = Settings(cells=25, steps=24, cycles=2)
+SMALL = Settings(cells=13, steps=12, cycles=2)
 
 
 @pytest.mark.parametrize("motion", [(20e-6, 6e-6), (20e-6, 30e-6)], ids=["kept", "lost"])
@@ -139,9 +94,9 @@ def test_springs_in_coarse_steps_tend_to_the_closed_form():
 def test_without_coupling_the_half_space_has_the_friction_of_the_springs(motion, tau):
     material = mdr.KelvinVoigt(E=3e6, nu=0.0, tau=tau)
     case = replace(BALL, material=material, oscillation=mdr.NormalOscillation(*motion, omega=300.0))
-    knobs = replace(COARSE, coupled=False, cells=31)
+    settings = replace(COARSE, coupled=False, cells=31)
     v = 0.4 * mdr.critical_velocity(case)
-    off = in_three_dimensions(case, v, knobs).cof - of_springs(case, v, knobs).cof
+    off = in_three_dimensions(case, v, settings).cof - of_springs(case, v, settings).cof
     assert abs(off) < 5e-4 * case.mu_0  # of 31 cells
 
 
@@ -177,13 +132,13 @@ def test_what_is_neither_stick_nor_slip_is_not_there():
 
 def test_a_march_may_go_on_from_another_and_end_when_settled():
     case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
-    few = Knobs(cells=9, steps=8, cycles=1)
-    on = march(case, V, few, march(case, V, few).steps[-1])
-    assert_allclose(on.friction.cof, march(case, V, replace(few, cycles=2)).friction.cof, rtol=1e-12)
-    early = march(case, V, replace(few, cycles=40, settled=1e-3))
+    few = Settings(cells=9, steps=8, cycles=1)
+    on = last_period(case, V, few, last_period(case, V, few).steps[-1])
+    assert_allclose(on.friction.cof, last_period(case, V, replace(few, cycles=2)).friction.cof, rtol=1e-12)
+    early = last_period(case, V, replace(few, cycles=40, settled=1e-3))
     assert 2 < early.friction.cycles < 40
     assert early.friction.settling <= 1e-3 * case.mu_0
-    late = march(case, V, replace(few, cycles=4), early.steps[-1])
+    late = last_period(case, V, replace(few, cycles=4), early.steps[-1])
     assert_allclose(early.friction.cof, late.friction.cof, atol=1e-3 * case.mu_0)
 
 
@@ -191,7 +146,7 @@ def test_stick_ends_above_one_and_lambda():
     case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
     one = replace(SMALL, cycles=1)
     v_c, end = mdr.critical_velocity(case), mdr.coupled_critical_velocity(case)
-    between, beyond = march(case, 1.1 * v_c, one), march(case, 1.02 * end, one)
+    between, beyond = last_period(case, 1.1 * v_c, one), last_period(case, 1.02 * end, one)
     assert np.nanmax(between.stick) > 0
     assert np.nanmax(beyond.stick) == 0
     i = int(np.nanargmax(between.stick))
@@ -199,16 +154,9 @@ def test_stick_ends_above_one_and_lambda():
     assert np.mean((x[:, None] + 0 * x)[stuck(between.contact, between.steps[i])]) < 0  # the trailing side
 
 
-def test_the_last_stick_by_the_linear_problem():
-    """Without coupling all of a punch lets go at Eq. (1); and friction that keeps its direction sticks longer."""
-    assert_allclose(fastest(25, 0.5, 0.3, turned=True), 1, rtol=0.03)  # cells, and q_x alone for nu > 0
-    turned, fixed = (fastest(25, 0.3, 0.3, turned) for turned in (True, False))
-    assert 1.3 < turned < fixed < 1.7
-
-
 def test_slip_across_may_be_left_out():
     case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
-    along = march(case, V, replace(SMALL, cycles=1, transverse=False))
+    along = last_period(case, V, replace(SMALL, cycles=1, transverse=False))
     assert all(np.all(step.tractions[Y] == 0) for step in along.steps)
     fast = in_three_dimensions(case, 5 * V, replace(SMALL, cycles=1, transverse=False))
     assert_allclose(fast.cof, case.mu_0, rtol=1e-9)  # 2 v_c: all slip along the pull
@@ -224,44 +172,8 @@ def test_a_step_that_does_not_converge_stops_the_run():
         )  # fmt: skip
 
 
-def test_the_command(tmp_path, capsys):
-    file = tmp_path / "case.toml"
-    file.write_text(mdr.write_case(BALL))
-    few = [str(file), "--v-0", str(V), "--cells", "17", "--steps", "16", "--json"]
-    assert main(few) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert set(told) == {"cof", "mean_F_x", "mean_F_z", "converged", "errors"}
-    assert told["converged"] is True
-    assert 0 < told["cof"] < 0.3
-    assert all(0 <= error < 0.01 for error in told["errors"].values())
-    assert_allclose(told["cof"], told["mean_F_x"] / told["mean_F_z"], rtol=1e-12)
-    file.write_text(mdr.write_case(replace(BALL, pull=mdr.SpringPull(k_x=1e4))))
-    assert main(few) == 2
-    assert "takes a rigid pull" in capsys.readouterr().err
-
-
-def test_springs_of_a_punch_are_one_element():
-    depth = 1.0 + 0.5 * np.cos(np.linspace(0, 2 * np.pi, 33))
-    F_x, F_z = springs.forces(np.zeros_like, 1.0, depth, np.zeros(33), 0.1, 0.4, 1.2, n_springs=8)
-    assert_allclose(F_z, 2 * depth)
-    assert np.all(np.abs(F_x) <= 0.4 * F_z * (1 + 1e-12))
-
-
 def test_a_contact_is_what_its_parts_are():
     contact = contact_of(BALL, COARSE)
     assert isinstance(contact, Contact)
     assert contact.half_space.beta == 0  # incompressible
     assert contact.shape.shape == (25, 25)
-
-
-@pytest.mark.parametrize(("shape", "mean"), [("paraboloid", 6 * np.log(2) - 4), ("flat punch", 2 * np.log(2) - 1)])
-def test_the_mean_square_of_the_rub_over_the_pressure(shape, mean):
-    """M of validation/end_of_stick.py, by quadrature of the pressure of the library."""
-    indenter = SHAPES[shape]
-    node, weight = np.polynomial.legendre.leggauss(200)
-    s = (node + 1) / 2  # r = a sqrt(1 - s²)
-    r = RADIUS * np.sqrt(1 - s**2)
-    load = np.asarray(indenter.pressure(r, DEPTH, 1.0)) * s * weight
-    rub = (1 - s) / np.sqrt(1 - s**2)
-    assert_allclose(np.sum(load * rub**2) / np.sum(load), mean, rtol=1e-6)
-    assert_allclose(MEANS[shape], mean)

@@ -1,8 +1,8 @@
 """A rigid indenter pressed and pulled over the half-space step by step, every cell with its own history.
 
-Depth and tangential way are given at the instants of the steps. In each step the pressure, under the tractions, and the
-tractions, under the pressure, take turns until the forces no longer change. A Kelvin material is u + tau u' in the
-place of u, with u' over the step: as implicit as the rest, of first order in the step.
+Depth and position x along the pull are given at the instants of the steps. In each step the pressure, under the
+tractions, and the tractions, under the pressure, take turns until the forces no longer change. A Kelvin material is
+u + tau u' in the place of u, with u' over the step: as implicit as the rest, of first order in the step.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mdr.half_space.influence import HalfSpace, X, Y, Z
+from mdr.half_space.normal import NotConverged, pressure
+from mdr.half_space.tangential import traction
 from mdr.tools.arrays import Array
-from validation.half_space.influence import HalfSpace, X, Y, Z
-from validation.half_space.normal import NotConverged, pressure
-from validation.half_space.tangential import traction
 
 TURNS = 60  #: of pressure and tractions in a step, at most
 
@@ -31,7 +31,8 @@ class Step:
     @property
     def pressure(self) -> Array:
         """Normal traction (n, n)."""
-        return self.tractions[Z]
+        p: Array = self.tractions[Z]
+        return p
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +70,15 @@ class Contact:
         return Step(tractions, u, np.zeros((2, n, n)))
 
     def forces(self, tractions: Array) -> Array:
-        """F_x, F_y, F_z."""
-        return np.sum(tractions, axis=(1, 2)) * self.cell
+        """F_x, F_y, F_z [N]."""
+        total: Array = np.sum(tractions, axis=(1, 2)) * self.cell
+        return total
 
-    def march(self, start: Step, depth: Array, way: Array, dt: float) -> Iterator[Step]:
-        """One step after the other: depth and way (n_steps + 1,) at the instants, from that of `start` on."""
+    def march(self, start: Step, depth: Array, x: Array, dt: float) -> Iterator[Step]:
+        """One step after the other: depth and x [m] at the instants, (n_steps + 1,), from that of `start` on."""
         state = start
         for i in range(1, len(depth)):
-            state = self.step(state, float(depth[i]), float(way[i] - way[i - 1]), dt)
+            state = self.step(state, float(depth[i]), float(x[i] - x[i - 1]), dt)
             yield state
 
     def step(self, state: Step, depth: float, moved: float, dt: float) -> Step:
@@ -108,7 +110,8 @@ class Contact:
     # --- products ---
 
     def _normal(self, p: Array) -> Array:
-        return self.half_space.displacement(p[None], (Z,), (Z,))[0]
+        u_z: Array = self.half_space.displacement(p[None], (Z,), (Z,))[0]
+        return u_z
 
     def _tangential(self, q: Array) -> Array:
         u = self.half_space.displacement(q, (X, Y), (X, Y))
@@ -120,7 +123,8 @@ class Contact:
         """u_z that tangential tractions make."""
         if not self.half_space.beta:
             return np.zeros_like(self.shape)
-        return self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
+        u_z: Array = self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
+        return u_z
 
     def _dragged(self, tractions: Array) -> Array:
         """u_x, u_y that pressure makes."""

@@ -14,9 +14,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mdr.half_space.normal import NotConverged
 from mdr.tools.arrays import Array
-from validation.half_space.normal import NotConverged
 
 ON_THE_RIM = 1 - 1e-12  #: of its bound, from which a traction counts as at it
 CLOSE, MOST_INNER = 1e-2, 400  #: to which part of what is left a Newton step is solved, and in how many iterations
@@ -59,7 +60,7 @@ def _into_discs(q: Array, bound: Array) -> Array:
     return q * np.where(over, bound / np.where(over, size, 1.0), 1.0)
 
 
-def _rim(q: Array, gradient: Array, bound: Array) -> tuple[Array, Array, Array]:
+def _rim(q: Array, gradient: Array, bound: Array) -> tuple[NDArray[np.bool_], Array, Array]:
     """Which cells stay on their rim, the curvature that the rim gives them, and its normals."""
     size = np.hypot(*q)
     normal = np.where(size > 0, q / np.where(size > 0, size, 1.0), 0.0)
@@ -71,10 +72,10 @@ def _rim(q: Array, gradient: Array, bound: Array) -> tuple[Array, Array, Array]:
 def _newton(
     product: Callable[[Array], Array],
     gradient: Array,
-    rim: Array,
+    rim: NDArray[np.bool_],
     curvature: Array,
     normal: Array,
-    alive: Array,
+    alive: NDArray[np.bool_],
     stiff: float,
 ) -> Array:
     """The step along free directions: conjugate gradients on the projected system, scaled by its diagonal."""

@@ -57,7 +57,7 @@ class HalfSpace:
 
     def coefficients(self, i: int, j: int) -> Array:
         """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
-        places = np.arange(-self.n + 1, self.n) * self.h
+        places = np.arange(-self.n + 1, self.n, dtype=float) * self.h
         x, y = places[:, None], places[None, :]
         plain, directed = 1 / (np.pi * self.E_star), 2 / np.pi * (1 / self.G_star - 1 / self.E_star)
         if i == j == Z:

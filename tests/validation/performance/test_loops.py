@@ -6,9 +6,9 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
-from validation import performance
 from validation.cases import contact
-from validation.loops import Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
+from validation.performance import __main__ as performance
+from validation.performance.loops import Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
 
 CASES = {"elastic": (0.5, 0.0), "kelvin": (0.5, 1.0), "lost": (1.6, 0.4), "lost, elastic": (1.6, 0.0)}
 

@@ -1,4 +1,4 @@
-/* The march of springs under a rigid pull, rule by rule as mdr/kernels.py has it, for validation/performance.py.
+/* The march of springs under a rigid pull, rule by rule as mdr/march/kernels.py has it, for loops.py.
 
    e (n,): extensions; e_next: of Kelvin springs, in two places by turns. s, s_next: their compressions. gap, w (n,). z, zd
    (n_z + 1,): normal motion over a period and its rate. spans (2, n_z): the springs before the

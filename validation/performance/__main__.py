@@ -3,7 +3,7 @@
     python -m validation.performance [-o folder]
     python -m validation.performance --against PATH [--random 60] [--study 1000]
 
-The second form asks how much faster this checkout is than another one, in what users wait for (validation/waits.py).
+The second form asks how much faster this checkout is than another one, in what users wait for (waits.py).
 
 Quoted are ratios of times taken in turn in one run, medians with the least and the greatest; absolute times are the
 machine's. Before any time is taken, the marches that are compared must end in the same state.
@@ -52,8 +52,8 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.studies.run import cores
 from validation.cases import contact
-from validation.loops import March, Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
-from validation.waits import STANDING, alternately
+from validation.performance.loops import March, Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
+from validation.performance.waits import STANDING, alternately
 
 N_SPRINGS, STEPS, N_PERIODS = 1000, 1024, 100
 V = 0.4  #: pulling velocity over Eq. (1)
@@ -325,7 +325,7 @@ def tables() -> dict[str, list[Row]]:
 
 def against(there: Path, n_random: int, n_study: int) -> dict[str, list[Row]]:
     """How many times faster this checkout answers than another, in processor time, both asked in turn."""
-    here = Path(__file__).parents[1]
+    here = Path(__file__).parents[2]
 
     def say(what: str) -> None:
         print(what, file=sys.stderr)

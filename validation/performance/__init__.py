@@ -1,0 +1,1 @@
+"""What is timed, apart from the claims: `python -m validation.performance`."""
