@@ -11,6 +11,7 @@ from typing import NamedTuple
 import pytest
 
 import mdr
+from mdr.tools import sources
 
 HOUSE = Path(mdr.__file__).parent
 #: Rooms from the first to the last; a room imports from itself and from earlier ones. Two of one rank know nothing of
@@ -34,7 +35,7 @@ DOORS = ("plot", "to_", "read")  # methods of records that may import upwards
 OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the command
 #: Imports against the order, each with its reason. The list may only shrink.
 NAMED = {
-    ("mdr.normal.followed_force", "mdr.march.kernels"): "compiled code is one file, for the sake of its cache",
+    ("mdr.normal.followed_force", "mdr.march.kernels"): "one step of a compiled spring holds its normal motion too",
 }
 
 
@@ -210,6 +211,12 @@ def test_the_half_space_and_the_springs_know_nothing_of_each_other(house):
     assert "mdr.normal.springs" in springs
     assert ways_between(imports, known, half_space, springs) == []
     assert ways_between(imports, known, springs, half_space) == []
+
+
+def test_the_cache_of_compiled_code_sees_all_that_is_compiled_in(house):
+    _, imports = house
+    compiled = {one.module for one in imports if one.imported == "mdr.tools.jit"}
+    assert set(reach(imports, sorted(compiled))) <= sources.compiled()
 
 
 def test_the_measured_velocity_knows_no_closed_form(house):

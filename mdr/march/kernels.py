@@ -62,7 +62,7 @@ from mdr.materials.operator import (
     L_STIFFNESS,
     L_TIME,
 )
-from mdr.tools.anderson import SHARES_VERSION, shares
+from mdr.tools.anderson import shares
 from mdr.tools.jit import compiled
 
 Array = NDArray[np.float64]
@@ -71,11 +71,6 @@ _FAST = {"reassoc", "contract"}  # sums may vectorise; NaN and infinity keep the
 _jit = compiled(nogil=True, error_model="numpy", fastmath=_FAST)
 # taken in by LLVM, not by numba (inline="always"): it compiles in two thirds of the time, and most steps are faster
 _inline = njit(forceinline=True, error_model="numpy", fastmath=_FAST)
-
-# The rows of the operator's table are compiled in, and `shares` too, but the cache of compiled code sees edits of this
-# file only: who changes them elsewhere is stopped here, and by changing these lines has everything compiled anew.
-assert (L_FREE, L_RATE, L_END, L_SHED, L_DECAY, L_GAIN, L_RATIO, L_TIME, L_STIFFNESS) == (0, 1, 2, 3, 4, 5, 6, 7, 8)
-assert SHARES_VERSION == 1
 
 # --- what the functions take: arrays and floats by name -------------------------------------------
 

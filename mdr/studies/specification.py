@@ -15,10 +15,9 @@ from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
 from mdr.studies.work import Work
 from mdr.tools import version
 from mdr.tools.messages import short
+from mdr.tools.sources import hash_of, texts
 
-#: of the numbers that the compiled kernels give: raise it with every change of a kernel, a closed form or a default
-#: that moves a digit without a new version, so that no store mixes two of them
-FORMAT = 7
+NO_NUMBERS = ("__main__", "commands", "explorer", "files", "plots")  #: parts of mdr that move no value of a study
 MOST_TOLD = 4  #: differences
 
 
@@ -33,8 +32,13 @@ def specification(work: Work) -> dict[str, Any]:
         "steps_per_period": work.steps_per_period,
         "accuracy": work.accuracy,
         "version of mdr": version.__version__,
-        "format": FORMAT,
+        "code of mdr": code(),
     }
+
+
+def code() -> str:
+    """A hash of all sources that can move a value, so that no store mixes the numbers of two."""
+    return hash_of(name for name in texts() if name.partition(".")[2].partition(".")[0] not in NO_NUMBERS)
 
 
 def identity_of(tree: Mapping[str, Any]) -> str:

@@ -7,8 +7,6 @@ import numpy as np
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
-SHARES_VERSION = 1  #: march/kernels.py compiles `shares` in and asks for this: raise it there too with every change
-
 
 @compiled(nogil=True, error_model="numpy")
 def shares(steps: Array, last: Array, rcond: float) -> Array:

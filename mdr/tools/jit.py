@@ -3,6 +3,7 @@
 What takes long is said on standard error: the first run on a machine waits for it, nearly a minute on one core.
 """
 
+# mypy: disallow-untyped-calls=false
 from __future__ import annotations
 
 import sys
@@ -13,32 +14,67 @@ from typing import Any
 
 from numba import njit
 from numba.core import event
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 
+from mdr.tools import sources
 from mdr.tools.progress import BETWEEN, PATIENCE
 
 Function = Callable[..., Any]
 
+_STAMP = sources.hash_of(sources.compiled())
 FUNCTIONS = 80  #: that all kinds of runs need together
+
+
+class _Files(IndexDataCacheFile):
+    """What numba keeps of one function. What cannot be read, as after a type was renamed, counts as not there."""
+
+    def _load_index(self) -> Any:
+        try:
+            return super()._load_index()
+        except OSError:
+            raise
+        except Exception:  # unpickling may raise any
+            return {}
+
+    def _load_data(self, name: str) -> Any:
+        try:
+            return super()._load_data(name)
+        except Exception as fault:
+            raise FileNotFoundError(name) from fault
+
+
+class _Cache(FunctionCache):
+    """numba's cache of one function, fresh as long as no compiled source of this package changes.
+
+    numba by itself looks at the file of the function alone, and not at those of the functions that it calls.
+    """
+
+    def __init__(self, function: Function) -> None:
+        super().__init__(function)
+        stamp = (self._impl.locator.get_source_stamp(), _STAMP)
+        self._cache_file = _Files(self._cache_path, self._impl.filename_base, stamp)
 
 
 def compiled(**options: Any) -> Callable[[Function], Function]:
     """Decorator: numba's njit with these options.
 
-    What it compiles is kept beside the source, or else in the cache folder of the user, or in NUMBA_CACHE_DIR. Where
-    none of them can be written to, as in some containers and on some nodes of clusters, every process compiles for
-    itself, and a warning says so.
+    What it compiles is kept beside the source, or else in the cache folder of the user, or in NUMBA_CACHE_DIR, until
+    a compiled file of this package changes, or a file that one of them imports. Where none of the folders can be
+    written to, as in some containers and on some nodes of clusters, every process compiles for itself, and a warning
+    says so.
     """
 
-    def wrap(function: Function) -> Function:
-        ready: Function
+    def wrap(function: Function) -> Any:
+        ready: Any = njit(**options)(function)
+        if ready is function:  # NUMBA_DISABLE_JIT
+            return function
         try:
-            ready = njit(cache=True, **options)(function)
+            ready._cache = _Cache(function)
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
                 "own, which takes nearly a minute of one core; let NUMBA_CACHE_DIR name a folder that can"
             )
-            ready = njit(**options)(function)
         return ready
 
     return wrap
@@ -75,4 +111,4 @@ def _is_ours(event: Any) -> bool:
     return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-event.register("numba:compile", Notice())  # type: ignore[no-untyped-call]
+event.register("numba:compile", Notice())

@@ -11,6 +11,7 @@ from mdr.studies.axes import read_axes
 from mdr.studies.quantities import CATALOGUE
 from mdr.studies.specification import described, identity_of, specification
 from mdr.studies.work import Work
+from mdr.tools.sources import texts
 
 
 def identity(case=RIGID, axes=None, quantities=("v_c",), **knobs):
@@ -31,6 +32,23 @@ def test_the_identity_is_that_of_what_was_asked():
         identity(steps_per_period=64),
     ]
     assert len({identity(), *others}) == 9
+
+
+@pytest.mark.parametrize(
+    ("module", "counts"),
+    [
+        ("mdr.march.kernels", True),
+        ("mdr.closed_forms.paper", True),
+        ("mdr.tools.anderson", True),
+        ("mdr.studies.quantities", True),
+        ("mdr.plots.figures", False),
+        ("mdr.commands.sweep", False),
+    ],
+)
+def test_a_study_is_of_the_sources_that_can_move_its_values(module, counts, monkeypatch):
+    known = identity()
+    monkeypatch.setitem(texts(), module, texts()[module] + "\n")
+    assert (identity() != known) == counts
 
 
 def test_values_as_trees():

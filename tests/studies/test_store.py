@@ -16,6 +16,7 @@ import mdr
 from mdr.studies import specification
 from mdr.studies.points import Part, Status
 from mdr.studies.store import Store, _packed, _unpacked
+from mdr.tools.sources import texts
 
 AXES = {"mu_0": np.linspace(0.1, 0.9, 24).tolist(), "indenter": SHAPES[:2]}
 PART = Part(np.array([[1.0, np.nan]]), np.array([0, 2], np.uint8), np.array([0, 1], np.int32), ("", "µ no"))
@@ -183,11 +184,13 @@ def test_a_store_of_another_study_says_what_differs(part_done, change, words):
     assert str(part_done) in str(caught.value)
 
 
-def test_a_store_of_another_version_or_of_other_kernels(part_done, monkeypatch):
+def test_a_store_of_another_version_or_of_other_sources(part_done, monkeypatch):
     monkeypatch.setattr("mdr.tools.version.__version__", "9.9")
-    known = specification.FORMAT
-    monkeypatch.setattr(specification, "FORMAT", known + 1)
-    words = f'version of mdr is "0.1.0" there and "9.9" here; format is {known} there and {known + 1}'
+    known = specification.code()
+    monkeypatch.setitem(texts(), "mdr.march.kernels", "")
+    words = (
+        f'version of mdr is "0.1.0" there and "9.9" here; code of mdr is "{known}" there and "{specification.code()}"'
+    )
     with pytest.raises(mdr.StudyError, match=words):
         small(part_done)
 

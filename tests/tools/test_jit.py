@@ -1,11 +1,99 @@
-"""Compilation: what takes long is said, with how much is done."""
+"""Compilation: what takes long is said, with how much is done; what is kept on disk is of the sources as they are."""
 
+import os
+import shutil
+import subprocess
+import sys
 from itertools import count
+from pathlib import Path
 from types import SimpleNamespace
 
+import numba
 import pytest
 
 from mdr.tools import jit
+
+#: A package whose function `answer` compiles in a function and a constant of two other files.
+SMALL = {
+    "__init__": "",
+    "constants": "FACTOR = 2.0",
+    "pairs": """
+from typing import NamedTuple
+
+from numba import njit
+
+from mdr.constants import (
+    FACTOR,
+)
+
+class Pair(NamedTuple):
+    a: float
+    b: float
+
+@njit
+def product(pair):
+    return FACTOR * pair.a * pair.b
+
+HERE = Pair(3.0, 5.0)
+""",
+    "first": """
+from mdr.pairs import HERE, product
+from mdr.tools.jit import compiled
+
+@compiled()
+def answer(pair):
+    return product(pair)
+
+print(answer(HERE), *(sum(one.values()) for one in (answer.stats.cache_hits, answer.stats.cache_misses)))
+""",
+    "other": "x = 1",
+}
+
+
+@pytest.fixture
+def small(tmp_path):
+    """A folder with that package, compiled once."""
+    shutil.copytree(Path(jit.__file__).parent, tmp_path / "mdr" / "tools", ignore=shutil.ignore_patterns("*cache*"))
+    for name, text in SMALL.items():
+        (tmp_path / "mdr" / f"{name}.py").write_text(text)
+    assert answer_of(tmp_path) == "30.0 0 1"
+    return tmp_path
+
+
+def answer_of(folder):
+    """Answer, functions found on disk, functions compiled."""
+    environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment.pop("NUMBA_CACHE_DIR", None)
+    command = [sys.executable, "-c", "import mdr.first"]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+compiles = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+
+
+@compiles
+@pytest.mark.parametrize(
+    ("file", "old", "new", "said"),
+    [
+        ("pairs", "pair.a * pair.b", "(pair.a + pair.b)", "16.0 0 1"),
+        ("constants", "2.0", "4.0", "60.0 0 1"),
+        ("pairs", "Pair", "Couple", "30.0 0 1"),  # the index on disk names a type that is gone
+        ("other", "1", "2", "30.0 1 0"),
+    ],
+)
+def test_an_edit_of_any_compiled_file_compiles_anew(small, file, old, new, said):
+    path = small / "mdr" / f"{file}.py"
+    path.write_text(path.read_text().replace(old, new))
+    assert [answer_of(small), answer_of(small)[-3:]] == [said, "1 0"]
+
+
+@compiles
+@pytest.mark.parametrize("ending", ["nbi", "nbc"])
+def test_a_broken_file_is_compiled_anew(small, ending):
+    (path,) = (small / "mdr" / "__pycache__").glob(f"*.{ending}")
+    path.write_bytes(path.read_bytes()[:-9])
+    assert [answer_of(small), answer_of(small)] == ["30.0 0 1", "30.0 1 0"]
 
 
 def compiling(module):
