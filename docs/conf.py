@@ -15,10 +15,12 @@ author = copyright = "The mdr-friction developers"
 version = release = version_of("mdr-friction")
 
 PAGES = {  #: in the order of the navigation, under their headings
-    "Guide": ["tutorial", "explorer", "rig", "recipes", "questions", "gallery", "springs", "exercises"],
-    "In depth": ["shaken", "own_data", "studies", "extending"],
-    "Physics": ["claims", "theory", "limits", "report", "glossary"],
-    "Reference": ["api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
+    "Guide": ["tutorial", "explorer", "rig", "recipes", "trust", "gallery"],
+    "In depth": ["shaken", "own_data", "studies"],
+    "Physics": ["claims", "theory", "limits", "glossary"],
+    "Teaching": ["springs", "exercises"],
+    "Reference": ["questions", "api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
+    "Developers": ["extending"],
 }
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "facts", "equations", "navigation"]

@@ -32,7 +32,7 @@ def entry(name: str) -> str:
     caption = SYMBOL.sub(r"$\g<0>$", shown)
     return (
         f"## {title}\n\n{question[0].upper()}{question[1:]}\n\n"
-        f"![{shown}](figures/gallery/{name}.png)\n\n*{caption}* [{name}.py](../geometries/{name}.py)\n"
+        f"![{title}](figures/gallery/{name}.png)\n\n*{caption}* [{name}.py](../geometries/{name}.py)\n"
     )
 
 
