@@ -183,14 +183,21 @@ def validation_command(words: list[str]) -> str:
     return out.getvalue()
 
 
+PIP = (r"python3 -m pip --python \.venv", r"\.venv/bin/python -m pip")  #: the second knows dependency groups
+
+
 def require_known(command: str) -> None:
     """AssertionError for a command that runs nowhere: set-up and tests are those of .ci/run, claims have a parser."""
     ci = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
     words = shlex.split(command)
-    if command.startswith("python3 -m pip --python .venv install -q -e "):
-        extras = re.fullmatch(r"\.(?:\[([\w,]+)\])?", words[-1])
+    installed = re.fullmatch(f"(?:{'|'.join(PIP)}) install -q -e (\\S+)((?: --group \\w+)*)", command)
+    if installed:
+        extras = re.fullmatch(r"\.(?:\[([\w,]+)\])?", shlex.split(installed[1])[0])
         assert extras, command
-        assert set(filter(None, (extras[1] or "").split(","))) <= optional_dependencies(), command
+        project = pyproject()
+        known = project["project"]["optional-dependencies"]
+        assert set(filter(None, (extras[1] or "").split(","))) <= known.keys(), command
+        assert set(re.findall(r"--group (\w+)", installed[2])) <= project["dependency-groups"].keys(), command
     elif words[:3] == [".venv/bin/python", "-m", "validation"]:
         from validation import CLAIMS
         from validation.__main__ import _arguments
@@ -210,12 +217,11 @@ def require_known(command: str) -> None:
         assert command in ci, f"{command!r} is run neither here nor by .ci/run"
 
 
-def optional_dependencies() -> set[str]:
-    """The extras of the distribution."""
+def pyproject() -> dict[str, Any]:
+    """What pyproject.toml says."""
     import tomllib
 
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    return set(project["optional-dependencies"])
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
 def documented(text: str) -> list[str]:

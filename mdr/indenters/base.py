@@ -23,9 +23,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.mapping import abel as transform
-from mdr.indenters.mapping import chebyshev_panels as panels
-from mdr.indenters.mapping import inversion as roots
+from mdr.indenters.mapping import abel, chebyshev_panels, inversion
 from mdr.indenters.mapping.quadrature import Function, double_exponential, in_chunks
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import between, finite_array, plain, positive_array
@@ -132,7 +130,7 @@ class Indenter(Record, ABC):
             Beyond the end of the shape (`max_radius`).
         """
         r = self._within(finite_array("r", r, "m"))
-        return in_chunks(lambda r: transform.profile_3d(self.profile_1d, self._edges, r), r)
+        return in_chunks(lambda r: abel.profile_3d(self.profile_1d, self._edges, r), r)
 
     def profile_1d(self, x: ArrayLike) -> Array:
         """Height g(x) of the one-dimensional image of the shape [m], even in x.
@@ -165,7 +163,7 @@ class Indenter(Record, ABC):
         array([2.e-06, 8.e-06])
         """
         x = self._within(finite_array("x", x, "m"))
-        g = panels.image(panels.HEIGHT, self._f, self._edges, np.ravel(x))
+        g = chebyshev_panels.image(chebyshev_panels.HEIGHT, self._f, self._edges, np.ravel(x))
         self._check_map(np.ravel(x))
         return plain(g.reshape(x.shape))
 
@@ -217,8 +215,8 @@ class Indenter(Record, ABC):
         """
         a = self._within(finite_array("a", a, "m"))
         if self._gives_g:
-            return in_chunks(lambda a: transform.area_from_g(self.profile_1d, self._edges, a), a)
-        return plain(panels.image(panels.AREA, self._f, self._edges, np.ravel(a)).reshape(a.shape))
+            return in_chunks(lambda a: abel.area_from_g(self.profile_1d, self._edges, a), a)
+        return plain(chebyshev_panels.image(chebyshev_panels.AREA, self._f, self._edges, np.ravel(a)).reshape(a.shape))
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] of an elastic contact, 0 where d <= 0.
@@ -362,12 +360,12 @@ class Indenter(Record, ABC):
     def _pressure_of_slope(self, r: Array, a: Array) -> Array:
         """p/E* without that of a rim. Arrays (n,)."""
         if self._gives_g:
-            return transform.pressure_from_slope(self._slope, self._edges, r, a)
-        return transform.pressure_from_f(self._f, self._edges, r, a)
+            return abel.pressure_from_slope(self._slope, self._edges, r, a)
+        return abel.pressure_from_f(self._f, self._edges, r, a)
 
     def _slope(self, s: Array, low: float, high: float) -> Array:
         """dg/ds at x² = low² + s² between the kinks ``low`` and ``high``, for a closed form to override."""
-        return transform.slope_behind(self.profile_1d, s, low, high)
+        return abel.slope_behind(self.profile_1d, s, low, high)
 
     @property
     def _edges(self) -> tuple[float, ...]:
@@ -386,7 +384,7 @@ class Indenter(Record, ABC):
         """g(x) for x >= 0 as it comes out, unchecked. Arrays (n,)."""
         if self._gives_g:
             return self.profile_1d(x)
-        return transform.profile_1d(self._f, self._edges, x)
+        return abel.profile_1d(self._f, self._edges, x)
 
     def _within(self, r: Array) -> Array:
         """Distance from the axis, refused where the shape has ended."""
@@ -411,9 +409,9 @@ class Indenter(Record, ABC):
         start = np.array(self.kinks[0] if self.kinks else min(self.max_radius / 2, 1e300))
         start = np.broadcast_to(start if self.kinks or self.max_radius < np.inf else d, d.shape)
         if self._gives_g:
-            a, ended = roots.invert(lambda x: in_chunks(self._g, x), d, start, self.max_radius)
+            a, ended = inversion.invert(lambda x: in_chunks(self._g, x), d, start, self.max_radius)
         else:
-            a, ended = panels.invert(self._f, self._edges, d, start)
+            a, ended = chebyshev_panels.invert(self._f, self._edges, d, start)
         if ended.any():
             raise ValueError(self._why_no_radius(float(d[ended].min()), float(a[ended].min())))
         return a
@@ -503,7 +501,7 @@ class Indenter(Record, ABC):
         """Difference of two quadrature rules, over the height; infinite where g is not finite."""
         if self._gives_g:
             return 0.0
-        g, other = (transform.profile_1d(self._f, self._edges, x, double_exponential(step)) for step in (0.11, 0.077))
+        g, other = (abel.profile_1d(self._f, self._edges, x, double_exponential(step)) for step in (0.11, 0.077))
         height = np.max(np.abs(g))
         return float(np.max(np.abs(g - other)) / (height or 1.0)) if np.isfinite(height) else np.inf
 

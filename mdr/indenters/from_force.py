@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
-from mdr.indenters.mapping import inversion as roots
+from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import fit
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
@@ -270,7 +270,7 @@ class FromForce(Indenter):
             todo &= ~power
         if todo.any():
             start = np.full(int(np.sum(todo)), self.d[1])
-            d[todo] = roots.invert(self._radius, x[todo], start, self.d[-1])[0]
+            d[todo] = inversion.invert(self._radius, x[todo], start, self.d[-1])[0]
         return d
 
     def _refuse_beyond(self, d: Array) -> None:

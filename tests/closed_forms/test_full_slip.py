@@ -10,7 +10,7 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms import paper as theory
+from mdr.closed_forms import paper
 from mdr.closed_forms.full_slip import full_slip, mean_normal_force, normal_force_harmonics
 
 CURVED = ["cone", "paraboloid", "r4"]
@@ -40,13 +40,13 @@ def test_elastic_force_is_the_sum_over_the_springs(shape, depth_ratio):
 def test_force_of_a_kelvin_punch_that_keeps_contact_is_eq_4(T):
     case = contact("flat", 3.0, T)
     motion, osc = full_slip(case, 256), case.oscillation
-    expected = theory.eq_4(motion.t, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc)
+    expected = paper.eq_4(motion.t, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc)
     assert case.keeps_contact
     assert_allclose(motion.F_N, expected, rtol=1e-12, atol=1e-12 * expected.max())
     assert_allclose(motion.contact_radius, case.indenter.a)
     harmonics = normal_force_harmonics(case, 256)
     assert_allclose(harmonics[0], case.k_zc * osc.u_z0, rtol=1e-12)
-    assert_allclose(2 * abs(harmonics[1]), theory.eq_6(osc.du_z, osc.omega, case.k_zc, case.gamma_zc), rtol=1e-12)
+    assert_allclose(2 * abs(harmonics[1]), paper.eq_6(osc.du_z, osc.omega, case.k_zc, case.gamma_zc), rtol=1e-12)
     assert np.abs(harmonics[2:]).max() < 1e-13 * harmonics[0].real
 
 
@@ -103,7 +103,7 @@ def test_static_cof_against_the_twin(shape, depth_ratio, T):
 def test_static_cof_of_the_punch_is_eq_7(T):
     case = contact("flat", 3.0, T)
     osc = case.oscillation
-    expected = theory.eq_7(case.mu_0, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc) / (case.k_zc * osc.u_z0)
+    expected = paper.eq_7(case.mu_0, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc) / (case.k_zc * osc.u_z0)
     assert_allclose(mdr.static_cof(case), expected, rtol=1e-12)
 
 

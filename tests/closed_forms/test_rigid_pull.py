@@ -10,8 +10,7 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms import paper as theory
-from mdr.closed_forms import rigid_pull
+from mdr.closed_forms import paper, rigid_pull
 from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
 
 KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
@@ -59,7 +58,7 @@ def test_sixteen_kelvin_contacts_against_the_twin():
 @pytest.mark.parametrize("v_hat", [0.03, 0.4, 0.9])
 def test_the_punch_has_the_deficit_of_one_spring(v_hat):
     cof, _, _ = friction(contact("flat", 3.0), v_hat)
-    assert_allclose(1 - cof, theory.deficit(v_hat) / 3, rtol=1e-11)
+    assert_allclose(1 - cof, paper.deficit(v_hat) / 3, rtol=1e-11)
 
 
 @pytest.mark.parametrize("T", [0.0, 0.7])

@@ -12,7 +12,7 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms import paper as theory
+from mdr.closed_forms import paper
 
 MU_0, U_Z0, DU_Z, OMEGA, KAPPA = 0.4, 20e-6, 2e-6, 300.0, 1.25
 K_ZC, V_0 = 4e4, 1e-3
@@ -43,32 +43,32 @@ def random_cases(n=1000):
 def test_eq_4_is_spring_and_dashpot_on_eq_3(gamma):
     motion = mdr.NormalOscillation(U_Z0, DU_Z, OMEGA)
     expected = K_ZC * motion.u_z(TIMES) + gamma * motion.u_z_dot(TIMES)
-    assert_allclose(theory.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma), expected, rtol=1e-14, atol=1e-14 * K_ZC * U_Z0)
+    assert_allclose(paper.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma), expected, rtol=1e-14, atol=1e-14 * K_ZC * U_Z0)
 
 
 @pytest.mark.parametrize("gamma", GAMMA)
 def test_eq_6_is_the_amplitude_and_eq_7_the_least_of_eq_4(gamma):
     # the extremes of a harmonic lie where its phase says
     delta = math.atan(gamma * OMEGA / K_ZC)
-    extremes = theory.eq_4(np.array([-delta, np.pi - delta]) / OMEGA, U_Z0, DU_Z, OMEGA, K_ZC, gamma)
-    assert_allclose((extremes[0] - extremes[1]) / 2, theory.eq_6(DU_Z, OMEGA, K_ZC, gamma), rtol=1e-13)
-    assert_allclose(MU_0 * extremes[1], theory.eq_7(MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma), rtol=1e-13)
+    extremes = paper.eq_4(np.array([-delta, np.pi - delta]) / OMEGA, U_Z0, DU_Z, OMEGA, K_ZC, gamma)
+    assert_allclose((extremes[0] - extremes[1]) / 2, paper.eq_6(DU_Z, OMEGA, K_ZC, gamma), rtol=1e-13)
+    assert_allclose(MU_0 * extremes[1], paper.eq_7(MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma), rtol=1e-13)
 
 
 @pytest.mark.parametrize("gamma", GAMMA)
 def test_eq_5_is_a_positive_least_force(gamma):
-    limit = theory.eq_6(DU_Z, OMEGA, K_ZC, gamma) / K_ZC
+    limit = paper.eq_6(DU_Z, OMEGA, K_ZC, gamma) / K_ZC
     for u_z0 in (limit * (1 + 1e-12), limit * (1 - 1e-12)):
-        assert theory.eq_5(u_z0, DU_Z, OMEGA, K_ZC, gamma) == (theory.eq_7(MU_0, u_z0, DU_Z, OMEGA, K_ZC, gamma) > 0)
-    assert theory.eq_5(limit * 1.01, DU_Z, OMEGA, K_ZC, gamma)
-    assert not theory.eq_5(limit * 0.99, DU_Z, OMEGA, K_ZC, gamma)
+        assert paper.eq_5(u_z0, DU_Z, OMEGA, K_ZC, gamma) == (paper.eq_7(MU_0, u_z0, DU_Z, OMEGA, K_ZC, gamma) > 0)
+    assert paper.eq_5(limit * 1.01, DU_Z, OMEGA, K_ZC, gamma)
+    assert not paper.eq_5(limit * 0.99, DU_Z, OMEGA, K_ZC, gamma)
 
 
 @pytest.mark.parametrize(("depth_ratio", "T"), [(3.0, 0.0), (3.0, 2.0), (3.0, 2.9), (0.9, 0.0)])
 def test_eq_5_says_what_the_case_says(depth_ratio, T):
     case = contact("flat", depth_ratio, T)
     motion = case.oscillation
-    assert theory.eq_5(motion.u_z0, motion.du_z, motion.omega, case.k_zc, case.gamma_zc) == case.keeps_contact
+    assert paper.eq_5(motion.u_z0, motion.du_z, motion.omega, case.k_zc, case.gamma_zc) == case.keeps_contact
 
 
 # --- motion in full slip ---
@@ -80,14 +80,14 @@ def test_eq_10_solves_eq_8(body, gamma):
     k_x, m = body
 
     def u_x(t):
-        return theory.eq_10(t, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
+        return paper.eq_10(t, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
 
     # u_x is a constant, a slope and one harmonic: the mean of three samples a third of a period apart leaves out the
     # harmonic, whose second derivative is -omega**2 times it
     third = 2 * np.pi / OMEGA / 3
     mean = (u_x(TIMES) + u_x(TIMES + third) + u_x(TIMES - third)) / 3
     acceleration = -(OMEGA**2) * (u_x(TIMES) - mean)
-    force = MU_0 * theory.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma)
+    force = MU_0 * paper.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma)
     right = k_x * (V_0 * TIMES - u_x(TIMES)) - force  # Eq. (8)
     # terms of the size of the force and of the inertia cancel
     assert_allclose(m * acceleration, right, rtol=0, atol=1e-12 * (force.max() + np.abs(m * acceleration).max()))
@@ -97,7 +97,7 @@ def test_eq_10_solves_eq_8(body, gamma):
 def test_eq_10_accelerates_as_finite_differences_say(body):
     k_x, m = body
     dt = 1e-3 / OMEGA
-    u_x = [theory.eq_10(TIMES + i * dt, 0.0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, 40.0, k_x, m) for i in (-1, 0, 1)]
+    u_x = [paper.eq_10(TIMES + i * dt, 0.0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, 40.0, k_x, m) for i in (-1, 0, 1)]
     mean = -MU_0 * K_ZC / k_x * U_Z0
     swing = u_x[1] - mean
     # central difference: (omega dt)**2/12 = 1e-7 of the swing, and rounding 1e-16/1e-6 of the mean
@@ -107,7 +107,7 @@ def test_eq_10_accelerates_as_finite_differences_say(body):
 
 def test_eq_11_is_the_ratio_of_the_stiffnesses():
     case = contact("paraboloid", T=0.7)
-    gamma_xc = theory.eq_11(case.gamma_zc, case.material.mindlin_ratio)
+    gamma_xc = paper.eq_11(case.gamma_zc, case.material.mindlin_ratio)
     assert_allclose(gamma_xc / case.gamma_zc, case.k_xc / case.k_zc, rtol=1e-14)
     assert_allclose(gamma_xc, case.gamma_xc, rtol=1e-14)
 
@@ -115,11 +115,11 @@ def test_eq_11_is_the_ratio_of_the_stiffnesses():
 @pytest.mark.parametrize("gamma", GAMMA)
 def test_eq_12_balances_the_foot_eq_9(gamma):
     # the same first-order operator on both sides: k_xc e + gamma_xc e' = mu_0 F_N
-    e = theory.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
-    e_dot = theory.eq_12(TIMES + np.pi / 2 / OMEGA, MU_0, 0.0, DU_Z, OMEGA, KAPPA) * OMEGA  # a quarter turn on
-    left = K_XC * e + theory.eq_11(gamma, KAPPA) * e_dot
+    e = paper.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
+    e_dot = paper.eq_12(TIMES + np.pi / 2 / OMEGA, MU_0, 0.0, DU_Z, OMEGA, KAPPA) * OMEGA  # a quarter turn on
+    left = K_XC * e + paper.eq_11(gamma, KAPPA) * e_dot
     assert_allclose(
-        left, MU_0 * theory.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma), rtol=1e-12, atol=1e-14 * K_ZC * U_Z0
+        left, MU_0 * paper.eq_4(TIMES, U_Z0, DU_Z, OMEGA, K_ZC, gamma), rtol=1e-12, atol=1e-14 * K_ZC * U_Z0
     )
 
 
@@ -136,11 +136,11 @@ def test_eq_13_is_eq_10_less_eq_12(body, gamma):
         + MU_0 * DU_Z / inertia * (K_ZC * np.cos(phase) - gamma * OMEGA * np.sin(phase))
         - MU_0 * K_ZC / K_XC * DU_Z * np.cos(phase)
     )
-    foot = theory.eq_13(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+    foot = paper.eq_13(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
     scale = np.abs(printed).max()
     assert_allclose(foot, printed, rtol=0, atol=1e-13 * scale)
-    body_motion = theory.eq_10(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
-    extension = theory.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
+    body_motion = paper.eq_10(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
+    extension = paper.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
     assert_allclose(foot, body_motion - extension, rtol=0, atol=1e-15 * scale)
 
 
@@ -150,12 +150,12 @@ def test_eq_14_is_the_rate_of_eq_13(body, gamma):
     k_x, m = body
     dt = 1e-4 / OMEGA
     groups = MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m
-    ahead, behind = (theory.eq_13(t, 0.0, *groups) for t in (TIMES + dt, TIMES - dt))
-    rate = theory.eq_14(TIMES, 0.0, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+    ahead, behind = (paper.eq_13(t, 0.0, *groups) for t in (TIMES + dt, TIMES - dt))
+    rate = paper.eq_14(TIMES, 0.0, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
     # central difference: (omega dt)**2/6 = 2e-9 of the amplitude; rounding of the position over dt
     atol = 4e-9 * np.abs(rate).max() + 4e-16 * np.abs(ahead).max() / dt
     assert_allclose(rate, (ahead - behind) / (2 * dt), rtol=0, atol=atol)
-    with_pull = theory.eq_14(TIMES, V_0, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+    with_pull = paper.eq_14(TIMES, V_0, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
     assert_allclose(with_pull - V_0, rate, rtol=0, atol=4e-16 * (V_0 + np.abs(rate).max()))
 
 
@@ -168,16 +168,16 @@ def test_eq_15_is_the_printed_one():
         root = math.sqrt((gamma_zc * omega) ** 2 + (k_zc / k_xc * (m * omega**2 - k_xc - k_x)) ** 2)
         printed = mu_0 * du_z * omega / abs(inertia) * root
         # the printed order of subtraction loses more where k_xc or k_x is small beside the other
-        assert_allclose(theory.eq_15(mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, m), printed, rtol=1e-12)
+        assert_allclose(paper.eq_15(mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, m), printed, rtol=1e-12)
 
 
 def test_eq_2_is_the_printed_one_and_the_elastic_limit_of_eq_15():
     for mu_0, du_z, omega, k_zc, k_xc, _, k_x, m in random_cases():
         printed = mu_0 * omega * du_z * k_zc / k_xc * abs(k_xc + k_x - m * omega**2) / abs(k_x - m * omega**2)
-        got = theory.eq_2(mu_0, du_z, omega, k_zc, k_xc, k_x, m)
+        got = paper.eq_2(mu_0, du_z, omega, k_zc, k_xc, k_x, m)
         assert_allclose(got, printed, rtol=1e-12)
         # a damping of 1e-9 adds its square where nothing cancels, and at most 1e-9 of Eq. (1)'s share otherwise
-        damped = theory.eq_15(mu_0, du_z, omega, k_zc, k_xc, 1e-9 * k_zc / omega, k_x, m)
+        damped = paper.eq_15(mu_0, du_z, omega, k_zc, k_xc, 1e-9 * k_zc / omega, k_x, m)
         viscous = mu_0 * du_z * omega * 1e-9 * k_zc / abs(m * omega**2 - k_x)
         assert_allclose(damped, got, rtol=1e-12, atol=viscous)
 
@@ -185,21 +185,21 @@ def test_eq_2_is_the_printed_one_and_the_elastic_limit_of_eq_15():
 def test_eq_1_is_the_stiff_limit_of_eq_15():
     for mu_0, du_z, omega, k_zc, k_xc, gamma_zc, *_ in random_cases(200):
         expected = mu_0 * omega * du_z * k_zc / k_xc
-        assert_allclose(theory.eq_1(mu_0, du_z, omega, k_zc / k_xc), expected, rtol=1e-15)
+        assert_allclose(paper.eq_1(mu_0, du_z, omega, k_zc / k_xc), expected, rtol=1e-15)
         k_x = 1e14 * (k_zc + gamma_zc * omega)
         # what is left of the body is (k_xc + i omega gamma_xc)/k_x < 1e-14
-        assert_allclose(theory.eq_15(mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, 0.0), expected, rtol=1e-13)
+        assert_allclose(paper.eq_15(mu_0, du_z, omega, k_zc, k_xc, gamma_zc, k_x, 0.0), expected, rtol=1e-13)
 
 
 @pytest.mark.parametrize("c_x", [0.0, 1.0, 300.0])
 def test_eq_15_is_the_least_velocity_that_keeps_eq_14_positive(c_x):
     k_x, m, gamma = 2e4, 0.01, 40.0
     K_z, H = K_ZC + 1j * OMEGA * gamma, mdr.SpringPull(k_x, m, c_x).receptance(OMEGA)
-    v_c = theory.eq_15(MU_0, DU_Z, OMEGA, K_ZC, K_XC, gamma, k_x, m, c_x)
+    v_c = paper.eq_15(MU_0, DU_Z, OMEGA, K_ZC, K_XC, gamma, k_x, m, c_x)
     assert_allclose(v_c, MU_0 * OMEGA * DU_Z * abs(K_ZC / K_XC + K_z * H), rtol=1e-13)
     if c_x == 0:
         t = np.linspace(0, 2 * np.pi / OMEGA, 20_001)
-        foot = theory.eq_14(t, v_c, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
+        foot = paper.eq_14(t, v_c, MU_0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
         # the least of 20000 samples lies within (pi/20000)**2/2 of the minimum
         assert_allclose(foot.min() / v_c, 0, atol=(np.pi / 20_000) ** 2)
 
@@ -208,7 +208,7 @@ def test_eq_15_is_the_least_velocity_that_keeps_eq_14_positive(c_x):
 @pytest.mark.parametrize("shape", SHAPES)
 def test_critical_velocity_reads_the_case(shape, T):
     case = contact(shape, 5.0, T, 0.7, 1.6, 0.2)
-    unit = theory.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
+    unit = paper.eq_1(case.mu_0, case.oscillation.du_z, case.oscillation.omega, case.material.mindlin_ratio)
     assert_allclose(mdr.critical_velocity(case) / unit, reference.eq_15(T, 0.7, 1.6, 0.2), rtol=1e-12)
     no_mass = contact(shape, 5.0, T, 0.7, math.inf, 0.2)
     assert_allclose(mdr.critical_velocity(no_mass) / unit, abs(1 + (1 + 1j * T) / (0.7 + 0.2j)), rtol=1e-12)
@@ -268,7 +268,7 @@ def test_it_scales_as_it_should(T):
 @pytest.mark.parametrize("v_hat", [1e-12, 1e-6, 0.01, 0.3, 0.5, 0.9, 0.999, 1 - 1e-9])
 def test_deficit_against_the_twin(v_hat):
     # terms of order 1 cancel
-    assert_allclose(theory.deficit(v_hat), reference.flat_punch_deficit(v_hat), rtol=0, atol=1e-14)
+    assert_allclose(paper.deficit(v_hat), reference.flat_punch_deficit(v_hat), rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("v_hat", [0.05, 0.4, 0.8])
@@ -279,29 +279,29 @@ def test_deficit_is_the_mean_lag_of_a_spring(v_hat):
     t = phi_1 + np.linspace(0, 2 * np.pi, 20_001)
     lag = np.maximum(np.cos(t) - np.cos(phi_1) - v_hat * (t - phi_1), 0.0)
     # the trapezoidal rule: (pi/10000)**2/8 at the kinks, where the slope of the lag jumps by 2 at most, over 2 pi
-    assert_allclose(theory.deficit(v_hat), np.trapezoid(lag, t) / (2 * np.pi), rtol=0, atol=1e-8)
+    assert_allclose(paper.deficit(v_hat), np.trapezoid(lag, t) / (2 * np.pi), rtol=0, atol=1e-8)
 
 
 def test_deficit_ends_at_one_and_zero():
-    assert theory.deficit(0) == 1
-    assert theory.deficit(1) == 0
+    assert paper.deficit(0) == 1
+    assert paper.deficit(1) == 0
     # psi falls with slope -pi from 1 and ends like (1 - v_hat)**2
-    assert_allclose((1 - theory.deficit(1e-7)) / 1e-7, np.pi, rtol=1e-2)
-    small = theory.deficit(1 - 1e-3)
+    assert_allclose((1 - paper.deficit(1e-7)) / 1e-7, np.pi, rtol=1e-2)
+    small = paper.deficit(1 - 1e-3)
     assert 0.5e-6 < small < 1e-6
-    values = [theory.deficit(v) for v in np.linspace(0, 1, 101)]
+    values = [paper.deficit(v) for v in np.linspace(0, 1, 101)]
     assert np.all(np.diff(values) < 0)
 
 
 @pytest.mark.parametrize("v_hat", [-1e-9, 1 + 1e-9, math.nan, math.inf])
 def test_deficit_outside_its_range_is_refused(v_hat):
     with pytest.raises(ValueError, match=r"v_hat must lie in \[0, 1\]"):
-        theory.deficit(v_hat)
+        paper.deficit(v_hat)
 
 
 # --- what is refused ---
 
-EQUATIONS = {name: one for name, one in vars(theory).items() if name.startswith("eq_")}
+EQUATIONS = {name: one for name, one in vars(paper).items() if name.startswith("eq_")}
 
 
 @pytest.mark.parametrize("name", ["eq_10", "eq_13", "eq_14"])

@@ -11,7 +11,7 @@ from conftest import SHAPES, by_groups, contact, unit_of_velocity
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
-from mdr.friction import measured_velocity as measurement
+from mdr.friction import measured_velocity
 
 # v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way, and wider by what the resolution
 # still moves.
@@ -90,14 +90,14 @@ def test_measured_values_are_not_all_the_closed_form():
 def test_the_answer_does_not_depend_on_where_the_search_begins(monkeypatch, name, factor):
     """1/1.37 makes the first run land on Eq. (1) itself."""
     case = make(*MEASURED[name])
-    begin = measurement._Search.__init__
+    begin = measured_velocity._Search.__init__
 
     def elsewhere(self, *args):
         begin(self, *args)
         self.scale *= factor
 
     usual = mdr.measure_critical_velocity(case)
-    monkeypatch.setattr(measurement._Search, "__init__", elsewhere)
+    monkeypatch.setattr(measured_velocity._Search, "__init__", elsewhere)
     found = mdr.measure_critical_velocity(case)
     check_found(found, case, truth(*MEASURED[name]))
     assert_allclose(found.v_c, usual.v_c, rtol=BUDGET)
@@ -117,21 +117,21 @@ def test_measuring_sees_runs_only(monkeypatch):
     )
     for name in closed:
         monkeypatch.setattr(f"mdr.closed_forms.{name}", refuse)
-    assert not {"critical_velocity", "full_slip_critical_velocity", "eq_1", "eq_15"} & set(vars(measurement))
+    assert not {"critical_velocity", "full_slip_critical_velocity", "eq_1", "eq_15"} & set(vars(measured_velocity))
     assert mdr.measure_critical_velocity(make(*MEASURED["cone, body, elastic"])).v_c > 0
 
 
 def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
     """The measurement follows its runs: if they stick up to 1.07 v_c, so it says."""
     case = make(*MEASURED["flat, rigid"])
-    slide = measurement.slide
+    slide = measured_velocity.slide
 
     def slow(case, v_0, **knobs):
         run = slide(case, v_0 / 1.07, **knobs)
         return replace(run, v_0=v_0, least_slip=1.07 * run.least_slip)
 
     for name in ("slide", "slide_without_bound"):
-        monkeypatch.setattr(measurement, name, slow)
+        monkeypatch.setattr(measured_velocity, name, slow)
     found = mdr.measure_critical_velocity(case)
     assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=BUDGET)
 

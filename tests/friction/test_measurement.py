@@ -8,7 +8,7 @@ import pytest
 from conftest import contact
 
 import mdr
-from mdr.friction import measured_velocity as measurement
+from mdr.friction import measured_velocity
 from mdr.march.refinement import default_steps
 
 CASE = contact("paraboloid", 3.0, 0.0, 0.7, 1.6, 0.1)
@@ -31,7 +31,7 @@ def world(monkeypatch):
             )  # fmt: skip
 
         for name in ("slide", "slide_without_bound"):
-            monkeypatch.setattr(measurement, name, slide)
+            monkeypatch.setattr(measured_velocity, name, slide)
 
     return make
 
@@ -169,7 +169,7 @@ def test_another_tolerance_needs_no_other_measurement(world):
 
 @pytest.mark.parametrize("within", [0.0, -0.01, 1.0, 5, math.nan, math.inf, "1%", None, True])
 def test_a_tolerance_that_is_none_is_refused_before_any_run(monkeypatch, within):
-    monkeypatch.setattr(measurement, "slide", None)
+    monkeypatch.setattr(measured_velocity, "slide", None)
     with pytest.raises((ValueError, TypeError), match=r"within must"):
         mdr.verdict(CASE, within=within)
 
@@ -177,8 +177,8 @@ def test_a_tolerance_that_is_none_is_refused_before_any_run(monkeypatch, within)
 def test_a_formula_that_vanishes_beside_eq_1_has_no_percentage(world):
     world(lambda *_: 0.3)
     told = mdr.verdict(ZERO)
-    assert told.eq_15 < measurement.LEAST * UNIT
-    assert told.deviation == pytest.approx(0.3 / measurement.LEAST, rel=1e-3)
+    assert told.eq_15 < measured_velocity.LEAST * UNIT
+    assert told.deviation == pytest.approx(0.3 / measured_velocity.LEAST, rel=1e-3)
     assert str(told).startswith(f"Eq. (15) is almost zero here; use {told.measured:.4g} m/s. Measured in runs")
     assert "%" not in str(told)
     assert (told.good, told.holds) == (False, False)

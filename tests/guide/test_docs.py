@@ -66,6 +66,7 @@ def page_of(folder, text):
         "```sh\nmdr velocity missing.toml\n```\n",
         "```sh\nrm -r everything\n```\n",
         "```sh\npython3 -m pip --python .venv install -q -e '.[nothing]'\n```\n",
+        "```sh\n.venv/bin/python -m pip install -q -e . --group nothing\n```\n",
         "```sh\n.venv/bin/python -m validation --slow\n```\n",
         "```toml\nmu_0 = 0.5\n```\n",
         "```text\nout of nowhere\n```\n",

@@ -10,8 +10,7 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march import kernels
-from mdr.march import periodic_orbit as periodic
+from mdr.march import kernels, periodic_orbit
 from mdr.march.march import Knobs, march
 
 RNG = np.random.default_rng(11)
@@ -25,7 +24,7 @@ def itself(x):
 
 def find(step, x):
     """The fixed point by the march's own method, on a map of which the march knows nothing."""
-    how = periodic.Options()
+    how = periodic_orbit.Options()
     at = how.by_anderson(x, x)
     for _ in range(how.most):
         image = step(at.x.copy())
@@ -33,8 +32,8 @@ def find(step, x):
             break
         at.measured[:] = at.x
     change = at.changes[kernels.BEST]
-    near = periodic.Iterate(at.best, change) if math.isfinite(change) else None
-    return periodic.find(periodic.PeriodMap(step), near, itself, lambda: PUSHES, how)
+    near = periodic_orbit.Iterate(at.best, change) if math.isfinite(change) else None
+    return periodic_orbit.find(periodic_orbit.PeriodMap(step), near, itself, lambda: PUSHES, how)
 
 
 def linear(slow, fast=0.01):
@@ -163,8 +162,8 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
     with monkeypatch.context() as patch:
         without_search(patch)
         untouched = march(case, v_0, knobs)
-    search = periodic.find
-    monkeypatch.setattr(periodic, "find", lambda *args: search(*args) and None)
+    search = periodic_orbit.find
+    monkeypatch.setattr(periodic_orbit, "find", lambda *args: search(*args) and None)
     failed = march(case, v_0, knobs)
     assert failed.cof == untouched.cof
     assert failed.n_periods == untouched.n_periods

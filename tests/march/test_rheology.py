@@ -13,7 +13,7 @@ import mdr
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.march import Knobs, at_hand
 from mdr.march.stepper import Stepper
-from mdr.materials import operator as k
+from mdr.materials import operator
 from mdr.materials.operator import Rheology, over_step
 
 ARMS = {"one": ((2.0,), (0.7,)), "two": ((1.5, 0.5), (0.3, 4.0)), "fast and slow": ((20.0, 3.0), (1e-3, 50.0))}
@@ -47,9 +47,9 @@ def test_a_free_spring_obeys_its_equation(T, arms):
         return np.concatenate([[first], first - x[1:] / theta])
 
     end = solve_ivp(rate, (0, h), x, method="LSODA", rtol=1e-11, atol=1e-13).y[:, -1]
-    assert_allclose(table[k.L_FREE] @ x, end[0], rtol=0, atol=1e-9)
-    assert_allclose(table[k.L_RATE] @ x, -rate(0, x)[0], rtol=0, atol=1e-12 * np.abs(rate(0, x)).max())
-    assert_allclose(table[k.L_END] @ x, -rate(0, end)[0], rtol=0, atol=1e-7)
+    assert_allclose(table[operator.L_FREE] @ x, end[0], rtol=0, atol=1e-9)
+    assert_allclose(table[operator.L_RATE] @ x, -rate(0, x)[0], rtol=0, atol=1e-12 * np.abs(rate(0, x)).max())
+    assert_allclose(table[operator.L_END] @ x, -rate(0, end)[0], rtol=0, atol=1e-7)
 
 
 @pytest.mark.parametrize("arms", ARMS.values(), ids=ARMS)
@@ -57,7 +57,7 @@ def test_what_is_shed_is_all_force(arms):
     rho, theta = map(np.array, arms)
     table = over_step(0.0, rho, theta, 1e-9)  # no time to relax
     x = np.random.default_rng(2).uniform(-1, 1, 1 + rho.size)
-    left = x - (x[0] - table[k.L_FREE] @ x)  # every part moves alike
+    left = x - (x[0] - table[operator.L_FREE] @ x)  # every part moves alike
     assert_allclose(left[0] + rho @ left[1:], 0, atol=1e-5)  # 1e-9/1e-3 of the fast arm has relaxed
 
 
@@ -65,13 +65,17 @@ def test_arms_follow_a_linear_path():
     rho, theta, h = np.array([1.0, 1.0]), np.array([0.2, 5.0]), 0.4
     table, x, slope = over_step(0.0, rho, theta, h), np.array([0.3, -0.1, 0.2]), 1.7
     exact = x[1:] * np.exp(-h / theta) + slope * theta * (1 - np.exp(-h / theta))
-    assert_allclose(table[k.L_DECAY, 1:] * x[1:] + table[k.L_GAIN, 1:] * slope * h, exact, rtol=1e-14)
+    assert_allclose(table[operator.L_DECAY, 1:] * x[1:] + table[operator.L_GAIN, 1:] * slope * h, exact, rtol=1e-14)
 
 
 def test_without_arms_it_is_a_kelvin_spring():
     table = over_step(0.5, [], [], 0.1)
     decay = math.exp(-0.2)
-    assert_allclose(table[[k.L_FREE, k.L_RATE, k.L_END, k.L_SHED], 0], [decay, 2.0, 2 * decay, 0], rtol=1e-15)
+    assert_allclose(
+        table[[operator.L_FREE, operator.L_RATE, operator.L_END, operator.L_SHED], 0],
+        [decay, 2.0, 2 * decay, 0],
+        rtol=1e-15,
+    )
 
 
 @pytest.mark.parametrize("arms", ARMS.values(), ids=ARMS)

@@ -11,10 +11,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import State
-from mdr.closed_forms import paper as theory
-from mdr.closed_forms import rigid_pull
-from mdr.march import dimensionless as scaled
-from mdr.march import march as marching
+from mdr.closed_forms import paper, rigid_pull
+from mdr.march import dimensionless, march
 from mdr.march.stepper import Stepper
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
@@ -123,8 +121,8 @@ def test_a_core_that_slips_back_is_computed_spring_by_spring(monkeypatch):
     """Slipping backward is not slipping as one: the outer springs of the core turn first."""
     case = contact(**BACKWARD)
     lumps = []
-    steady = marching.steady
-    monkeypatch.setattr(marching, "steady", lambda *args: lumps.append(args[2].lump) or steady(*args))
+    steady = march.steady
+    monkeypatch.setattr(march, "steady", lambda *args: lumps.append(args[2].lump) or steady(*args))
     run = coarse(case, 21.6, 40, record=1)
     assert lumps == [True, False], "the lumped march was taken back"
     full = coarse(case, 21.6, 40, record=1, lump=False)
@@ -435,13 +433,13 @@ def test_the_body_moves_as_eq_10_above_v_c(T, v):
     run = mdr.slide(case, v * mdr.critical_velocity(case), steps_per_period=1024, record=2)
     oscillation, pull = case.oscillation, case.pull
     groups = (oscillation.du_z, oscillation.omega, case.k_zc, case.gamma_zc)
-    expected = theory.eq_10(run.t, run.v_0, case.mu_0, oscillation.u_z0, *groups, pull.k_x, pull.m)
+    expected = paper.eq_10(run.t, run.v_0, case.mu_0, oscillation.u_z0, *groups, pull.k_x, pull.m)
     swing = np.ptp(expected - run.v_0 * run.t)
     # the force is linear within a step of 2 pi/1024: h²/12 = 3e-6 of the swing, times the gain of the body
     assert_allclose(run.u_x, expected, rtol=0, atol=2e-5 * swing)
     assert_allclose(run.F_x, case.mu_0 * run.F_z, rtol=1e-9)
     assert_allclose(
-        run.F_z, theory.eq_4(run.t, oscillation.u_z0, *groups), rtol=1e-9, err_msg="Eq. (4) is the load of a flat punch"
+        run.F_z, paper.eq_4(run.t, oscillation.u_z0, *groups), rtol=1e-9, err_msg="Eq. (4) is the load of a flat punch"
     )
 
 
@@ -543,7 +541,7 @@ def test_a_swing_that_rings_for_ages_is_not_settled_however_steady_friction_is(m
     """On a resonance of Q = 5e5 a body that set out in full slip presses only while it swings back: mu = -mu_0 until
     the swing has died away, long after the run. The periodic state is solved for from elsewhere.
     """
-    monkeypatch.setattr(scaled, "FASTEST_START", np.inf)
+    monkeypatch.setattr(dimensionless, "FASTEST_START", np.inf)
     case = contact("cone", 0.01, k_ratio=1e4, omega_0_ratio=1.0, c_ratio=0.02)
     knobs = {"n_springs": 32, "steps_per_period": 64}
     run = run_at(case, 1.0, n_periods=12, **knobs)
@@ -604,14 +602,14 @@ def test_a_state_that_may_be_far_from_the_periodic_one_is_not_settled_and_says_s
 
 def test_a_march_that_contradicts_the_static_limit_has_not_settled(monkeypatch):
     case = CONTACTS["body elastic"]
-    search = marching.search_from_full_slip
+    search = march.search_from_full_slip
 
     def wrong(stepper):
         orbit = search(stepper)
         return replace(orbit, settling=replace(orbit.settling, mean=-0.004))
 
-    monkeypatch.setattr(marching, "search_from_full_slip", wrong)
-    monkeypatch.setattr(marching, "search", lambda *args, **knobs: None)
+    monkeypatch.setattr(march, "search_from_full_slip", wrong)
+    monkeypatch.setattr(march, "search", lambda *args, **knobs: None)
     run = run_at(case, 0.43, **COARSE)
     assert not run.settled
     assert "below the static limit" in run.why

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.plots import studies as pictures
+from mdr.plots import studies
 from mdr.studies.points import Status
 
 mpl.use("Agg")
@@ -211,7 +211,7 @@ def test_a_map_of_nothing_is_drawn(flat):
 
 
 def test_named_axes_and_quantities_exist():
-    assert set(pictures.LABELS) <= set(mdr.studies.CATALOGUE)
+    assert set(studies.LABELS) <= set(mdr.studies.CATALOGUE)
 
 
 # --- the picture that suits ---

@@ -20,8 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from mdr.indenters.mapping import abel as transform
-from mdr.indenters.mapping import inversion as roots
+from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.quadrature import Function, Rule, chebyshev_fit, double_exponential, in_chunks
 from mdr.tools.arrays import Array
 
@@ -32,7 +31,7 @@ N_PANELS = 4096  #: kept, half a kilobyte each
 
 Edges = tuple[float, ...]
 Integral = Callable[[Function, Edges, Array, Rule | None], Array]  #: one that leads from f to a height over x
-HEIGHT, AREA = transform.profile_1d, transform.area_from_f  #: g(x), and the area below it
+HEIGHT, AREA = abel.profile_1d, abel.area_from_f  #: g(x), and the area below it
 
 
 class Panel(NamedTuple):
@@ -77,7 +76,7 @@ def image(integral: Integral, f: Function, edges: Edges, x: Array) -> Array:
     return g
 
 
-def invert(f: Function, edges: Edges, d: Array, start: Array) -> tuple[Array, roots.BoolArray]:
+def invert(f: Function, edges: Edges, d: Array, start: Array) -> tuple[Array, inversion.BoolArray]:
     """Radius a with g(a) = d for depths d > 0, as `roots.invert` answers; start: about where it is."""
     with np.errstate(all="ignore"):
         about = int(np.searchsorted(cuts(edges), start[np.argmin(d)]))
@@ -132,11 +131,13 @@ def cuts(edges: Edges) -> Array:
     return np.unique(np.concatenate([*rows, [min(edges[-1], np.finfo(float).max)]]))
 
 
-def _invert_between(f: Function, edges: Edges, ends: Array, heights: Array, d: Array) -> tuple[Array, roots.BoolArray]:
+def _invert_between(
+    f: Function, edges: Edges, ends: Array, heights: Array, d: Array
+) -> tuple[Array, inversion.BoolArray]:
     """Radii in one panel whose ends have these heights."""
     (low, high), (y_low, y_high) = np.broadcast_to(ends[:, None], (2, d.size)), heights[:, None] - d
     y_low, y_high = np.minimum(y_low, 0), np.maximum(y_high, 0)
-    return roots.refine(lambda x: _heights(HEIGHT, f, edges, ends[0], ends[1], x), d, low, high, y_low, y_high)
+    return inversion.refine(lambda x: _heights(HEIGHT, f, edges, ends[0], ends[1], x), d, low, high, y_low, y_high)
 
 
 def _heights(
