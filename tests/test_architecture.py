@@ -20,7 +20,7 @@ ORDER = (
     ("tools",),
     ("indenters",),
     ("materials",),
-    ("case",),
+    ("case", "spring"),
     ("normal",),
     ("files",),
     ("closed_forms", "half_space", "march"),

@@ -1,0 +1,1 @@
+"""One spring over one step of time: its material, contact and friction, exact for a motion that is a parabola."""

@@ -1,0 +1,102 @@
+"""The law L of a material: what a spring does that is held on a path, or left alone.
+
+In scaled form, with the long-time modulus as unit, the force of an extension x is
+
+    L[x] = x + T x' + sum_j rho_j x_j,    x_j' = x' - x_j/theta_j,
+
+T of the Kelvin branch, rho_j and theta_j of the Maxwell arms. Two things can happen to an extension:
+
+* it is *held*: something moves it on a parabola, by p t + q t². Then x_j(t) = x_j phi_0 + p t phi_1 + 2 q t² phi_2,
+  with phi_n of r = t/theta_j: phi_0(r) = exp(-r), phi_{n+1}(r) = (1/n! - phi_n(r))/r. Integrals over time follow from
+  the next ones, as t^n phi_n has the integral t^{n+1} phi_{n+1}.
+* it is *free*: L[x] = 0. It relaxes in K = J + (T > 0) modes, x_j(t) = sum_k out_jk m_k exp(-mu_k t), m = into x.
+
+An elastic material has neither arms nor modes, a Kelvin material one mode.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from mdr.tools.arrays import Array
+
+N_PHI = 5
+
+
+class Modes(NamedTuple):
+    """How a spring relaxes that is left alone."""
+
+    mu: Array  #: (K,) rates
+    out: Array  #: (1 + J, K) from modes to state
+    into: Array  #: (K, 1 + J) from state to modes
+
+
+class Arms(NamedTuple):
+    """The Maxwell arms of a material."""
+
+    rho: Array  #: (J,) moduli over the long-time one
+    theta: Array  #: (J,) times
+
+
+class Law(NamedTuple):
+    """L of a material. What it lacks is None, and so compiled away."""
+
+    T: float
+    modes: Modes | None
+    arms: Arms | None
+
+
+@lru_cache(maxsize=64)
+def law_of(T: float, rho: tuple[float, ...] = (), theta: tuple[float, ...] = ()) -> Law:
+    """The law of a material with these groups."""
+    ratios, times = np.array(rho, dtype=float), np.array(theta, dtype=float)
+    modes = _modes(T, ratios, times) if T > 0 or rho else None
+    return Law(float(T), modes, Arms(ratios, times) if rho else None)
+
+
+@njit(error_model="numpy")
+def fill_phi(r, values):  # type: ignore[no-untyped-def]
+    """Fill values (5,) with phi_0 ... phi_4 of r >= 0: from the exponential, or from a series where r is small."""
+    if r > 1.0:
+        values[0] = np.exp(-r)
+        values[1] = (1.0 - values[0]) / r
+        values[2] = (1.0 - values[1]) / r
+        values[3] = (0.5 - values[2]) / r
+        values[4] = (1.0 / 6.0 - values[3]) / r
+        return
+    total, term = 0.0, 1.0 / 24.0
+    for k in range(5, 23):
+        total += term
+        term *= -r / k
+        if abs(term) < 1e-19:
+            break
+    values[4] = total
+    values[3] = 1.0 / 6.0 - r * total
+    values[2] = 0.5 - r * values[3]
+    values[1] = 1.0 - r * values[2]
+    values[0] = 1.0 - r * values[1]
+
+
+def _modes(T: float, rho: Array, theta: Array) -> Modes:
+    """Rates, and matrices from modes to state and back, of a spring without force.
+
+    Free motion is x' = r, x_j' = r - x_j/theta_j with r such that L[x] = 0. In the norm of energy, x² + sum rho_j x_j²,
+    its matrix is symmetric. Without dashpot a state with force first sheds it, by the same displacement of all its
+    parts: a projection.
+    """
+    n = 1 + rho.size
+    roots = np.sqrt(np.concatenate([[1.0], rho]))
+    relax = np.diag(np.concatenate([[0.0], 1 / theta]))
+    if T > 0:
+        mu, vectors = np.linalg.eigh(relax + np.outer(roots, roots) / T)
+    else:
+        force = roots / np.linalg.norm(roots)
+        off = np.eye(n) - np.outer(force, force)
+        mu, vectors = np.linalg.eigh(off @ relax @ off + np.outer(force, force) * -1.0)  # the force that is shed: first
+        mu, vectors = mu[1:], vectors[:, 1:]
+    out, into = vectors / roots[:, None], (vectors * roots[:, None]).T
+    return Modes(np.maximum(mu, 0.0), np.ascontiguousarray(out), np.ascontiguousarray(into))

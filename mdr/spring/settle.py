@@ -1,0 +1,124 @@
+"""The periodic normal motion of a row of springs, in which friction has no part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.spring.law import N_PHI, Law
+from mdr.spring.step import Path, Tools, fill, press
+from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
+
+MOST_PASSES = 400  #: over a period, for arms to find their periodic state
+NOT_PERIODIC = 1e-3  #: change over a period, of the unit of lengths, that a spring may be left with
+SAME = 0.9999  #: ratio of two changes in a row, from which on they are not extrapolated
+
+
+@dataclass(frozen=True, eq=False)
+class NormalPeriod:
+    """A row of n springs over a period of n_t steps, with J arms; not to be written to."""
+
+    s: Array  #: (1 + J, n) compressions at its start, and their arms
+    area: Array  #: (n_t,) area of the normal force over each step
+    moment: Array  #: (n_t,) its moment about the start of the step
+    nodes: Array  #: (2, n_t + 1) sums of w s and of the static force at the ends of steps
+    force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
+    since: Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
+
+    @property
+    def mean(self) -> float:
+        """Mean of the normal force over the period."""
+        return float(self.area.sum()) / (2 * np.pi)
+
+
+def tools_for(law: Law, h: float) -> Tools:
+    """Room to work in, and what a step makes of arms and modes."""
+    J, K = (0 if law.arms is None else law.arms.rho.size), (0 if law.modes is None else law.modes.mu.size)
+    room = np.empty((2, N_PHI, J)), np.empty((2, K)), np.empty(K), np.empty(J + K), np.empty(N_PHI), np.empty((2, K))
+    tools = Tools(h, *room)
+    fill(h, law.modes, law.arms, tools, 0)
+    return tools
+
+
+def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool = False) -> NormalPeriod | None:
+    """The periodic motion under the depth z (n_t + 1,), of rate z_dot; None if springs with arms find none.
+
+    Without arms one period is the memory of a spring. With arms the passes go on: what an arm changed in one, over the
+    share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is exact for a spring that keeps
+    contact; where changes grow, half as much of what is beyond the plain change. Every third time, where the last two
+    changes are alike, what they tend to is added at once. each: whether force and since are asked for.
+    """
+    n_t, n = z.size - 1, gap.size
+    tools = tools_for(law, 2 * np.pi / n_t)
+    rho, theta = law.arms or (np.empty(0), np.empty(0))
+    s = np.zeros((1 + rho.size, n))
+    s[0] = np.maximum(z[0] - gap, 0)
+    area, moment, nodes = np.empty(n_t), np.empty(n_t), np.empty((2, n_t + 1))
+    none = np.empty((0, n))
+
+    def pass_through(x: Array, who: NDArray[np.int64], force: Array, since: Array) -> None:
+        period(x, gap[who], w[who], z, z_dot, *law, tools, area, moment, nodes, force, since)
+
+    who, move = np.arange(n), np.zeros((rho.size, n))
+    trust, before, change = np.ones(n), np.full(n, np.inf), np.zeros(n)
+    forgotten = -np.expm1(-2 * np.pi / theta)[:, None]
+    for turn in range(MOST_PASSES if rho.size else min(1, tools.decay.shape[1])):
+        start, x = s[:, who], s[:, who].copy()
+        pass_through(x, who, none, none)
+        s[:, who] = x
+        change[who] = np.abs(x - start).max(axis=0)
+        moves = change[who] > 1e-13 * np.abs(x).max(axis=0) + 1e-15 * np.abs(gap[who])  # z - gap: its rounding
+        who, start, x = who[moves], start[1:, moves], x[1:, moves]
+        if not who.size:
+            break
+        grows = change[who] > before[who]
+        trust[who] *= np.where(grows, 0.5, 1.0)
+        before[who] = change[who]
+        last, plain = move[:, who], x - start
+        move[:, who] = plain + trust[who] * (plain / forgotten - plain)
+        shared, length = rho @ (last * move[:, who]), rho @ last**2
+        ratio = np.where((length > 0) & ~grows & (turn % 3 == 2), shared / np.where(length > 0, length, 1.0), 0.0)
+        s[1:, who] = start + move[:, who] / (1 - np.where((ratio > 0) & (ratio < SAME), ratio, 0.0))
+    if rho.size and not change.max(initial=0) <= NOT_PERIODIC:
+        return None
+    every = np.arange(n)
+    force, since = np.empty((2, n_t if each else 0, n))
+    pass_through(s.copy(), every, force, since)
+    return NormalPeriod(s, area, moment, nodes, force, since)
+
+
+@compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+def sums_of(x, w, arms):  # type: ignore[no-untyped-def]
+    """Sum of w x, and of the force of springs at rest, with their arms."""
+    total = static = 0.0
+    for i in range(w.size):
+        one = x[0, i]
+        total += w[i] * one
+        if arms is not None:
+            for j in range(arms.rho.size):
+                one += arms.rho[j] * x[1 + j, i]
+        static += w[i] * one
+    return total, static
+
+
+@compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+def period(s, gap, w, z, z_dot, T, modes, arms, tools, area, moment, nodes, force, since):  # type: ignore[no-untyped-def]
+    """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod."""
+    h, now = tools.h, np.empty(gap.size)
+    nodes[0, 0], nodes[1, 0] = sums_of(s, w, arms)
+    for k in range(z.size - 1):
+        z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
+        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
+        area[k], moment[k] = press(s, gap, w, path, T, modes, arms, tools, now)
+        nodes[0, k + 1], nodes[1, k + 1] = sums_of(s, w, arms)
+        if force.shape[0] > 0:
+            for i in range(gap.size):
+                normal = s[0, i] + T * z_dot[k + 1]
+                if arms is not None:
+                    for j in range(arms.rho.size):
+                        normal += arms.rho[j] * s[1 + j, i]
+                force[k, i] = max(normal, 0.0) if now[i] > 0.0 else 0.0
+                since[k, i] = now[i]

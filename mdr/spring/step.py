@@ -1,0 +1,598 @@
+"""One spring over one step of time: contact, friction and material, exact from event to event.
+
+In the step the top of the spring moves on parabolas, z_1 t + z_2 t² down and x_1 t + x_2 t² along the pull. In scaled
+form Coulomb's law reads |L[e]| <= L[s], with the compression s, the extension e and the law L of the material
+(law.py). So a spring is in one of four modes, and each ends at the first zero of a function that is known:
+
+=========  =========================  ============================  =========================================
+mode       what moves                 what is left alone            it ends where
+=========  =========================  ============================  =========================================
+free       nothing                    s and e                       the indenter meets the surface, z - gap = s
+stick      s with z, e with x         nothing                       |L[e]| comes to L[s]: slip
+slip       s with z                   s - e (so that L[e] = L[s])   the slip velocity ends, x' = e': stick;
+                                                                    or the pressure does, L[s] = 0: free
+slip back  s with z                   s + e (L[e] = -L[s])          likewise
+=========  =========================  ============================  =========================================
+
+The step answers the new state, the area and the moment of the tangential force over the step, which are exact too. So
+its only error is that of the parabolas. Elastic springs, dashpots (Kelvin) and Maxwell arms are one text: what a
+material lacks is None, and compiled away.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from mdr.spring.law import N_PHI, fill_phi
+from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
+
+_FAST = {"reassoc", "contract"}
+_inline = njit(forceinline=True, error_model="numpy", fastmath=_FAST)
+_call = compiled(error_model="numpy", nogil=True, fastmath=_FAST)
+
+FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3  #: modes
+TOUCHES, BEGINS = 4, 5  #: the mode is still to be found: just touched; at the begin of a step
+NEVER = np.inf
+MOST_EVENTS = 100  #: of a spring in one step
+ROUNDING = 4e-15  #: of a length
+MOST_PARABOLAS = 200  #: to a zero; they double their digits once they are near
+
+# what a look adds up, in this order
+N_SUMS = 9
+(
+    STICK_TIME,
+    CONTACT_TIME,
+    SHEAR_WORK,
+    SHAKE_WORK,
+    NORMAL_WORK,
+    FRICTION_LOSS,
+    SHEAR_VISCOUS,
+    NORMAL_VISCOUS,
+    LEAST_SLIP,
+) = range(N_SUMS)
+GAUSS = tuple((0.5 + 0.5 * float(x), 0.5 * float(w)) for x, w in zip(*np.polynomial.legendre.leggauss(8), strict=True))
+
+
+class Path(NamedTuple):
+    """Motion of the top in a step: its depth z_0 + z_1 t + z_2 t², its way x_1 t + x_2 t²."""
+
+    z_0: float
+    z_1: float
+    z_2: float
+    x_1: float
+    x_2: float
+
+
+class Tools(NamedTuple):
+    """What times make of arms and modes, and room to work in."""
+
+    h: float  #: length of the step
+    phi: Array  #: (2, N_PHI, J) phi_n of t/theta_j: of the step, of a part of it
+    decay: Array  #: (2, K) exp(-mu_k t) likewise
+    modes: Array  #: (K,)
+    work: Array  #: (J + K,)
+    one: Array  #: (N_PHI,)
+    more: Array  #: (2, K)
+
+
+class Ends(NamedTuple):
+    """A function of time at both ends of a stretch of it: values and slopes; and bounds on its curvature in between."""
+
+    v_0: float
+    d_0: float
+    v_1: float
+    d_1: float
+    low: float
+    high: float
+
+
+class Look(NamedTuple):
+    """What a close look at a step fills, of n springs."""
+
+    sums: Array  #: (N_SUMS,) of which it adds up
+    F: Array  #: (3,) forces at the end of the step, tangential and normal, and least slip velocity
+    mode: Array  #: (n,) of each spring at the end of the step
+    f_x: Array  #: (n,) tangential force of each spring over its stiffness
+    f_z: Array  #: (n,) normal force likewise
+
+
+@_inline
+def plus(f, sign, g):
+    """f + sign g, of sign 1 or -1."""
+    low, high = (g.low, g.high) if sign > 0.0 else (g.high, g.low)
+    ends = f.v_0 + sign * g.v_0, f.d_0 + sign * g.d_0, f.v_1 + sign * g.v_1, f.d_1 + sign * g.d_1
+    return Ends(ends[0], ends[1], ends[2], ends[3], f.low + sign * low, f.high + sign * high)
+
+
+@_inline
+def below(f, tol):
+    """Whether a function is below zero as its time begins, or falls from there."""
+    return f.v_0 < -tol or (f.v_0 <= tol and f.d_0 < 0.0)
+
+
+@_inline
+def stays(f, t, tol):
+    """Whether it stays above zero by what is known of it: one that is convex above its tangents, one that is concave
+    above its ends, another above one of two parabolas of its least curvature, from either end.
+    """
+    lowest = f.v_1
+    if f.low >= 0.0:
+        if f.d_0 < 0.0 and f.d_1 > 0.0:
+            lowest = f.v_0 + f.d_0 * (f.v_1 - f.v_0 - f.d_1 * t) / (f.d_0 - f.d_1)
+    elif f.high > 0.0:
+        bend = 0.5 * t * f.low
+        lowest = min(lowest, max(f.v_0 + t * (f.d_0 + bend), f.v_1 - t * (f.d_1 - bend)))
+    return lowest >= -tol
+
+
+@_inline
+def held(x, p, q, T, t):
+    """L of x + p t + q t², without arms."""
+    v_1, d_1 = x + t * (p + q * t) + T * (p + 2.0 * q * t), p + 2.0 * q * t + 2.0 * T * q
+    return Ends(x + T * p, p + 2.0 * T * q, v_1, d_1, 2.0 * q, 2.0 * q)
+
+
+@_inline
+def zero_of_parabola(f, t, tol, a, b, c):
+    """First time at which a + b t + c t² falls below zero; infinite for none."""
+    if a <= tol and (b < 0.0 or (b == 0.0 and c < 0.0)):
+        return 0.0
+    inside = b * b - 4.0 * a * c
+    if inside < 0.0 or (c >= 0.0 and (b >= 0.0 or (f.v_1 >= -tol and b * b < 4.0 * c * (a + tol)))):
+        return NEVER
+    root = np.sqrt(inside)
+    u = (b + root) / (-2.0 * c) if b > 0.0 else 2.0 * a / (root - b)
+    return min(u, t) if f.v_1 < -tol or u < t else NEVER
+
+
+@_inline
+def force(x, p, q, T, t):
+    """Area and moment of L[x + p t + q t²] over a time, without arms."""
+    area = t * (x + t * (p / 2.0 + t * q / 3.0))
+    moment = t * t * (x / 2.0 + t * (p / 3.0 + t * q / 4.0))
+    dx = t * (p + q * t)
+    return area + T * dx, moment + T * (t * (x + dx) - area)
+
+
+@_call
+def fill(t, modes, arms, tools, k):
+    """What a time t makes of arms and modes."""
+    if arms is not None:
+        for j in range(arms.theta.size):
+            fill_phi(t / arms.theta[j], tools.one)
+            for n in range(N_PHI):
+                tools.phi[k, n, j] = tools.one[n]
+    if modes is not None:
+        for j in range(modes.mu.size):
+            tools.decay[k, j] = np.exp(-modes.mu[j] * t)
+
+
+@_call
+def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
+    """First time in (0, t) at which a function falls below zero; infinite for none.
+
+    a + b t + c t² + m exp(-t/T), and what n_arms arms held on p t + q t², or n_modes modes, in tools.work add. The
+    curvature of each of these falls towards zero. So what is negative now bounds all that is to come, and a parabola
+    lies below the function: it goes on to where that parabola is zero, until it gets no further.
+    """
+    work, phi, u = tools.work, tools.one, 0.0
+    for _ in range(MOST_PARABOLAS):
+        v, d, bend = a + u * (b + u * c), b + 2.0 * c * u, 2.0 * c
+        if arms is not None:
+            for j in range(n_arms):
+                rho, theta = arms.rho[j], arms.theta[j]
+                fill_phi(u / theta, phi)
+                y = work[j] * phi[0] + u * (p * phi[1] + 2.0 * q * u * phi[2])
+                slope = p + 2.0 * q * u - y / theta
+                v, d, bend = v + rho * y, d + rho * slope, bend + rho * min(2.0 * q - slope / theta, 0.0)
+            for k in range(n_modes):
+                mu = modes.mu[k]
+                y = work[k] * np.exp(-mu * u)
+                v, d, bend = v + y, d - mu * y, bend + min(mu * mu * y, 0.0)
+        else:
+            mu = modes.mu[0]
+            y = m * np.exp(-mu * u)
+            v, d, bend = v + y, d - mu * y, bend + min(mu * mu * y, 0.0)
+        v += tol
+        if v <= 0.0:
+            return u
+        bend = abs(min(bend, 0.0))
+        root = np.sqrt(d * d + 2.0 * bend * v)
+        ahead = (d + root) / bend if d > 0.0 else 2.0 * v / (root - d)
+        u += ahead
+        if not u < t:
+            return NEVER
+        if ahead <= 1e-15 * t:
+            return u
+    return u
+
+
+@_call
+def until_held(f, x, s, e, i, of_s, of_e, p, q, t, tol, T, modes, arms, tools):
+    """When L of of_s s + of_e e, which is x, held on p t + q t², falls below zero."""
+    if arms is None:
+        return zero_of_parabola(f, t, tol, x + T * p, p + 2.0 * T * q, q)
+    J = arms.rho.size
+    for j in range(J):
+        tools.work[j] = of_s * s[1 + j, i] + of_e * e[1 + j, i]
+    return zero(t, tol, x + T * p, p + 2.0 * T * q, q, p, q, 0.0, J, 0, modes, arms, tools)
+
+
+@_call
+def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
+    """When a + b t + c t² and x that is left alone, or its rate, falls below zero; with arms, of tools.modes."""
+    if modes is None:
+        return zero_of_parabola(f, t, tol, a, b, c)
+    if arms is not None:
+        for k in range(modes.mu.size):
+            tools.work[k] = modes.out[0, k] * tools.modes[k] * (-modes.mu[k] if rates else 1.0)
+    m = x * (-modes.mu[0] if rates else 1.0)
+    return zero(t, tol, a, b, c, 0.0, 0.0, m, 0, modes.mu.size, modes, arms, tools)
+
+
+@_call
+def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
+    """Energies of a stretch of a step in one mode, each from its own definition, by Gauss's rule."""
+    J, K, fastest = 0, 0, 0.0
+    press, lag = tools.more[0], tools.more[1]
+    sign = -1.0 if mode == SLIP_BACK else 1.0
+    z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
+    if modes is not None:
+        K = modes.mu.size
+        for k in range(K):
+            press[k] = lag[k] = 0.0
+            for j in range(s.shape[0]):
+                press[k] += modes.into[k, j] * s[j, i]
+                lag[k] += modes.into[k, j] * (e[j, i] if mode == FREE else s[j, i] - sign * e[j, i])
+            fastest = max(fastest, modes.mu[k])
+    if arms is not None:
+        J = arms.rho.size
+        for j in range(J):
+            fastest = max(fastest, 1.0 / arms.theta[j])
+    n = 1
+    while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
+        n += 1
+    for part in range(n):
+        start = 0.0 if part == 0 else t * 0.5 ** (n - part)
+        length = (t * 0.5 ** (n - 1 - part)) - start
+        for node, weight in GAUSS:
+            u = start + length * node
+            s_rate, x_rate = z_1 + 2.0 * z_2 * u, x_1 + 2.0 * x_2 * u
+            e_rate = x_rate
+            normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
+            lag_rate = press_rate = 0.0
+            if modes is not None:
+                for k in range(K):
+                    fallen = modes.mu[k] * modes.out[0, k] * np.exp(-modes.mu[k] * u)
+                    lag_rate -= lag[k] * fallen
+                    press_rate -= press[k] * fallen
+            if mode == FREE:
+                s_rate, e_rate, normal = press_rate, lag_rate, 0.0
+            elif mode != STICK:
+                e_rate = sign * (s_rate - lag_rate)
+            shear, pressure = T * e_rate * e_rate, T * s_rate * s_rate
+            if arms is not None:
+                for j in range(J):
+                    fill_phi(u / arms.theta[j], tools.one)
+                    f_0, f_1, f_2 = tools.one[0], u * tools.one[1], 2.0 * u * u * tools.one[2]
+                    s_j, e_j = s[1 + j, i] * f_0 + z_1 * f_1 + z_2 * f_2, e[1 + j, i] * f_0 + x_1 * f_1 + x_2 * f_2
+                    normal += arms.rho[j] * s_j if mode != FREE else 0.0
+                    of_lag = of_press = 0.0
+                    for k in range(K):
+                        fallen = modes.out[1 + j, k] * np.exp(-modes.mu[k] * u)
+                        of_lag += lag[k] * fallen
+                        of_press += press[k] * fallen
+                    if mode == FREE:
+                        s_j, e_j = of_press, of_lag
+                    elif mode != STICK:
+                        e_j = sign * (s_j - of_lag)
+                    shear += arms.rho[j] / arms.theta[j] * e_j * e_j
+                    pressure += arms.rho[j] / arms.theta[j] * s_j * s_j
+            weight *= w * length
+            sums[SHEAR_VISCOUS] += weight * shear
+            sums[NORMAL_VISCOUS] += weight * pressure
+            if mode != FREE:
+                sums[FRICTION_LOSS] += weight * normal * abs(x_rate - e_rate) if mode != STICK else 0.0
+                sums[STICK_TIME] += weight * normal if mode == STICK else 0.0
+                sums[CONTACT_TIME] += weight * normal
+                sums[NORMAL_WORK] += weight * normal * s_rate
+
+
+@_call
+def slip_velocity(mode, s, e, i, zd, xd, modes):
+    """Velocity over the plane of a spring in contact, with the rates zd and xd of its top."""
+    if mode == STICK:
+        return 0.0
+    sign, rate = -1.0 if mode == SLIP_BACK else 1.0, 0.0
+    if modes is not None:
+        for k in range(modes.mu.size):
+            m = 0.0
+            for j in range(s.shape[0]):
+                m += modes.into[k, j] * (s[j, i] - sign * e[j, i])
+            rate -= modes.mu[k] * modes.out[0, k] * m
+    return sign * (sign * xd - zd + rate)
+
+
+@_inline
+def arms_ends(x, i, p, q, t, k, tools, arms):
+    """What the arms of x[:, i], held on p t + q t², add to L."""
+    phi, rho, theta = tools.phi, arms.rho, arms.theta
+    v_0 = d_0 = v_1 = d_1 = low = high = 0.0
+    for j in range(rho.size):
+        before = x[1 + j, i]
+        after = before * phi[k, 0, j] + t * (p * phi[k, 1, j] + 2.0 * q * t * phi[k, 2, j])
+        slope = p - before / theta[j]
+        bend = rho[j] * (2.0 * q - slope / theta[j])  # falls towards zero
+        v_0 += rho[j] * before
+        d_0 += rho[j] * slope
+        v_1 += rho[j] * after
+        d_1 += rho[j] * (p + 2.0 * q * t - after / theta[j])
+        low += min(bend, 0.0)
+        high += max(bend, 0.0)
+    return Ends(v_0, d_0, v_1, d_1, low, high)
+
+
+@_inline
+def hold_arms(x, i, p, q, t, k, tools, arms):
+    """Hold the arms of x[:, i] on p t + q t² for a time: their state after; area and moment of their force."""
+    phi, rho = tools.phi, arms.rho
+    area = moment = 0.0
+    b, c = p * t, 2.0 * q * t * t
+    for j in range(rho.size):
+        a = x[1 + j, i]
+        x[1 + j, i] = a * phi[k, 0, j] + b * phi[k, 1, j] + c * phi[k, 2, j]
+        one = rho[j] * t * (a * phi[k, 1, j] + b * phi[k, 2, j] + c * phi[k, 3, j])
+        area += one
+        moment += t * (one - rho[j] * t * (a * phi[k, 2, j] + b * phi[k, 3, j] + c * phi[k, 4, j]))
+    return area, moment
+
+
+@_inline
+def into_modes(s, e, i, part, k, tools, modes):
+    """The modes of s - part e of spring i, into tools.modes; what is left alone for a time, and its rate."""
+    of, decay, mu, out, into = tools.modes, tools.decay, modes.mu, modes.out, modes.into
+    r_0 = d_0 = x_1 = r_1 = d_1 = low = high = falls = rises = 0.0
+    for m in range(mu.size):
+        size = 0.0
+        for j in range(s.shape[0]):
+            size += into[m, j] * (s[j, i] - part * e[j, i])
+        of[m] = size
+        size *= out[0, m]
+        bend = mu[m] * mu[m] * size
+        r_0 -= mu[m] * size
+        d_0 += bend
+        low += min(bend, 0.0)
+        high += max(bend, 0.0)
+        falls += mu[m] * min(-bend, 0.0)
+        rises += mu[m] * max(-bend, 0.0)
+        size *= decay[k, m]
+        x_1 += size
+        r_1 -= mu[m] * size
+        d_1 += mu[m] * mu[m] * size
+    return Ends(s[0, i] - part * e[0, i], r_0, x_1, r_1, low, high), Ends(r_0, d_0, r_1, d_1, falls, rises)
+
+
+@_inline
+def of_modes(j, k, tools, modes):
+    """Part j of a state whose modes are in tools.modes, at the end of the time that it is left alone."""
+    value = 0.0
+    for m in range(modes.mu.size):
+        value += modes.out[j, m] * tools.modes[m] * tools.decay[k, m]
+    return value
+
+
+@_inline
+def alone(x, rate, decay):
+    """The same of a Kelvin spring, which has one mode, and of an elastic one, which has none."""
+    r, bend = -rate * x, rate * rate * x
+    falls, rises = rate * min(-bend, 0.0), rate * max(-bend, 0.0)
+    x_1, r_1, d_1 = x * decay, r * decay, bend * decay
+    return Ends(x, r, x_1, r_1, min(bend, 0.0), max(bend, 0.0)), Ends(r, bend, r_1, d_1, falls, rises)
+
+
+@_call
+def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
+    """All springs over a step: sums of area and moment of their tangential forces, and of the time they stuck.
+
+    s, e (1 + J, n) are updated. zd, xd: rates of the top at the end of the step, for a look; look: None or Look.
+    """
+    h, n_x, rate, decay = tools.h, s.shape[0], 0.0, tools.decay
+    if modes is not None:
+        rate = modes.mu[0]
+    area, moment, stuck, least = 0.0, 0.0, 0.0, np.inf
+    for i in range(gap.size):
+        tol = ROUNDING * (1.0 + abs(gap[i]))
+        z_0, z_1, z_2, x_1, x_2 = path.z_0 - gap[i], path.z_1, path.z_2, path.x_1, path.x_2
+        t, done, k = h, 0.0, 0
+        of_area = of_moment = sticks = 0.0
+        mode = FREE
+        if s[0, i] <= z_0 + tol:
+            s[0, i], mode = z_0, BEGINS
+        for _ in range(MOST_EVENTS):
+            x, y = s[0, i], e[0, i]
+            press, shear = held(x, z_1, z_2, T, t), held(y, x_1, x_2, T, t)
+            if arms is not None:
+                press = plus(press, 1.0, arms_ends(s, i, z_1, z_2, t, k, tools, arms))
+                shear = plus(shear, 1.0, arms_ends(e, i, x_1, x_2, t, k, tools, arms))
+            ahead, behind = plus(press, -1.0, shear), plus(press, 1.0, shear)
+            if mode == BEGINS and below(press, tol):
+                mode = FREE
+            touches = mode == TOUCHES
+            if mode == BEGINS or touches:
+                forward, backward = below(ahead, tol), below(behind, tol)
+                mode = SLIP_BACK if backward else STICK
+                if forward and (ahead.v_0 <= behind.v_0 or not backward):
+                    mode = SLIP
+            if look is not None and touches:
+                least = min(least, slip_velocity(mode, s, e, i, z_1, x_1, modes))
+            sign = -1.0 if mode == SLIP_BACK else 1.0
+            # when the mode ends, and what follows
+            until, second = NEVER, NEVER
+            if mode == STICK:
+                after, other = SLIP, SLIP_BACK
+                if not stays(ahead, t, tol):
+                    p, q = z_1 - x_1, z_2 - x_2
+                    until = until_held(ahead, x - y, s, e, i, 1.0, -1.0, p, q, t, tol, T, modes, arms, tools)
+                if not stays(behind, t, tol):
+                    p, q = z_1 + x_1, z_2 + x_2
+                    second = until_held(behind, x + y, s, e, i, 1.0, 1.0, p, q, t, tol, T, modes, arms, tools)
+            else:
+                part = 0.0 if mode == FREE else sign  # left alone: s in flight, s -+ e in slip
+                lag, fallen = x - part * y, 0.0
+                if modes is not None:
+                    fallen = decay[k, 0]
+                left, left_rate = alone(lag, rate, fallen)
+                if arms is not None:
+                    left, left_rate = into_modes(s, e, i, part, k, tools, modes)
+                if mode == FREE:
+                    after, other = TOUCHES, FREE
+                    apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
+                    if not stays(apart, t, tol):
+                        until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+                else:
+                    after, other = STICK, FREE
+                    p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
+                    slips = plus(left_rate, 1.0, held(p, q, 0.0, 0.0, t))
+                    if not stays(slips, t, tol):
+                        until = until_alone(slips, p, q, 0.0, lag, True, t, tol, modes, arms, tools)
+                    if not stays(press, t, tol):
+                        second = until_held(press, x, s, e, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
+            if second < until:
+                until, after = second, other
+            ends = until < t
+            if ends:
+                t, k = until, 1
+                fill(t, modes, arms, tools, 1)
+            if look is not None:
+                here = Path(z_0, z_1, z_2, x_1, x_2)
+                account(look.sums, mode, s, e, i, w[i], here, t, T, modes, arms, tools)
+            # the state after that time
+            fallen = 0.0
+            if modes is not None:
+                fallen = decay[k, 0]
+            if mode == FREE:
+                s[0, i], e[0, i] = x * fallen, y * fallen
+                if arms is not None:
+                    for j in range(n_x):
+                        s[j, i] = of_modes(j, k, tools, modes)
+                    e[0, i] = y
+                    into_modes(e, e, i, 0.0, k, tools, modes)
+                    for j in range(n_x):
+                        e[j, i] = of_modes(j, k, tools, modes)
+            else:
+                A, B = force(y, x_1, x_2, T, t) if mode == STICK else force(x, z_1, z_2, T, t)
+                s[0, i] = x + t * (z_1 + z_2 * t)
+                e[0, i] = y + t * (x_1 + x_2 * t) if mode == STICK else sign * (s[0, i] - (x - sign * y) * fallen)
+                if arms is not None:
+                    C, D = hold_arms(s, i, z_1, z_2, t, k, tools, arms)
+                    if mode == STICK:
+                        C, D = hold_arms(e, i, x_1, x_2, t, k, tools, arms)
+                    else:
+                        for j in range(n_x):
+                            e[j, i] = sign * (s[j, i] - of_modes(j, k, tools, modes))
+                    A, B = A + C, B + D
+                sticks += t if mode == STICK else 0.0
+                of_area += sign * A
+                of_moment += sign * (done * A + B)
+            if not ends:
+                break
+            done += t
+            z_0, z_1, x_1 = z_0 + t * (z_1 + t * z_2), z_1 + 2.0 * z_2 * t, x_1 + 2.0 * x_2 * t
+            if after == TOUCHES:
+                s[0, i] = z_0
+            mode, t, k = after, h - done, 1
+            fill(t, modes, arms, tools, 1)
+        area += w[i] * of_area
+        moment += w[i] * of_moment
+        stuck += w[i] * sticks
+        if look is not None:
+            normal = tangential = 0.0
+            if mode != FREE:
+                normal, tangential = s[0, i] + T * zd, e[0, i] + T * xd
+                if arms is not None:
+                    for j in range(n_x - 1):
+                        normal += arms.rho[j] * s[1 + j, i]
+                        tangential += arms.rho[j] * e[1 + j, i]
+                normal = max(normal, 0.0)
+                least = min(least, slip_velocity(mode, s, e, i, zd, xd, modes))
+                tangential = max(min(tangential, normal), -normal) if mode == STICK else sign * normal
+            look.mode[i], look.f_x[i], look.f_z[i] = mode, tangential, normal
+            look.F[0] += w[i] * tangential
+            look.F[1] += w[i] * normal
+    if look is not None:
+        look.F[2] = least
+    return area, moment, stuck
+
+
+@_call
+def press(s, gap, w, path, T, modes, arms, tools, since):
+    """The normal part alone, in which friction has no part: sums of area and moment of the normal forces.
+
+    s (1 + J, n) is updated; since (n,) is filled with the share of the step that each spring has pressed at its end,
+    zero in flight.
+    """
+    h, decay, rate = tools.h, tools.decay, 0.0
+    if modes is not None:
+        rate = modes.mu[0]
+    all_area = all_moment = 0.0
+    for i in range(gap.size):
+        tol = ROUNDING * (1.0 + abs(gap[i]))
+        z_0, z_1, z_2 = path.z_0 - gap[i], path.z_1, path.z_2
+        t, done, k, pressed = h, 0.0, 0, 0.0
+        area = moment = 0.0
+        presses = s[0, i] <= z_0 + tol
+        if presses:
+            s[0, i] = z_0
+        for event in range(MOST_EVENTS):
+            x, until, fallen = s[0, i], NEVER, 0.0
+            if presses:
+                normal = held(x, z_1, z_2, T, t)
+                if arms is not None:
+                    normal = plus(normal, 1.0, arms_ends(s, i, z_1, z_2, t, k, tools, arms))
+                presses = event > 0 or not below(normal, tol)
+            if presses and not stays(normal, t, tol):
+                until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
+            if not presses:
+                if modes is not None:
+                    fallen = decay[k, 0]
+                left, _ = alone(x, rate, fallen)
+                if arms is not None:
+                    left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
+                apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
+                if not stays(apart, t, tol):
+                    until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+            ends = until < t
+            if ends:
+                t, k = until, 1
+                fill(t, modes, arms, tools, 1)
+            if presses:
+                A, B = force(x, z_1, z_2, T, t)
+                s[0, i] = x + t * (z_1 + z_2 * t)
+                if arms is not None:
+                    C, D = hold_arms(s, i, z_1, z_2, t, k, tools, arms)
+                    A, B = A + C, B + D
+                area, moment, pressed = area + A, moment + done * A + B, pressed + t
+            else:
+                pressed, fallen = 0.0, 0.0
+                if modes is not None:
+                    fallen = decay[k, 0]
+                s[0, i] = x * fallen
+                if arms is not None:
+                    for j in range(s.shape[0]):
+                        s[j, i] = of_modes(j, k, tools, modes)
+            if not ends:
+                break
+            done += t
+            z_0, z_1, presses = z_0 + t * (z_1 + t * z_2), z_1 + 2.0 * z_2 * t, not presses
+            if presses:
+                s[0, i] = z_0
+            t, k = h - done, 1
+            fill(t, modes, arms, tools, 1)
+        all_area += w[i] * area
+        all_moment += w[i] * moment
+        since[i] = pressed / h
+    return all_area, all_moment

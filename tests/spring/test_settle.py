@@ -1,0 +1,60 @@
+"""The periodic normal motion of a row of springs."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from rows import MATERIALS
+
+from mdr.materials.operator import Rheology
+from mdr.spring.law import law_of
+from mdr.spring.settle import period, settled, tools_for
+
+every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+SLOW = {"slow": (0.0, (1.5,), (1e5,)), "stiff and slow": (0.13, (1300.0, 480.0), (54.0, 0.038))}
+GAP = np.array([-3.0, -0.9, -0.2, 0.4, 0.95, 1 - 1e-5, 1.3])
+W = np.full(GAP.size, 1 / GAP.size)
+
+
+def depth(n):
+    """One harmonic and its rate, (n + 1,)."""
+    t = 2 * np.pi * np.arange(n + 1) / n
+    return np.cos(t), -np.sin(t)
+
+
+@pytest.mark.parametrize("material", [*MATERIALS.values(), *SLOW.values()], ids=[*MATERIALS, *SLOW])
+def test_it_comes_back_after_a_period(material):
+    law, z = law_of(*material), depth(64)
+    found = settled(GAP, W, *z, law, each=True)
+    s, again = found.s.copy(), [np.empty_like(part) for part in (found.area, found.moment, found.nodes)]
+    none = np.empty((0, GAP.size))
+    period(s, GAP, W, *z, *law, tools_for(law, 2 * np.pi / 64), *again, none, none)
+    assert_allclose(s, found.s, rtol=0, atol=1e-12 * np.abs(found.s).max())
+    for part, before in zip(again, (found.area, found.moment, found.nodes), strict=True):
+        assert_allclose(part, before, rtol=0, atol=1e-11 * np.abs(before).max())
+    pressed = found.since > 0
+    assert np.all(found.force[~pressed] == 0)
+    assert np.all(found.force >= 0)
+    assert pressed[:, 0].any()
+    assert not pressed[:, -1].any()
+
+
+@pytest.mark.parametrize("material", [*MATERIALS.values(), SLOW["slow"]], ids=[*MATERIALS, "slow"])
+def test_springs_that_keep_contact_answer_with_the_dynamic_modulus(material):
+    gap, w, n = np.array([-200.0, -300.0]), np.array([0.3, 0.7]), 256
+    found, t = settled(gap, w, *depth(n), law_of(*material), each=True), 2 * np.pi * np.arange(n + 1) / n
+    response = complex(Rheology(*material).response(1.0))
+    exact = (response * np.exp(1j * t)).real - w @ gap
+    assert_allclose(found.mean, -w @ gap, rtol=1e-12)
+    h = t[1]  # parabolas that meet at the nodes have the right rates to h**2, and the right area to h**4
+    assert_allclose(found.force @ w, exact[1:], rtol=0, atol=abs(response) * h**2 / 12)
+    areas = (response / 1j * np.diff(np.exp(1j * t))).real - w @ gap * h
+    assert_allclose(found.area, areas, rtol=0, atol=abs(response) * h**4 / 12)
+    assert np.all(found.since == 1)
+
+
+@pytest.mark.parametrize("gap", [-0.3, 0.6])
+def test_an_elastic_spring_presses_while_the_indenter_is_below_it(gap):
+    exact = (np.sin(np.arccos(gap)) - gap * np.arccos(gap)) / np.pi
+    errors = [abs(settled(np.array([gap]), np.ones(1), *depth(n), law_of(0.0)).mean - exact) for n in (64, 256)]
+    assert errors[1] < 1e-9
+    assert errors[1] < errors[0] / 60  # fourth order is 256, at times by chance less

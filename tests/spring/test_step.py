@@ -1,0 +1,140 @@
+"""What must be true of one step of a spring, of any material, state and parabola."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from rows import MATERIALS, Row
+
+from mdr.spring import step as of
+
+TINY = 4000
+every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+
+
+@cache
+def rows(material):
+    return [Row.draw(np.random.default_rng(seed), material) for seed in range(8)]
+
+
+@every_material
+def test_a_step_may_be_cut_into_seven(material):
+    for one in rows(material):
+        for whole, parts in zip(one.stepped(), one.stepped(7), strict=True):
+            assert_allclose(parts, whole, rtol=0, atol=1e-11)
+
+
+@every_material
+def test_a_row_is_the_sum_of_its_springs(material):
+    one = rows(material)[0]
+    (e, s, *sums), (e_all, s_all, all_sums) = one.stepped(), one.at_once()
+    for whole, each in ((e_all, e), (s_all, s), (all_sums, np.array(sums) @ one.w)):
+        assert_allclose(whole, each, rtol=0, atol=1e-13)
+
+
+@every_material
+def test_it_does_not_know_forward_from_backward(material):
+    for one in rows(material):
+        (e, s, *sums), (e_back, s_back, *back) = one.stepped(), one.mirrored().stepped()
+        assert_allclose(e_back, -e, rtol=0, atol=1e-13)
+        assert_allclose(s_back, s, rtol=0, atol=1e-13)
+        assert_allclose(back, np.array(sums) * [[-1], [-1], [1]], rtol=0, atol=1e-13)
+
+
+# --- against Coulomb's law in tiny steps ---
+
+
+def beside_tiny_steps(material, n, **fault):
+    """How far the step and n tiny ones are apart: e, s, area and moment of every spring, (4, springs)."""
+    apart = []
+    for one in rows(material):
+        pairs = zip(one.by_tiny_steps(n, **fault)[:4], one.stepped()[:4], strict=True)
+        apart.append([np.abs(a - b).reshape(-1, one.gap.size).max(axis=0) for a, b in pairs])
+    return np.concatenate(apart, axis=1)
+
+
+def allowed(material):
+    """What tiny steps may miss of a force of order 1: a tiny step of an event, and of a fall by h/theta or h/T."""
+    T, rho, theta = material
+    rates = [rho_j / one for rho_j, one in zip(rho, theta, strict=True)] + ([1 / T] if T else [])
+    return (1 + sum(rates)) * 0.2 / TINY
+
+
+@every_material
+def test_it_is_coulombs_law_in_tiny_steps(material):
+    apart = beside_tiny_steps(material, TINY)
+    assert apart.max() < allowed(material)
+    # of first order: a fourth of the error in steps of a fourth; where events fall in them differs
+    coarse = beside_tiny_steps(material, TINY // 4).mean(axis=1)
+    assert np.all((apart.mean(axis=1) < 0.4 * coarse) | (coarse < 1e-12))
+
+
+@pytest.mark.parametrize("fault", [{"limit": 0.99}, {"turned": -1.0}, {"touch": 1e-2}, {"dashpot": 0.9}], ids=str)
+@every_material
+def test_a_planted_fault_would_be_seen(material, fault):
+    if "dashpot" in fault and not material[0]:
+        pytest.skip("no dashpot")
+    assert beside_tiny_steps(material, TINY, **fault).max() > 2 * allowed(material)
+
+
+# --- energies and forces ---
+
+
+@every_material
+def test_every_energy_goes_somewhere(material):
+    for one in rows(material):
+        (e, s, area, moment, stuck), looks = one.looked_at()
+        sums = np.array([look.sums for look in looks]).T
+        stored = [0.5 * one.roots @ (after**2 - before**2) for after, before in ((e, one.e), (s, one.s))]
+        work = one.path.x_1 * area + 2 * one.path.x_2 * moment
+        spent = sums[of.FRICTION_LOSS] + sums[of.SHEAR_VISCOUS] + stored[0]
+        assert_allclose(spent, work, rtol=0, atol=1e-9)
+        assert_allclose(sums[of.NORMAL_VISCOUS] + stored[1], sums[of.NORMAL_WORK], rtol=0, atol=1e-9)
+        for loss in (of.FRICTION_LOSS, of.SHEAR_VISCOUS, of.NORMAL_VISCOUS, of.STICK_TIME):
+            assert sums[loss].min() >= 0
+        # the law of friction holds at the end, where no spring in contact goes deeper than the indenter
+        f_x, f_z, mode = (np.array([getattr(look, name)[0] for look in looks]) for name in ("f_x", "f_z", "mode"))
+        assert np.all(np.abs(f_x) <= f_z)
+        assert np.all(f_z[mode == of.FREE] == 0)
+        assert np.all(s[0] >= one.at(one.h)[0] - one.gap - 1e-14)
+        assert np.all((stuck >= 0) & (stuck <= one.h * (1 + 1e-15)))
+        assert_array_equal(f_x[mode == of.SLIP], f_z[mode == of.SLIP])
+        assert_array_equal(f_x[mode == of.SLIP_BACK], -f_z[mode == of.SLIP_BACK])
+
+
+@every_material
+def test_all_modes_are_met(material):
+    met = {int(look.mode[0]) for one in rows(material) for look in one.looked_at()[1]}
+    assert met == {of.FREE, of.STICK, of.SLIP, of.SLIP_BACK}
+
+
+@every_material
+def test_a_look_changes_nothing(material):
+    one = rows(material)[0]
+    for seen, unseen in zip(one.looked_at()[0], one.stepped(), strict=True):
+        assert_allclose(seen, unseen, rtol=0, atol=1e-15)
+
+
+@every_material
+def test_the_normal_part_alone_is_that_of_the_step(material):
+    for one in rows(material):
+        s, area, _, since = one.pressed()
+        (_, s_whole, *_), looks = one.looked_at()
+        assert_allclose(s, s_whole, rtol=0, atol=1e-13)
+        of_look = [look.sums[of.CONTACT_TIME] for look in looks]
+        assert_allclose(area, one.w @ of_look, rtol=0, atol=1e-9)  # of the other by Gauss's rule
+        assert_array_equal(since > 0, [look.mode[0] != of.FREE for look in looks])
+
+
+@every_material
+def test_the_normal_part_may_be_cut_into_two(material):
+    for one in rows(material):
+        s, area, moment, _ = one.pressed()
+        half = 0.5 * one.h
+        first = Row(material, one.path, half, one.gap, one.s, one.e, one.w)
+        s_1, a_1, m_1, _ = first.pressed()
+        second = Row(material, one.from_then(half), half, one.gap, s_1, one.e, one.w)
+        s_2, a_2, m_2, _ = second.pressed()
+        assert_allclose(s_2, s, rtol=0, atol=1e-11)
+        assert_allclose([a_1 + a_2, m_1 + m_2 + half * a_2], [area, moment], rtol=0, atol=1e-11)
