@@ -89,11 +89,11 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
 
     On an elastic or Kelvin material, and under a load, one method serves every motion, so that a motion written in
     another way has the same velocity. Its error, over v_c or a tenth of the greatest mu_0 kappa u_z', is at most 1e-7
-    under a rigid pull and for a body with mass or damper, contact kept or lost, and 1e-6 for a body with neither. Under
-    a load comes the error of the depth that was found for it.
+    under a rigid pull, 2e-7 for a body with mass or damper, contact kept or lost, and 1e-6 for a body with neither.
+    Under a load comes the error of the depth that was found for it.
 
     What Maxwell arms add to the force is followed spring by spring, and its error goes with their weight. Arms as stiff
-    as E_inf leave 1e-6 under a rigid pull, 1e-4 with a mass and 1e-3 with a light one. A body with a damper alone has
+    as E_inf leave 1e-6 under a rigid pull, 2e-4 with a mass and 1e-3 with a light one. A body with a damper alone has
     1e-3, and some per cent where contact is lost on dashpots, as the force jumps between two instants. For one with
     neither v_c is the greatest rate of a force that is known at instants: off by a fifth at worst.
 
