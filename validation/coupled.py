@@ -48,25 +48,18 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="coupled",
         title="Springs give the friction of a compressible body",
-        quote=(
-            "In the limit of a very stiff system spring … Eq. (1) … thus appears to be valid independently of the"
-            " viscoelastic properties of the medium. … the obtained result in Eq. (15) is valid not only for the simple"
-            " considered model …, but also for quite general contacts. (Section 2.2.2)"
-        ),
-        range=(
-            f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
-            f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
-            f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.SETTINGS.cells}² cells and"
-            f" {tables.SETTINGS.steps} steps, errors beside each"
-            " (validation/half_space/tables/coupled.csv)"
-        ),
+        quote="In the limit of a very stiff system spring … Eq. (1) … thus appears to be valid independently of the"
+        " viscoelastic properties of the medium. … the obtained result in Eq. (15) is valid not only for the simple"
+        " considered model …, but also for quite general contacts. (Section 2.2.2)",
+        range=f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
+        f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
+        f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.SETTINGS.cells}² cells and {tables.SETTINGS.steps}"
+        " steps, errors beside each (validation/half_space/tables/coupled.csv)",
         measured=_measured(rows),
         verdict="holds if Dundurs' β is zero: an incompressible body (ν = 0.5), or two bodies of the same material",
-        sentence=(
-            "With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that of"
-            f" the springs by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and up to"
-            f" {100 * most.loss:.0f} % in the table."
-        ),
+        sentence="With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that"
+        f" of the springs by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and up to {100 * most.loss:.0f} % in"
+        " the table.",
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
         figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),
     )
@@ -76,12 +69,11 @@ def _measured(rows: list[Row]) -> str:
     return (
         "Dundurs' β couples the two: where it vanishes, coupled and uncoupled runs agree. Where it does not, the"
         " contact grows and shrinks with the surface rubbing radially under it, at up to λ = 2|β|/(π μ_0 κ) times the"
-        " velocity of Eq. (1), and friction is lower than that of the springs. At most, by"
-        f" {_percent(rows, 0.45, 0.3)} of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and"
-        f" {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 = 0.3; paraboloid and punch). The loss is greatest at"
-        f" {_where(rows, 1.2)} for λ up to 1.2; for the largest λ it goes on growing down to {min(VELOCITIES):g}"
-        " v_c, the lowest velocity that was tried. A core that is shifted to the trailing edge sticks, and what slips"
-        " around it slips outward as the contact grows."
+        f" velocity of Eq. (1), and friction is lower than that of the springs. At most, by {_percent(rows, 0.45, 0.3)}"
+        f" of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 ="
+        f" 0.3; paraboloid and punch). The loss is greatest at {_where(rows, 1.2)} for λ up to 1.2; for the largest λ"
+        f" it goes on growing down to {min(VELOCITIES):g} v_c, the lowest velocity that was tried. A core that is"
+        " shifted to the trailing edge sticks, and what slips around it slips outward as the contact grows."
     )
 
 
@@ -201,9 +193,8 @@ def _curve_figure(rows: list[Row]) -> Figure:
         name="cof",
         caption="Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"
         " know Poisson's ratio. The more compressible the body and the smaller μ_0, the lower; ν = 0.5 is the dashed"
-        " line itself. Ticks above the curves: (1 + λ) v_c, about where stick ends, where this is"
-        f" below {FASTEST_SHOWN:g} v_c. Friction is not full there, nor"
-        " beyond.",
+        " line itself. Ticks above the curves: (1 + λ) v_c, about where stick ends, where this is below"
+        f" {FASTEST_SHOWN:g} v_c. Friction is not full there, nor beyond.",
         drawing=fig,
         alt="Six panels of friction against velocity: four Poisson's ratios below the dashed springs.",
     )

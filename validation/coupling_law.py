@@ -148,27 +148,21 @@ def claim(effort: str) -> Claim:
         name="coupling_law",
         title="The loss by coupling depends on two groups of β, and on what the springs lose at rest",
         quote="",
-        range=(
-            f"fitted to {len(training)} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried on"
-            f" {len(rest)} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like"
-            f" modulus, μ_0 from 0.05 to 0.6, λ from {min(t.groups.rub for t in trials):.2f} to"
-            f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to"
-            f" {max(row.error for column in rest for row in column):.2f} μ_0 at the largest λ, and"
-            f" {_typical(rest):.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)"
-        ),
-        measured=(
-            "Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
-            " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0"
-            " is large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0)"
-            f" [{a:.3g} λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)}"
-            f" with λ ≤ {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * worst:.0f} %)."
-            f" Beyond, {_beyond(beyond)}"
-        ),
+        range=f"fitted to {len(training)} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried"
+        f" on {len(rest)} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like"
+        f" modulus, μ_0 from 0.05 to 0.6, λ from {min(t.groups.rub for t in trials):.2f} to"
+        f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to"
+        f" {max(row.error for column in rest for row in column):.2f} μ_0 at the largest λ, and {_typical(rest):.0e} in"
+        " the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)",
+        measured="Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
+        " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is"
+        f" large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g}"
+        f" λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)} with λ ≤"
+        f" {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * worst:.0f} %). Beyond,"
+        f" {_beyond(beyond)}",
         verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
-        sentence=(
-            f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
-            f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms)."
-        ),
+        sentence=f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
+        f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms).",
         checks=(
             *_constant_checks(constants[None]),
             *_trial_checks(within, beyond),
@@ -200,10 +194,9 @@ def _beyond(beyond: Sequence[Trial]) -> str:
     flat = [trial for trial in beyond if trial.point.shape == "flat punch"]
     curved = [trial for trial in beyond if trial.point.shape != "flat punch"]
     return (
-        f"up to λ = {max(t.groups.rub for t in curved):.1f}, curved shapes still do"
-        f" ({min(t.ratio for t in curved):.2f} to {max(t.ratio for t in curved):.2f} of the loss found), but a punch"
-        f" loses more, most at the lowest velocity tried: the law gives {min(t.ratio for t in flat):.2f} to"
-        f" {max(t.ratio for t in flat):.2f} of it."
+        f"up to λ = {max(t.groups.rub for t in curved):.1f}, curved shapes still do ({min(t.ratio for t in curved):.2f}"
+        f" to {max(t.ratio for t in curved):.2f} of the loss found), but a punch loses more, most at the lowest"
+        f" velocity tried: the law gives {min(t.ratio for t in flat):.2f} to {max(t.ratio for t in flat):.2f} of it."
     )
 
 

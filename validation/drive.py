@@ -32,36 +32,25 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="drive",
         title="Shaken along the slide a quarter of a period ahead of its depth, a contact drives itself",
-        quote=(
-            "… with many applications ranging from wire drawing and press forming … and production of directed motion,"
-            " as in ultrasonic motors and linear actuators. (Section 1)"
-        ),
-        range=(
-            f"Elastic flat punch, cone, paraboloid and r^4, Δu_z/u_z0 = {ALPHA:g} (0.2 to 0.9 for the punch),"
-            " longitudinal amplitude from 0.1 to 120 times μ_0 κ u_z0, a quarter of a period ahead; rigid pull and a"
-            " body on a spring."
-        ),
-        measured=(
-            "A contact is stiff here if its springs yield far less than Δu_x. Held, a stiff flat face pushes with"
-            " (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r = (Δu_z/u_z0) √(1 − r^2). Curved shapes"
-            " push more, since their force changes more with depth: a stiff elastic cone with (4α/π)/(1 + α^2/2) of"
-            " μ_0 F_N, α = Δu_z/u_z0. Springs that yield take of both, and come to"
-            " this like one over the amplitude."
-            " Between the two ends friction rises with velocity throughout, so that every load below the blocked one"
-            " has"
-            f" one velocity. The best efficiency is {best[3.0]:.2f} at Δu_x = 3 μ_0 κ u_z0 and {best[30.0]:.2f} at"
-            " 30: what is not given out is lost to slip, as the account of three drives closes. Below some longitudinal"
-            " amplitude the contact holds zero load and does not drive at all. Half a period later it pushes the other"
-            " way. In phase it pushes weakly, because the springs need some travel to reverse at the two ends of the"
-            " shake, and are pressed more at one end than at the other: (4/3π) [(1 + α)^1.5 − (1 − α)^1.5] (μ_0 κ"
-            " u_z0/Δu_x)^½ of μ_0 F_N,"
-            " backward, which vanishes far more slowly than all else."
-        ),
+        quote="… with many applications ranging from wire drawing and press forming … and production of directed"
+        " motion, as in ultrasonic motors and linear actuators. (Section 1)",
+        range=f"Elastic flat punch, cone, paraboloid and r^4, Δu_z/u_z0 = {ALPHA:g} (0.2 to 0.9 for the punch),"
+        " longitudinal amplitude from 0.1 to 120 times μ_0 κ u_z0, a quarter of a period ahead; rigid pull and a body"
+        " on a spring.",
+        measured="A contact is stiff here if its springs yield far less than Δu_x. Held, a stiff flat face pushes with"
+        " (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r = (Δu_z/u_z0) √(1 − r^2). Curved shapes"
+        " push more, since their force changes more with depth: a stiff elastic cone with (4α/π)/(1 + α^2/2) of μ_0"
+        " F_N, α = Δu_z/u_z0. Springs that yield take of both, and come to this like one over the amplitude. Between"
+        " the two ends friction rises with velocity throughout, so that every load below the blocked one has one"
+        f" velocity. The best efficiency is {best[3.0]:.2f} at Δu_x = 3 μ_0 κ u_z0 and {best[30.0]:.2f} at 30: what is"
+        " not given out is lost to slip, as the account of three drives closes. Below some longitudinal amplitude the"
+        " contact holds zero load and does not drive at all. Half a period later it pushes the other way. In phase it"
+        " pushes weakly, because the springs need some travel to reverse at the two ends of the shake, and are pressed"
+        " more at one end than at the other: (4/3π) [(1 + α)^1.5 − (1 − α)^1.5] (μ_0 κ u_z0/Δu_x)^½ of μ_0 F_N,"
+        " backward, which vanishes far more slowly than all else.",
         verdict="holds",
-        sentence=(
-            "A contact drives itself if it does not hold zero load at rest. A stiff flat punch pushes with"
-            " (2/π)α μ_0 F_N and runs at r ω Δu_x, arcsin r = α √(1 − r^2), α = Δu_z/u_z0; curved shapes push more."
-        ),
+        sentence="A contact drives itself if it does not hold zero load at rest. A stiff flat punch pushes with (2/π)α"
+        " μ_0 F_N and runs at r ω Δu_x, arcsin r = α √(1 − r^2), α = Δu_z/u_z0; curved shapes push more.",
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
         figures=(_figure(quick),),
     )
@@ -217,12 +206,11 @@ def _figure(quick: bool) -> Figure:
         ends.legend()
     return Figure(
         "drive",
-        f"Elastic contacts, Δu_z/u_z0 = {ALPHA:g}, shaken along the slide a quarter of a period ahead of the depth,"
-        " χ = Δu_x/(μ_0 κ u_z0). Left: the characteristic of a flat punch crosses zero at its velocity without load;"
-        " stars"
+        f"Elastic contacts, Δu_z/u_z0 = {ALPHA:g}, shaken along the slide a quarter of a period ahead of the depth, χ ="
+        " Δu_x/(μ_0 κ u_z0). Left: the characteristic of a flat punch crosses zero at its velocity without load; stars"
         " are the law of a stiff contact. Middle: efficiency between held and free. Right: the push where it is held:"
-        " nothing at small amplitude, where zero load is still held, and for the flat punch the dotted law of a"
-        " stiff face at great amplitude; curved shapes push more.",
+        " nothing at small amplitude, where zero load is still held, and for the flat punch the dotted law of a stiff"
+        " face at great amplitude; curved shapes push more.",
         fig,
         "Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake",
     )

@@ -75,23 +75,16 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="end_of_stick",
         title="On a compressible body stick ends at Eq. (1), and friction is full above it",
-        quote=(
-            "Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
-            " some critical velocity. (Section 3)"
-        ),
-        range=(
-            f"{counted(len(ends), 'elastic contact')} under a rigid pull, ν {ranged(k[1] for k in ends)}, μ_0"
-            f" {ranged(k[2] for k in ends)}, Δu_z/u_z0 {ranged(k[3] for k in ends)}, on {cells}² cells and"
-            f" {STEPS} steps; stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α"
-        ),
+        quote="Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
+        " some critical velocity. (Section 3)",
+        range=f"{counted(len(ends), 'elastic contact')} under a rigid pull, ν {ranged(k[1] for k in ends)}, μ_0"
+        f" {ranged(k[2] for k in ends)}, Δu_z/u_z0 {ranged(k[3] for k in ends)}, on {cells}² cells and {STEPS} steps;"
+        f" stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α",
         measured=_measured(ends, cells),
         verdict="holds if β = 0",
-        sentence=(
-            "Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to"
-            f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %), last at the trailing edge if"
-            " β > 0; above, radial slip turns"
-            " friction aside, and there is no velocity at which it is full."
-        ),
+        sentence="Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to"
+        f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %), last at the trailing edge if β >"
+        " 0; above, radial slip turns friction aside, and there is no velocity at which it is full.",
         checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
         figures=(_end_figure(ends, cells), _map_figure(seen)),
         equations=(

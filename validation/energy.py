@@ -119,15 +119,11 @@ def claim(effort: str) -> Claim:
         name="energy",
         title="Energy is conserved",
         quote="",
-        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept (but for the edge of a "
-        f"curved shape) "
-        f"and lost, elastic and ωτ = "
-        f"1, rigid pull and spring "
-        f"pull with a damper, {len(SHARES[effort])} velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full "
-        f"slip at 1.5 v_c",
-        measured=f"The residual of the balance falls with the power {span(orders)} of the "
-        f"step and is at most {finest:.1e} of "
-        f"the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
+        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept (but for the edge of a curved"
+        f" shape) and lost, elastic and ωτ = 1, rigid pull and spring pull with a damper, {len(SHARES[effort])}"
+        f" velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full slip at 1.5 v_c",
+        measured=f"The residual of the balance falls with the power {span(orders)} of the step and is at most"
+        f" {finest:.1e} of the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
         verdict="holds",
         sentence="What the pull and the normal drive supply is found again as friction, viscous and damper loss, "
         "each from its own definition.",

@@ -79,14 +79,12 @@ def claim(effort: str) -> Claim:
             " above and below its natural frequency and without mass, 64 to "
             + f"{steps[-1]} steps a period; the force of a paraboloid, elastic and at ωτ = 1."
         ),
-        measured=(
-            "Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree"
-            " with the closed forms; what differs falls with the square of the step. Slip never stops and its"
-            " least velocity is v_0 − v_c. With a system damper a body that starts from rest ends in the same"
-            " motion, with k_x + iω c_x in the place of k_x. Under a paraboloid springs come and go, and the"
-            " force of the array follows the full-slip solution: the elastic one with the square of the"
-            " number of springs, the viscous one up to the dashpot of the single spring that touches."
-        ),
+        measured="Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree with the"
+        " closed forms; what differs falls with the square of the step. Slip never stops and its least velocity is v_0"
+        " − v_c. With a system damper a body that starts from rest ends in the same motion, with k_x + iω c_x in the"
+        " place of k_x. Under a paraboloid springs come and go, and the force of the array follows the full-slip"
+        " solution: the elastic one with the square of the number of springs, the viscous one up to the dashpot of the"
+        " single spring that touches.",
         verdict="holds",
         sentence=("In full slip one element describes the whole punch: offset, amplitude, phase and slip velocity."),
         checks=tuple(checks),
@@ -270,10 +268,9 @@ def _motion_figure() -> Figure:
         )
     return Figure(
         "motion",
-        "Flat punch on a Kelvin rubber (ωτ = 0.5) at v_0 = 2 v_c, driven above its natural frequency. Lines:"
-        " Eqs. (10), (13), (14); circles: every eighth step of the run. Body and extension swing nearly"
-        " together, so the foot swings less than the body. Slip is slowest at v_0 − v_c: it would stop at v_0"
-        " = v_c.",
+        "Flat punch on a Kelvin rubber (ωτ = 0.5) at v_0 = 2 v_c, driven above its natural frequency. Lines: Eqs. (10),"
+        " (13), (14); circles: every eighth step of the run. Body and extension swing nearly together, so the foot"
+        " swings less than the body. Slip is slowest at v_0 − v_c: it would stop at v_0 = v_c.",
         fig,
         "Body and foot positions and slip velocity over one period, circles of the run on the lines of the"
         " closed forms.",

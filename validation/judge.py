@@ -48,19 +48,14 @@ def claim(effort: str) -> Claim:
         name="judge",
         title="The reference solver in three dimensions agrees with known solutions",
         quote="",
-        range=(
-            "a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"
-            " friction, bonded, and pulled; grids of 16² to 64² cells"
-        ),
-        measured=(
-            "Forces, tractions and radii of stick are those of the closed forms. Where transverse slip, which"
-            " Cattaneo and Mindlin leave out, plays a part, it changes the force by"
-            f" {force:.1e} of μ_0 <i>F<sub>z</sub></i> at ν = 0.5, with tractions across the pull of up to"
-            f" {across:.2f} μ_0 p_0, less than ν/(4 − 2ν) = 0.17. Spence's radius of stick under a"
-            " normal load comes out as the axisymmetric equations have it. The closed form in"
-            " the textbooks for it leaves out that friction moves the"
-            f" surface down (Goodman); at ν = 0 and μ_0 = 0.3 that alone makes the radius {100 * gone:.0f} % smaller."
-        ),
+        range="a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"
+        " friction, bonded, and pulled; grids of 16² to 64² cells",
+        measured="Forces, tractions and radii of stick are those of the closed forms. Where transverse slip, which"
+        f" Cattaneo and Mindlin leave out, plays a part, it changes the force by {force:.1e} of μ_0"
+        f" <i>F<sub>z</sub></i> at ν = 0.5, with tractions across the pull of up to {across:.2f} μ_0 p_0, less than"
+        " ν/(4 − 2ν) = 0.17. Spence's radius of stick under a normal load comes out as the axisymmetric equations have"
+        " it. The closed form in the textbooks for it leaves out that friction moves the surface down (Goodman); at ν ="
+        f" 0 and μ_0 = 0.3 that alone makes the radius {100 * gone:.0f} % smaller.",
         verdict="holds",
         sentence="The reference solver meets Hertz, Cattaneo and Mindlin, the bonded punch and Spence within its"
         " stated errors.",
@@ -201,10 +196,9 @@ def _figure(quick: bool) -> Figure:
     return Figure(
         name="trust",
         caption="Left: forces of the reference solver approach the closed forms with the number of cells, at first"
-        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional"
-        " solver lie on"
-        " the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed) leaves"
-        " out that friction moves the surface down, and is too high where ν and μ_0 are small.",
+        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver"
+        " lie on the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed)"
+        " leaves out that friction moves the surface down, and is too high where ν and μ_0 are small.",
         drawing=fig,
         alt="Two panels: relative errors falling with the number of cells; stick radius against Poisson's ratio for"
         " three coefficients of friction, circles on full lines.",

@@ -116,20 +116,19 @@ def claim(effort: str) -> Claim:
         f"{ranged(p.alpha for p in rigid)}. Mass and spring (k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of "
         f"critical): {counted(len(body), 'more', 'more')}, {listed(dict.fromkeys(p.shape for p in body))}; full-slip "
         "values up to ωτ = 100 000.",
-        measured="Under a rigid pull the loss of contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a "
-        "surface that comes back later than a quarter of a period before the deepest point: α above α_1 = min "
-        f"(e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in "
-        f"practice), {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(100.0):.3f} at ωτ = 100, "
-        f"tending to {slow:.1f}/ωτ. Beyond, v_c is Eq. (1) times sin|φ_c|, φ_c the phase at which the centre touches "
-        "again. "
-        "With a mass and a spring a flat punch, for which Eq. (15) is exact until then, leaves it as ε^{3/2} if "
-        "elastic and as ε^2 if viscoelastic, α √(1 + (ωτ)²) = 1 + ε, since what a Kelvin contact misses as a pull "
-        "while it is off, it misses again as pressure before it returns. Far beyond, with a slow material, the "
-        "contact is a blow once in a period, and v_c no longer depends on τ nor, under a light damper and "
-        "away from ω_0 = nω, where the blows add up, on k_x: it is half the velocity that one blow gives the body, "
-        "π μ_0 F_N(u_z0 + Δu_z)/(mω), F_N the elastic force at the deepest point, plus a known term in (ωτ)^{−1/2}. "
-        f"Eq. (15) grows with ωτ; the least v_c measured is {percent(1 + least.deviation, 3)} of it ({least.where}). "
-        "The full-slip condition with the true times of contact lies in the bracket of every measurement.",
+        measured="Under a rigid pull the loss of contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a"
+        " surface that comes back later than a quarter of a period before the deepest point: α above α_1 = min"
+        f" (e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in"
+        f" practice), {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(100.0):.3f} at ωτ = 100,"
+        f" tending to {slow:.1f}/ωτ. Beyond, v_c is Eq. (1) times sin|φ_c|, φ_c the phase at which the centre touches"
+        " again. With a mass and a spring a flat punch, for which Eq. (15) is exact until then, leaves it as ε^{3/2} if"
+        " elastic and as ε^2 if viscoelastic, α √(1 + (ωτ)²) = 1 + ε, since what a Kelvin contact misses as a pull"
+        " while it is off, it misses again as pressure before it returns. Far beyond, with a slow material, the contact"
+        " is a blow once in a period, and v_c no longer depends on τ nor, under a light damper and away from ω_0 = nω,"
+        " where the blows add up, on k_x: it is half the velocity that one blow gives the body, π μ_0 F_N(u_z0 +"
+        " Δu_z)/(mω), F_N the elastic force at the deepest point, plus a known term in (ωτ)^{−1/2}. Eq. (15) grows with"
+        f" ωτ; the least v_c measured is {percent(1 + least.deviation, 3)} of it ({least.where}). The full-slip"
+        " condition with the true times of contact lies in the bracket of every measurement.",
         verdict="holds if the pull is rigid and the contact closed at the moment of fastest approach",
         sentence=f"Losing contact leaves Eq. (1) untouched up to Δu_z/u_z0 of about {slow:.1f}/ωτ (ωτ ≫ 1), but ends "
         "Eq. (15) of a punch at once. If slow rubber taps, off resonances, v_c is half the velocity of each impact.",

@@ -45,33 +45,22 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="mapping",
         title="A row of independent springs stands for the contact",
-        quote=(
-            "According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact"
-            " can be equivalently represented by a model consisting of a series of independent springs."
-            " (Section 2.2.2)"
-        ),
-        range=(
-            "flat punch, cone, paraboloid and r^4, depths from 2·10⁻⁵ to 40 µm, each also given as a mere"
-            " function f(r); every other shape of the catalogue, with flat faces, caps and corners, also given by"
-            " points and by a curve of force; spring arrays for Δu_z/u_z0 from 10^-9 to 2, with"
-            f" {counts[0]} to {counts[-1]} springs."
-        ),
-        measured=(
-            "Contact radius, force, stiffness and pressure agree with the solutions of Hertz, Sneddon and"
-            f" Boussinesq to rounding, {_greatest(formulas, ': a, F_N'):.0e}; of a shape given as a mere function"
-            f" f(r), to {_greatest(checks, 'as a function'):.0e}. That pressure adds up to the force to"
-            f" {_greatest(checks, 'over the disc'):.0e}, for each of the {len(SHAPES) + len(CATALOGUE)} shapes, and,"
-            " put on an elastic half-space, sinks its surface into"
-            f" the shape to {_greatest(checks, 'half-space'):.0e} of the depth, as far as these quadratures go. The"
-            " springs add up to F_N and k_zc to rounding at u_z0 and at both extremes of the"
-            " oscillation, however small it is. In between a force is off by the one spring that is about to"
-            " touch: an error that falls with the square of the number of springs."
-        ),
+        quote="According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
+        " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)",
+        range="flat punch, cone, paraboloid and r^4, depths from 2·10⁻⁵ to 40 µm, each also given as a mere function"
+        " f(r); every other shape of the catalogue, with flat faces, caps and corners, also given by points and by a"
+        f" curve of force; spring arrays for Δu_z/u_z0 from 10^-9 to 2, with {counts[0]} to {counts[-1]} springs.",
+        measured="Contact radius, force, stiffness and pressure agree with the solutions of Hertz, Sneddon and"
+        f" Boussinesq to rounding, {_greatest(formulas, ': a, F_N'):.0e}; of a shape given as a mere function f(r), to"
+        f" {_greatest(checks, 'as a function'):.0e}. That pressure adds up to the force to"
+        f" {_greatest(checks, 'over the disc'):.0e}, for each of the {len(SHAPES) + len(CATALOGUE)} shapes, and, put on"
+        f" an elastic half-space, sinks its surface into the shape to {_greatest(checks, 'half-space'):.0e} of the"
+        " depth, as far as these quadratures go. The springs add up to F_N and k_zc to rounding at u_z0 and at both"
+        " extremes of the oscillation, however small it is. In between a force is off by the one spring that is about"
+        " to touch: an error that falls with the square of the number of springs.",
         verdict="holds",
-        sentence=(
-            "The springs carry the force, stiffness and pressure of the three-dimensional contact: to rounding where"
-            " both sides are formulas, to the accuracy of the quadrature where one is an integral."
-        ),
+        sentence="The springs carry the force, stiffness and pressure of the three-dimensional contact: to rounding"
+        " where both sides are formulas, to the accuracy of the quadrature where one is an integral.",
         checks=tuple(checks),
         figures=(_pressure_figure(), _catalogue_figure(sunk), _error_figure(orders, counts)),
     )

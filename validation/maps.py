@@ -51,32 +51,22 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="maps",
         title="Friction is reduced below the critical velocity and full above it, everywhere on the map",
-        quote=(
-            "The velocity-dependences all start from the static value at vanishing velocity. Second, the coefficient of"
-            " friction increases monotonically (again, barring exceptional system-dynamical circumstances) until it"
-            " reaches the microscopic value at some critical velocity. (Section 3)"
-        ),
-        range=(
-            f"Paraboloid. Eq. (15) at {of_v_c['v_c'].size} points, ω/ω_0 from 0.1 to 10 and ω_0 τ from 0.01 to 100, and"
-            f" {len(points)} measured; friction at {rigid['cof'].size} points under a rigid pull and"
-            f" {body['cof'].size} of a body (k_x = k_x,c, ω_0 = 1.9 ω), v_0/v_c from 0 to 1.3, Δu_z/u_z0"
-            " from 0.05 to 1.6, the contact kept and lost."
-        ),
-        measured=(
-            f"v_c of a body lies between {number(low)} and {number(high)} times Eq. (1), by frequency more than by"
-            " anything"
-            " else. Friction rises along every line of velocity, from its static value to μ_0, which it"
-            " reaches at the full-slip v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at"
-            f" Eq. (15) for small ones and at down to {least:.2f} of it for large. To halve friction at rest takes an"
-            f" amplitude of {span((half.at_rest for half in halves), 2)} of"
-            f" the depth; no amplitude halves it beyond {span(furthest, 2)} v_c (four shapes, ωτ"
-            f" from 0 to {max(half.T for half in halves):g}, rigid pull)."
-        ),
+        quote="The velocity-dependences all start from the static value at vanishing velocity. Second, the coefficient"
+        " of friction increases monotonically (again, barring exceptional system-dynamical circumstances) until it"
+        " reaches the microscopic value at some critical velocity. (Section 3)",
+        range=f"Paraboloid. Eq. (15) at {of_v_c['v_c'].size} points, ω/ω_0 from 0.1 to 10 and ω_0 τ from 0.01 to 100,"
+        f" and {len(points)} measured; friction at {rigid['cof'].size} points under a rigid pull and {body['cof'].size}"
+        " of a body (k_x = k_x,c, ω_0 = 1.9 ω), v_0/v_c from 0 to 1.3, Δu_z/u_z0 from 0.05 to 1.6, the contact kept and"
+        " lost.",
+        measured=f"v_c of a body lies between {number(low)} and {number(high)} times Eq. (1), by frequency more than by"
+        " anything else. Friction rises along every line of velocity, from its static value to μ_0, which it reaches at"
+        " the full-slip v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at Eq. (15) for small ones"
+        f" and at down to {least:.2f} of it for large. To halve friction at rest takes an amplitude of"
+        f" {span((half.at_rest for half in halves), 2)} of the depth; no amplitude halves it beyond {span(furthest, 2)}"
+        f" v_c (four shapes, ωτ from 0 to {max(half.T for half in halves):g}, rigid pull).",
         verdict="holds",
-        sentence=(
-            "On the maps of a paraboloid friction is reduced at all points below 0.95 of the full-slip v_c and full at"
-            " all points above it. This v_c is Eq. (15) under a rigid pull, or at small amplitude."
-        ),
+        sentence="On the maps of a paraboloid friction is reduced at all points below 0.95 of the full-slip v_c and"
+        " full at all points above it. This v_c is Eq. (15) under a rigid pull, or at small amplitude.",
         checks=(
             *_checks_of_v_c(of_v_c, points),
             *_checks_of_cof(rigid, "rigid pull"),

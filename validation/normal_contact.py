@@ -134,10 +134,9 @@ def claim(effort: str) -> Claim:
         range=f"creep over ten decades of time and relaxation, flat punch, cone and paraboloid, {', '.join(BODIES)}; "
         f"press and release of cone and paraboloid on Kelvin body and standard solid, checked at relaxation times "
         f"{ranged(times).removeprefix('= ')} of the duration, and drawn at {listed(DRAWN)}",
-        measured=f"Creep agrees with the closed forms to rounding, and the springs carry the load under which it "
-        f"happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends, at these"
-        f" relaxation times, while "
-        f"the indenter is still {span(left, 2)} % of the peak depth below the old surface.",
+        measured="Creep agrees with the closed forms to rounding, and the springs carry the load under which it"
+        f" happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends, at these"
+        f" relaxation times, while the indenter is still {span(left, 2)} % of the peak depth below the old surface.",
         verdict="holds",
         sentence="Releasing each spring where its own force vanishes reproduces Lee and Radok's growing and Ting's "
         "retreating contact: loads, contact radii and the end of contact.",
@@ -239,10 +238,9 @@ def _press_figure() -> Figure:
     return Figure(
         "press",
         "Half a sine of depth in the duration P, force over depth; every loop runs clockwise. Lines: springs, each"
-        " released where its "
-        "own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is lost while the "
-        "indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or, once they are "
-        "glassy throughout the press, close to the old surface again (standard solid).",
+        " released where its own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is"
+        " lost while the indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or,"
+        " once they are glassy throughout the press, close to the old surface again (standard solid).",
         fig,
         "Force-depth loops of cone and paraboloid on Kelvin body and standard solid, lines of springs through Ting's "
         "circles.",
@@ -277,10 +275,9 @@ def _creep_figure() -> Figure:
         fig.legend(handles, names, loc="outside lower center", ncols=4)
     return Figure(
         "creep",
-        "P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form"
-        " of Lee and Radok. Right: the "
-        "spring in the centre is left by the indenter while still compressed, relaxes, and is met again below the old "
-        "surface, a little deeper at every stroke.",
+        "P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form of"
+        " Lee and Radok. Right: the spring in the centre is left by the indenter while still compressed, relaxes, and"
+        " is met again below the old surface, a little deeper at every stroke.",
         fig,
         "Creep curves over eight decades through circles, and the compression of the central spring under tapping.",
     )

@@ -47,32 +47,23 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="one_curve",
         title="At small amplitude the whole COF curve, not only v_c, is the same for all shapes",
-        quote=(
-            "In the present paper, the critical velocity of controllability was determined for … the simplest possible"
-            " contact geometry … However, it does not depend on absolute indentation, which permits easy"
-            " generalization to more realistic contact geometry. (Section 3)"
-        ),
-        range=(
-            "Elastic flat punch, cone, paraboloid and r^4 that keep contact, rigid pull, Δu_z/u_z0 up to 0.98,"
-            f" {law.v.size} velocities up to v_c; closed form of the COF, and runs for the punch and the cone."
-        ),
-        measured=(
-            "The lost friction 1 − μ/μ_0, in units of k_zc Δu_z/⟨F_N⟩, is one function ψ(v_0/v_c) for all shapes, up"
-            " to terms of order Δu_z/u_z0: that of a single spring, since all springs of the core move alike. The"
-            " first of these terms comes from the springs at the edge and is <i>C</i>(v_0/v_c) Δu_z/(<i>n</i> u_z0)"
-            " for <i>f</i> ~ <i>r</i>^n, with the same <i>C</i> for all. With it the punch and the cone are"
-            " exact at any amplitude that keeps contact, and what is left of the others falls with the amplitude to the"
-            " power"
-            f" {orders['paraboloid']:.2f} (paraboloid) and {orders['r^4']:.2f} (r^4). At Δu_z/u_z0 = {SHOWN:g} the"
-            f" curves differ among each other by up to {raw:.2g}, the scaled ones from ψ by {scaled:.1g}, and by"
-            f" {left:.1g} after the correction."
-        ),
+        quote="In the present paper, the critical velocity of controllability was determined for … the simplest"
+        " possible contact geometry … However, it does not depend on absolute indentation, which permits easy"
+        " generalization to more realistic contact geometry. (Section 3)",
+        range="Elastic flat punch, cone, paraboloid and r^4 that keep contact, rigid pull, Δu_z/u_z0 up to 0.98,"
+        f" {law.v.size} velocities up to v_c; closed form of the COF, and runs for the punch and the cone.",
+        measured="The lost friction 1 − μ/μ_0, in units of k_zc Δu_z/⟨F_N⟩, is one function ψ(v_0/v_c) for all shapes,"
+        " up to terms of order Δu_z/u_z0: that of a single spring, since all springs of the core move alike. The first"
+        " of these terms comes from the springs at the edge and is <i>C</i>(v_0/v_c) Δu_z/(<i>n</i> u_z0) for <i>f</i>"
+        " ~ <i>r</i>^n, with the same <i>C</i> for all. With it the punch and the cone are exact at any amplitude that"
+        " keeps contact, and what is left of the others falls with the amplitude to the power"
+        f" {orders['paraboloid']:.2f} (paraboloid) and {orders['r^4']:.2f} (r^4). At Δu_z/u_z0 = {SHOWN:g} the curves"
+        f" differ among each other by up to {raw:.2g}, the scaled ones from ψ by {scaled:.1g}, and by {left:.1g} after"
+        " the correction.",
         verdict="holds",
-        sentence=(
-            "Elastic, rigid pull: to first order in the amplitude every shape loses the friction of one spring,"
-            " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order, for <i>r</i>^n, that times 1 + <i>C</i>"
-            " Δu_z/(<i>n</i> u_z0)."
-        ),
+        sentence="Elastic, rigid pull: to first order in the amplitude every shape loses the friction of one spring,"
+        " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order, for <i>r</i>^n, that times 1 + <i>C</i> Δu_z/(<i>n</i>"
+        " u_z0).",
         checks=(
             *_exact_checks(law, 6 if quick else 25),
             *_first_order_checks(),

@@ -149,13 +149,11 @@ def claim(effort: str) -> Claim:
         name="resolution",
         title="The runs are resolved",
         quote="",
-        range=f"paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light "
-        f"damper, elastic and ωτ = 1, "
-        f"{VELOCITIES[effort]} or more velocities from 0.2 to 0.9 v_c; {_span('steps')}, {_span('springs')}; the bound "
-        f"also on bodies {', '.join(HARD)}",
-        measured=f"Observed orders {span(orders)}. With default knobs the true error is at "
-        f"most "
-        f"{100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
+        range=f"paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light"
+        f" damper, elastic and ωτ = 1, {VELOCITIES[effort]} or more velocities from 0.2 to 0.9 v_c; {_span('steps')},"
+        f" {_span('springs')}; the bound also on bodies {', '.join(HARD)}",
+        measured=f"Observed orders {span(orders)}. With default knobs the true error is at most"
+        f" {100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
         verdict="holds",
         sentence="The COF converges at least with the second power of step and spring spacing. The stated error bounds "
         "the true one in all runs of this claim, and in 99 of 100 random ones of a harmonic motion.",
@@ -192,10 +190,9 @@ def _figure(studies: list[Study]) -> Figure:
         axes[0].set_ylabel(r"error of $\mu/\mu_0$")
     return Figure(
         "orders",
-        "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and "
-        "against the springs, right. "
-        f"The least-squares lines have the slopes of the legends, {span(orders)}: second order "
-        "(dashed) or better, up to the scatter of the kinks.",
+        "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and against"
+        f" the springs, right. The least-squares lines have the slopes of the legends, {span(orders)}: second order"
+        " (dashed) or better, up to the scatter of the kinks.",
         fig,
         "Two log-log plots of errors that fall with the second or a higher power of the resolution.",
     )

@@ -97,17 +97,13 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="resonances",
         title="Eq. (15) gives v_c also where the body resonates",
-        quote=(
-            "Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where v_c"
-            " becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
-            " plateau (which is less than μ_0) at fairly low sliding velocities and does not change thereafter."
-            " (Section 1, on Eq. (2))"
-        ),
-        range=(
-            f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c;"
-            f" ωτ = {listed(sorted({T for _, T, _ in known}))}; ω_0/ω = {listed(sorted({n for _, _, n in known}))};"
-            f" without damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15)."
-        ),
+        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where"
+        " v_c becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
+        " plateau (which is less than μ_0) at fairly low sliding velocities and does not change thereafter. (Section 1,"
+        " on Eq. (2))",
+        range=f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c; ωτ ="
+        f" {listed(sorted({T for _, T, _ in known}))}; ω_0/ω = {listed(sorted({n for _, _, n in known}))}; without"
+        f" damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15).",
         measured=(
             "Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has more (a"
             " paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is an"
@@ -125,10 +121,8 @@ def claim(effort: str) -> Claim:
             + (f" Too faint to be told from the error of a run: {unseen}." if unseen else "")
         ),
         verdict="fails when ω_0 is a whole multiple nω of ω, n ≥ 2",
-        sentence=(
-            "Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its force:"
-            " without damping friction stays reduced by |F_n|/F_0 or more at any velocity."
-        ),
+        sentence="Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its"
+        " force: without damping friction stays reduced by |F_n|/F_0 or more at any velocity.",
         checks=tuple(checks),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
     )

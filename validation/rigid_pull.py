@@ -59,38 +59,28 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="rigid_pull",
         title="Under a rigid pull v_c depends neither on shape, depth nor rheology",
-        quote=(
-            "In the limit of a very stiff system spring, k_x → ∞, the critical velocity, Eq. (15), is reduced"
-            " to Eq. (1), which thus appears to be valid independently of the viscoelastic properties of the"
-            " medium. (Section 2.2.2)"
-        ),
-        range=(
-            f"{sum(len(shapes) for _, _, shapes in cases)} contacts of four shapes, Δu_z/u_z0 from {min(alphas):g} to"
-            f" {max(alphas):g} and tapping from above the surface, ωτ from {min(times):g} to {max(times):g}; v_c"
-            f" measured from runs alone. COF of {len(marched)} further runs against the closed form, which is then"
-            " followed to both ends of its curve."
-        ),
-        measured=(
-            "Eq. (1) is exact far beyond the limits it was derived under: not only for small amplitudes and"
-            " unbroken contact, but for every shape and amplitude, as long as the contact exists at the"
-            " instant when the depth grows fastest, a quarter of a period before the deepest point. Loss of"
-            " contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a surface that comes back late:"
-            " a slow rubber does so for Δu_z/u_z0 above α_1 = min (e^{θ/ωτ} − 1)/|sin θ| over π < θ < 2π,"
-            f" that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in practice),"
-            f" {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(30.0):.3f} at ωτ = 30, tending to"
-            f" {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with φ_c the"
-            f" phase at which the centre touches again: {laws.late_return(1.0, 30.0):.2f} at ωτ = 30 and Δu_z = u_z0."
-            " It is still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of"
-            " the COF within their own bounds. An elastic contact"
-            " joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose lag outlives the stick, with"
-            " (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to μ_0 is not v_c. The other"
-            " end, at v_0 → 0, is shown with the static value."
-        ),
+        quote="In the limit of a very stiff system spring, k_x → ∞, the critical velocity, Eq. (15), is reduced to Eq."
+        " (1), which thus appears to be valid independently of the viscoelastic properties of the medium. (Section"
+        " 2.2.2)",
+        range=f"{sum(len(shapes) for _, _, shapes in cases)} contacts of four shapes, Δu_z/u_z0 from {min(alphas):g} to"
+        f" {max(alphas):g} and tapping from above the surface, ωτ from {min(times):g} to {max(times):g}; v_c measured"
+        f" from runs alone. COF of {len(marched)} further runs against the closed form, which is then followed to both"
+        " ends of its curve.",
+        measured="Eq. (1) is exact far beyond the limits it was derived under: not only for small amplitudes and"
+        " unbroken contact, but for every shape and amplitude, as long as the contact exists at the instant when the"
+        " depth grows fastest, a quarter of a period before the deepest point. Loss of contact, Eq. (5), does no harm"
+        " by itself. What ends Eq. (1) is a surface that comes back late: a slow rubber does so for Δu_z/u_z0 above α_1"
+        f" = min (e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in"
+        f" practice), {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(30.0):.3f} at ωτ = 30,"
+        f" tending to {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with"
+        f" φ_c the phase at which the centre touches again: {laws.late_return(1.0, 30.0):.2f} at ωτ = 30 and Δu_z ="
+        " u_z0. It is still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of"
+        " the COF within their own bounds. An elastic contact joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose"
+        " lag outlives the stick, with (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to"
+        " μ_0 is not v_c. The other end, at v_0 → 0, is shown with the static value.",
         verdict="holds if the contact is closed at the moment of fastest approach",
-        sentence=(
-            "One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
-            f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1)."
-        ),
+        sentence="One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
+        f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1).",
         checks=(*_velocity_checks(found, tapped), *_march_checks(marched), *_end_checks()),
         figures=(_curve_figure(), _end_figure()),
         equations=_EQUATIONS,

@@ -35,32 +35,23 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="shaken_curves",
         title="Small oscillations of any phase lower friction alike; under a great shake a contact slides as if rigid",
-        quote=(
-            "The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
-            " well-known phenomenon … (Section 1)"
-        ),
-        range=(
-            "Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of"
-            " μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation,"
-            f" {'two' if quick else 'four'} phases, both ways; and two"
-            " of them in three dimensions."
-        ),
-        measured=(
-            "As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x"
-            " e^{iφ}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a"
-            " flat punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0"
-            " leaves (2/π) arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the"
-            " amplitude. Between the two there is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At"
-            " rest a contact of constant depth holds μ_0 F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone"
-            " from Δu_x = μ_0 κ u_z0 on, for every shape. Over both directions of the pull friction never falls with"
-            " velocity. A half-space of ν = 0 in three dimensions, whose cells feel each other, has the friction of the"
-            " springs under a longitudinal oscillation as closely as under a normal one."
-        ),
+        quote="The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
+        " well-known phenomenon … (Section 1)",
+        range="Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of"
+        f" μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation, {'two' if quick else 'four'}"
+        " phases, both ways; and two of them in three dimensions.",
+        measured="As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x"
+        " e^{iφ}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a flat"
+        " punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0 leaves"
+        " (2/π) arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the amplitude. Between"
+        " the two there is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At rest a contact of"
+        " constant depth holds μ_0 F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone from Δu_x = μ_0 κ"
+        " u_z0 on, for every shape. Over both directions of the pull friction never falls with velocity. A half-space"
+        " of ν = 0 in three dimensions, whose cells feel each other, has the friction of the springs under a"
+        " longitudinal oscillation as closely as under a normal one.",
         verdict="holds",
-        sentence=(
-            "Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one; a"
-            " shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact."
-        ),
+        sentence="Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one;"
+        " a shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact.",
         checks=(
             *_small_checks(quick),
             *_great_checks(),
@@ -214,12 +205,10 @@ def _figure(quick: bool) -> Figure:
     return Figure(
         "shaken_curves",
         "Elastic contacts under a rigid pull. Left: friction of a paraboloid of constant depth that is shaken along its"
-        " way goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at"
-        " rest it holds all loads of the vertical part. Middle: small oscillations of four shapes, normal and"
-        " longitudinal together, each in another phase, filled forward"
-        " and"
-        " hollow the other way: all lose ψ. Right: what is held at rest, closed form (lines) and runs: nothing from χ ="
-        " 1 on.",
+        " way goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at rest"
+        " it holds all loads of the vertical part. Middle: small oscillations of four shapes, normal and longitudinal"
+        " together, each in another phase, filled forward and hollow the other way: all lose ψ. Right: what is held at"
+        " rest, closed form (lines) and runs: nothing from χ = 1 on.",
         fig,
         "Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude",
     )

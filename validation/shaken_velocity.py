@@ -30,32 +30,24 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="shaken_velocity",
         title="Shaken along the slide too, v_c is that of depth and shake together, and differs by direction",
-        quote=(
-            "The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
-            " well-known phenomenon with many applications … and production of directed motion, as in ultrasonic motors"
-            " and linear actuators. (Section 1)"
-        ),
-        range=(
-            "Flat punch, cone, paraboloid and r^4, elastic, Kelvin (ωτ = 1) and with a Maxwell arm; normal oscillation"
-            f" of Δu_z/u_z0 up to {ALPHA:g}, or none, with a longitudinal one of Δu_x up to μ_0 κ u_z0 in any"
-            " phase, at the tool or at the pulling point; rigid pull and a body on a spring."
-        ),
-        measured=(
-            "A rigidly pulled contact has v_c = ω|μ_0 κ Δu_z ∓ Δu_x e^{iφ}|, upper sign forward, for any shape, depth"
-            " and material, as long as contact is kept, or closed at the moment of greatest slip velocity: the"
-            " difference of two pointers forward, their sum the other way. With a"
-            " body the first pointer is that of Eq. (15), μ_0 (κ + K_z H) Δu_z, and a shaken pulling point reaches the"
-            " indenter through spring, damper and mass. At finite amplitude a curved contact under a body leaves this"
-            " formula as it leaves Eq. (15), and the full-slip condition with all harmonics takes its place. A"
-            " longitudinal oscillation alone has v_c = ω Δu_x both ways, to the last digit of the measurement. In phase"
-            " with the depth and of the size μ_0 κ Δu_z it costs no friction forward at any velocity, and the other way"
-            " friction is reduced up to twice the velocity of Eq. (1)."
-        ),
+        quote="The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
+        " well-known phenomenon with many applications … and production of directed motion, as in ultrasonic motors and"
+        " linear actuators. (Section 1)",
+        range="Flat punch, cone, paraboloid and r^4, elastic, Kelvin (ωτ = 1) and with a Maxwell arm; normal"
+        f" oscillation of Δu_z/u_z0 up to {ALPHA:g}, or none, with a longitudinal one of Δu_x up to μ_0 κ u_z0 in any"
+        " phase, at the tool or at the pulling point; rigid pull and a body on a spring.",
+        measured="A rigidly pulled contact has v_c = ω|μ_0 κ Δu_z ∓ Δu_x e^{iφ}|, upper sign forward, for any shape,"
+        " depth and material, as long as contact is kept, or closed at the moment of greatest slip velocity: the"
+        " difference of two pointers forward, their sum the other way. With a body the first pointer is that of Eq."
+        " (15), μ_0 (κ + K_z H) Δu_z, and a shaken pulling point reaches the indenter through spring, damper and mass."
+        " At finite amplitude a curved contact under a body leaves this formula as it leaves Eq. (15), and the"
+        " full-slip condition with all harmonics takes its place. A longitudinal oscillation alone has v_c = ω Δu_x"
+        " both ways, to the last digit of the measurement. In phase with the depth and of the size μ_0 κ Δu_z it costs"
+        " no friction forward at any velocity, and the other way friction is reduced up to twice the velocity of Eq."
+        " (1).",
         verdict="holds",
-        sentence=(
-            "With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
-            " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
-        ),
+        sentence="With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
+        " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way.",
         checks=(
             *_rigid_checks(phases),
             *_body_checks(phases[1:3]),
@@ -199,11 +191,10 @@ def _figure(quick: bool) -> Figure:
         fig.legend(loc="outside lower center", ncols=6)
     return Figure(
         "shaken_velocity",
-        f"Critical velocity against the phase between normal (Δu_z/u_z0 = {ALPHA:g}) and longitudinal oscillation"
-        f" (Δu_x = {CHI:g} μ_0 κ u_z0): closed form (lines) and measurements, filled forward, hollow the other way."
-        " Left,"
-        " all shapes lie on one curve each way: least forward in phase, where depth and shake go together. Right, with"
-        " a body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15).",
+        f"Critical velocity against the phase between normal (Δu_z/u_z0 = {ALPHA:g}) and longitudinal oscillation (Δu_x"
+        f" = {CHI:g} μ_0 κ u_z0): closed form (lines) and measurements, filled forward, hollow the other way. Left, all"
+        " shapes lie on one curve each way: least forward in phase, where depth and shake go together. Right, with a"
+        " body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15).",
         fig,
         "Critical velocities over the phase of the shake, for both directions of the pull",
     )

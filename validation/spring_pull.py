@@ -122,20 +122,17 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="spring_pull",
         title="A flat punch under a spring and a mass has the v_c of Eqs. (2) and (15)",
-        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where "
-        "v_c becomes infinite. "
-        "Numerical experiments show that in this case, the coefficient of friction reaches a plateau (which is less "
-        "than mu_0) at fairly "
-        "low sliding velocities and does not change thereafter. — Section 1, Eq. (2); with a Kelvin contact, Eq. (15)",
+        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where"
+        " v_c becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
+        " plateau (which is less than mu_0) at fairly low sliding velocities and does not change thereafter. — Section"
+        " 1, Eq. (2); with a Kelvin contact, Eq. (15)",
         range=f"flat punch in contact throughout, α = {ALPHA:g}, k_x = k_x,c, mω²/k_x "
         f"{f'= {listed(SWEEP[effort])}' if effort == 'quick' else ranged(SWEEP[effort])}, "
         f"ωτ = {listed(materials)}; damper c_x of {100 * DAMPING:g} % of critical, and none",
-        measured=f"The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e} "
-        f"{'beside' if effort == 'quick' else 'through'} pole and zero. "
-        f"Undamped at the zero an elastic "
-        "contact has v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). "
-        "Undamped on the pole no "
-        "velocity is high enough, and the COF tends to the mean of its static value and mu_0.",
+        measured=f"The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e}"
+        f" {'beside' if effort == 'quick' else 'through'} pole and zero. Undamped at the zero an elastic contact has"
+        " v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). Undamped on the pole"
+        " no velocity is high enough, and the COF tends to the mean of its static value and mu_0.",
         verdict="holds",
         sentence="For a contact of constant stiffness Eq. (15) gives v_c on both sides of its pole and of its zero. On "
         "the pole the COF of an undamped body tends to the mean of static COF and μ_0, from below.",
@@ -279,11 +276,9 @@ def _sweep_figure(points: list[Point], materials: tuple[float, ...]) -> Figure:
         ax.legend(loc="upper right", title="points: measured", alignment="left")
     return Figure(
         "sweep",
-        "Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from "
-        "runs alone, curves are "
-        "Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact swing in step and "
-        "v_c falls, for an elastic "
-        "contact to nothing, for a viscoelastic one to ωτ times Eq. (1).",
+        "Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from runs"
+        " alone, curves are Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact"
+        " swing in step and v_c falls, for an elastic contact to nothing, for a viscoelastic one to ωτ times Eq. (1).",
         fig,
         "Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a "
         "dip at the zero.",
@@ -315,9 +310,8 @@ def _pole_figure(plateaus: dict[float, Array]) -> Figure:
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
     return Figure(
         "pole",
-        "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between "
-        "static COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at"
-        " v_c.",
+        "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between static"
+        " COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c.",
         fig,
         "COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole.",
     )

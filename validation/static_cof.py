@@ -71,30 +71,22 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="static_cof",
         title="At vanishing velocity friction is μ_0 times the least normal force",
-        quote=(
-            "The static force of friction is equal to the minimal normal force during an oscillation cycle,"
-            " multiplied with the coefficient of friction, Eq. (7). … First, the velocity-dependences all"
-            " start from the static value at vanishing velocity. (Section 3)"
-        ),
-        range=(
-            f"{len(approaches)} contacts: {', '.join(dict.fromkeys(c[0] for c in chosen))}; ωτ from 0 to"
-            f" {max(c[2] for c in chosen):g}, with contact kept, lost at the edge, and lost altogether; rigid"
-            f" pull at v_0/v_c from 10^-1 to 10^{round(float(np.log10(v[-1])))}."
-        ),
-        measured=(
-            "Every curve starts at mu_0 min F_N/⟨F_N⟩, with the normal force of the whole contact; for a"
-            " punch that keeps contact this is Eq. (7). How it starts depends on the material. An elastic"
-            " contact leaves the static value in proportion to v_0, flat or curved. A Kelvin contact whose"
-            " core stays pressed leaves it like v_0^{2/3}, flat or curved: its curve rises vertically from"
-            " the static value, since a foot that slips only while the force is least has too little time to"
-            " creep back. A Kelvin contact that is lost altogether starts from zero and in proportion to v_0"
-            " again. Powers and factors are those derived from the motion of one spring, without a fit."
-        ),
+        quote="The static force of friction is equal to the minimal normal force during an oscillation cycle,"
+        " multiplied with the coefficient of friction, Eq. (7). … First, the velocity-dependences all start from the"
+        " static value at vanishing velocity. (Section 3)",
+        range=f"{len(approaches)} contacts: {', '.join(dict.fromkeys(c[0] for c in chosen))}; ωτ from 0 to"
+        f" {max(c[2] for c in chosen):g}, with contact kept, lost at the edge, and lost altogether; rigid pull at"
+        f" v_0/v_c from 10^-1 to 10^{round(float(np.log10(v[-1])))}.",
+        measured="Every curve starts at mu_0 min F_N/⟨F_N⟩, with the normal force of the whole contact; for a punch"
+        " that keeps contact this is Eq. (7). How it starts depends on the material. An elastic contact leaves the"
+        " static value in proportion to v_0, flat or curved. A Kelvin contact whose core stays pressed leaves it like"
+        " v_0^{2/3}, flat or curved: its curve rises vertically from the static value, since a foot that slips only"
+        " while the force is least has too little time to creep back. A Kelvin contact that is lost altogether starts"
+        " from zero and in proportion to v_0 again. Powers and factors are those derived from the motion of one spring,"
+        " without a fit.",
         verdict="holds",
-        sentence=(
-            "Under a rigid pull friction starts from μ_0 times the least normal force; an elastic contact leaves it"
-            " like v_0, a Kelvin contact that stays pressed like v_0^{2/3}."
-        ),
+        sentence="Under a rigid pull friction starts from μ_0 times the least normal force; an elastic contact leaves"
+        " it like v_0, a Kelvin contact that stays pressed like v_0^{2/3}.",
         checks=tuple(checks),
         figures=(_figure(approaches),),
         equations=(

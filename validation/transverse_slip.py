@@ -89,28 +89,19 @@ def claim(effort: str) -> Claim:
         name="transverse_slip",
         title="Slip across the pull does not change friction noticeably",
         quote="",
-        range=(
-            f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
-            f" v_0/v_c = {listed(velocities)}; {settings.cells}² cells,"
-            f" {settings.steps} steps a period; at ν = 0.3 and {CHECKED:g} v_c half the steps and half the cells change"
-            f" the losses by up to {error['coupled']:.0e}, what slip across does with coupling by"
-            f" {error['by_coupling']:.0e}"
-            f" and without by {error['by_itself']:.0e}"
-        ),
-        measured=(
-            f"Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0: what"
-            " Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts."
-            f" At {span([one.v for one in some])} v_c up to {100 * max(below):.0f} % of it come from slip across the"
-            " pull; the"
-            " rest would be there without, as the leading and the trailing half are rubbed along the pull in opposite"
-            " senses. Above the end of stick all of it is slip across the pull, which turns friction aside: with"
-            " slip along the pull only, friction there is full."
-        ),
+        range=f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
+        f" v_0/v_c = {listed(velocities)}; {settings.cells}² cells, {settings.steps} steps a period; at ν = 0.3 and"
+        f" {CHECKED:g} v_c half the steps and half the cells change the losses by up to {error['coupled']:.0e}, what"
+        f" slip across does with coupling by {error['by_coupling']:.0e} and without by {error['by_itself']:.0e}",
+        measured=f"Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0:"
+        " what Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts."
+        f" At {span([one.v for one in some])} v_c up to {100 * max(below):.0f} % of it come from slip across the pull;"
+        " the rest would be there without, as the leading and the trailing half are rubbed along the pull in opposite"
+        " senses. Above the end of stick all of it is slip across the pull, which turns friction aside: with slip along"
+        " the pull only, friction there is full.",
         verdict="holds if β = 0",
-        sentence=(
-            f"Without coupling slip across changes the COF of a paraboloid by {number(itself, 1)} of μ_0 at most; with"
-            " it, it makes a part of the loss below v_c and all of it above the end of stick."
-        ),
+        sentence=f"Without coupling slip across changes the COF of a paraboloid by {number(itself, 1)} of μ_0 at most;"
+        " with it, it makes a part of the loss below v_c and all of it above the end of stick.",
         checks=_checks(found),
         figures=(_figure(found),),
     )

@@ -46,27 +46,19 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="uncoupled",
         title="Without coupling springs give the friction of the three-dimensional contact",
-        quote=(
-            "According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
-            " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)"
-        ),
-        range=(
-            f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1, contact"
-            f" kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
-            f" {max(VELOCITIES):g}; {SETTINGS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
-            f" {SETTINGS.steps} steps a period (validation/half_space/tables/uncoupled.csv)"
-        ),
-        measured=(
-            f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in the"
-            " same steps; half the steps and half the cells change that by at most"
-            f" {max(row.step for row in rows):.0e} and {max(row.grid for row in rows):.0e}. So independent springs do"
-            " what neighbours that feel each other do, cell by cell with stick, slip and loss of contact."
-        ),
+        quote="According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
+        " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)",
+        range=f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1,"
+        f" contact kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
+        f" {max(VELOCITIES):g}; {SETTINGS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
+        f" {SETTINGS.steps} steps a period (validation/half_space/tables/uncoupled.csv)",
+        measured=f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in"
+        f" the same steps; half the steps and half the cells change that by at most {max(row.step for row in rows):.0e}"
+        f" and {max(row.grid for row in rows):.0e}. So independent springs do what neighbours that feel each other do,"
+        " cell by cell with stick, slip and loss of contact.",
         verdict="holds",
-        sentence=(
-            "Where pressure and friction do not act on each other, the springs have the friction of the half-space, to"
-            f" {number(worst, 1)} of μ_0."
-        ),
+        sentence="Where pressure and friction do not act on each other, the springs have the friction of the"
+        f" half-space, to {number(worst, 1)} of μ_0.",
         checks=checks,
         figures=(_figure(rows),),
     )

@@ -258,14 +258,12 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="uniqueness",
         title="One coefficient of friction for one velocity, and never less at a higher one",
-        quote="Second, the coefficient of friction increases monotonically (again, barring exceptional "
-        "system-dynamical circumstances) until it reaches the microscopic value at some critical velocity. "
-        "(Section 3)",
-        range=f"{len(found)} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4, "
-        "one in five within 1e-2 of 1, 2 or 3, "
-        f"k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from {len(STARTS)} states each: full slip, "
-        f"rest and {STARTS.count('random')} random ones; {len(curves)} of them over {len(FASTER)} velocities, and "
-        f"{RIGID[effort]} rigid pulls in closed form.",
+        quote="Second, the coefficient of friction increases monotonically (again, barring exceptional system-dynamical"
+        " circumstances) until it reaches the microscopic value at some critical velocity. (Section 3)",
+        range=f"{len(found)} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4,"
+        " one in five within 1e-2 of 1, 2 or 3, k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from"
+        f" {len(STARTS)} states each: full slip, rest and {STARTS.count('random')} random ones; {len(curves)} of them"
+        f" over {len(FASTER)} velocities, and {RIGID[effort]} rigid pulls in closed form.",
         measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this "
         "alone it follows that two motions of one contact never move apart, that the mean friction at a higher "
         "velocity is never less, and that the COF is unique (of an undamped elastic body: except where the curve "
@@ -287,9 +285,8 @@ def claim(effort: str) -> Claim:
                 r" \dot{e}^2, \quad D ="
                 r" \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta e^2"
                 r" \right]",
-                "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull"
-                " P, the"
-                " body u and the extensions e of the springs. With δv = 0 it never grows.",
+                "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull P,"
+                " the body u and the extensions e of the springs. With δv = 0 it never grows.",
             ),
         ),
     )

@@ -60,25 +60,17 @@ def part(effort: str) -> Part:
         name="catalogue",
         title="Shape: all of the handbook",
         quote="",
-        range=(
-            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range;"
-            f" {counted(len(points), 'measured velocity')}"
-            f" at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and the full-slip value under a body at α →"
-            f" 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes, standard solid for"
-            f" {'three' if quick else 'the curved ones'}."
-        ),
-        measured=(
-            f"{'' if quick else 'Rigid pull: Eq. (1) for every shape. '}Body: what a shape does to v_c at small"
-            " amplitude is one number, the"
-            " exponent s with which its stiffness changes about the mean depth. The deviation from Eq. (15) is C α s,"
-            " with one C for all shapes, closed forms, sampled points and measured forces alike; a flat or hollow punch"
-            " has none. For a standard solid C is another number, again the same for"
-            f" {'the three shapes computed' if quick else 'all curved shapes'}."
-        ),
-        sentence=(
-            "At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not know"
-            " the shape."
-        ),
+        range=f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range;"
+        f" {counted(len(points), 'measured velocity')} at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and"
+        f" the full-slip value under a body at α → 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes,"
+        f" standard solid for {'three' if quick else 'the curved ones'}.",
+        measured=f"{'' if quick else 'Rigid pull: Eq. (1) for every shape. '}Body: what a shape does to v_c at small"
+        " amplitude is one number, the exponent s with which its stiffness changes about the mean depth. The deviation"
+        " from Eq. (15) is C α s, with one C for all shapes, closed forms, sampled points and measured forces alike; a"
+        " flat or hollow punch has none. For a standard solid C is another number, again the same for"
+        f" {'the three shapes computed' if quick else 'all curved shapes'}.",
+        sentence="At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not"
+        " know the shape.",
         checks=(*_measured_checks(points), *_order_checks(quick)),
         figures=(_figure(quick),),
         equations=(

@@ -186,11 +186,10 @@ def part(effort: str) -> Part:
         name="finite_amplitude",
         title="Amplitude: up to and beyond the loss of contact",
         quote="Only this “non-jumping” case is considered in the following. — Section 2.2, on Eq. (5)",
-        range=f"{', '.join(SHAPES)}; elastic and ωτ = 1; k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of "
-        f"critical; maps over α = {RANGE[0][0]:g} … {RANGE[0][1]:g} and ω_0/ω = {RANGE[1][0]:g} … {RANGE[1][1]:g}; "
-        f"{counted(len(points), 'measured velocity')}, {len(lost)} of them with the whole contact lost in every"
-        " period (α > 1 "
-        f"elastic, α > {1 / np.sqrt(2):.2f} for ωτ = 1).",
+        range=f"{', '.join(SHAPES)}; elastic and ωτ = 1; k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of"
+        f" critical; maps over α = {RANGE[0][0]:g} … {RANGE[0][1]:g} and ω_0/ω = {RANGE[1][0]:g} … {RANGE[1][1]:g};"
+        f" {counted(len(points), 'measured velocity')}, {len(lost)} of them with the whole contact lost in every period"
+        f" (α > 1 elastic, α > {1 / np.sqrt(2):.2f} for ωτ = 1).",
         measured="Within 1 % of Eq. (15), as a share of the map: "
         + "; ".join(f"{m.name}: {100 * m.share_within(0.01):.0f} %" for m in known)
         + f". Farthest off: {100 * far.values[row, column]:+.0f} % ({far.name}, α = {far.alphas[column]:.2g}, ω_0 = "
@@ -198,16 +197,15 @@ def part(effort: str) -> Part:
         f"value with all harmonics lies in the bracket of every measurement, with contact kept or lost, and within "
         f"{max(abs(p.miss) for p in points):.1e} of the measured one. For small α the error is of first order where "
         "anything dissipates, of second where nothing does. With the damper alone, elastic cone, second order takes "
-        "over at α = " + "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items()) + ", in proportion "
-        "to a light damping. At ω_0 = 2ω it is the other way round: the second harmonic, itself of first order in α, "
-        f"drives the body on its resonance, and with this damper 1 % is passed at α = {resonant[0.0]:.2g} "
-        f"(elastic) and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. "
-        f"The relative error is large too beside ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself "
-        f"nearly vanishes: {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). "
-        f"On the maps, more than {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α ="
-        f" {reach[0.0]:.2g} (elastic) "
-        f"and {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (claim on "
-        "lost contact).",
+        "over at α = " + "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items()) + ", in proportion"
+        " to a light damping. At ω_0 = 2ω it is the other way round: the second harmonic, itself of first order in α,"
+        f" drives the body on its resonance, and with this damper 1 % is passed at α = {resonant[0.0]:.2g} (elastic)"
+        f" and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. The relative error is large too beside"
+        f" ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself nearly vanishes:"
+        f" {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). On the maps, more than"
+        f" {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α = {reach[0.0]:.2g} (elastic) and"
+        f" {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (claim on lost"
+        " contact).",
         sentence=f"How small is small depends on the body: with this damper, and ω_0 more than {ASIDE:g} ω aside of "
         f"2ω and of {ZERO:.2g} ω, Eq. (15) is good to 1 % up to α = {reach[0.0]:.2g} (elastic) and {reach[1.0]:.2g} "
         f"(ωτ = 1), but only to {resonant[0.0]:.2g} and {resonant[1.0]:.2g} at ω_0 = 2ω; the full-slip condition is"
@@ -313,13 +311,11 @@ def _map_figure(known: list[Map], points: list[Point]) -> Figure:
     return Figure(
         "errors",
         "How far the full-slip v_c with all harmonics is from Eq. (15), up or down, over amplitude and natural"
-        " frequency "
-        "of the body. Palest: less than 1 %, which is "
-        f"{100 * by_T[0.0]:.0f} % of the elastic maps and {100 * by_T[1.0]:.0f} % of the viscoelastic ones. Most is"
-        " off "
-        "right of the dotted line, where the whole contact is lost in every period, and at ω_0 = 2ω, where the second "
-        f"harmonic of the force drives the body. Greatest: {100 * far.values[row, column]:+.0f} % ({far.name}, α = "
-        f"{far.alphas[column]:.2g}, ω_0 = {far.ratios[row]:.2g} ω). Circles: where v_c was measured.",
+        f" frequency of the body. Palest: less than 1 %, which is {100 * by_T[0.0]:.0f} % of the elastic maps and"
+        f" {100 * by_T[1.0]:.0f} % of the viscoelastic ones. Most is off right of the dotted line, where the whole"
+        " contact is lost in every period, and at ω_0 = 2ω, where the second harmonic of the force drives the body."
+        f" Greatest: {100 * far.values[row, column]:+.0f} % ({far.name}, α = {far.alphas[column]:.2g}, ω_0 ="
+        f" {far.ratios[row]:.2g} ω). Circles: where v_c was measured.",
         fig,
         "Six maps of the error of Eq. (15) over amplitude and natural frequency: pale at small amplitude and for heavy "
         "bodies, a ridge where the natural frequency is twice that of the oscillation, darker where the "

@@ -81,10 +81,8 @@ def part(effort: str) -> Part:
     return Part(
         name="motions",
         title="Drive: an oscillating load, a periodic depth",
-        quote=(
-            "[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact geometries"
-            " and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3)."
-        ),
+        quote="[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact"
+        " geometries and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3).",
         range=(
             f"{len(points)} contacts measured from runs: "
             + (
@@ -95,18 +93,14 @@ def part(effort: str) -> Part:
                 " nine harmonics, square-like tapping among them."
             )
         ),
-        measured=(
-            "Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this is a"
-            " closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter"
-            " even under a rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and"
-            " what leaves the formula is the depth alone: for an elastic contact in second order of ΔF_z/F_z0, by"
-            " (ΔF_z/F_z0)^2/2(n+1)^2. For periodic depths v_c is the greatest slip velocity over the cycle, with every"
-            " harmonic; a square-like drive has a v_c far above that of its first harmonic."
-        ),
-        sentence=(
-            "Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2| for small ΔF_z; for a periodic"
-            " depth v_c is the maximum of the same expression over the cycle."
-        ),
+        measured="Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this"
+        " is a closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter"
+        " even under a rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and what"
+        " leaves the formula is the depth alone: for an elastic contact in second order of ΔF_z/F_z0, by"
+        " (ΔF_z/F_z0)^2/2(n+1)^2. For periodic depths v_c is the greatest slip velocity over the cycle, with every"
+        " harmonic; a square-like drive has a v_c far above that of its first harmonic.",
+        sentence="Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2| for small ΔF_z; for a"
+        " periodic depth v_c is the maximum of the same expression over the cycle.",
         checks=(*_measured_checks(points), *_equivalence_checks(quick), *_amplitude_checks()),
         figures=(_figure_of_loads(quick), *(() if quick else (_figure_of_series(),))),
     )

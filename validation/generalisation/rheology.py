@@ -67,27 +67,18 @@ def part(effort: str) -> Part:
     return Part(
         name="rheology",
         title="Rheology: any linear material",
-        quote=(
-            "In the future, the critical velocity could also be considered for materials with more general rheology."
-            " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3"
-        ),
-        range=(
-            f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
-            " and without a dashpot) under random bodies; "
-            f"{counted(len(chosen), 'chosen material')} ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 %"
-            " amplitude."
-        ),
-        measured=(
-            "With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is for a"
-            " Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the limit"
-            " of small amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that relaxes"
-            " within a period stiffens the contact against the oscillation but not against the mean load, so that the"
-            " static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one."
-        ),
-        sentence=(
-            "Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is"
-            " Eq. (15) for a Kelvin material."
-        ),
+        quote="In the future, the critical velocity could also be considered for materials with more general rheology."
+        " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3",
+        range=f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf,"
+        f" with and without a dashpot) under random bodies; {counted(len(chosen), 'chosen material')}"
+        f" ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 % amplitude.",
+        measured="With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is"
+        " for a Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the"
+        " limit of small amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that"
+        " relaxes within a period stiffens the contact against the oscillation but not against the mean load, so that"
+        " the static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one.",
+        sentence="Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is"
+        " Eq. (15) for a Kelvin material.",
         checks=tuple(checks),
         figures=figures,
         equations=(

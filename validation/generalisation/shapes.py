@@ -152,13 +152,11 @@ def part(effort: str) -> Part:
         name="shapes",
         title="Shape: a punch, a cone, a paraboloid and r^4",
         quote="",
-        range=f"{listed(shape for shape in SHAPES if shape in {p.shape for p in points})}; α = "
-        f"{listed(sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths "
-        f"{listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and "
-        f"damper; rigid pull, ω_0 = 1.7 ω and 0.6 ω; "
-        f"{counted(len(points), 'measured velocity')}. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and"
-        " ωτ = "
-        f"{LOSSES[0]:g} … {LOSSES[1]:g}",
+        range=f"{listed(shape for shape in SHAPES if shape in {p.shape for p in points})}; α ="
+        f" {listed(sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths"
+        f" {listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and damper; rigid"
+        f" pull, ω_0 = 1.7 ω and 0.6 ω; {counted(len(points), 'measured velocity')}. First order in α over ω_0/ω ="
+        f" {SPAN[0]:g} … {SPAN[1]:g} and ωτ = {LOSSES[0]:g} … {LOSSES[1]:g}",
         measured=f"Rigid pull: Eq. (1) in all of {counted(len(rigid), 'measurement')} ({_tested(rigid)}), to "
         f"{_worst(points, 'rigid pull'):.1e}; each of these contacts is closed at the moment of fastest approach."
         " Spring pull: Eq. (15) for the flat "
@@ -403,14 +401,13 @@ def _map_figure(ratios: Array, losses: Array, C: Array) -> Figure:
     row, column = np.unravel_index(np.argmin(reach), reach.shape)
     return Figure(
         "map",
-        "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone "
-        "(n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four "
-        "times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies "
-        "near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: "
-        f"α = {number(reach[row, column])} at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials"
-        " under "
-        "heavy bodies, ω_0 < ω, are the best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 ="
-        " 0.8 ω. Along thin bright lines C changes its sign, and the next order decides.",
+        "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone"
+        " (n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four"
+        " times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies"
+        f" near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: α = {number(reach[row, column])}"
+        f" at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials under heavy bodies, ω_0 < ω, are the"
+        " best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 = 0.8 ω. Along thin bright lines C"
+        " changes its sign, and the next order decides.",
         fig,
         "Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: "
         "dark for slow materials and near twice the frequency.",
