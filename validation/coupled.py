@@ -23,7 +23,7 @@ from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space import pictures, tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import span
 
 SHAPES = ("paraboloid", "flat punch")
@@ -107,8 +107,7 @@ def _rub_of(nu: float, mu_0: float) -> float:
 # --- checks ---
 
 
-def _equal_checks(quick: bool) -> list[Check]:
-    checks = []
+def _equal_checks(quick: bool) -> Checks:
     for shape in SHAPES:
         case = contact(shape, ALPHA, mu_0=0.3, nu=NEARLY)
         settings = Settings(17 if quick else 31, 24 if quick else 50, cycles=2)
@@ -116,49 +115,35 @@ def _equal_checks(quick: bool) -> list[Check]:
             in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), replace(settings, coupled=on)).cof
             for on in (True, False)
         ]
-        checks.append(
-            Check(
-                f"{shape}, ν = 0.4999999: COF coupled over uncoupled",
-                both[0] / both[1],
-                1,
-                1e-5,
-                "forces to 1e-6 a step",
-            )
+        yield Check(
+            f"{shape}, ν = 0.4999999: COF coupled over uncoupled", both[0] / both[1], 1, 1e-5, "forces to 1e-6 a step"
         )
     pair = Point("paraboloid", 0.5, 0.3, ALPHA, 0.0, 0.6, nu_2=0.0)  # beta < 0
     turned = replace(pair, nu=0.0, nu_2=0.5)
     one, two = (tables.loss(point, Settings(cells=17, steps=24, cycles=3)) for point in (pair, turned))
-    checks.append(
-        Check("two bodies, β → −β: loss over that of +β", one / two, 1, 1e-3, "of the solver, over a loss of 2 %")
-    )
-    return checks
+    yield Check("two bodies, β → −β: loss over that of +β", one / two, 1, 1e-3, "of the solver, over a loss of 2 %")
 
 
-def _table_checks(rows: list[Row]) -> list[Check]:
+def _table_checks(rows: list[Row]) -> Checks:
     most, least = max(row.error for row in rows), min(row.loss + row.error for row in rows)
-    checks = [
-        Check.at_most("greatest error of a point of the table, over μ_0", most, 0.02, "of a loss of up to a half"),
-        Check.at_least("least loss with its error, over μ_0", least, 0, "coupling never raises friction"),
-    ]
+    yield Check.at_most("greatest error of a point of the table, over μ_0", most, 0.02, "of a loss of up to a half")
+    yield Check.at_least("least loss with its error, over μ_0", least, 0, "coupling never raises friction")
     for shape in SHAPES:
         own = [row for row in rows if row.point.shape == shape and row.point.v == 0.8 and row.point.mu_0 < 0.5]
         losses = np.array([row.loss for row in sorted(own, key=lambda row: radial_rub(row.point.case))])
         name = f"{shape}, 0.8 v_c: least growth of the loss from one λ to the next of {len(own)}"
-        checks.append(Check.at_least(name, float(np.diff(losses).min()), 0, "λ puts them in order"))
-    return checks
+        yield Check.at_least(name, float(np.diff(losses).min()), 0, "λ puts them in order")
 
 
-def _again_checks(rows: list[Row], quick: bool) -> list[Check]:
+def _again_checks(rows: list[Row], quick: bool) -> Checks:
     """Points computed now on a coarser grid."""
     known = {row.point: row for row in rows}
     settings = Settings(17 if quick else 21, 24 if quick else 32, cycles=4, settled=1e-3)
-    checks = []
     for shape in SHAPES[:1] if quick else SHAPES:
         for new in tables.column([Point(shape, 0.3, 0.3, ALPHA, 0.0, v) for v in (1.2, 0.6)], settings):
             old = known[new.point]
             name = f"{shape}, ν = μ_0 = 0.3, {new.point.v:g} v_c: loss computed again"
-            checks.append(Check(name, new.loss, old.loss, new.error + old.error, "errors of both"))
-    return checks
+            yield Check(name, new.loss, old.loss, new.error + old.error, "errors of both")
 
 
 # --- figures ---

@@ -30,7 +30,7 @@ from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 
 Column = Sequence[Row]  #: of one contact
 
@@ -163,11 +163,7 @@ def claim(effort: str) -> Claim:
         verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
         sentence=f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
         f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms).",
-        checks=(
-            *_constant_checks(constants[None]),
-            *_trial_checks(within, beyond),
-            *_group_checks(effort == "quick"),
-        ),
+        checks=(*_constant_checks(constants[None]), *_trial_checks(within, beyond), *_group_checks(effort == "quick")),
         figures=(_collapse_figure(everything, constants[None]), _trial_figure(training, trials, constants)),
         equations=(
             Equation(
@@ -203,17 +199,17 @@ def _beyond(beyond: Sequence[Trial]) -> str:
 # --- checks ---
 
 
-def _constant_checks(constants: Array) -> list[Check]:
+def _constant_checks(constants: Array) -> Checks:
     known = {"a": coupling.SHARE, "b": coupling.BEND, "c": coupling.PULL}
-    return [
+    yield from (
         Check(
             f"constant {name} of the library over that fitted here", value / fit, 1, 0.01, "written with three digits"
         )
         for (name, value), fit in zip(known.items(), constants, strict=True)
-    ]
+    )
 
 
-def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> list[Check]:
+def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> Checks:
     kinds = {
         "flat punch": lambda p: p.shape == "flat punch" and p.alpha == 0.3 and not p.T,
         "other amplitudes": lambda p: p.alpha != 0.3,
@@ -221,20 +217,18 @@ def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> list[Chec
         "Kelvin": lambda p: p.T > 0,
         "two bodies": lambda p: p.nu_2 is not None,
     }
-    checks = []
     for kind, belongs in kinds.items():
         own = [trial for trial in within if belongs(trial.point)]
         ratio = max((trial.ratio for trial in own), key=lambda ratio: abs(ratio - 1))
         off = max((trial.off for trial in own), key=abs)
         name = f"held out, {kind} ({len(own)}), λ ≤ {coupling.FARTHEST:g}"
-        checks.append(Check(f"{name}: worst law over 3D, greatest loss", ratio, 1, ALLOWED, "stated"))
-        checks.append(Check(f"{name}: worst law − 3D at any velocity, over that", off, 0, 2 * ALLOWED, "stated"))
+        yield Check(f"{name}: worst law over 3D, greatest loss", ratio, 1, ALLOWED, "stated")
+        yield Check(f"{name}: worst law − 3D at any velocity, over that", off, 0, 2 * ALLOWED, "stated")
     most = max(trial.ratio for trial in beyond if trial.point.shape == "flat punch")
-    checks.append(Check.at_most("flat punch beyond: greatest law over 3D", most, 0.75, "the law ends"))
-    return checks
+    yield Check.at_most("flat punch beyond: greatest law over 3D", most, 0.75, "the law ends")
 
 
-def _group_checks(quick: bool) -> list[Check]:
+def _group_checks(quick: bool) -> Checks:
     """One lambda by three Poisson's ratios and frictions, whose beta mu_0 is small."""
     losses = []
     for nu in (0.3, 0.45) if quick else (0.2, 0.3, 0.45):
@@ -243,7 +237,7 @@ def _group_checks(quick: bool) -> list[Check]:
         settings = Settings(17 if quick else 25, 24 if quick else 40, cycles=4, settled=1e-3)
         losses.append(tables.loss(point, settings))
     name = "λ = 1 by several ν and μ_0, 0.8 v_c: least loss over greatest"
-    return [Check(name, min(losses) / max(losses), 1, 0.08, "β²/κ differs, by up to 0.1")]
+    yield Check(name, min(losses) / max(losses), 1, 0.08, "β²/κ differs, by up to 0.1")
 
 
 # --- figures ---

@@ -19,7 +19,7 @@ import mdr
 from mdr import laws
 from validation.cases import BODY, LOOKS, OMEGA, SHAPES, shaken, shape_label
 from validation.measured import with_band
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 ALPHA, QUARTER = 0.5, math.pi / 2  #: of the figure; phase of the shake
 RUN = "what a run promises when it chooses step and springs itself"
@@ -56,8 +56,7 @@ def claim(effort: str) -> Claim:
     )
 
 
-def _stiff_checks() -> list[Check]:
-    checks = []
+def _stiff_checks() -> Checks:
     sizes = (30.0, 120.0)
     for alpha in (0.2, 0.5, 0.9):
         law = laws.elliptic_drive(alpha)
@@ -69,24 +68,21 @@ def _stiff_checks() -> list[Check]:
         ]
         why = "springs yield by μ_0 κ u_z0 (1 + Δu_z/u_z0) at most, over the amplitude"
         where = f"Δu_z/u_z0 = {alpha:g}, Δu_x = {sizes[1]:g} μ_0 κ u_z0"
-        checks.append(Check(f"blocked push over μ_0 F_N, less (2/π) α: {where}", pushes[1], 0.0, 2 / sizes[1], why))
-        checks.append(Check(f"velocity without load over ω Δu_x, less r: {where}", frees[1], 0.0, 2 / sizes[1], why))
+        yield Check(f"blocked push over μ_0 F_N, less (2/π) α: {where}", pushes[1], 0.0, 2 / sizes[1], why)
+        yield Check(f"velocity without load over ω Δu_x, less r: {where}", frees[1], 0.0, 2 / sizes[1], why)
         for name, off in (("push", pushes), ("velocity", frees)):
             power = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
             name = f"power of the amplitude with which that of the {name} vanishes: Δu_z/u_z0 = {alpha:g}"
-            checks.append(Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order"))
+            yield Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order")
         cone = shaken("cone", alpha, sizes[1], QUARTER)
         known = (4 * alpha / math.pi) / (1 + alpha**2 / 2)  # force ~ depth squared: mean of sign(cos) (1 + a cos)²
-        checks.append(
-            Check(
-                f"blocked push of a cone over μ_0 F_N: {where}",
-                -mdr.blocked_cof(cone) / cone.mu_0,
-                known,
-                2 / sizes[1],
-                why,
-            )
+        yield Check(
+            f"blocked push of a cone over μ_0 F_N: {where}",
+            -mdr.blocked_cof(cone) / cone.mu_0,
+            known,
+            2 / sizes[1],
+            why,
         )
-    return checks
 
 
 def _reach(case: mdr.SlidingContact) -> float:
@@ -94,8 +90,7 @@ def _reach(case: mdr.SlidingContact) -> float:
     return float(case.mu_0 * case.material.mindlin_ratio * case.cycle.u_z0)
 
 
-def _curve_checks(quick: bool) -> list[Check]:
-    checks = []
+def _curve_checks(quick: bool) -> Checks:
     for shape in SHAPES if not quick else ("flat punch", "paraboloid"):
         for body in ({}, BODY):
             case = shaken(shape, ALPHA, 5.0, QUARTER, **body)
@@ -103,31 +98,26 @@ def _curve_checks(quick: bool) -> list[Check]:
             at = mdr.slide(case, free).cof / case.mu_0
             rising = float(np.min(np.diff(mdr.cof_curve(case, np.linspace(0, 1.0, 7) * free).cof)) / case.mu_0)
             where = f"{shape}, {'body' if body else 'rigid pull'}, Δu_x = 5 μ_0 κ u_z0"
-            checks.append(Check(f"COF/μ_0 at the velocity without load: {where}", at, 0.0, 2e-5, RUN))
+            yield Check(f"COF/μ_0 at the velocity without load: {where}", at, 0.0, 2e-5, RUN)
             name = f"least rise of COF/μ_0 from held to free, in seven velocities: {where}"
-            checks.append(Check.at_least(name, rising, 1e-3, "a sixth of the blocked friction is some per cent"))
-    return checks
+            yield Check.at_least(name, rising, 1e-3, "a sixth of the blocked friction is some per cent")
 
 
-def _energy_checks() -> list[Check]:
-    checks = []
+def _energy_checks() -> Checks:
     for chi in (3.0, 30.0):
         case = shaken("flat punch", ALPHA, chi, QUARTER)
         account = mdr.slide(case, 0.5 * mdr.no_load_velocity(case), accuracy=1e-6).energy_balance
         name = f"residual of the account of energy, over what is lost, half-way to no load: Δu_x = {chi:g} μ_0 κ u_z0"
-        checks.append(
-            Check(
-                name,
-                account.relative,
-                0.0,
-                2e-4,
-                "second order in a step of 1/1000 of a period, over the share that drives",
-            )
+        yield Check(
+            name,
+            account.relative,
+            0.0,
+            2e-4,
+            "second order in a step of 1/1000 of a period, over the share that drives",
         )
         out = -account.pull_work / (account.normal_work + account.shake_work)
         name = f"efficiency there: Δu_x = {chi:g} μ_0 κ u_z0"
-        checks.append(Check.between(name, out, 0.02, 0.5, "a drive, and not a good one: slip takes most"))
-    return checks
+        yield Check.between(name, out, 0.02, 0.5, "a drive, and not a good one: slip takes most")
 
 
 def _best(chi: float) -> float:
@@ -142,13 +132,10 @@ def _efficiency(case: mdr.SlidingContact, v_0: float) -> float:
     return -account.pull_work / (account.normal_work + account.shake_work)
 
 
-def _side_checks() -> list[Check]:
+def _side_checks() -> Checks:
     """Which way it drives, and when not."""
-    checks = []
     one, other = (mdr.blocked_cof(shaken("paraboloid", ALPHA, 5.0, phi)) / 0.5 for phi in (QUARTER, -QUARTER))
-    checks.append(
-        Check("push at rest with the phase turned, added to that before, over μ_0 F_N", one + other, 0.0, 2e-5, RUN)
-    )
+    yield Check("push at rest with the phase turned, added to that before, over μ_0 F_N", one + other, 0.0, 2e-5, RUN)
     for phi in (0.0, math.pi):
         name = (
             f"COF/μ_0 at rest times the root of Δu_x/(μ_0 κ u_z0) = 120, way in phase {phi / math.pi:g} π: flat punch"
@@ -157,15 +144,12 @@ def _side_checks() -> list[Check]:
         way = 1 if phi == 0 else -1
         known = way * 4 / (3 * math.pi) * ((1 + ALPHA) ** 1.5 - (1 - ALPHA) ** 1.5)
         why = "springs turn over while the way turns back, which takes a time like the root; the next order is 1/120"
-        checks.append(Check(name, push * math.sqrt(120), known, 1 / 120, why))
+        yield Check(name, push * math.sqrt(120), known, 1 / 120, why)
     held = mdr.holding_band(shaken("flat punch", ALPHA, 0.1, QUARTER))
-    checks.append(
-        Check.at_most(
-            "low end of what is held at Δu_x = 0.1 μ_0 κ u_z0, a quarter apart", held.low, 0.0, "zero load is held"
-        )
+    yield Check.at_most(
+        "low end of what is held at Δu_x = 0.1 μ_0 κ u_z0, a quarter apart", held.low, 0.0, "zero load is held"
     )
-    checks.append(Check.at_least("its high end", held.high, 0.0, "zero load is held"))
-    return checks
+    yield Check.at_least("its high end", held.high, 0.0, "zero load is held")
 
 
 def _figure(quick: bool) -> Figure:

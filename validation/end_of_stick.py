@@ -41,7 +41,7 @@ from validation.cases import LOOKS, contact, shape_label
 from validation.half_space import pictures, tables
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 from validation.words import counted, percent, ranged, span
 
 Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
@@ -178,35 +178,31 @@ def _before(alpha: float, shape: str) -> float:
 # --- checks ---
 
 
-def _end_checks(ends: dict[Known, float], cells: int) -> list[Check]:
-    checks = []
+def _end_checks(ends: dict[Known, float], cells: int) -> Checks:
     for known, ratio in ends.items():
         shape, nu, mu_0, alpha = known
         name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, Δu_z/u_z0 = {alpha:g}"
         why = "an estimate for small μ_0 on cells of this size"
-        checks.append(Check(f"{name}: end of stick over v_c(1 + λ)", _over_estimate(known, ratio), 1, 0.12, why))
+        yield Check(f"{name}: end of stick over v_c(1 + λ)", _over_estimate(known, ratio), 1, 0.12, why)
         if shape == "flat punch":
             turned, fixed = (fastest(cells, nu, mu_0, turned) for turned in (True, False))
             low, high = turned - 0.08 * _rub(known), fixed + FOUND * _rub(known)
             why = f"friction free to turn, {turned:.4g}, less λ² of a slip that is not small, to fixed, {fixed:.4g}"
-            checks.append(Check.between(f"{name}: end of stick over v_c by the linear problem", ratio, low, high, why))
-    return checks
+            yield Check.between(f"{name}: end of stick over v_c by the linear problem", ratio, low, high, why)
 
 
-def _table_checks() -> list[Check]:
+def _table_checks() -> Checks:
     rows = [row for name in ("coupled", "coupling_held_out") for row in tables.read(name)]
     beyond = [row.stick for row in rows if row.point.v > 1 + 1.6 * radial_rub(row.point.case)]
     below = [row.stick for row in rows if row.point.v < 1 + 0.4 * radial_rub(row.point.case)]
     what = "share that sticks in the tables"
-    return [
-        Check.at_most(
-            f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c", max(beyond), 0, "beyond all ends"
-        ),
-        Check.at_least(f"least {what}, {len(below)} points below (1 + 0.4 λ) v_c", min(below), 1e-3, "below all ends"),
-    ]
+    yield Check.at_most(
+        f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c", max(beyond), 0, "beyond all ends"
+    )
+    yield Check.at_least(f"least {what}, {len(below)} points below (1 + 0.4 λ) v_c", min(below), 1e-3, "below all ends")
 
 
-def _place_checks(found: LastPeriod) -> list[Check]:
+def _place_checks(found: LastPeriod) -> Checks:
     """Above Eq. (1): what sticks does so at the trailing edge, while the depth grows fastest."""
     shares = found.stick
     i = int(np.nanargmax(shares))
@@ -214,21 +210,18 @@ def _place_checks(found: LastPeriod) -> list[Check]:
     sticks = stuck(found.contact, found.steps[i])
     phase, along, across = (i + 1) / shares.size, np.mean(x[sticks]), np.mean(y[sticks])
     what = f"{ABOVE:g} v_c, greatest stick"
-    return [
-        Check.between(
-            f"{what}: when, in periods after the least depth",
-            phase,
-            0.15,
-            0.35,
-            "the depth grows, at least at 0.8 of its fastest",
-        ),
-        Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge"),
-        Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric"),
-    ]
+    yield Check.between(
+        f"{what}: when, in periods after the least depth",
+        phase,
+        0.15,
+        0.35,
+        "the depth grows, at least at 0.8 of its fastest",
+    )
+    yield Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge")
+    yield Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric")
 
 
-def _tail_checks(quick: bool) -> list[Check]:
-    checks = []
+def _tail_checks(quick: bool) -> Checks:
     known = ((0.3, 0.1, 0.3),) if quick else ((0.3, 0.1, 0.3), (0.0, 0.1, 0.3), (0.3, 0.3, 0.3), (0.3, 0.3, 0.1))
     for shape, mean in MEANS.items():
         for nu, mu_0, alpha in known:
@@ -238,8 +231,7 @@ def _tail_checks(quick: bool) -> list[Check]:
             scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
             name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
             why = "(v_c/α v_0)² and α² of it, and cells"
-            checks.append(Check(name, scaled / mean, 1, 0.08 if quick else 0.05, why))
-    return checks
+            yield Check(name, scaled / mean, 1, 0.08 if quick else 0.05, why)
 
 
 # --- figures ---

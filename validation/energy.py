@@ -22,7 +22,7 @@ from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
 from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import span
 
 LEVELS = tuple(
@@ -132,8 +132,7 @@ def claim(effort: str) -> Claim:
     )
 
 
-def _full_slip_checks(effort: str) -> list[Check]:
-    checks = []
+def _full_slip_checks(effort: str) -> Checks:
     why = "h², h = 2π/1024: each term is a sum over the steps of the period"
     shapes = ("flat punch", "paraboloid") if effort != "quick" else ("flat punch",)
     for shape in shapes:
@@ -146,14 +145,12 @@ def _full_slip_checks(effort: str) -> list[Check]:
                 if expected > 1e-9 * run.energy_balance.pull_work:
                     got = getattr(run.energy_balance, term) / expected
                     # the damper belongs to the body, whose response to the force is resolved with its own oscillation
-                    checks.append(
-                        Check(
-                            f"full slip, {shape}, ωτ = {T:g}: {term.replace('_', ' ')} over its integral",
-                            got,
-                            1.0,
-                            (4 if term == "damper_loss" else 1) * STEP,
-                            why + ("; twice for a square, twice for the body" if term == "damper_loss" else ""),
-                        )
+                    yield Check(
+                        f"full slip, {shape}, ωτ = {T:g}: {term.replace('_', ' ')} over its integral",
+                        got,
+                        1.0,
+                        (4 if term == "damper_loss" else 1) * STEP,
+                        why + ("; twice for a square, twice for the body" if term == "damper_loss" else ""),
                     )
     case = contact("flat punch", 0.3, 1.0, **SPRING)
     run = mdr.slide(
@@ -161,16 +158,13 @@ def _full_slip_checks(effort: str) -> list[Check]:
     )
     omega, du_z, kappa = case.oscillation.omega, case.oscillation.du_z, case.material.mindlin_ratio
     viscous = np.pi * case.gamma_zc * omega * du_z**2 * (1 + case.mu_0**2 * kappa)
-    checks.append(
-        Check(
-            "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)",
-            run.energy_balance.viscous_loss / viscous,
-            1.0,
-            STEP,
-            why,
-        )
+    yield Check(
+        "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)",
+        run.energy_balance.viscous_loss / viscous,
+        1.0,
+        STEP,
+        why,
     )
-    return checks
 
 
 def _figure(balances: list[Balance]) -> Figure:

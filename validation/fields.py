@@ -29,7 +29,7 @@ from mdr.normal.partial_slip import partial_slip, tangential_loop
 from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, shape_label
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 BODY = mdr.Elastic(E=E, nu=0.5)
 MU_0 = 0.5
@@ -115,8 +115,7 @@ def claim(effort: str) -> Claim:
 # --- checks ---
 
 
-def _mindlin_checks(n: int) -> list[Check]:
-    checks = []
+def _mindlin_checks(n: int) -> Checks:
     for share in SHARES[:3]:
         row, c = Row("paraboloid", n), RADIUS * math.sqrt(1 - share)
         row.to(share * FULL)
@@ -126,18 +125,13 @@ def _mindlin_checks(n: int) -> list[Check]:
         tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
         name = f"paraboloid pulled to {share:g} of full slip"
         why = f"a kink within a cell h = a/{n}: off by the root of h over a width h, which is h in the mean square"
-        checks.append(
-            Check.at_most(f"{name}: traction of {n} springs, one by one", off(tau, mindlin(r, c), weight), 2 / n, why)
-        )
+        yield Check.at_most(f"{name}: traction of {n} springs, one by one", off(tau, mindlin(r, c), weight), 2 / n, why)
         why = "the first spring that slips stands within one spacing"
-        checks.append(Check(f"{name}: stick radius over a", row.stick_radius / RADIUS, c / RADIUS, 1 / n, why))
+        yield Check(f"{name}: stick radius over a", row.stick_radius / RADIUS, c / RADIUS, 1 / n, why)
         pulled = partial_slip(SHAPES["paraboloid"], BODY, MU_0, DEPTH, share * FULL)
         found = surface_fields(pulled, r)
         worst = float(np.max(np.abs(found.traction - mindlin(r, c)))) / (MU_0 * P_0)
-        checks.append(
-            Check.at_most(f"{name}: traction of partial_slip over mu_0 p_0", worst, 1e-12, "closed on both sides")
-        )
-    return checks
+        yield Check.at_most(f"{name}: traction of partial_slip over mu_0 p_0", worst, 1e-12, "closed on both sides")
 
 
 def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
@@ -158,31 +152,28 @@ def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
     return surface_fields(run, r), r, c
 
 
-def _run_checks(effort: str) -> list[Check]:
+def _run_checks(effort: str) -> Checks:
     n = 1024 if effort == "quick" else 2048
     found, r, c = run_fields(n)
     core = n // 8  # springs of a run crowd at the edge of the contact
     weight = disc(c)[1]
     why = f"a/{core} is the spacing of the springs inside; the edge slips to and fro with the oscillation"
-    return [
-        Check(
-            f"sliding run of {n} springs: stick radius over a", found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why
-        ),
-        Check.at_most(
-            f"sliding run of {n} springs: traction, mean square", off(found.traction, mindlin(r, c), weight), 5e-3, why
-        ),
-        Check(
-            f"sliding run of {n} springs: integral of traction over F_x",
-            float(np.sum(weight * found.traction)) / found.F_x,
-            1.0,
-            1e-3,
-            "quadrature over the kinks of straight lines, and an edge a thousandth further out",
-        ),
-    ]
+    yield Check(
+        f"sliding run of {n} springs: stick radius over a", found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why
+    )
+    yield Check.at_most(
+        f"sliding run of {n} springs: traction, mean square", off(found.traction, mindlin(r, c), weight), 5e-3, why
+    )
+    yield Check(
+        f"sliding run of {n} springs: integral of traction over F_x",
+        float(np.sum(weight * found.traction)) / found.F_x,
+        1.0,
+        1e-3,
+        "quadrature over the kinks of straight lines, and an edge a thousandth further out",
+    )
 
 
-def _sum_checks() -> list[Check]:
-    checks = []
+def _sum_checks() -> Checks:
     for shape, indenter in SHAPES.items():
         pulled = partial_slip(indenter, BODY, MU_0, DEPTH, FULL * np.array(SHARES))
         worst = 0.0
@@ -192,20 +183,16 @@ def _sum_checks() -> list[Check]:
             worst = max(worst, abs(float(np.sum(weight * found.pressure)) / pulled.F_z - 1))
             worst = max(worst, abs(float(np.sum(weight * found.traction)) / float(pulled.F_x[i]) - 1))
         why = "Gauss quadrature with nodes that crowd at tip, edge and stick radius"
-        checks.append(Check.at_most(f"{shape}: p and traction over the disc against F_N and F_x", worst, 1e-6, why))
+        yield Check.at_most(f"{shape}: p and traction over the disc against F_N and F_x", worst, 1e-6, why)
         run = indent(indenter, BODY, [0, 1], [0, DEPTH], record=True)
         r, weight = disc()
         found = surface_fields(run, r)
         p = np.asarray(indenter.pressure(r, DEPTH, BODY.E_star))
         why = "straight lines between 3000 knots"
-        checks.append(
-            Check.at_most(f"{shape}: p of the springs, mean square", off(found.pressure, p, weight), 1e-4, why)
-        )
-    return checks
+        yield Check.at_most(f"{shape}: p of the springs, mean square", off(found.pressure, p, weight), 1e-4, why)
 
 
-def _loop_checks(n: int) -> list[Check]:
-    checks = []
+def _loop_checks(n: int) -> Checks:
     w = np.linspace(0, 1, 41)
     for shape in SHAPES:
         worst = 0.0
@@ -217,7 +204,7 @@ def _loop_checks(n: int) -> list[Check]:
             turns = np.concatenate([back[0] - back, again - again[0]])
             worst = max(worst, float(np.max(np.abs(turns - np.tile(2 * first, 2)))) / (MU_0 * row.limit.sum()))
         why = f"sums of {n} springs that were never told the rule, over mu_0 F_N"
-        checks.append(Check.at_most(f"{shape}: Masing's rule, twice the force for twice the way", worst, 1e-10, why))
+        yield Check.at_most(f"{shape}: Masing's rule, twice the force for twice the way", worst, 1e-10, why)
     for share in SHARES[:3]:
         loop = tangential_loop(SHAPES["paraboloid"], BODY, MU_0, DEPTH, share * FULL)
         F_N, theta = float(loop.F_z), 1 - share
@@ -225,24 +212,23 @@ def _loop_checks(n: int) -> list[Check]:
         loss = 18 / 5 * (MU_0 * F_N) ** 2 / (BODY.G_star * RADIUS)
         loss *= 1 - theta**2.5 - 5 * T / (6 * MU_0 * F_N) * (1 + theta)
         name = f"paraboloid, loop of {share:g} of full slip: loss over Mindlin and Deresiewicz"
-        checks.append(Check(name, loop.loss / loss, 1.0, 1e-9, "closed on both sides, up to one quadrature"))
+        yield Check(name, loop.loss / loss, 1.0, 1e-9, "closed on both sides, up to one quadrature")
         row, way = Row("paraboloid", n), share * FULL * np.cos(np.linspace(0, 2 * np.pi, 4001))
         row.to(way[0])
         F = np.array([row.to(u) for u in way])
         got = abs(float(np.sum(np.diff(way) * (F[1:] + F[:-1]) / 2))) / loss
         why = "trapezoids on 4000 steps, cells that slip as a whole"
-        checks.append(Check(f"{name}, {n} springs", got, 1.0, 1e-4, why))
-    return checks
+        yield Check(f"{name}, {n} springs", got, 1.0, 1e-4, why)
 
 
-def _surface_checks() -> list[Check]:
+def _surface_checks() -> Checks:
     r = RADIUS * np.linspace(1.001, 5, 60)
     ratio = r / RADIUS
     hertz = DEPTH / math.pi * ((2 - ratio**2) * np.arcsin(1 / ratio) + np.sqrt(ratio**2 - 1))
     run = indent(SHAPES["paraboloid"], BODY, [0, 1], [0, DEPTH], record=True)
     outside = float(np.max(np.abs(np.asarray(surface_fields(run, r).u_z) / hertz - 1)))
     why = "second order in 3000 knots"
-    return [Check.at_most("paraboloid: surface outside the contact against Hertz", outside, 1e-5, why)]
+    yield Check.at_most("paraboloid: surface outside the contact against Hertz", outside, 1e-5, why)
 
 
 # --- figures ---

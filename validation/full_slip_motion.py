@@ -18,7 +18,7 @@ from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import full_slip
 from mdr.tools.arrays import Array
 from validation.cases import contact
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 #: alpha, T, k_x/k_xc, omega_0/omega of the flat punch; it keeps contact in all
 PUNCHES = ((0.5, 0.0, 0.5, 0.7), (0.5, 0.5, 0.5, 0.7), (0.2, 3.0, 3.0, 1.6), (0.3, 1.0, 1.0, 0.0))
@@ -107,16 +107,7 @@ def follow(punch: tuple[float, float, float, float], steps: int) -> Motion:
     closed_foot = theory.eq_13(t, 0.0, *motion, case.k_zc, case.gamma_zc, kappa, pull.k_x, pull.m)
     stretched = theory.eq_12(t, *motion, kappa)
     slip = theory.eq_14(
-        t,
-        v_0,
-        case.mu_0,
-        oscillation.du_z,
-        oscillation.omega,
-        case.k_zc,
-        case.gamma_zc,
-        kappa,
-        pull.k_x,
-        pull.m,
+        t, v_0, case.mu_0, oscillation.du_z, oscillation.omega, case.k_zc, case.gamma_zc, kappa, pull.k_x, pull.m
     )
     step = oscillation.period / steps
     return Motion(
@@ -140,17 +131,15 @@ def _name(punch: tuple[float, float, float, float]) -> str:
     return f"ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}, k_x/k_xc = {k_ratio:g}, {body}"
 
 
-def _motion_checks(name: str, refined: list[Motion], steps: tuple[int, ...]) -> list[Check]:
+def _motion_checks(name: str, refined: list[Motion], steps: tuple[int, ...]) -> Checks:
     finest = refined[-1]
     offset = max(
         abs(np.mean(got) / np.mean(closed) - 1)
         for got, closed in ((finest.y, finest.y_closed), (finest.foot, finest.foot_closed))
     )
     rounding = "roundings of 2e-16 of a travel that is ten times the offset, over thousands of steps"
-    checks = [
-        Check.at_most(f"mean offset of u_x and u_xc, Eqs. (10), (13): {name}", offset, 1e-10, rounding),
-        Check.at_most(f"extension, Eq. (12): {name}", finest.extension, 1e-10, rounding),
-    ]
+    yield Check.at_most(f"mean offset of u_x and u_xc, Eqs. (10), (13): {name}", offset, 1e-10, rounding)
+    yield Check.at_most(f"extension, Eq. (12): {name}", finest.extension, 1e-10, rounding)
     what = ("harmonic of u_x, Eq. (10)", "harmonic of u_xc, Eq. (13)", "slip velocity, Eq. (14)")
     reasons = (
         "h²/3: a rate from three backward values; force and impulse of a step err by less",
@@ -159,15 +148,12 @@ def _motion_checks(name: str, refined: list[Motion], steps: tuple[int, ...]) -> 
     )
     for k in range(3):
         error, bound = finest.errors[k], finest.bounds[k]
-        checks.append(Check.at_most(f"{what[k]}, {steps[-1]} steps: {name}", error, bound, reasons[k]))
+        yield Check.at_most(f"{what[k]}, {steps[-1]} steps: {name}", error, bound, reasons[k])
     order = min(-np.polyfit(np.log(steps), np.log([m.errors[k] for m in refined]), 1)[0] for k in range(3))
     why = "least-squares slope; the next order in h = 0.1 at 64 steps bends it by less"
-    checks.append(Check(f"least order in the step of the three: {name}", order, 2.0, 0.1, why))
+    yield Check(f"least order in the step of the three: {name}", order, 2.0, 0.1, why)
     why = "the mean over a step misses the least value by h²/6, and the body's h²/3"
-    checks.append(
-        Check(f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, finest.bounds[2], why)
-    )
-    return checks
+    yield Check(f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, finest.bounds[2], why)
 
 
 def _from_rest() -> Check:
@@ -187,21 +173,15 @@ def _from_rest() -> Check:
     )
 
 
-def _force_checks(effort: str) -> list[Check]:
+def _force_checks(effort: str) -> Checks:
     counts = (64, 128, 256) if effort == "quick" else (64, 128, 256, 512, 1024)
-    checks = []
     for T in (0.0, 1.0):
         case = contact("paraboloid", 0.2, T)
         exact = np.roll(full_slip(case, 512).F_N, -1)
         offs, means = [], []
         for n_springs in counts:
             run: Any = mdr.slide(
-                case,
-                2 * mdr.critical_velocity(case),
-                n_springs=n_springs,
-                steps_per_period=512,
-                n_periods=8,
-                record=1,
+                case, 2 * mdr.critical_velocity(case), n_springs=n_springs, steps_per_period=512, n_periods=8, record=1
             )
             offs.append((run.F_z - exact) / exact.mean())
             means.append(abs(run.mean_F_z / exact.mean() - 1))
@@ -217,22 +197,13 @@ def _force_checks(effort: str) -> list[Check]:
             bound = float(np.max((springs.dk_z * rise)[band])) / 8 * 1.05 / exact.mean()
             why = "dk dg/8 of the widest cell that is half in contact; g bends within it by less than 5 %"
         worst = float(np.max(np.abs(offs[-1])))
-        checks.append(Check.at_most(f"greatest error of F_N(t), {counts[-1]} springs: {name}", worst, bound, why))
+        yield Check.at_most(f"greatest error of F_N(t), {counts[-1]} springs: {name}", worst, bound, why)
         order = -np.polyfit(np.log(counts), np.log([np.sqrt(np.mean(off**2)) for off in offs]), 1)[0]
         why = "first order: a dashpot resists at once" if T else "second order: an elastic spring starts from zero"
-        checks.append(
-            Check(
-                f"order in springs of F_N(t): {name}",
-                order,
-                1.0 if T else 2.0,
-                0.1,
-                why + "; slope of a line",
-            )
-        )
+        yield Check(f"order in springs of F_N(t): {name}", order, 1.0 if T else 2.0, 0.1, why + "; slope of a line")
         order = -np.polyfit(np.log(counts), np.log(means), 1)[0]
         why = "the mean over the period is of second order either way; kinks between nodes make single ratios erratic"
-        checks.append(Check(f"order in springs of the mean force: {name}", order, 2.0, 0.2, why))
-    return checks
+        yield Check(f"order in springs of the mean force: {name}", order, 2.0, 0.2, why)
 
 
 # --- figures ---
@@ -247,10 +218,7 @@ def _motion_figure() -> Figure:
     phase = np.arange(1, motion.y.size + 1) * motion.h / (2 * np.pi)
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.9))
-        rows = (
-            ("body $u_x-v_0t$", motion.y, motion.y_closed),
-            ("foot $u_{xc}-v_0t$", motion.foot, motion.foot_closed),
-        )
+        rows = (("body $u_x-v_0t$", motion.y, motion.y_closed), ("foot $u_{xc}-v_0t$", motion.foot, motion.foot_closed))
         for (label, got, closed), colour in zip(rows, COLOURS, strict=False):
             left.plot(phase, closed * 1e6, color=colour, label=f"{label}, closed form")
             left.plot(phase[::8], got[::8] * 1e6, "o", mfc="white", mec=colour, ms=4.5)

@@ -24,7 +24,7 @@ from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space import rings
 from validation.half_space.benchmarks import PartialSlip, cattaneo_mindlin, hertz, punch, spence
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 SHARES = (0.2, 0.5, 0.8)  #: of the way to full slip
 SPENCE = ((0.0, 0.3), (0.0, 0.6), (0.15, 0.3), (0.3, 0.3))  #: nu, mu_0
@@ -67,26 +67,23 @@ def claim(effort: str) -> Claim:
 # --- checks ---
 
 
-def _normal_checks(quick: bool) -> list[Check]:
+def _normal_checks(quick: bool) -> Checks:
     n = 32 if quick else 64
-    checks = [Check(f"Hertz, force on {n}² cells, over 4/3 E* a d", hertz(n), 1, 5e-4 if quick else 1e-4, "O(h)")]
+    yield Check(f"Hertz, force on {n}² cells, over 4/3 E* a d", hertz(n), 1, 5e-4 if quick else 1e-4, "O(h)")
     if not quick:
         falls = [abs(hertz(n) - 1) for n in (16, 64)]
         order = float(np.log(falls[0] / falls[1]) / np.log(4))
-        checks.append(Check.at_least("Hertz, order in the cell size from 16² to 64²", order, 1.0, "a kinked edge"))
+        yield Check.at_least("Hertz, order in the cell size from 16² to 64²", order, 1.0, "a kinked edge")
         falls = [abs(punch(n, 0.0)[0] - 1) for n in (32, 64)]
         order = float(np.log2(falls[0] / falls[1]))
-        checks.append(Check("flat punch, order in the cell size from 32² to 64²", order, 1, 0.2, "infinite pressure"))
+        yield Check("flat punch, order in the cell size from 32² to 64²", order, 1, 0.2, "infinite pressure")
     for nu in (0.0,) if quick else (0.0, 0.3, 0.45):
         smooth, bonded = (extrapolated(lambda n, i=i, nu=nu: punch(n, nu)[i]) for i in (0, 1))
         known = np.log(3 - 4 * nu) * (1 - nu) / (1 - 2 * nu)
         why = "from 32² and 64² cells, in the first power of their size"
         if not nu:
-            checks.append(Check("flat punch, force over 2 E* a d", smooth, 1, 1e-3, why))
-        checks.append(
-            Check(f"flat punch, bonded over smooth, ν = {nu:g}, over Mossakovskii's", bonded / known, 1, 1e-3, why)
-        )
-    return checks
+            yield Check("flat punch, force over 2 E* a d", smooth, 1, 1e-3, why)
+        yield Check(f"flat punch, bonded over smooth, ν = {nu:g}, over Mossakovskii's", bonded / known, 1, 1e-3, why)
 
 
 def extrapolated(at: Callable[[int], float]) -> float:
@@ -94,36 +91,24 @@ def extrapolated(at: Callable[[int], float]) -> float:
     return 2 * at(64) - at(32)
 
 
-def _slip_checks(slips: dict[float, list[PartialSlip]], n: int) -> list[Check]:
-    checks = []
+def _slip_checks(slips: dict[float, list[PartialSlip]], n: int) -> Checks:
     for share, one in zip(SHARES, slips[0.0], strict=True):
         name = f"Cattaneo and Mindlin, ν = 0, {share:g} of full slip"
-        checks += [
-            Check(f"{name}: F_x/(μ_0 F_z)", one.force, one.closed_form, 6e-3 / n, "of the cells; 1e-3 asked"),
-            Check(f"{name}: stick radius over a", one.stick, np.sqrt(1 - share), 0.01, "areas in whole cells"),
-        ]
-        checks.append(
-            Check.at_most(f"{name}: traction, over μ_0 p_0", one.traction, 3 / n, "infinite slope within a cell")
-        )
+        yield Check(f"{name}: F_x/(μ_0 F_z)", one.force, one.closed_form, 6e-3 / n, "of the cells; 1e-3 asked")
+        yield Check(f"{name}: stick radius over a", one.stick, np.sqrt(1 - share), 0.01, "areas in whole cells")
+        yield Check.at_most(f"{name}: traction, over μ_0 p_0", one.traction, 3 / n, "infinite slope within a cell")
     for nu in (0.3, 0.5):
         most = max(abs(one.force - one.closed_form) for one in slips[nu])
-        checks.append(
-            Check.at_most(
-                f"transverse slip left out, ν = {nu:g}: ΔF_x/(μ_0 F_z)",
-                most,
-                0.1 * nu / (4 - 2 * nu),
-                "of second order",
-            )
+        yield Check.at_most(
+            f"transverse slip left out, ν = {nu:g}: ΔF_x/(μ_0 F_z)", most, 0.1 * nu / (4 - 2 * nu), "of second order"
         )
         most = max(one.transverse for one in slips[nu])
-        checks.append(
-            Check.at_most(f"transverse slip left out, ν = {nu:g}: q_y/(μ_0 p_0)", most, nu / (4 - 2 * nu), "its order")
+        yield Check.at_most(
+            f"transverse slip left out, ν = {nu:g}: q_y/(μ_0 p_0)", most, nu / (4 - 2 * nu), "its order"
         )
-    return checks
 
 
-def _spence_checks(cases: Any, quick: bool) -> list[Check]:
-    checks = []
+def _spence_checks(cases: Any, quick: bool) -> Checks:
     for nu, mu_0 in cases:
         known = rings.stick_radius(_beta(nu), mu_0)
         got = {"flat punch": np.mean([spence(n, nu, mu_0) for n in ((32,) if quick else (48, 64))])}
@@ -132,14 +117,13 @@ def _spence_checks(cases: Any, quick: bool) -> list[Check]:
         why = "areas in whole cells; 2 % asked"
         for shape, radius in got.items():
             name = f"Spence, {shape}, ν = {nu:g}, μ_0 = {mu_0:g}: stick radius over that of the equations"
-            checks.append(Check(name, float(radius) / known, 1, 0.02, why))
+            yield Check(name, float(radius) / known, 1, 0.02, why)
     for nu, mu_0 in SPENCE:
         beta = _beta(nu)
         name = f"the equations, u_z by friction left out, ν = {nu:g}, μ_0 = {mu_0:g}: over the closed form"
-        checks.append(
-            Check(name, rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0), 1, 1e-5, "100 nodes")
+        yield Check(
+            name, rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0), 1, 1e-5, "100 nodes"
         )
-    return checks
 
 
 def _beta(nu: float) -> float:
@@ -152,11 +136,11 @@ def _stepped(steps: int) -> float:
     return in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), settings).cof / case.mu_0
 
 
-def _order_checks(quick: bool) -> list[Check]:
+def _order_checks(quick: bool) -> Checks:
     n = 20 if quick else 40
     first, second = (_stepped(m) - _stepped(2 * m) for m in (n, 2 * n))
     name = f"COF with coupling, change from {n} to {2 * n} steps over that from {2 * n} to {4 * n}"
-    return [Check.between(name, first / second, 1.5, 4.5, "implicit steps: 2 for the first order, 4 for the second")]
+    yield Check.between(name, first / second, 1.5, 4.5, "implicit steps: 2 for the first order, 4 for the second")
 
 
 # --- figure ---

@@ -22,7 +22,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
 from validation.cases import DAMPING, LOOKS, SHAPES, STIFFNESS, contact, driven, loss, shape_label
 from validation.measured import SHARP, Measured, deviation, worst
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 from validation.words import counted, listed, percent, ranged
 
 RATIOS = (0.6, 1.5, 2.5)  # omega_0/omega
@@ -157,9 +157,9 @@ _EQUATIONS = (
 )
 
 
-def _rigid_checks(points: list[Point]) -> list[Check]:
+def _rigid_checks(points: list[Point]) -> Checks:
     why = "bracket of 2e-5 of the measurement and h²/6 = 6e-6 of the mean over a step"
-    return [
+    yield from (
         Check(
             f"measured v_c over Eq. (1), worst of {len(here)} shapes: ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}",
             worst((p.over_rigid for p in here), laws.late_return(1 / alpha, T)),
@@ -169,47 +169,40 @@ def _rigid_checks(points: list[Point]) -> list[Check]:
         )
         for alpha, T in dict.fromkeys((p.alpha, p.T) for p in points)
         for here in [[p for p in points if (p.alpha, p.T) == (alpha, T)]]
-    ]
+    )
 
 
-def _limit_checks() -> list[Check]:
+def _limit_checks() -> Checks:
     """alpha_1(T) from its formula against the edge of the library, and for a very slow material."""
-    checks = []
     for T in (1.0, 10.0, 30.0, 100.0):
         name = f"α_1, where Eq. (1) ends, times u_z0/Δu_z of a centre that touches at −π/2: ωτ = {T:g}"
         touched = -float(contact_edge(np.array(1.5 * np.pi), T))
-        checks.append(
-            Check(name, laws.amplitude_limit(T) * touched, 1.0, 1e-11, "a minimum against a root, both to 1e-12")
-        )
+        yield Check(name, laws.amplitude_limit(T) * touched, 1.0, 1e-11, "a minimum against a root, both to 1e-12")
     T, limit = 1e4, laws.slow_limit()
     why = "the next term of the exponential is θ/(2ωτ) of it, at tan θ = θ < 4.5"
-    checks.append(
-        Check(f"α_1 ωτ of a very slow material, ωτ = {T:g}", laws.amplitude_limit(T) * T, limit, limit * 2.25 / T, why)
+    yield Check(
+        f"α_1 ωτ of a very slow material, ωτ = {T:g}", laws.amplitude_limit(T) * T, limit, limit * 2.25 / T, why
     )
-    return checks
 
 
-def _onset_checks() -> list[Check]:
-    checks = []
+def _onset_checks() -> Checks:
     for T in (0.0, 1.0):
         edge = max(abs(_punch(0.0, T, r)) for r in RATIOS)
         why = "the force has one harmonic while contact is kept; rounding of its panels"
-        checks.append(Check.at_most(f"flat punch, {loss(T)}: |deviation| as α √(1 + T²) reaches 1", edge, 1e-9, why))
+        yield Check.at_most(f"flat punch, {loss(T)}: |deviation| as α √(1 + T²) reaches 1", edge, 1e-9, why)
         for ratio in (0.6, 2.5):
             law = (1e-9 / abs(laws.onset(lost_punch(1.0, T, ratio)))) ** (1 / (1.5 if T == 0 else 2))
             name = f"flat punch, {loss(T)}, ω_0 = {ratio:g} ω: α √(1 + T²) where |deviation| passes 1e-9"
             why = "1 + ε of the law (*); its next order is a few ε of it" if T == 0 else "its next order is a few √ε"
             next_order = 10 * law if T == 0 else 3 * np.sqrt(law)
-            checks.append(Check(name, 1 + reached(1e-9, T, ratio), 1 + law, float(next_order * law), why))
+            yield Check(name, 1 + reached(1e-9, T, ratio), 1 + law, float(next_order * law), why)
             slope = np.log(_punch(1e-5, T, ratio) / _punch(1e-6, T, ratio)) / np.log(10)
             name = f"flat punch, {loss(T)}, ω_0 = {ratio:g} ω: power of ε in the deviation"
             why = "3/2, an impulse" if T == 0 else "2, a doublet as the impulse is repaid"
-            checks.append(Check(name, slope, 1.5 if T == 0 else 2, 0.01, why + "; the next order at ε = 1e-5"))
-    return checks
+            yield Check(name, slope, 1.5 if T == 0 else 2, 0.01, why + "; the next order at ε = 1e-5")
 
 
-def _slow_checks() -> list[Check]:
-    checks = []
+def _slow_checks() -> Checks:
     for shape in SHAPES:
         for alpha in (0.2, 1.0):
             cases = {T: [driven(shape, alpha, T, ratio) for ratio in RATIOS] for T in (1e5, 1e6)}
@@ -218,56 +211,51 @@ def _slow_checks() -> list[Check]:
             next_order = 0.5 * 0.5 * 4 * np.pi * (1 + 1 / alpha) / 1e5 * max(RATIOS) ** 2
             name = f"{shape}, α = {alpha:g}, ωτ = 100000: worst |full-slip value over (**) − 1| of {len(RATIOS)} ω_0/ω"
             why = "the next order of a blow, (ω_0 δ/ω)²/4"
-            checks.append(Check.at_most(name, max(map(abs, off[1e5])), next_order, why))
+            yield Check.at_most(name, max(map(abs, off[1e5])), next_order, why)
             powers = [float(-np.log10(b / a)) for a, b in zip(off[1e5], off[1e6], strict=True)]
             name = f"{shape}, α = {alpha:g}: power of 1/ωτ in that, worst of {len(RATIOS)} ω_0/ω"
             why = "(**) leaves out 1/ωτ; the next term, (ωτ)^{−1/2} of it, at ωτ = 100 000"
-            checks.append(Check(name, max(powers, key=lambda p: abs(p - 1)), 1.0, 0.05, why))
+            yield Check(name, max(powers, key=lambda p: abs(p - 1)), 1.0, 0.05, why)
     light = [laws.blow(one) / laws.half_a_blow(one) for r in RATIOS for one in [_light("paraboloid", r)]]
     name = "(**) over π μ_0 F_N(u_z0 + Δu_z)/(mω) without damper, ωτ = 1e10, worst of three ω_0/ω"
     why = "what is left of the (ωτ)^{−1/2} term"
-    checks.append(Check(name, max(light, key=lambda v: abs(v - 1)), 1.0, 5e-5, why))
+    yield Check(name, max(light, key=lambda v: abs(v - 1)), 1.0, 5e-5, why)
     for n in (1, 2):
         case = driven("cone", 1.0, 1e8, n / np.sqrt(1 - DAMPING**2))
         add_up = 2 / -np.expm1(-2 * np.pi * n * DAMPING / np.sqrt(1 - DAMPING**2))
         name = f"cone, ωτ = 1e8, free oscillation at {n}ω: full-slip value over π μ_0 F_N(u_z0 + Δu_z)/(mω)"
         why = "2/[1 − exp(−2πnζ)], blows that add up; (ωτ)^{−1/2} of it"
-        checks.append(
-            Check(name, mdr.full_slip_critical_velocity(case) / laws.half_a_blow(case), add_up, 1e-3 * add_up, why)
-        )
-    return checks
+        yield Check(name, mdr.full_slip_critical_velocity(case) / laws.half_a_blow(case), add_up, 1e-3 * add_up, why)
 
 
 def _light(shape: str, ratio: float) -> mdr.SlidingContact:
     return contact(shape, 1.0, 1e10, k_ratio=STIFFNESS, omega_0_ratio=ratio)
 
 
-def _body_checks(points: list[Point]) -> list[Check]:
+def _body_checks(points: list[Point]) -> Checks:
     why = "each measurement brings its bracket; both name one velocity"
     off = max(points, key=lambda p: abs(p.miss))
     least = min(points, key=lambda p: p.deviation)
-    return [
-        Check(
-            f"with a body: measured v_c of {len(points)} whose bracket misses the full-slip value",
-            sum(not p.in_bracket for p in points),
-            0,
-            0,
-            why,
-        ),
-        Check(
-            f"with a body: measured v_c over the full-slip value, worst of {len(points)} ({off.where})",
-            1 + off.miss,
-            1.0,
-            1e-4,
-            "what a measurement promises",
-        ),
-        Check.at_most(
-            f"with a body: least measured v_c over Eq. (15) ({least.where})",
-            1 + least.deviation,
-            0.5,
-            "Eq. (15) is off by far more than the measurement",
-        ),
-    ]
+    yield Check(
+        f"with a body: measured v_c of {len(points)} whose bracket misses the full-slip value",
+        sum(not p.in_bracket for p in points),
+        0,
+        0,
+        why,
+    )
+    yield Check(
+        f"with a body: measured v_c over the full-slip value, worst of {len(points)} ({off.where})",
+        1 + off.miss,
+        1.0,
+        1e-4,
+        "what a measurement promises",
+    )
+    yield Check.at_most(
+        f"with a body: least measured v_c over Eq. (15) ({least.where})",
+        1 + least.deviation,
+        0.5,
+        "Eq. (15) is off by far more than the measurement",
+    )
 
 
 # --- figures ---
@@ -282,10 +270,7 @@ def _rigid_figure(points: list[Point]) -> Figure:
         fig, (ax, where) = plt.subplots(1, 2, figsize=(9.6, 4.2))
         for T, colour in colours.items():
             ax.plot(
-                alphas,
-                [laws.late_return(1 / alpha, T) for alpha in alphas],
-                color=colour,
-                label=rf"$\omega\tau={T:g}$",
+                alphas, [laws.late_return(1 / alpha, T) for alpha in alphas], color=colour, label=rf"$\omega\tau={T:g}$"
             )
         for p in points:
             size = 5 + 2 * list(SHAPES).index(p.shape)

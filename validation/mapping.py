@@ -22,15 +22,12 @@ import mdr
 import mdr.indenters as shapes
 from mdr.tools.arrays import Array
 from validation.cases import CATALOGUE, DEPTH, OMEGA, RADIUS, SHAPES, E, contact, depth_of, shape_label
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 E_STAR = E / (1 - 0.5**2)  # of the rubber
 ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim
 PLACES = RADIUS * np.array([0.05, 0.4, 0.7, 0.95])  # within the contact, where the half-space is looked at
-AMPLITUDES = {
-    "quick": (1e-9, 1e-3, 0.3, 1.0, 2.0),
-    "full": (1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9, 1.0, 1.3, 2.0),
-}
+AMPLITUDES = {"quick": (1e-9, 1e-3, 0.3, 1.0, 2.0), "full": (1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9, 1.0, 1.3, 2.0)}
 
 
 def claim(effort: str) -> Claim:
@@ -133,9 +130,8 @@ def _off(got: Any, expected: Any) -> float:
     return float(np.max(np.abs(np.asarray(got) / np.asarray(expected) - 1)))
 
 
-def _shape_checks() -> list[Check]:
+def _shape_checks() -> Checks:
     depths = DEPTH * np.array([1e-6, 1e-3, 0.1, 1.0, 2.0])
-    checks = []
     for shape, indenter in SHAPES.items():
         a, F_N, k_zc = textbook(shape, depths)
         r = RADIUS * np.array([0.01, 0.2, 0.5, 0.8, 0.99])
@@ -147,37 +143,32 @@ def _shape_checks() -> list[Check]:
         )
         off = max(_off(got, expected) for got, expected in pairs)
         why = "closed forms on both sides: rounding, a hundred times larger next to the rim"
-        checks.append(Check.at_most(f"{shape}: a, F_N, k_zc, p against the textbook", off, ROUNDING, why))
+        yield Check.at_most(f"{shape}: a, F_N, k_zc, p against the textbook", off, ROUNDING, why)
         why = "Gauss quadrature of 200 nodes, smooth after r = a sin t with t graded towards the tip"
-        checks += _half_space_checks(shape, indenter, DEPTH, _sunk(indenter, DEPTH))
-    return checks
+        yield from _half_space_checks(shape, indenter, DEPTH, _sunk(indenter, DEPTH))
 
 
-def _catalogue_checks(sunk: dict[str, Array]) -> list[Check]:
+def _catalogue_checks(sunk: dict[str, Array]) -> Checks:
     """Put every shape of the catalogue on the half-space."""
-    checks = []
     for shape, indenter in CATALOGUE.items():
-        checks += _half_space_checks(shape, indenter, depth_of(indenter), sunk[shape])
-    return checks
+        yield from _half_space_checks(shape, indenter, depth_of(indenter), sunk[shape])
 
 
-def _half_space_checks(shape: str, indenter: mdr.Indenter, d: float, sunk: Array) -> list[Check]:
+def _half_space_checks(shape: str, indenter: mdr.Indenter, d: float, sunk: Array) -> Checks:
     disc = _disc(indenter, d) - 1
     off = float(np.max(np.abs(sunk - d + np.asarray(indenter.profile_3d(PLACES))))) / d
     pull = float(np.min(np.asarray(indenter.pressure(RADIUS * np.linspace(0.001, 0.999, 99), d, E_STAR))))
     rough = shape.startswith("force")
     why = "Gauss quadrature of 200 nodes, smooth after r = a sin t with t graded towards tip and corners"
     why += "; the pressure of a force curve is promised to 2e-7" if rough else ""
-    return [
-        Check.at_most(f"{shape}: integral of p over the disc against F_N", abs(disc), 1e-6 if rough else 1e-10, why),
-        Check.at_most(
-            f"{shape}: half-space under p takes the shape d - f(r), over d",
-            off,
-            1e-6 if rough else 1e-7,
-            "quadrature over a logarithm: halving its nodes changes the sum by less",
-        ),
-        Check.at_least(f"{shape}: least p inside the contact [Pa]", pull, 0, "a contact without adhesion never pulls"),
-    ]
+    yield Check.at_most(f"{shape}: integral of p over the disc against F_N", abs(disc), 1e-6 if rough else 1e-10, why)
+    yield Check.at_most(
+        f"{shape}: half-space under p takes the shape d - f(r), over d",
+        off,
+        1e-6 if rough else 1e-7,
+        "quadrature over a logarithm: halving its nodes changes the sum by less",
+    )
+    yield Check.at_least(f"{shape}: least p inside the contact [Pa]", pull, 0, "a contact without adhesion never pulls")
 
 
 def _sunk(indenter: mdr.Indenter, d: float) -> Array:
@@ -200,11 +191,10 @@ def _disc(indenter: mdr.Indenter, d: float) -> float:
     return total / float(indenter.force(d, E_STAR))
 
 
-def _profile_checks() -> list[Check]:
+def _profile_checks() -> Checks:
     """Give each curved shape as a mere function f(r): the library then maps it by quadrature."""
     depths = DEPTH * np.array([1e-3, 0.1, 1.0, 2.0])
     r = RADIUS * np.array([0.01, 0.2, 0.5, 0.8, 0.99])
-    checks = []
     for shape in ("cone", "paraboloid", "r^4"):
         mapped = mdr.Profile(SHAPES[shape].profile_3d)
         a, F_N, k_zc = textbook(shape, depths)
@@ -215,14 +205,10 @@ def _profile_checks() -> list[Check]:
             _off(mapped.pressure(r, DEPTH, E_STAR), textbook_pressure(shape, r, DEPTH)),
         )
         why = "what Profile promises for a smooth f(r): its own estimate warns above 1e-9"
-        checks.append(
-            Check.at_most(f"{shape} as a function f(r): a, F_N, k_zc, p against the textbook", off, 1e-9, why)
-        )
-    return checks
+        yield Check.at_most(f"{shape} as a function f(r): a, F_N, k_zc, p against the textbook", off, 1e-9, why)
 
 
-def _sum_checks(amplitudes: tuple[float, ...]) -> list[Check]:
-    checks = []
+def _sum_checks(amplitudes: tuple[float, ...]) -> Checks:
     for shape in SHAPES:
         worst = {"F_N": 0.0, "k_zc": 0.0}
         for alpha in amplitudes:
@@ -234,26 +220,18 @@ def _sum_checks(amplitudes: tuple[float, ...]) -> list[Check]:
                     worst["F_N"] = max(worst["F_N"], abs(off) / (2 * E_STAR * RADIUS * DEPTH))
                     k_zc = k_zc if u_z > 0 else 0.0
                     worst["k_zc"] = max(
-                        worst["k_zc"],
-                        abs(springs.normal_stiffness(u_z, DEPTH) - k_zc) / (2 * E_STAR * RADIUS),
+                        worst["k_zc"], abs(springs.normal_stiffness(u_z, DEPTH) - k_zc) / (2 * E_STAR * RADIUS)
                     )
         for what, off in worst.items():
             scale = "2 E* a u_z0" if what == "F_N" else "2 E* a"
             name = f"{shape}: {what} of 16, 100 and 384 springs at u_z0 and u_z0 ± Δu_z, over {scale}"
-            checks.append(
-                Check.at_most(
-                    name,
-                    off,
-                    ROUNDING,
-                    "the panels end there and each keeps its mean depth: only rounding is left",
-                )
+            yield Check.at_most(
+                name, off, ROUNDING, "the panels end there and each keeps its mean depth: only rounding is left"
             )
-    return checks
 
 
-def _catalogue_sum_checks() -> list[Check]:
+def _catalogue_sum_checks() -> Checks:
     """Springs of every shape of the catalogue that can lose contact at its edge."""
-    checks = []
     for shape, indenter in CATALOGUE.items():
         if isinstance(indenter, shapes.ConcavePunch):  # never leaves in complete contact: F_N is linear in the depth
             continue
@@ -267,8 +245,7 @@ def _catalogue_sum_checks() -> list[Check]:
         )
         name = f"{shape}: F_N of 100 springs at u_z0 and u_z0 ± 0.3 u_z0, over 2 E* a u_z0"
         why = "the panels end there and each keeps its mean depth: only rounding is left"
-        checks.append(Check.at_most(name, off / (2 * E_STAR * a * u_z0), ROUNDING, why))
-    return checks
+        yield Check.at_most(name, off / (2 * E_STAR * a * u_z0), ROUNDING, why)
 
 
 def _errors(shape: str, alpha: float, counts: tuple[int, ...]) -> tuple[Array, Array]:
@@ -291,34 +268,22 @@ def _errors(shape: str, alpha: float, counts: tuple[int, ...]) -> tuple[Array, A
     return np.array(errors) / scale, np.array(bounds) / scale
 
 
-def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> list[Check]:
-    checks = []
+def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> Checks:
     for shape, (errors, bounds) in orders.items():
         order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
         why = "slope of a least-squares line; panels share out whole springs, which bends it by a few hundredths"
-        checks.append(
-            Check(
-                f"{shape}: order in the number of springs of F_N(u_z) between the extremes",
-                order,
-                2.0,
-                0.1,
-                why,
-            )
-        )
+        yield Check(f"{shape}: order in the number of springs of F_N(u_z) between the extremes", order, 2.0, 0.1, why)
         why = (
             "a cell of stiffness dk over which g rises by dg errs by dk dg/8 when half of it touches; g bends"
             " within a cell by less than 5 %"
         )
-        checks.append(
-            Check(
-                f"{shape}: greatest error of F_N over that of its widest cell, {counts[-1]} springs",
-                errors[-1] / bounds[-1],
-                1.0,
-                0.05,
-                why,
-            )
+        yield Check(
+            f"{shape}: greatest error of F_N over that of its widest cell, {counts[-1]} springs",
+            errors[-1] / bounds[-1],
+            1.0,
+            0.05,
+            why,
         )
-    return checks
 
 
 # --- figures ---
@@ -343,14 +308,7 @@ def _pressure_figure() -> Figure:
                 color=colour,
                 label=shape_label(shape),
             )
-            left.plot(
-                few,
-                textbook_pressure(shape, few * RADIUS, DEPTH) / mean,
-                "o",
-                mfc="white",
-                mec=colour,
-                ms=4.5,
-            )
+            left.plot(few, textbook_pressure(shape, few * RADIUS, DEPTH) / mean, "o", mfc="white", mec=colour, ms=4.5)
             right.loglog(d * 1e6, np.asarray(indenter.force(d, E_STAR)), color=colour)
             right.loglog(some * 1e6, textbook(shape, some)[1], "o", mfc="white", mec=colour, ms=4.5)
         left.set(

@@ -22,7 +22,7 @@ import numpy as np
 import mdr
 from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
 from validation.measured import TOLERANCE
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import number, span
 
 Point = tuple[mdr.SlidingContact, mdr.MeasuredVelocity]
@@ -148,7 +148,7 @@ def measured(ratio: float, loss: float) -> Point:
 # --- checks ---
 
 
-def _checks_of_v_c(study: mdr.Study, points: list[Point]) -> list[Check]:
+def _checks_of_v_c(study: mdr.Study, points: list[Point]) -> Checks:
     why = "a study computes what the function does"
     tau, omega = study.axes["material.tau"], study.axes["oscillation.omega"]
     off = 0.0
@@ -156,24 +156,21 @@ def _checks_of_v_c(study: mdr.Study, points: list[Point]) -> list[Check]:
         oscillation = replace(BODY.oscillation, omega=omega[j])
         case = replace(BODY, material=replace(BODY.material, tau=tau[i]), oscillation=oscillation)
         off = max(off, abs(study["v_c"][i, j] / mdr.critical_velocity(case) - 1))
-    checks = [
-        Check.at_most(
-            "v_c in the study against critical_velocity(), two corners and the middle, worst", off, 1e-13, why
-        )
-    ]
+    yield Check.at_most(
+        "v_c in the study against critical_velocity(), two corners and the middle, worst", off, 1e-13, why
+    )
     for case, found in points:
         where = f"ω/ω_0 = {case.oscillation.omega / OMEGA:g}, ω_0 τ = {case.material.tau * OMEGA:g}"
         got = np.nan if found.v_c is None else found.v_c / mdr.full_slip_critical_velocity(case)
         why = "half the bracket of the measurement, and its step to second order"
-        checks.append(Check(f"measured v_c over that of full slip: {where}", got, 1.0, TOLERANCE, why))
+        yield Check(f"measured v_c over that of full slip: {where}", got, 1.0, TOLERANCE, why)
     high = study.frame.shape[1] - 1
     why = f"the body moves by (ω_0/ω)² of what a spring would, and its viscous part by T/(k_x/k_x,c) of that: {1e-2:g}"
     got = study["v_c"][0, high] / study["eq_1"][0, high]
-    checks.append(Check("v_c over Eq. (1) at ω = 10 ω_0, nearly elastic", got, 1.0, 1e-2, why))
-    return checks
+    yield Check("v_c over Eq. (1) at ω = 10 ω_0, nearly elastic", got, 1.0, 1e-2, why)
 
 
-def _checks_of_cof(study: mdr.Study, what: str) -> list[Check]:
+def _checks_of_cof(study: mdr.Study, what: str) -> Checks:
     """Reduced below the full-slip v_c, full above it, and never falling; every point computed."""
     mu_0, cof, error = RIGID.mu_0, study["cof"], study["cof_error"]
     v = study.axes["v_0/v_c"] * study["v_c"] / study["full_slip_v_c"]  # over the full-slip v_c
@@ -186,12 +183,10 @@ def _checks_of_cof(study: mdr.Study, what: str) -> list[Check]:
     full = f"{what}: lost friction above the full-slip v_c, less twice its error, greatest"
     reduced = f"{what}: lost friction up to 0.95 of the full-slip v_c, over its error, least"
     rising = f"{what}: fall of μ/μ_0 from one velocity to the next, less both errors, greatest"
-    return [
-        Check.at_most(full, excess, 0.0, why),
-        Check.at_least(reduced, deficit, 3.0, "a deficit of three errors is there"),
-        Check.at_most(rising, fall, 0.0, "friction never falls with velocity"),
-        Check(f"{what}: points that failed or did not settle", bad, 0.0, 0.0, "all are to be computed"),
-    ]
+    yield Check.at_most(full, excess, 0.0, why)
+    yield Check.at_least(reduced, deficit, 3.0, "a deficit of three errors is there")
+    yield Check.at_most(rising, fall, 0.0, "friction never falls with velocity")
+    yield Check(f"{what}: points that failed or did not settle", bad, 0.0, 0.0, "all are to be computed")
 
 
 def _checks_of_half(halves: list[Half]) -> list[Check]:

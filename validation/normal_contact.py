@@ -23,7 +23,7 @@ import mdr
 from mdr.normal.indentation import Indentation, indent
 from mdr.plots import COLOURS, style
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import listed, ranged, span
 
 P = 20e-3  #: duration of a press [s]
@@ -158,8 +158,7 @@ def creep_depth(shape: str, FJ: Any) -> Any:
     return (0.75 * FJ / math.sqrt(indenter.R)) ** (2 / 3)
 
 
-def _creep_checks(effort: str) -> list[Check]:
-    checks = []
+def _creep_checks(effort: str) -> Checks:
     t = np.concatenate([[0.0], P * np.geomspace(1e-6, 1e4, 101)])
     fine = np.concatenate([[0.0], P * np.geomspace(1e-4, 1e3, 1000 if effort == "quick" else 4000)])
     for name, body in BODIES.items():
@@ -169,19 +168,17 @@ def _creep_checks(effort: str) -> list[Check]:
             expected = creep_depth(shape, LOAD * np.asarray(body.creep_compliance(t)))[1:]
             off = max(off, float(np.max(np.abs(run.u_z[1:] / expected - 1))))
         why = "while the contact grows both are sums of exponentials"
-        checks.append(Check.at_most(f"{name}: depth under a step of load, greatest relative error", off, 1e-6, why))
+        yield Check.at_most(f"{name}: depth under a step of load, greatest relative error", off, 1e-6, why)
     body = BODIES["standard solid"]
     for shape in ("flat punch", "cone", "paraboloid"):
         run = indent(SHAPES[shape], body, fine, creep_depth(shape, LOAD * np.asarray(body.creep_compliance(fine))))
         why = "the depth is straight between samples, and six springs share the load that falls off at the edge"
         off = float(np.max(np.abs(run.F_z / LOAD - 1)))
         tolerance = 1e-4 if effort != "quick" else 1e-3
-        checks.append(Check.at_most(f"{shape}: force of the springs that creep, over the load", off, tolerance, why))
-    return checks
+        yield Check.at_most(f"{shape}: force of the springs that creep, over the load", off, tolerance, why)
 
 
-def _relaxation_checks() -> list[Check]:
-    checks = []
+def _relaxation_checks() -> Checks:
     t = P * np.concatenate([[0.0], np.geomspace(1e-6, 1e4, 101)])
     for name, body in BODIES.items():
         off = 0.0
@@ -190,22 +187,19 @@ def _relaxation_checks() -> list[Check]:
             expected = float(SHAPES[shape].force(DEPTH, 1.0)) * np.asarray(body.relaxation_modulus(t))
             off = max(off, float(np.max(np.abs(run.F_z - expected)) / expected[0]))
         why = "all springs touch at once: exponentials on both sides"
-        checks.append(Check.at_most(f"{name}: force after a step of depth, over its start", off, 1e-12, why))
-    return checks
+        yield Check.at_most(f"{name}: force after a step of depth, over its start", off, 1e-12, why)
 
 
-def _press_checks(presses: dict[tuple[str, str, float], tuple[Indentation, Ting]]) -> list[Check]:
-    checks = []
+def _press_checks(presses: dict[tuple[str, str, float], tuple[Indentation, Ting]]) -> Checks:
     some = np.arange(0, N_SAMPLES + 1, 50)
     for (shape, kind, T), (run, ting) in presses.items():
         F = np.array([ting.force(t) for t in run.t[some]])
         off = float(np.max(np.abs(run.F_z[some] - F)) / F.max())
         name = f"{shape} on {kind}, T = {T:.3g}: press and release"
         why = "512 springs, and a sine of 2000 straight pieces"
-        checks.append(Check.at_most(f"{name}, force over its peak", off, 1e-3, why))
+        yield Check.at_most(f"{name}, force over its peak", off, 1e-3, why)
         last = run.t[np.flatnonzero(run.contact_radius)[-1]]
-        checks.append(Check(f"{name}, end of contact over P", last / P, ting.end / P, 1e-3, "two samples of P/2000"))
-    return checks
+        yield Check(f"{name}, end of contact over P", last / P, ting.end / P, 1e-3, "two samples of P/2000")
 
 
 # --- figures ---

@@ -19,7 +19,7 @@ from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
 SHOWN = 0.3  #: alpha of the figure
@@ -64,11 +64,7 @@ def claim(effort: str) -> Claim:
         sentence="Elastic, rigid pull: to first order in the amplitude every shape loses the friction of one spring,"
         " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order, for <i>r</i>^n, that times 1 + <i>C</i> Δu_z/(<i>n</i>"
         " u_z0).",
-        checks=(
-            *_exact_checks(law, 6 if quick else 25),
-            *_first_order_checks(),
-            *_order_checks(law, orders),
-        ),
+        checks=(*_exact_checks(law, 6 if quick else 25), *_first_order_checks(), *_order_checks(law, orders)),
         figures=(_figure(law),),
         equations=(
             Equation(
@@ -132,9 +128,8 @@ def spreads(law: OneCurve) -> tuple[float, float, float]:
 # --- checks ---
 
 
-def _exact_checks(law: OneCurve, n_v: int) -> list[Check]:
+def _exact_checks(law: OneCurve, n_v: int) -> Checks:
     """Punch and cone, by the closed form and by runs."""
-    checks = []
     run_at = one_curve(np.linspace(0.02, 0.98, n_v))
     for shape in ("flat punch", "cone"):
         for alpha in (0.03, 0.5, 0.98):
@@ -142,18 +137,16 @@ def _exact_checks(law: OneCurve, n_v: int) -> list[Check]:
             off = share * np.max(np.abs(left_over(shape, alpha, law, corrected=True)))
             what = f"1 − (k_zc Δu_z/⟨F_N⟩) ψ (1 + C Δu_z/(n u_z0)), worst: elastic {shape}, Δu_z/u_z0 = {alpha:g}"
             why = "what the closed form promises for an elastic contact"
-            checks.append(Check.at_most(f"COF/μ_0 in closed form against {what}", off, 1e-10, why))
+            yield Check.at_most(f"COF/μ_0 in closed form against {what}", off, 1e-10, why)
             runs = np.array([mdr.slide(case, v * mdr.critical_velocity(case)).cof for v in run_at.v])
             off = np.max(np.abs(runs / case.mu_0 - 1 + share * run_at.of(shape, alpha)))
             why = "what a run promises when it chooses step and springs itself"
-            checks.append(Check.at_most(f"COF/μ_0 of slide() against {what}", off, 1e-5, why))
-    return checks
+            yield Check.at_most(f"COF/μ_0 of slide() against {what}", off, 1e-5, why)
 
 
-def _first_order_checks() -> list[Check]:
+def _first_order_checks() -> Checks:
     """C from two small amplitudes, for every shape that has such a term."""
     near, far = 1e-3, 2e-3
-    checks = []
     law = one_curve(np.array([0.1, 0.3, 0.7]))
     slopes = [
         [POWERS[shape] * left_over(shape, alpha, law, corrected=False) / (alpha * law.psi) for alpha in (near, far)]
@@ -164,13 +157,12 @@ def _first_order_checks() -> list[Check]:
         worst = max(found[:, i], key=lambda value, C=law.C[i]: abs(value - C))
         name = f"first-order term C of the lost friction, worst of cone, paraboloid and r^4: v_0/v_c = {v:g}"
         why = "two amplitudes extrapolated leave their product, the next order, with a factor of order one"
-        checks.append(Check(name, worst, law.C[i], near * far, why))
+        yield Check(name, worst, law.C[i], near * far, why)
     why = "at rest the lag of a spring is its mean compression: 3/4 of that of the core; C rises from it like v_0/2"
-    checks.append(Check("C at v_0/v_c = 1e-9", laws.edge_band(1e-9), -0.25, 1e-8, why))
-    return checks
+    yield Check("C at v_0/v_c = 1e-9", laws.edge_band(1e-9), -0.25, 1e-8, why)
 
 
-def _order_checks(law: OneCurve, orders: dict[str, float]) -> list[Check]:
+def _order_checks(law: OneCurve, orders: dict[str, float]) -> Checks:
     """The power of alpha before and after the correction."""
     why = f"the next order is smaller by Δu_z/u_z0, at most {ALPHAS[-1]:g}, with a factor of order one"
     name = "power of Δu_z/u_z0 by which the scaled curve differs from"
@@ -186,7 +178,9 @@ def _order_checks(law: OneCurve, orders: dict[str, float]) -> list[Check]:
     n_2, n_4 = (1 / POWERS[shape] * (1 / POWERS[shape] - 1) for shape in ("paraboloid", "r^4"))
     name = f"what is left of r^4 over that of the paraboloid near rest, Δu_z/u_z0 = {alpha:g}, as (1/n)(1/n − 1)"
     why = "the next order is smaller by Δu_z/u_z0"
-    return [*before, *after, Check(name, second["r^4"] / second["paraboloid"], n_4 / n_2, alpha, why)]
+    yield from before
+    yield from after
+    yield Check(name, second["r^4"] / second["paraboloid"], n_4 / n_2, alpha, why)
 
 
 # --- figure ---

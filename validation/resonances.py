@@ -30,7 +30,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.progress import progress
 from validation.cases import contact, loss
 from validation.measured import TOLERANCE
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import listed, percent
 
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
@@ -142,31 +142,29 @@ def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | No
     return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case), found.kind
 
 
-def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> list[Check]:
+def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> Checks:
     found = sum(ends[knobs][0] is not None for knobs in driven)
     why = "the harmonic drives the body up to stick at any velocity"
-    checks = [Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)]
+    yield Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)
     whole = sum(not np.isinf(mdr.full_slip_critical_velocity(system(*knobs))) for knobs in driven)
-    checks.append(Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why))
+    yield Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why)
     for knobs in idle:
         why = "law of lock-in; read off the COF, by a fit through three velocities"
         law = laws.lock_in(knobs[2])
-        checks.append(Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why))
+        yield Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why)
     locked = sum((ends[knobs][0] or 1.0) < 0.99 for knobs in idle)
     name = f"of {len(idle)} undriven resonances those with full friction below Eq. (15)"
-    checks.append(Check(name, locked, len(idle), 0, "law of lock-in"))
-    return checks
+    yield Check(name, locked, len(idle), 0, "law of lock-in")
 
 
-def _damped_checks(damped: dict[Any, Any]) -> list[Check]:
+def _damped_checks(damped: dict[Any, Any]) -> Checks:
     worst = max(damped.values(), key=lambda end: abs(end[1] - 1))
     why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
     name = f"v_c over the full-slip value, damper of 1 %, worst of {len(damped)} resonances"
-    return [Check(name, worst[1], 1.0, TOLERANCE, why)]
+    yield Check(name, worst[1], 1.0, TOLERANCE, why)
 
 
-def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> list[Check]:
-    checks = []
+def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> Checks:
     for knobs in driven:
         for speed in speeds:
             got, error = reduction(*knobs, speed)
@@ -178,28 +176,22 @@ def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> list[Check]:
             why = (
                 "law of short pulses; their width adds up to 0.3 (v/v_c)^(-1/2), their size |F_n|/F_0; error of the run"
             )
-            checks.append(
-                Check(f"(1 − COF/μ_0) F_0/|F_n| at {speed} v_c: {_name(knobs)}", got / law, 1.0, tolerance, why)
-            )
+            yield Check(f"(1 − COF/μ_0) F_0/|F_n| at {speed} v_c: {_name(knobs)}", got / law, 1.0, tolerance, why)
     n_found = sum(not np.isnan(reduction(*knobs, v)[0]) for knobs in driven for v in speeds)
     why = (
         "a steady motion is solved for; the faintest harmonics drive too slowly at the highest speeds to be sure of it"
     )
-    checks.append(
-        Check.at_least(
-            f"runs of {len(driven) * len(speeds)} that are steady", n_found, 0.8 * len(driven) * len(speeds), why
-        )
+    yield Check.at_least(
+        f"runs of {len(driven) * len(speeds)} that are steady", n_found, 0.8 * len(driven) * len(speeds), why
     )
     fall = [(reduction("flat punch", 0.0, 1, v)[0] / share("flat punch", 0.0, 1) - 1) for v in (4, 16, 64)]
     power = float(np.polyfit(np.log([4, 16, 64]), np.log(fall), 1)[0])
     why = "pulses of a width ~ v^(-1/4) exceed the law by the square of it; the next order is not small at v = 4"
-    checks.append(Check("power of the velocity with which the punch comes down to the law", power, -0.5, 0.1, why))
-    return checks
+    yield Check("power of the velocity with which the punch comes down to the law", power, -0.5, 0.1, why)
 
 
-def _pole_checks(driven: list[Any]) -> list[Check]:
+def _pole_checks(driven: list[Any]) -> Checks:
     """The residue of v_c at the pole from full-slip values at a small detuning on both sides."""
-    checks = []
     for shape, T, n in driven:
         case = system(shape, T, n)
         residue = laws.resonance_residue(case, n)
@@ -207,19 +199,17 @@ def _pole_checks(driven: list[Any]) -> list[Check]:
         both = [mdr.full_slip_critical_velocity(system(shape, T, n * (1 + side * shift / n))) for side in (-1, 1)]
         name = f"v_c |ω_0/ω − n| m ω/(μ_0 |F_n|): {_name((shape, T, n))}"
         why = "the other harmonics add up to a few thousandths at that detuning"
-        checks.append(Check(name, float(np.mean(both)) * shift / residue, 1.0, 5e-3, why))
-    return checks
+        yield Check(name, float(np.mean(both)) * shift / residue, 1.0, 5e-3, why)
 
 
-def _order_checks() -> list[Check]:
+def _order_checks() -> Checks:
     """The power of alpha in |F_3|/F_0 of the paraboloid."""
-    alphas, checks = np.array([0.02, 0.03, 0.04]), []
+    alphas = np.array([0.02, 0.03, 0.04])
     for T, power in ((0.0, 3), (1.0, 2)):
         shares = [laws.harmonic_share(contact("paraboloid", float(alpha), T), 3) for alpha in alphas]
         got = float(np.polyfit(np.log(alphas), np.log(shares), 1)[0])
         name = f"power of α in |F_3|/F_0: paraboloid, ωτ = {T:g}"
-        checks.append(Check(name, got, power, 0.1, "the next power of α is a few α of it"))
-    return checks
+        yield Check(name, got, power, 0.1, "the next power of α is a few α of it")
 
 
 def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:

@@ -23,7 +23,7 @@ from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critic
 from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
 from validation.measured import SHARP, worst
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 
 Measured = dict[tuple[float, float], dict[str, tuple[float | None, float]]]  #: alpha, T: shape: runs, full slip
 
@@ -119,30 +119,24 @@ def _measure(alpha: float, T: float, shapes: Iterable[str], **more: float) -> di
     return found
 
 
-def _velocity_checks(found: Measured, tapped: dict[float, Any]) -> list[Check]:
-    checks = []
+def _velocity_checks(found: Measured, tapped: dict[float, Any]) -> Checks:
     for (alpha, T), measured in found.items():
         name = f"ωτ = {T:g}, Δu_z/u_z0 = {alpha:g} ({_contact(alpha, T)})"
-        checks += _of_one(name, laws.late_return(1 / alpha, T), measured)
+        yield from _of_one(name, laws.late_return(1 / alpha, T), measured)
     for T, measured in tapped.items():
-        checks += _of_one(f"ωτ = {T:g}, tapping with u_z0 = −Δu_z/3", laws.late_return(TAPPING, T), measured)
+        yield from _of_one(f"ωτ = {T:g}, tapping with u_z0 = −Δu_z/3", laws.late_return(TAPPING, T), measured)
     why = "touches where cos φ = 1/3, with nothing left to relax"
-    checks.append(
-        Check("that limit for an elastic tapping contact", laws.late_return(TAPPING, 0.0), np.sqrt(8) / 3, 1e-12, why)
-    )
-    return checks
+    yield Check("that limit for an elastic tapping contact", laws.late_return(TAPPING, 0.0), np.sqrt(8) / 3, 1e-12, why)
 
 
-def _of_one(name: str, expected: float, measured: dict[str, tuple[float | None, float]]) -> list[Check]:
+def _of_one(name: str, expected: float, measured: dict[str, tuple[float | None, float]]) -> Checks:
     """The worst of the shapes, for runs and for the full-slip condition."""
     runs = worst([np.nan if run is None else run for run, _ in measured.values()], expected)
     full = worst([full for _, full in measured.values()], expected)
     whom = f"worst of {len(measured)} shapes" if len(measured) > 1 else next(iter(measured))
     why = "bracket of 2e-5 of the measurement and h²/6 = 6e-6 of the mean over a step"
-    return [
-        Check(f"measured v_c over Eq. (1), {whom}: {name}", runs, expected, SHARP * expected, why),
-        Check(f"full-slip v_c over Eq. (1), {whom}: {name}", full, expected, 1e-8, "1, or a root against a root"),
-    ]
+    yield Check(f"measured v_c over Eq. (1), {whom}: {name}", runs, expected, SHARP * expected, why)
+    yield Check(f"full-slip v_c over Eq. (1), {whom}: {name}", full, expected, 1e-8, "1, or a root against a root")
 
 
 def _contact(alpha: float, T: float) -> str:
@@ -166,7 +160,7 @@ def _marched(effort: str) -> list[tuple[mdr.SlidingContact, float]]:
     return crossed[:: 5 if effort == "quick" else 1] + tapping + back_late
 
 
-def _march_checks(marched: list[tuple[mdr.SlidingContact, float]]) -> list[Check]:
+def _march_checks(marched: list[tuple[mdr.SlidingContact, float]]) -> Checks:
     off, share = [], []
     for case, v in marched:
         run = mdr.slide(case, v * mdr.critical_velocity(case))
@@ -175,10 +169,8 @@ def _march_checks(marched: list[tuple[mdr.SlidingContact, float]]) -> list[Check
         share.append(miss / run.cof_error if run.settled else np.nan)
     whom = f"worst of {len(marched)} contacts of four shapes, kept, lost, tapping and back late"
     why = "what a run promises when it chooses step and springs itself"
-    return [
-        Check.at_most(f"COF/μ_0 of slide() less that of the closed form, {whom}", np.max(off), 1e-5, why),
-        Check.at_most(f"the same over the bound of the run, {whom}", np.max(share), 1.0, "a bound is one"),
-    ]
+    yield Check.at_most(f"COF/μ_0 of slide() less that of the closed form, {whom}", np.max(off), 1e-5, why)
+    yield Check.at_most(f"the same over the bound of the run, {whom}", np.max(share), 1.0, "a bound is one")
 
 
 def leading_term(x: Array, y: Array, step: float) -> Asymptote:
@@ -193,15 +185,14 @@ def _near_v_c(case: mdr.SlidingContact, short: Array) -> Array:
     return np.asarray(1 - average_friction(case, (1 - short) * mdr.critical_velocity(case)).cof / case.mu_0)
 
 
-def _end_checks() -> list[Check]:
+def _end_checks() -> Checks:
     """Both ends of the curve, fitted to the closed form, against their leading terms."""
-    checks = []
     short, v = np.geomspace(1e-4, 1e-3, 25), np.geomspace(1e-6, 1e-4, 25)
     for T, alphas in ((0.0, (0.3, 1.7)), (1.0, (0.3, 1.7))):
         cases = [contact(shape, alpha, T) for shape, alpha in product(SHAPES, alphas)]
         fits = [leading_term(short, _near_v_c(case, short), 1 / 2) for case in cases]
         name = f"1 − μ/μ_0 in 1 − v_0/v_c near v_c, ωτ = {T:g}, Δu_z/u_z0 = {_and(alphas)}"
-        checks += _term_checks(name, fits, [near_critical(case) for case in cases])
+        yield from _term_checks(name, fits, [near_critical(case) for case in cases])
     for T, alphas, step in ((0.0, (0.3, 1.7), 1 / 2), (1.0, (0.1, 0.3), 1 / 3)):
         cases = [contact(shape, alpha, T) for shape, alpha in product(SHAPES, alphas)]
         rises = [
@@ -210,21 +201,18 @@ def _end_checks() -> list[Check]:
         ]
         fits = [leading_term(v, rise, step) for rise in rises]
         name = f"(μ − static)/μ_0 in v_0/v_c near rest, ωτ = {T:g}, Δu_z/u_z0 = {_and(alphas)}"
-        checks += _term_checks(name, fits, [small_velocity(case) for case in cases])
-    return checks
+        yield from _term_checks(name, fits, [small_velocity(case) for case in cases])
 
 
-def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> list[Check]:
+def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> Checks:
     power, ratio = laws[0].power, [fit.coefficient / law.coefficient for fit, law in zip(fits, laws, strict=True)]
     why = (
         "the fit knows three terms beyond the leading one; the fourth, at most 5e-6 of it, moves the power by"
         " 5e-7 and the coefficient by 1e-5, times its own factor of order one to ten"
     )
     whom = f"worst of {len(fits)}"
-    return [
-        Check(f"power of {name}, {whom}", worst([fit.power for fit in fits], power), power, 5e-6, why),
-        Check(f"coefficient over the derived one of {name}, {whom}", worst(ratio, 1.0), 1.0, 1e-4, why),
-    ]
+    yield Check(f"power of {name}, {whom}", worst([fit.power for fit in fits], power), power, 5e-6, why)
+    yield Check(f"coefficient over the derived one of {name}, {whom}", worst(ratio, 1.0), 1.0, 1e-4, why)
 
 
 # --- figures ---

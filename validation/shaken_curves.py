@@ -21,7 +21,7 @@ from mdr.half_space.friction import Settings, in_three_dimensions
 from validation.cases import LOOKS, SHAPES, shaken, shape_label
 from validation.half_space.springs import of_springs
 from validation.measured import with_band
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 CHIS = (0.3, 1.0, 3.0, 30.0)  #: of the figure
 ALPHA_3D = 0.4  #: du_z/u_z0 of the contact that is computed in three dimensions
@@ -52,13 +52,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one;"
         " a shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact.",
-        checks=(
-            *_small_checks(quick),
-            *_great_checks(),
-            *_band_checks(quick),
-            _order_check(),
-            *_half_space_checks(),
-        ),
+        checks=(*_small_checks(quick), *_great_checks(), *_band_checks(quick), _order_check(), *_half_space_checks()),
         figures=(_figure(quick),),
     )
 
@@ -68,8 +62,7 @@ def lost(case: mdr.SlidingContact, v_0: float) -> float:
     return 1 - abs(mdr.slide(case, v_0, accuracy=1e-7).cof) / case.mu_0
 
 
-def _small_checks(quick: bool) -> list[Check]:
-    checks = []
+def _small_checks(quick: bool) -> Checks:
     for phi, way in product((0.0, 0.7, math.pi / 2, math.pi) if not quick else (0.7, math.pi), (1, -1)):
         worst = {}
         for shape, size in (("flat punch", 0.1), *((one, SMALL) for one in SHAPES)):
@@ -80,15 +73,13 @@ def _small_checks(quick: bool) -> list[Check]:
         where = f"phase {phi / math.pi:.3g} π, {'forward' if way == 1 else 'the other way'}"
         exact = worst.pop(("flat punch", 0.1))
         name = f"lost friction over (k_xc A/(μ_0 F_N)) ψ, less 1: flat punch, Δu_z = 0.1 u_z0, {where}"
-        checks.append(Check(name, exact, 0.0, 1e-4, "1e-7 of μ_0 asked of a run, over a lost friction of 1e-3 or more"))
+        yield Check(name, exact, 0.0, 1e-4, "1e-7 of μ_0 asked of a run, over a lost friction of 1e-3 or more")
         name = f"the same, worst of four shapes, Δu_z = {SMALL:g} u_z0, {where}"
         why = "the next order is the amplitude over the depth, and 1e-7 asked of a run over a lost friction of 1e-4"
-        checks.append(Check(name, max(worst.values(), key=abs), 0.0, 5 * SMALL, why))
-    return checks
+        yield Check(name, max(worst.values(), key=abs), 0.0, 5 * SMALL, why)
 
 
-def _great_checks() -> list[Check]:
-    checks = []
+def _great_checks() -> Checks:
     sizes = (30.0, 120.0)
     for shape in SHAPES:
         off = []
@@ -96,17 +87,13 @@ def _great_checks() -> list[Check]:
             case = shaken(shape, 0.0, chi)
             off.append(mdr.slide(case, 0.5 * mdr.critical_velocity(case)).cof / case.mu_0 - laws.rigid_shake(0.5))
         name = f"COF/μ_0 less (2/π) arcsin r, r = 0.5, Δu_x = {sizes[1]:g} μ_0 κ u_z0: {shape}"
-        checks.append(
-            Check(name, off[1], 0.0, 1.0 / sizes[1], "springs yield by μ_0 κ u_z0 at most, over the amplitude")
-        )
+        yield Check(name, off[1], 0.0, 1.0 / sizes[1], "springs yield by μ_0 κ u_z0 at most, over the amplitude")
         power = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
         name = f"power of the amplitude with which that vanishes, from {sizes[0]:g} to {sizes[1]:g} μ_0 κ u_z0: {shape}"
-        checks.append(Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order"))
-    return checks
+        yield Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order")
 
 
-def _band_checks(quick: bool) -> list[Check]:
-    checks = []
+def _band_checks(quick: bool) -> Checks:
     for shape in SHAPES:
         off, sides = [], []
         for chi in (0.2, 0.7) if quick else (0.1, 0.3, 0.5, 0.7, 0.9):
@@ -116,12 +103,11 @@ def _band_checks(quick: bool) -> list[Check]:
             off.append(band.high / case.mu_0 - laws.held_under_shake(case.indenter, depth, chi * depth))
             sides.append((band.high + band.low) / case.mu_0)
         name = f"load held at rest over μ_0 F_N, less F_N(u_z0 − Δu_x/(μ_0 κ))/F_N(u_z0), worst: {shape}"
-        checks.append(Check(name, max(off, key=abs), 0.0, 1e-5, RUN))
-        checks.append(Check(f"its two ends added, worst: {shape}", max(sides, key=abs), 0.0, 2e-5, RUN))
+        yield Check(name, max(off, key=abs), 0.0, 1e-5, RUN)
+        yield Check(f"its two ends added, worst: {shape}", max(sides, key=abs), 0.0, 2e-5, RUN)
         gone = mdr.holding_band(shaken(shape, 0.0, 1.002))
         name = f"width of what is held over μ_0 F_N at Δu_x = 1.002 μ_0 κ u_z0: {shape}"
-        checks.append(Check.at_most(name, (gone.high - gone.low) / 0.5, 2e-5, RUN))
-    return checks
+        yield Check.at_most(name, (gone.high - gone.low) / 0.5, 2e-5, RUN)
 
 
 def _order_check() -> Check:
@@ -141,10 +127,9 @@ def _order_check() -> Check:
     return Check.at_most(name, max(falls), 1e-5, f"none, to {RUN}")
 
 
-def _half_space_checks() -> list[Check]:
+def _half_space_checks() -> Checks:
     """The springs beside three dimensions without coupling, in the same steps."""
     settings = Settings(cells=40, steps=48, cycles=6, coupled=False, settled=1e-6)
-    checks = []
     for alpha, chi in ((0.0, 1.0), (ALPHA_3D, 1.0)):
         case = shaken("paraboloid", alpha, chi, 0.7)
         case = replace(case, material=replace(case.material, nu=0.0))
@@ -154,8 +139,7 @@ def _half_space_checks() -> list[Check]:
         name = (
             f"COF/μ_0 in three dimensions less that of springs in the same steps: paraboloid, {pressed}, v_0 = 0.3 v_c"
         )
-        checks.append(Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells"))
-    return checks
+        yield Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells")
 
 
 def _figure(quick: bool) -> Figure:

@@ -16,7 +16,7 @@ import numpy as np
 
 import mdr
 from validation.cases import BODY, LOOKS, OMEGA, SHAPES, shaken, shape_label
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 
 ALPHA, CHI = 0.4, 0.6  #: of the figure
 WAYS = {1: "forward", -1: "the other way"}
@@ -48,12 +48,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
         " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way.",
-        checks=(
-            *_rigid_checks(phases),
-            *_body_checks(phases[1:3]),
-            *_alone_checks(quick),
-            *_in_phase_checks(),
-        ),
+        checks=(*_rigid_checks(phases), *_body_checks(phases[1:3]), *_alone_checks(quick), *_in_phase_checks()),
         figures=(_figure(quick),),
     )
 
@@ -72,9 +67,8 @@ def _measured(case: mdr.SlidingContact, way: int) -> float:
     return math.nan if found.v_c is None else found.v_c
 
 
-def _rigid_checks(phases: np.ndarray) -> list[Check]:
+def _rigid_checks(phases: np.ndarray) -> Checks:
     arm = mdr.StandardLinearSolid(E_inf=3e6, E_1=3e6, tau_1=1 / OMEGA, nu=0.5)
-    checks = []
     for (shape, T), way in product((*((one, 0.0) for one in SHAPES), ("paraboloid", 1.0), ("cone", -1.0)), WAYS):
         off = []
         for phi in phases:
@@ -83,12 +77,10 @@ def _rigid_checks(phases: np.ndarray) -> list[Check]:
             off.append(_measured(case, way) / _pointers(case, way) - 1)
         material = "elastic" if T == 0 else ("ωτ = 1" if T > 0 else "with an arm")
         name = f"v_c measured over ω|μ_0 κ Δu_z ∓ Δu_x e^iφ|, less 1, worst phase: {shape}, {material}, {WAYS[way]}"
-        checks.append(Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET))
-    return checks
+        yield Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET)
 
 
-def _body_checks(phases: np.ndarray) -> list[Check]:
-    checks = []
+def _body_checks(phases: np.ndarray) -> Checks:
     for (shape, T, at), way in product(
         (("flat punch", 1.0, "tool"), ("paraboloid", 0.0, "pull"), ("cone", 1.0, "pull")), WAYS
     ):
@@ -100,11 +92,11 @@ def _body_checks(phases: np.ndarray) -> list[Check]:
             from_formula.append(mdr.critical_velocity(case, way) / full - 1)
         where = f"{shape}, {'elastic' if T == 0 else 'ωτ = 1'}, body, shaken at the {at}, {WAYS[way]}"
         name = f"v_c measured over that of full slip with all harmonics, less 1, worst phase: {where}"
-        checks.append(Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET))
+        yield Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET)
         if shape == "flat punch":
             name = f"the closed form over that of full slip, less 1, worst phase: {where}"
             why = "a punch that keeps contact has one harmonic, so that both are the same"
-            checks.append(Check(name, max(from_formula, key=abs), 0.0, 1e-7, why))
+            yield Check(name, max(from_formula, key=abs), 0.0, 1e-7, why)
     # the amplitude at which the formula leaves full slip, as Eq. (15) does: in proportion to it
     sizes = (0.02, 0.04)
     errors = []
@@ -113,13 +105,10 @@ def _body_checks(phases: np.ndarray) -> list[Check]:
         errors.append(mdr.critical_velocity(case) / mdr.full_slip_critical_velocity(case) - 1)
     name = "power of the amplitude by which the closed form differs from full slip: cone under a body, shaken tool"
     power = math.log(errors[1] / errors[0]) / math.log(sizes[1] / sizes[0])
-    checks.append(
-        Check(name, power, 1.0, sizes[1], "the next order is smaller by the amplitude, with a factor of order one")
-    )
-    return checks
+    yield Check(name, power, 1.0, sizes[1], "the next order is smaller by the amplitude, with a factor of order one")
 
 
-def _alone_checks(quick: bool) -> list[Check]:
+def _alone_checks(quick: bool) -> Checks:
     """A longitudinal oscillation alone."""
     off = []
     for shape, T, depth in product(SHAPES, (0.0, 1.0), (5e-6, 80e-6)):
@@ -138,26 +127,22 @@ def _alone_checks(quick: bool) -> list[Check]:
     passed = abs((k_x + 1j * OMEGA * c_x) / (k_x - m * OMEGA**2 + 1j * OMEGA * c_x))
     through = _measured(far, 1) / (passed * _pointers(far, 1)) - 1
     name = "v_c measured over ω Δu_x, less 1, worst"
-    return [
-        Check(
-            f"{name}: four shapes, two depths, elastic and ωτ = 1, rigid pull", max(off, key=abs), 0.0, 1e-4, BRACKET
-        ),
-        Check(f"{name}: two bodies, shaken at the tool", max(body, key=abs), 0.0, 1e-4, BRACKET),
-        Check("v_c measured over ω Δu_x |(k_x + iωc_x) H|, less 1: shaken at the pull", through, 0.0, 1e-4, BRACKET),
-    ]
+    yield Check(
+        f"{name}: four shapes, two depths, elastic and ωτ = 1, rigid pull", max(off, key=abs), 0.0, 1e-4, BRACKET
+    )
+    yield Check(f"{name}: two bodies, shaken at the tool", max(body, key=abs), 0.0, 1e-4, BRACKET)
+    yield Check("v_c measured over ω Δu_x |(k_x + iωc_x) H|, less 1: shaken at the pull", through, 0.0, 1e-4, BRACKET)
 
 
-def _in_phase_checks() -> list[Check]:
+def _in_phase_checks() -> Checks:
     """A shake that goes with the depth, x = mu_0 kappa (u_z - u_z0)."""
-    checks = []
     for shape in ("flat punch", "paraboloid"):
         case = shaken(shape, ALPHA, ALPHA, 0.0)
         slow = mdr.slide(case, 1e-3 * case.unit_velocity)
         name = f"COF/μ_0 forward at a thousandth of Eq. (1), shaken in phase by μ_0 κ Δu_z: {shape}"
-        checks.append(Check(name, slow.cof / case.mu_0, 1.0, 1e-9, "every spring slips at the velocity of the pull"))
+        yield Check(name, slow.cof / case.mu_0, 1.0, 1e-9, "every spring slips at the velocity of the pull")
         back = _measured(case, -1) / case.unit_velocity
-        checks.append(Check(f"the same the other way: v_c over Eq. (1): {shape}", back, 2.0, 2e-4, BRACKET))
-    return checks
+        yield Check(f"the same the other way: v_c over Eq. (1): {shape}", back, 2.0, 2e-4, BRACKET)
 
 
 def _figure(quick: bool) -> Figure:

@@ -23,7 +23,7 @@ from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
 from mdr.tools.arrays import Array
 from validation.cases import contact
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 
 QUICK = (
     ("flat punch", 0.2, 0.0),
@@ -138,8 +138,7 @@ def _law(case: mdr.SlidingContact, mean: float) -> Asymptote:
 # --- checks ---
 
 
-def _static_checks() -> list[Check]:
-    checks = []
+def _static_checks() -> Checks:
     for alpha, T in ((0.2, 0.0), (0.9, 0.0), (0.5, 0.7), (0.05, 10.0)):
         case = contact("flat punch", alpha, T)
         o = case.oscillation
@@ -147,7 +146,7 @@ def _static_checks() -> list[Check]:
         bound = case.mu_0 * alpha * np.hypot(1, T) * SAMPLED + 1e-14
         why = "Eq. (6) times h²/8: 8192 instants miss the least force by that at most"
         name = f"static COF against Eq. (7) over F_N: flat punch, ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}"
-        checks.append(Check(name, mdr.static_cof(case), F_s / (case.k_zc * o.u_z0), bound, why))
+        yield Check(name, mdr.static_cof(case), F_s / (case.k_zc * o.u_z0), bound, why)
     for shape, mean in (("cone", lambda a: 1 + a**2 / 2), ("paraboloid", _mean_of_hertz)):
         alpha, power = 0.5, 2.0 if shape == "cone" else 1.5
         case = contact(shape, alpha)
@@ -159,8 +158,7 @@ def _static_checks() -> list[Check]:
             f"static COF, elastic {shape}, Δu_z/u_z0 = 0.5: (1 − 0.5)^{power:g} over the mean of (1 + 0.5"
             f" cos)^{power:g}"
         )
-        checks.append(Check(name, mdr.static_cof(case), case.mu_0 * (1 - alpha) ** power / mean(alpha), 1e-12, why))
-    return checks
+        yield Check(name, mdr.static_cof(case), case.mu_0 * (1 - alpha) ** power / mean(alpha), 1e-12, why)
 
 
 def _mean_of_hertz(alpha: float) -> float:
@@ -171,7 +169,7 @@ def _mean_of_hertz(alpha: float) -> float:
     return float(np.sum(binom(1.5, n) * alpha**n * binom(n, n // 2) / 2.0**n))
 
 
-def _approach_checks(a: Approach) -> list[Check]:
+def _approach_checks(a: Approach) -> Checks:
     """Local power and extrapolated factor from the two slowest runs.
 
     The next term of the rise is smaller by v^(1/2) for elastic and v^(1/3) for Kelvin contacts, the share of a period
@@ -190,16 +188,14 @@ def _approach_checks(a: Approach) -> list[Check]:
     grow = (v_2 / v_1) ** gap
     limit = (grow * a.ratio[-1] - a.ratio[-2]) / (grow - 1)
     left = v_2 ** (2 * gap) + noise * grow / (grow - 1)
-    return [
-        Check(f"power of v_0 in COF − static: {a.name}", float(power), a.power, float(bend), why),
-        Check(
-            f"COF − static over the derived law, to v_0 → 0: {a.name}",
-            float(limit),
-            1.0,
-            float(left),
-            "the next but one term at the faster of the two runs, and the error of the runs",
-        ),
-    ]
+    yield Check(f"power of v_0 in COF − static: {a.name}", float(power), a.power, float(bend), why)
+    yield Check(
+        f"COF − static over the derived law, to v_0 → 0: {a.name}",
+        float(limit),
+        1.0,
+        float(left),
+        "the next but one term at the faster of the two runs, and the error of the runs",
+    )
 
 
 # --- figure ---

@@ -14,7 +14,7 @@ from mdr.half_space.friction import Settings, in_three_dimensions
 from mdr.plots import COLOURS, style
 from validation.cases import contact
 from validation.half_space.springs import of_springs
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import listed, number, span
 
 ALPHA, FRICTION = 0.3, 0.3
@@ -107,19 +107,17 @@ def claim(effort: str) -> Claim:
     )
 
 
-def _checks(found: list[Losses]) -> tuple[Check, ...]:
+def _checks(found: list[Losses]) -> Checks:
     itself = max(abs(one.by_itself) for one in found)
     beyond = [one for one in found if one.nu < 0.5 and one.v > 1 + rub(one.nu)]
     alone, both = max(one.along for one in beyond), min(one.coupled for one in beyond)
     below = [one.by_coupling / one.coupled for one in found if one.nu < 0.5 and 0.3 < one.v < 0.9]
     why, of_two = "of the order of the square of ν/(4 − 2ν) and less", "two parts of one order"
-    return (
-        Check.at_most(f"uncoupled: greatest change of μ/μ_0 by slip across, {len(found)} runs", itself, 3e-4, why),
-        Check.at_most("above the end of stick: loss without slip across, over μ_0", alone, 1e-6, "full slip along x"),
-        Check.at_least("above the end of stick: loss with it, over μ_0", both, 5e-4, "friction turned aside"),
-        Check.between("least share of the loss by slip across, 0.4 to 0.8 v_c", min(below), 0.2, 0.8, of_two),
-        Check.between("greatest such share", max(below), 0.2, 0.8, of_two),
-    )
+    yield Check.at_most(f"uncoupled: greatest change of μ/μ_0 by slip across, {len(found)} runs", itself, 3e-4, why)
+    yield Check.at_most("above the end of stick: loss without slip across, over μ_0", alone, 1e-6, "full slip along x")
+    yield Check.at_least("above the end of stick: loss with it, over μ_0", both, 5e-4, "friction turned aside")
+    yield Check.between("least share of the loss by slip across, 0.4 to 0.8 v_c", min(below), 0.2, 0.8, of_two)
+    yield Check.between("greatest such share", max(below), 0.2, 0.8, of_two)
 
 
 _FEW = (

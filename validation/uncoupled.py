@@ -17,7 +17,7 @@ from mdr.plots import style
 from validation.cases import LOOKS, SHAPES, loss, shape_label
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim, Figure
 from validation.words import number
 
 KEPT, LOST = 0.3, 1.5  # du_z/u_z0
@@ -68,24 +68,22 @@ def _columns(shapes: Iterable[str], alpha: float, velocities: Iterable[float]) -
     return [[Point(shape, 0.0, 0.3, alpha, T, v) for v in velocities] for shape in shapes for T in TIMES]
 
 
-def _table_checks(rows: list[Row]) -> list[Check]:
-    checks = []
+def _table_checks(rows: list[Row]) -> Checks:
     for shape in SHAPES:
         for alpha, contact in ((KEPT, "kept"), (LOST, "lost")):
             own = [row for row in rows if row.point.shape == shape and row.point.alpha == alpha]
             found = max((row.loss for row in own), key=abs)
             why = f"2e-4 asked; half the steps and cells change it by {max(row.step + row.grid for row in own):.0e}"
             name = f"{shape}, contact {contact}: worst COF(springs) − COF(3D), over μ_0, of {len(own)}"
-            checks.append(Check(name, found, 0, ALLOWED, why))
-    return checks
+            yield Check(name, found, 0, ALLOWED, why)
 
 
-def _again_checks(again: list[Row], rows: list[Row]) -> list[Check]:
+def _again_checks(again: list[Row], rows: list[Row]) -> Checks:
     """The same computed now; a coarser grid must come as close as it says of itself."""
     known = {row.point: row for row in rows}
     shares = [abs(row.loss - known[row.point].loss) / (row.error + known[row.point].error) for row in again]
     name = f"{len(again)} of the table computed again: greatest change over the errors of both"
-    return [Check.at_most(name, max(shares), 1, "steps, cells and settling")]
+    yield Check.at_most(name, max(shares), 1, "steps, cells and settling")
 
 
 def _figure(rows: list[Row]) -> Figure:

@@ -50,7 +50,7 @@ from mdr.plots import COLOURS, style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation, Figure
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
 SYSTEMS = {"quick": 6, "full": 60, "long": 200}
@@ -292,42 +292,39 @@ def claim(effort: str) -> Claim:
     )
 
 
-def _distance_checks(found: list[Ends]) -> list[Check]:
-    checks, systems = [], [e.system for e in found]
+def _distance_checks(found: list[Ends]) -> Checks:
+    systems = [e.system for e in found]
     worst = max(systems, key=growth)
     why = "the scheme is of second order: h² of the exchange between speed and position, per period"
     name = f"largest growth of the distance of two motions over a period, {len(systems)} systems"
-    checks.append(Check.at_most(name, growth(worst), 4 * np.pi * (2 * np.pi / STEPS) ** 2, why))
+    yield Check.at_most(name, growth(worst), 4 * np.pi * (2 * np.pi / STEPS) ** 2, why)
     once, half = (float(np.ptp(D) / D[0]) for D in (swinging(STEPS), swinging(STEPS // 2)))
     name = f"undamped body in full slip: change of the distance in {PERIODS} periods, over it"
-    checks.append(Check.at_most(name, once, 4 * (2 * np.pi / STEPS) ** 2, "no force sees them differ; h² of velocity"))
+    yield Check.at_most(name, once, 4 * (2 * np.pi / STEPS) ** 2, "no force sees them differ; h² of velocity")
     name = "the same at half the steps, over that"
-    checks.append(Check(name, half / once, 4.0, 0.2, "of second order in the step, so none without it"))
-    return checks
+    yield Check(name, half / once, 4.0, 0.2, "of second order in the step, so none without it")
 
 
-def _end_checks(found: list[Ends]) -> list[Check]:
+def _end_checks(found: list[Ends]) -> Checks:
     compared = [e for e in found if len(e.settled) > 1]
     why = "spreads that the runs state of themselves; rounding"
     name = f"largest difference of the COFs of one system over μ_0, less both spreads, {len(compared)} systems"
     damped = [e for e in found if e.system.damping_ratio]
-    return [
-        Check.at_most(name, max(e.excess for e in compared), 1e-12, why),
-        Check(
-            f"starts of {len(damped)} damped systems that did not settle",
-            sum(len(STARTS) - len(e.settled) for e in damped),
-            0,
-            0,
-            "a damper of 0.5 % lets a free oscillation die out in some hundred periods",
-        ),
-        Check(
-            f"settled motions of {len(damped)} damped systems that do not repeat after one period",
-            sum(s.kind != "periodic" for e in damped for s in e.settled),
-            0,
-            0,
-            "two motions one period apart merge like any other two; what alternates is followed for four times as long",
-        ),
-    ]
+    yield Check.at_most(name, max(e.excess for e in compared), 1e-12, why)
+    yield Check(
+        f"starts of {len(damped)} damped systems that did not settle",
+        sum(len(STARTS) - len(e.settled) for e in damped),
+        0,
+        0,
+        "a damper of 0.5 % lets a free oscillation die out in some hundred periods",
+    )
+    yield Check(
+        f"settled motions of {len(damped)} damped systems that do not repeat after one period",
+        sum(s.kind != "periodic" for e in damped for s in e.settled),
+        0,
+        0,
+        "two motions one period apart merge like any other two; what alternates is followed for four times as long",
+    )
 
 
 def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
@@ -343,7 +340,7 @@ def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
     return out
 
 
-def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> list[Check]:
+def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> Checks:
     falls = [
         (a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0
         for _, runs in curves
@@ -360,39 +357,35 @@ def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str
         cof = average_friction(case, v_hat * mdr.critical_velocity(case)).cof / case.mu_0
         drops.append(float(np.max(-np.diff(cof))))
     why = "accuracy of the closed form"
-    return [
-        Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding"),
-        Check(f"settled of the {len(damped)} runs with a damper", sum(damped), len(damped), 0, "transients die out"),
-        Check.at_most(f"largest fall in {len(drops)} closed-form curves of rigid pulls", max(drops), 1e-8, why),
-    ]
+    yield Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding")
+    yield Check(f"settled of the {len(damped)} runs with a damper", sum(damped), len(damped), 0, "transients die out")
+    yield Check.at_most(f"largest fall in {len(drops)} closed-form curves of rigid pulls", max(drops), 1e-8, why)
 
 
-def _sweep_checks() -> list[Check]:
+def _sweep_checks() -> Checks:
     short, waited = swept(SHORT), swept(None)
     up, down = waited[0]
     off = np.abs(short[0] - waited[0])
-    return [
-        Check.at_most(
-            "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads",
-            float(np.max(np.abs(up - down) - waited[1].sum(axis=0))),
-            1e-12,
-            "spreads that the runs state of themselves",
-        ),
-        Check("of these runs settled", float(waited[2].mean()), 1.0, 0.0, "the damper ends every transient"),
-        Check.at_least(
-            f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0",
-            float(np.abs(short[0][0] - short[0][1]).max()),
-            0.01,
-            "a loop made of transients",
-        ),
-        Check(
-            f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0",
-            float(np.sum(short[2] & (off > TOLERANCE))),
-            0.0,
-            0.0,
-            "what settled means: a transient is not taken for an end",
-        ),
-    ]
+    yield Check.at_most(
+        "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads",
+        float(np.max(np.abs(up - down) - waited[1].sum(axis=0))),
+        1e-12,
+        "spreads that the runs state of themselves",
+    )
+    yield Check("of these runs settled", float(waited[2].mean()), 1.0, 0.0, "the damper ends every transient")
+    yield Check.at_least(
+        f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0",
+        float(np.abs(short[0][0] - short[0][1]).max()),
+        0.01,
+        "a loop made of transients",
+    )
+    yield Check(
+        f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0",
+        float(np.sum(short[2] & (off > TOLERANCE))),
+        0.0,
+        0.0,
+        "what settled means: a transient is not taken for an end",
+    )
 
 
 def _distance_figure() -> Figure:

@@ -19,7 +19,7 @@ from mdr.plots import style
 from mdr.tools.progress import progress
 from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, body, depth_of
 from validation.measured import TOLERANCE, Point, slope_at_zero
-from validation.report import Check, Equation, Figure, Part
+from validation.report import Check, Checks, Equation, Figure, Part
 from validation.words import counted
 
 NU = 0.5
@@ -95,14 +95,13 @@ def _grid(quick: bool) -> list[tuple[str, str, bool]]:
     return [*rigid, *((shape, "elastic", True) for shape in CATALOGUE)]
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     """Against Eq. (1) under a rigid pull, else against the full-slip value."""
-    checks, why = [], "bracket of the measurement and second order in its step"
+    why = "bracket of the measurement and second order in its step"
     for p in points:
         rigid = isinstance(p.case.pull, mdr.RigidPull)
         name = f"{p.where}: measured v_c over {'Eq. (1)' if rigid else 'the full-slip value'}"
-        checks.append(Check(name, p.over_rigid if rigid else 1 + p.miss, 1.0, TOLERANCE, why))
-    return checks
+        yield Check(name, p.over_rigid if rigid else 1 + p.miss, 1.0, TOLERANCE, why)
 
 
 @cache
@@ -122,22 +121,20 @@ def limit(shape: str, material: str, alpha: float) -> float:
     return slope_at_zero(*(contact(shape, material, share * alpha, True) for share in (1, 2)))
 
 
-def _order_checks(quick: bool) -> list[Check]:
-    checks = []
+def _order_checks(quick: bool) -> Checks:
     for material in ("elastic",) if quick else ("elastic", "ωτ = 1"):
         for shape in ALL:
             expected = laws.first_order(contact(shape, material, 0.1, True)) * slope(shape)
             why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
             name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
-            checks.append(Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why))
+            yield Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why)
     shapes = ("cone", "capped cone") if quick else [s for s in ALL if slope(s) > 0.02]
     first = limit("paraboloid", "standard solid", 0.01) / slope("paraboloid")
     for shape in shapes:
         name = f"{shape}, standard solid: C of its deviation over that of the paraboloid"
         ratio = limit(shape, "standard solid", 0.01) / slope(shape) / first
         why = "the third power of α = 0.01, with factors of some units; more where the stiffness changes within it"
-        checks.append(Check(name, ratio, 1.0, 0.02, why))
-    return checks
+        yield Check(name, ratio, 1.0, 0.02, why)
 
 
 # --- figure ---

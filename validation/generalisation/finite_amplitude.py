@@ -29,7 +29,7 @@ from mdr.tools.progress import progress
 from validation import measured
 from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, shape_label
 from validation.measured import TOLERANCE, Measured
-from validation.report import Check, Figure, Part
+from validation.report import Check, Checks, Figure, Part
 from validation.words import counted
 
 RATIOS = (0.3, 0.6, 0.8, 1.2, 1.5, 2.5, 3.5)  # omega_0/omega of the table
@@ -215,46 +215,43 @@ def part(effort: str) -> Part:
     )
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     lost, why = [p for p in points if p.lost], "each measurement brings its bracket; both name one velocity"
     out = [p.where for p in points if not p.in_bracket]
     resolution = f"bracket and second order in the step, {TOLERANCE:.1e}, and as much where contact returns within one"
     far = max((p for p in points if p.shape != "flat punch"), key=lambda p: abs(p.deviation))
     kept = [p for p in points if p.shape == "flat punch" and not p.lost]
     flew = max((p for p in lost if p.shape == "flat punch"), key=lambda p: abs(p.deviation))
-    return [
-        Check(f"measured v_c of {len(points)} whose bracket misses the full-slip value", len(out), 0, 0, why),
-        Check(f"the same of {len(lost)} with the whole contact lost", sum(not p.in_bracket for p in lost), 0, 0, why),
-        Check.at_least("shapes measured with the whole contact lost", len({p.shape for p in lost}), 4, "all of them"),
-        Check.at_most("worst |v_c/full-slip value − 1|", max(abs(p.miss) for p in points), 1e-4, resolution),
-        Check(
-            "measurements whose signs disagree",
-            sum(p.found.kind != "end of stick" for p in points),
-            0,
-            0,
-            "end of stick, least slip velocity and COF name one velocity; the damper lets every run settle",
-        ),
-        Check.at_most(
-            f"flat punch in contact: worst |v_c/Eq. (15) − 1| of {len(kept)}",
-            max(abs(p.deviation) for p in kept),
-            1e-4,
-            "the force has one harmonic; " + resolution,
-        ),
-        Check.at_least(
-            "flat punch lost: largest |v_c/Eq. (15) − 1| measured",
-            abs(flew.deviation),
-            0.01,
-            f"Eq. (15) is off by far more than the measurement ({flew.where})",
-        ),
-        Check.at_least(
-            "curved shapes: largest |v_c/Eq. (15) − 1| measured", abs(far.deviation), 0.01, f"the same ({far.where})"
-        ),
-    ]
+    yield Check(f"measured v_c of {len(points)} whose bracket misses the full-slip value", len(out), 0, 0, why)
+    yield Check(f"the same of {len(lost)} with the whole contact lost", sum(not p.in_bracket for p in lost), 0, 0, why)
+    yield Check.at_least("shapes measured with the whole contact lost", len({p.shape for p in lost}), 4, "all of them")
+    yield Check.at_most("worst |v_c/full-slip value − 1|", max(abs(p.miss) for p in points), 1e-4, resolution)
+    yield Check(
+        "measurements whose signs disagree",
+        sum(p.found.kind != "end of stick" for p in points),
+        0,
+        0,
+        "end of stick, least slip velocity and COF name one velocity; the damper lets every run settle",
+    )
+    yield Check.at_most(
+        f"flat punch in contact: worst |v_c/Eq. (15) − 1| of {len(kept)}",
+        max(abs(p.deviation) for p in kept),
+        1e-4,
+        "the force has one harmonic; " + resolution,
+    )
+    yield Check.at_least(
+        "flat punch lost: largest |v_c/Eq. (15) − 1| measured",
+        abs(flew.deviation),
+        0.01,
+        f"Eq. (15) is off by far more than the measurement ({flew.where})",
+    )
+    yield Check.at_least(
+        "curved shapes: largest |v_c/Eq. (15) − 1| measured", abs(far.deviation), 0.01, f"the same ({far.where})"
+    )
 
 
-def _power_checks(effort: str) -> list[Check]:
+def _power_checks(effort: str) -> Checks:
     ratios = (0.6, 2.5) if effort == "quick" else RATIOS[1:]
-    checks = []
     for shape in CURVED:
         for T, damping_ratio, expected in ((0.0, 0.0, 2), (0.0, DAMPING, 1), (1.0, 0.0, 1), (1.0, DAMPING, 1)):
             got = max((power(shape, T, r, damping_ratio) for r in ratios), key=lambda p: abs(p - expected))
@@ -263,21 +260,20 @@ def _power_checks(effort: str) -> list[Check]:
             why = "nothing dissipates; α = 0.001 … 0.01, the next power adds a few α"
             if expected == 1:
                 why = "α = 1e-5 … 1e-4 is far below α_x, where α^2 takes over: up to 1 % in slope"
-            checks.append(Check(name, got, expected, 0.01, why))
+            yield Check(name, got, expected, 0.01, why)
     twice = [alpha_x(s, 0.0, r, DAMPING / 8) / alpha_x(s, 0.0, r, DAMPING / 16) for s in CURVED for r in (1.5, 2.5)]
     worst = max(twice, key=lambda value: abs(value - 2))
     why = "first order comes from the damping alone; the next order of a damping of 0.25 % adds up to a few per cent"
-    checks.append(Check(f"elastic: α_x at twice the damping, over α_x, worst of {len(twice)}", worst, 2, 0.05, why))
+    yield Check(f"elastic: α_x at twice the damping, over α_x, worst of {len(twice)}", worst, 2, 0.05, why)
     for T in (0.0, 1.0):
         C = [deviation(s, 1e-5, T, 2.0) / 1e-5 * POWERS[s] for s in CURVED]
         why = "C/n, one C for all; α = 1e-5 times a next order of up to 300"
         name = f"{loss(T)}, ω_0 = 2ω: n times deviation/α for α → 0, worst shape over the cone"
-        checks.append(Check(name, max((c / C[0] for c in C), key=lambda c: abs(c - 1)), 1, 5e-3, why))
+        yield Check(name, max((c / C[0] for c in C), key=lambda c: abs(c - 1)), 1, 5e-3, why)
         half = deviation("cone", 1e-5, T, 2.0, DAMPING / 2) / 1e-5
         why = "the resonance is as high as the damper is light; the other harmonics, of order one, share C with it"
         name = f"cone, {loss(T)}, ω_0 = 2ω: deviation/α at half the damping, over that at {100 * DAMPING:g} %"
-        checks.append(Check(name, half / C[0], 2, 0.1, why))
-    return checks
+        yield Check(name, half / C[0], 2, 0.1, why)
 
 
 def _map_figure(known: list[Map], points: list[Point]) -> Figure:

@@ -30,7 +30,7 @@ from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_
 from validation.generalisation import shapes as powers
 from validation.generalisation.shapes import PULLS, Point, measure
 from validation.measured import TOLERANCE
-from validation.report import Check, Equation, Figure, Part
+from validation.report import Check, Checks, Equation, Figure, Part
 from validation.words import counted, listed, number
 
 AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
@@ -113,27 +113,24 @@ def part(effort: str) -> Part:
     )
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
-    checks = []
+def _measured_checks(points: list[Point]) -> Checks:
     for shape, T, pull in dict.fromkeys((p.shape, p.T, p.pull) for p in points):
         here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
         ratios = np.array([p.over_rigid for p in here])
         name = f"{shape}, {pull}, {loss(T)}: spread of v_c over {len(here)} depths"
         if pull == "rigid pull" or shape == "flat punch":
             why = "its stiffness does not depend on depth" if shape == "flat punch" else "Eq. (1) holds no stiffness"
-            checks.append(Check.at_most(name, float(np.ptp(ratios) / ratios.mean()), TOLERANCE, why))
+            yield Check.at_most(name, float(np.ptp(ratios) / ratios.mean()), TOLERANCE, why)
             continue
         expected = np.array([mdr.full_slip_critical_velocity(p.case) / p.case.unit_velocity for p in here])
         span = float(np.ptp(expected) / expected.mean())
         why = "full slip at each depth; bracket of the measurement at either end"
-        checks.append(Check(name, float(np.ptp(ratios) / ratios.mean()), span, 2 * TOLERANCE, why))
+        yield Check(name, float(np.ptp(ratios) / ratios.mean()), span, 2 * TOLERANCE, why)
         least = float(np.ptp(ratios) / ratios.mean())
-        checks.append(Check.at_least(f"{name}, measured", least, 10 * TOLERANCE, "v_c does depend on the depth"))
-    return checks
+        yield Check.at_least(f"{name}, measured", least, 10 * TOLERANCE, "v_c does depend on the depth")
 
 
-def _slope_checks(effort: str) -> list[Check]:
-    checks = []
+def _slope_checks(effort: str) -> Checks:
     depths = (DEPTH,) if effort == "quick" else (0.3 * DEPTH, DEPTH, 5 * DEPTH)
     for pull in ("stiff spring", "soft spring"):
         off = [
@@ -144,14 +141,13 @@ def _slope_checks(effort: str) -> list[Check]:
         ]
         name = f"{pull}: n d ln v_c/d ln u_z0 less S, worst of {len(off)} shapes, depths and materials"
         why = "differences of second order over 0.1 % of depth; C α at α = 1e-6; 1e-10 of v_c over 0.1 %, times n"
-        checks.append(Check(name, max(off, key=abs), 0.0, 2e-5, why))
-    return checks
+        yield Check(name, max(off, key=abs), 0.0, 2e-5, why)
 
 
-def _minimum_checks() -> list[Check]:
+def _minimum_checks() -> Checks:
     from scipy.optimize import minimize_scalar
 
-    checks, T = [], 1.0
+    T = 1.0
     for shape in list(SHAPES)[1:]:
         case = system(shape, DEPTH, T, "soft spring")
         k, least = laws.least_over_depth(case)
@@ -160,11 +156,10 @@ def _minimum_checks() -> list[Check]:
         found = minimize_scalar(lambda x, shape=shape: _over_depth(shape, float(np.exp(x)), T), bracket=bracket)
         unit = system(shape, 1.0, T, "soft spring", TINY).unit_velocity
         name = f"{shape}, heavy body, ωτ = {T:g}: least v_c over Eq. (1), over |Im(q/z)| |z|/|q|"
-        checks.append(Check(name, float(found.fun) / unit / least, 1.0, 1e-5, "C α at α = 1e-6"))
+        yield Check(name, float(found.fun) / unit / least, 1.0, 1e-5, "C α at α = 1e-6")
         name = f"{shape}, heavy body, ωτ = {T:g}: k_xc at that depth over Re(q/z)"
         at = float((np.exp(found.x) / depth) ** (1 / POWERS[shape]))
-        checks.append(Check(name, at, 1.0, 1e-3, "a minimum is found to the root of what its value is known to"))
-    return checks
+        yield Check(name, at, 1.0, 1e-3, "a minimum is found to the root of what its value is known to")
 
 
 def _over_depth(shape: str, u_z0: float, T: float) -> float:

@@ -34,7 +34,7 @@ from mdr.tools.progress import progress
 from validation import measured
 from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Point
-from validation.report import Check, Figure, Part
+from validation.report import Check, Checks, Figure, Part
 
 NU = 0.5
 MATERIALS: dict[str, mdr.Material] = {
@@ -125,17 +125,16 @@ def _grid(quick: bool) -> list[tuple[str, str, str, float, float, bool]]:
     return found
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     """Against the full-slip value, and against the formula where the load swings little."""
-    checks, why = [], "bracket of the measurement, second order in its step; depth and force are followed to 1e-5"
+    why = "bracket of the measurement, second order in its step; depth and force are followed to 1e-5"
     for p in points:
         name = f"measured v_c over the full-slip value: {p.where}"
-        checks.append(Check(name, 1 + p.miss, 1, 2 * TOLERANCE, why))
+        yield Check(name, 1 + p.miss, 1, 2 * TOLERANCE, why)
         motion = p.case.oscillation
         if isinstance(motion, mdr.LoadOscillation) and motion.dF_z < 2 * SMALL * motion.F_z0:
             small = "ΔF_z/F_z0 = 1e-3, first order for a body, and the bracket"
-            checks.append(Check(f"measured v_c over the formula: {p.where}", 1 + p.deviation, 1, 1e-3, small))
-    return checks
+            yield Check(f"measured v_c over the formula: {p.where}", 1 + p.deviation, 1, 1e-3, small)
 
 
 @cache
@@ -150,8 +149,7 @@ def _measured(shape: str, material: str, drive: str, eps: float, mass_ratio: flo
 # --- a small load is a small depth ---
 
 
-def _equivalence_checks(quick: bool) -> list[Check]:
-    checks = []
+def _equivalence_checks(quick: bool) -> Checks:
     for shape, material in EQUIVALENT[:1] if quick else EQUIVALENT:
         motion = load(shape, material, SMALL)
         loaded = mdr.resolved(contact(shape, material, motion, BODY))
@@ -161,16 +159,13 @@ def _equivalence_checks(quick: bool) -> list[Check]:
         for share in (0.2, 0.6):
             v_0 = share * mdr.critical_velocity(pressed)
             one, two = (1 - mdr.slide(c, v_0).cof / c.mu_0 for c in (loaded, pressed))
-            checks.append(
-                Check(
-                    f"COF deficit under load over that at its depth, {share:g} v_c: {shape}, {material}",
-                    one / two,
-                    1.0,
-                    5e-3,
-                    "first order in ΔF_z/F_z0 = 1e-3, with a factor of some units",
-                )
+            yield Check(
+                f"COF deficit under load over that at its depth, {share:g} v_c: {shape}, {material}",
+                one / two,
+                1.0,
+                5e-3,
+                "first order in ΔF_z/F_z0 = 1e-3, with a factor of some units",
             )
-    return checks
 
 
 # --- how the formula ends ---
@@ -184,18 +179,15 @@ def deviation(shape: str, material: str, eps: float, pulled: bool, mass_ratio: f
     )
 
 
-def _amplitude_checks() -> list[Check]:
-    checks = []
+def _amplitude_checks() -> Checks:
     for shape, n in POWERS.items():
         value = deviation(shape, "elastic", 0.04, False) / 0.04**2
-        checks.append(
-            Check(
-                f"elastic, rigid pull: deviation of v_c over (ΔF_z/F_z0)²: {shape}",
-                value,
-                laws.load_error(1.0, n),
-                2e-3,
-                "the next term of the series, of order eps² = 1.6e-3",
-            )
+        yield Check(
+            f"elastic, rigid pull: deviation of v_c over (ΔF_z/F_z0)²: {shape}",
+            value,
+            laws.load_error(1.0, n),
+            2e-3,
+            "the next term of the series, of order eps² = 1.6e-3",
         )
     for name, motion in PERIODIC.items():
         if name == "square-like tapping":
@@ -203,16 +195,13 @@ def _amplitude_checks() -> list[Check]:
         case = contact("paraboloid", "elastic", motion)
         t = np.linspace(0, 2 * np.pi / OMEGA, 200_001)
         rate = case.mu_0 * case.material.mindlin_ratio * float(np.max(motion.u_z_dot(t)))
-        checks.append(
-            Check(
-                f"v_c of a rigid pull over μ_0 κ max u_z': {name}",
-                mdr.critical_velocity(case) / rate,
-                1.0,
-                1e-6,
-                "200001 instants miss the maximum by (9 · 3e-5)²/2",
-            )
+        yield Check(
+            f"v_c of a rigid pull over μ_0 κ max u_z': {name}",
+            mdr.critical_velocity(case) / rate,
+            1.0,
+            1e-6,
+            "200001 instants miss the maximum by (9 · 3e-5)²/2",
         )
-    return checks
 
 
 # --- figures ---

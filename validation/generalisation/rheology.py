@@ -28,7 +28,7 @@ from mdr.plots import style
 from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, body, shape_label
 from validation.measured import TOLERANCE, Point, deviation
-from validation.report import Check, Equation, Figure, Part
+from validation.report import Check, Checks, Equation, Figure, Part
 from validation.words import counted, listed
 
 NU = 0.5
@@ -120,34 +120,31 @@ def _sides(index: int) -> Sides:
     return Sides(f"{n_arms} arms, ωτ = {T:.2g}", *runs)
 
 
-def _side_checks(sides: list[Sides]) -> list[Check]:
+def _side_checks(sides: list[Sides]) -> Checks:
     why = "at 0.98 v_c a few per cent of the period still stick; above v_c slip never stops"
     settled = sum(s.below.settled and s.above.settled for s in sides)
     least = min(s.below.stick_share for s in sides)
     most = max(s.above.stick_share for s in sides)
     slip = min(s.above.least_slip / s.above.v_0 for s in sides)
     full = max(abs(1 - s.above.cof / s.above.mu_0) for s in sides)
-    return [
-        Check("random materials whose runs settle", settled, len(sides), 0, "all of them"),
-        Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why),
-        Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why),
-        Check.at_least("least slip velocity at 1.02 v_c, over v_0", slip, 0.01, "v_0 − v_c is 0.0196 v_0"),
-        Check("greatest 1 − COF/μ_0 at 1.02 v_c", full, 0.0, 1e-11, "full slip but for rounding"),
-    ]
+    yield Check("random materials whose runs settle", settled, len(sides), 0, "all of them")
+    yield Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why)
+    yield Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why)
+    yield Check.at_least("least slip velocity at 1.02 v_c, over v_0", slip, 0.01, "v_0 − v_c is 0.0196 v_0")
+    yield Check("greatest 1 − COF/μ_0 at 1.02 v_c", full, 0.0, 1e-11, "full slip but for rounding")
 
 
 # --- measured from runs alone ---
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     """Against the full-slip value, and for the punch against the closed form, which is exact for it."""
-    checks, why = [], "bracket of the measurement and second order in its step"
+    why = "bracket of the measurement and second order in its step"
     for p in points:
-        checks.append(Check(f"measured v_c over the full-slip value: {p.where}", 1 + p.miss, 1.0, TOLERANCE, why))
+        yield Check(f"measured v_c over the full-slip value: {p.where}", 1 + p.miss, 1.0, TOLERANCE, why)
         if isinstance(p.case.indenter, mdr.FlatPunch):
             name = f"measured v_c over the closed form: {p.where}"
-            checks.append(Check(name, 1 + p.deviation, 1.0, TOLERANCE, why))
-    return checks
+            yield Check(name, 1 + p.deviation, 1.0, TOLERANCE, why)
 
 
 @cache
@@ -159,9 +156,8 @@ def _measured(shape: str, name: str) -> Point:
 # --- motion in full slip ---
 
 
-def _motion_checks(chosen: dict[str, mdr.Material]) -> list[Check]:
+def _motion_checks(chosen: dict[str, mdr.Material]) -> Checks:
     """The marched motion of the body, and its force, against the harmonic that they must be."""
-    checks = []
     for name, material in chosen.items():
         case = contact("flat punch", material, 0.05, BODY)
         run = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
@@ -175,17 +171,14 @@ def _motion_checks(chosen: dict[str, mdr.Material]) -> list[Check]:
         off_x = np.abs(run.u_x - run.v_0 * run.t - (y_0 + y_1 * turn).real).max() / abs(y_1)
         off_z = np.abs(run.F_z - case.k_zc * DEPTH - (F_1 * turn).real).max() / abs(F_1)
         why = "second order of 1024 steps, h² = 4e-5, of which the harmonic of the recursion keeps a fraction"
-        checks += [
-            Check(f"body in full slip off −μ_0 H F_N, over its swing: {name}", off_x, 0.0, 2e-5, why),
-            Check(f"normal force off K_z(ω) Δu_z, over its swing: {name}", off_z, 0.0, 2e-5, why),
-        ]
-    return checks
+        yield Check(f"body in full slip off −μ_0 H F_N, over its swing: {name}", off_x, 0.0, 2e-5, why)
+        yield Check(f"normal force off K_z(ω) Δu_z, over its swing: {name}", off_z, 0.0, 2e-5, why)
 
 
 # --- limits ---
 
 
-def _limit_checks() -> list[Check]:
+def _limit_checks() -> Checks:
     """Fast and slow arms are dashpots and springs."""
     T, v_hat = 0.7, 0.4
     kelvin = mdr.KelvinVoigt(E, NU, T / OMEGA)
@@ -197,29 +190,28 @@ def _limit_checks() -> list[Check]:
     )
     punch = contact("flat punch", slow, 0.1)
     deficit = 1 - mdr.slide(punch, v_hat * punch.unit_velocity).cof / punch.mu_0
-    return [
-        Check(
-            "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to",
-            one / two, 1.0, 1e-3, "what the force of the arm lags, 1e-4, and the error of the runs",
-        ),
-        Check(
+    yield Check(
+        "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to",
+        one / two,
+        1.0,
+        1e-3,
+        "what the force of the arm lags, 1e-4, and the error of the runs",
+    )
+    yield Check(
             "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)",
             deficit / (0.1 * (1 + RATIO) * paper.deficit(v_hat)), 1.0, 2e-4, "1e-5 of the arm relaxes in a period",
-        ),
-    ]  # fmt: skip
+        )  # fmt: skip
 
 
-def _amplitude_checks() -> list[Check]:
+def _amplitude_checks() -> Checks:
     """With small amplitude the closed form is approached in proportion to it, as for a Kelvin material."""
-    checks = []
     for name in ("standard solid, ωτ_1 = 0.5", "three arms and a dashpot"):
         for shape in ("cone", "paraboloid"):
             cases = [contact(shape, MATERIALS[name], alpha, BODY) for alpha in (0.005, 0.01)]
             one, two = map(deviation, cases)
             why = "the next power of α, 1 %, with a factor of some units"
-            checks.append(Check(f"power of α in full slip over closed form − 1: {shape}, {name}",
-                                float(np.log2(two / one)), 1.0, 0.06, why))  # fmt: skip
-    return checks
+            yield Check(f"power of α in full slip over closed form − 1: {shape}, {name}",
+                                float(np.log2(two / one)), 1.0, 0.06, why)  # fmt: skip
 
 
 # --- figures ---

@@ -29,7 +29,7 @@ from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
 from validation.measured import TOLERANCE, Measured, slope_at_zero
 from validation.measured import deviation as deviation_of
-from validation.report import Check, Figure, Part
+from validation.report import Check, Checks, Figure, Part
 from validation.words import counted, listed, number, ranged
 
 PULLS: dict[str, dict[str, Any]] = {
@@ -182,63 +182,50 @@ def _worst(points: list[Point], pull: str) -> float:
     return max(abs(p.deviation) for p in points if p.pull == pull)
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
-    checks = []
     for shape in SHAPES:
         here = [p for p in points if p.shape == shape]
         stiff, soft = [p for p in here if p.pull == "rigid pull"], [p for p in here if p.pull != "rigid pull"]
         if stiff:
-            checks.append(
-                Check.at_most(
-                    f"{shape}, rigid pull: worst |v_c/Eq. (1) − 1| of {len(stiff)}",
-                    max(abs(p.deviation) for p in stiff),
-                    TOLERANCE,
-                    why,
-                )
+            yield Check.at_most(
+                f"{shape}, rigid pull: worst |v_c/Eq. (1) − 1| of {len(stiff)}",
+                max(abs(p.deviation) for p in stiff),
+                TOLERANCE,
+                why,
             )
         if soft and shape == "flat punch":
-            checks.append(
-                Check.at_most(
-                    f"{shape}, spring pull: worst |v_c/Eq. (15) − 1| of {len(soft)}",
-                    max(abs(p.deviation) for p in soft),
-                    TOLERANCE,
-                    why,
-                )
+            yield Check.at_most(
+                f"{shape}, spring pull: worst |v_c/Eq. (15) − 1| of {len(soft)}",
+                max(abs(p.deviation) for p in soft),
+                TOLERANCE,
+                why,
             )
         elif soft:
-            checks.append(
-                Check.at_most(
-                    f"{shape}, spring pull: worst |v_c/full-slip value − 1| of {len(soft)}",
-                    max(abs(p.miss) for p in soft),
-                    TOLERANCE,
-                    why,
-                )
+            yield Check.at_most(
+                f"{shape}, spring pull: worst |v_c/full-slip value − 1| of {len(soft)}",
+                max(abs(p.miss) for p in soft),
+                TOLERANCE,
+                why,
             )
             large = max(soft, key=lambda p: abs(p.deviation))
-            checks.append(
-                Check.at_least(
-                    f"{shape}, spring pull: largest |v_c/Eq. (15) − 1|",
-                    abs(large.deviation),
-                    10 * TOLERANCE,
-                    f"Eq. (15) is off by far more than the measurement ({large.where})",
-                )
+            yield Check.at_least(
+                f"{shape}, spring pull: largest |v_c/Eq. (15) − 1|",
+                abs(large.deviation),
+                10 * TOLERANCE,
+                f"Eq. (15) is off by far more than the measurement ({large.where})",
             )
     odd = [p for p in points if p.found.kind != "end of stick"]
-    checks.append(
-        Check(
-            f"measurements of {len(points)} whose signs disagree",
-            len(odd),
-            0,
-            0,
-            "end of stick, least slip velocity and COF name one velocity",
-        )
+    yield Check(
+        f"measurements of {len(points)} whose signs disagree",
+        len(odd),
+        0,
+        0,
+        "end of stick, least slip velocity and COF name one velocity",
     )
-    return checks
 
 
-def _power_checks() -> list[Check]:
-    checks = []
+def _power_checks() -> Checks:
     for shape in list(SHAPES)[1:]:
         for T, pull, damped, expected in (
             (0.0, "stiff spring", False, 2),
@@ -248,30 +235,25 @@ def _power_checks() -> list[Check]:
         ):
             if damped:
                 got, limit = constant(shape, T, pull), laws.first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
-                checks.append(
-                    Check(
-                        f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0",
-                        got,
-                        limit,
-                        2e-3 * abs(limit),
-                        "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out",
-                    )
+                yield Check(
+                    f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0",
+                    got,
+                    limit,
+                    2e-3 * abs(limit),
+                    "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out",
                 )
             name = f"{shape}, {_called(T, pull, damped)}: power of α in the deviation"
-            checks.append(
-                Check(
-                    name,
-                    power(shape, T, pull, damped),
-                    expected,
-                    0.02,
-                    "the next power adds up to 5 α, and alphas end at 0.002"
-                    + ("" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"),
-                )
+            yield Check(
+                name,
+                power(shape, T, pull, damped),
+                expected,
+                0.02,
+                "the next power adds up to 5 α, and alphas end at 0.002"
+                + ("" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"),
             )
-    return checks
 
 
-def _map_checks() -> list[Check]:
+def _map_checks() -> Checks:
     rng, ratios = np.random.default_rng(15), []
     for shape in ("cone", "paraboloid", "r^4"):
         for _ in range(6):
@@ -280,7 +262,7 @@ def _map_checks() -> list[Check]:
             ratios.append(got * POWERS[shape] / laws.first_order(mapped(ratio, T)))
     name = f"n times deviation/α for α → 0 over C of the map, worst of {len(ratios)} random places and shapes"
     why = "1e-10 of v_c in the full-slip value over C α; powers beyond the next"
-    return [Check(name, max(ratios, key=lambda r: abs(r - 1)), 1.0, 2e-3, why)]
+    yield Check(name, max(ratios, key=lambda r: abs(r - 1)), 1.0, 2e-3, why)
 
 
 def _called(T: float, pull: str, damped: bool) -> str:
