@@ -115,9 +115,8 @@ def _equal_checks(quick: bool) -> Checks:
             in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), replace(settings, coupled=on)).cof
             for on in (True, False)
         ]
-        yield Check(
-            f"{shape}, ν = 0.4999999: COF coupled over uncoupled", both[0] / both[1], 1, 1e-5, "forces to 1e-6 a step"
-        )
+        name = f"{shape}, ν = 0.4999999: COF coupled over uncoupled"
+        yield Check(name, both[0] / both[1], 1, 1e-5, "forces to 1e-6 a step")
     pair = Point("paraboloid", 0.5, 0.3, ALPHA, 0.0, 0.6, nu_2=0.0)  # beta < 0
     turned = replace(pair, nu=0.0, nu_2=0.5)
     one, two = (tables.loss(point, Settings(cells=17, steps=24, cycles=3)) for point in (pair, turned))

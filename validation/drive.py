@@ -76,13 +76,8 @@ def _stiff_checks() -> Checks:
             yield Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order")
         cone = shaken("cone", alpha, sizes[1], QUARTER)
         known = (4 * alpha / math.pi) / (1 + alpha**2 / 2)  # force ~ depth squared: mean of sign(cos) (1 + a cos)²
-        yield Check(
-            f"blocked push of a cone over μ_0 F_N: {where}",
-            -mdr.blocked_cof(cone) / cone.mu_0,
-            known,
-            2 / sizes[1],
-            why,
-        )
+        name = f"blocked push of a cone over μ_0 F_N: {where}"
+        yield Check(name, -mdr.blocked_cof(cone) / cone.mu_0, known, 2 / sizes[1], why)
 
 
 def _reach(case: mdr.SlidingContact) -> float:
@@ -108,13 +103,8 @@ def _energy_checks() -> Checks:
         case = shaken("flat punch", ALPHA, chi, QUARTER)
         account = mdr.slide(case, 0.5 * mdr.no_load_velocity(case), accuracy=1e-6).energy_balance
         name = f"residual of the account of energy, over what is lost, half-way to no load: Δu_x = {chi:g} μ_0 κ u_z0"
-        yield Check(
-            name,
-            account.relative,
-            0.0,
-            2e-4,
-            "second order in a step of 1/1000 of a period, over the share that drives",
-        )
+        got = account.relative
+        yield Check(name, got, 0.0, 2e-4, "second order in a step of 1/1000 of a period, over the share that drives")
         out = -account.pull_work / (account.normal_work + account.shake_work)
         name = f"efficiency there: Δu_x = {chi:g} μ_0 κ u_z0"
         yield Check.between(name, out, 0.02, 0.5, "a drive, and not a good one: slip takes most")
@@ -146,9 +136,8 @@ def _side_checks() -> Checks:
         why = "springs turn over while the way turns back, which takes a time like the root; the next order is 1/120"
         yield Check(name, push * math.sqrt(120), known, 1 / 120, why)
     held = mdr.holding_band(shaken("flat punch", ALPHA, 0.1, QUARTER))
-    yield Check.at_most(
-        "low end of what is held at Δu_x = 0.1 μ_0 κ u_z0, a quarter apart", held.low, 0.0, "zero load is held"
-    )
+    name = "low end of what is held at Δu_x = 0.1 μ_0 κ u_z0, a quarter apart"
+    yield Check.at_most(name, held.low, 0.0, "zero load is held")
     yield Check.at_least("its high end", held.high, 0.0, "zero load is held")
 
 

@@ -196,9 +196,8 @@ def _table_checks() -> Checks:
     beyond = [row.stick for row in rows if row.point.v > 1 + 1.6 * radial_rub(row.point.case)]
     below = [row.stick for row in rows if row.point.v < 1 + 0.4 * radial_rub(row.point.case)]
     what = "share that sticks in the tables"
-    yield Check.at_most(
-        f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c", max(beyond), 0, "beyond all ends"
-    )
+    name = f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c"
+    yield Check.at_most(name, max(beyond), 0, "beyond all ends")
     yield Check.at_least(f"least {what}, {len(below)} points below (1 + 0.4 λ) v_c", min(below), 1e-3, "below all ends")
 
 
@@ -210,13 +209,8 @@ def _place_checks(found: LastPeriod) -> Checks:
     sticks = stuck(found.contact, found.steps[i])
     phase, along, across = (i + 1) / shares.size, np.mean(x[sticks]), np.mean(y[sticks])
     what = f"{ABOVE:g} v_c, greatest stick"
-    yield Check.between(
-        f"{what}: when, in periods after the least depth",
-        phase,
-        0.15,
-        0.35,
-        "the depth grows, at least at 0.8 of its fastest",
-    )
+    name = f"{what}: when, in periods after the least depth"
+    yield Check.between(name, phase, 0.15, 0.35, "the depth grows, at least at 0.8 of its fastest")
     yield Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge")
     yield Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric")
 

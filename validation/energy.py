@@ -158,13 +158,8 @@ def _full_slip_checks(effort: str) -> Checks:
     )
     omega, du_z, kappa = case.oscillation.omega, case.oscillation.du_z, case.material.mindlin_ratio
     viscous = np.pi * case.gamma_zc * omega * du_z**2 * (1 + case.mu_0**2 * kappa)
-    yield Check(
-        "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)",
-        run.energy_balance.viscous_loss / viscous,
-        1.0,
-        STEP,
-        why,
-    )
+    name = "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)"
+    yield Check(name, run.energy_balance.viscous_loss / viscous, 1.0, STEP, why)
 
 
 def _figure(balances: list[Balance]) -> Figure:

@@ -158,19 +158,13 @@ def _run_checks(effort: str) -> Checks:
     core = n // 8  # springs of a run crowd at the edge of the contact
     weight = disc(c)[1]
     why = f"a/{core} is the spacing of the springs inside; the edge slips to and fro with the oscillation"
-    yield Check(
-        f"sliding run of {n} springs: stick radius over a", found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why
-    )
-    yield Check.at_most(
-        f"sliding run of {n} springs: traction, mean square", off(found.traction, mindlin(r, c), weight), 5e-3, why
-    )
-    yield Check(
-        f"sliding run of {n} springs: integral of traction over F_x",
-        float(np.sum(weight * found.traction)) / found.F_x,
-        1.0,
-        1e-3,
-        "quadrature over the kinks of straight lines, and an edge a thousandth further out",
-    )
+    name = f"sliding run of {n} springs: stick radius over a"
+    yield Check(name, found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why)
+    name = f"sliding run of {n} springs: traction, mean square"
+    yield Check.at_most(name, off(found.traction, mindlin(r, c), weight), 5e-3, why)
+    name = f"sliding run of {n} springs: integral of traction over F_x"
+    why = "quadrature over the kinks of straight lines, and an edge a thousandth further out"
+    yield Check(name, float(np.sum(weight * found.traction)) / found.F_x, 1.0, 1e-3, why)
 
 
 def _sum_checks() -> Checks:

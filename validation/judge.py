@@ -99,13 +99,11 @@ def _slip_checks(slips: dict[float, list[PartialSlip]], n: int) -> Checks:
         yield Check.at_most(f"{name}: traction, over μ_0 p_0", one.traction, 3 / n, "infinite slope within a cell")
     for nu in (0.3, 0.5):
         most = max(abs(one.force - one.closed_form) for one in slips[nu])
-        yield Check.at_most(
-            f"transverse slip left out, ν = {nu:g}: ΔF_x/(μ_0 F_z)", most, 0.1 * nu / (4 - 2 * nu), "of second order"
-        )
+        name = f"transverse slip left out, ν = {nu:g}: ΔF_x/(μ_0 F_z)"
+        yield Check.at_most(name, most, 0.1 * nu / (4 - 2 * nu), "of second order")
         most = max(one.transverse for one in slips[nu])
-        yield Check.at_most(
-            f"transverse slip left out, ν = {nu:g}: q_y/(μ_0 p_0)", most, nu / (4 - 2 * nu), "its order"
-        )
+        name = f"transverse slip left out, ν = {nu:g}: q_y/(μ_0 p_0)"
+        yield Check.at_most(name, most, nu / (4 - 2 * nu), "its order")
 
 
 def _spence_checks(cases: Any, quick: bool) -> Checks:
@@ -121,9 +119,8 @@ def _spence_checks(cases: Any, quick: bool) -> Checks:
     for nu, mu_0 in SPENCE:
         beta = _beta(nu)
         name = f"the equations, u_z by friction left out, ν = {nu:g}, μ_0 = {mu_0:g}: over the closed form"
-        yield Check(
-            name, rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0), 1, 1e-5, "100 nodes"
-        )
+        got = rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0)
+        yield Check(name, got, 1, 1e-5, "100 nodes")
 
 
 def _beta(nu: float) -> float:

@@ -180,9 +180,8 @@ def _limit_checks() -> Checks:
         yield Check(name, laws.amplitude_limit(T) * touched, 1.0, 1e-11, "a minimum against a root, both to 1e-12")
     T, limit = 1e4, laws.slow_limit()
     why = "the next term of the exponential is θ/(2ωτ) of it, at tan θ = θ < 4.5"
-    yield Check(
-        f"α_1 ωτ of a very slow material, ωτ = {T:g}", laws.amplitude_limit(T) * T, limit, limit * 2.25 / T, why
-    )
+    name = f"α_1 ωτ of a very slow material, ωτ = {T:g}"
+    yield Check(name, laws.amplitude_limit(T) * T, limit, limit * 2.25 / T, why)
 
 
 def _onset_checks() -> Checks:
@@ -236,26 +235,12 @@ def _body_checks(points: list[Point]) -> Checks:
     why = "each measurement brings its bracket; both name one velocity"
     off = max(points, key=lambda p: abs(p.miss))
     least = min(points, key=lambda p: p.deviation)
-    yield Check(
-        f"with a body: measured v_c of {len(points)} whose bracket misses the full-slip value",
-        sum(not p.in_bracket for p in points),
-        0,
-        0,
-        why,
-    )
-    yield Check(
-        f"with a body: measured v_c over the full-slip value, worst of {len(points)} ({off.where})",
-        1 + off.miss,
-        1.0,
-        1e-4,
-        "what a measurement promises",
-    )
-    yield Check.at_most(
-        f"with a body: least measured v_c over Eq. (15) ({least.where})",
-        1 + least.deviation,
-        0.5,
-        "Eq. (15) is off by far more than the measurement",
-    )
+    name = f"with a body: measured v_c of {len(points)} whose bracket misses the full-slip value"
+    yield Check(name, sum(not p.in_bracket for p in points), 0, 0, why)
+    name = f"with a body: measured v_c over the full-slip value, worst of {len(points)} ({off.where})"
+    yield Check(name, 1 + off.miss, 1.0, 1e-4, "what a measurement promises")
+    name = f"with a body: least measured v_c over Eq. (15) ({least.where})"
+    yield Check.at_most(name, 1 + least.deviation, 0.5, "Eq. (15) is off by far more than the measurement")
 
 
 # --- figures ---

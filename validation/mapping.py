@@ -162,12 +162,9 @@ def _half_space_checks(shape: str, indenter: mdr.Indenter, d: float, sunk: Array
     why = "Gauss quadrature of 200 nodes, smooth after r = a sin t with t graded towards tip and corners"
     why += "; the pressure of a force curve is promised to 2e-7" if rough else ""
     yield Check.at_most(f"{shape}: integral of p over the disc against F_N", abs(disc), 1e-6 if rough else 1e-10, why)
-    yield Check.at_most(
-        f"{shape}: half-space under p takes the shape d - f(r), over d",
-        off,
-        1e-6 if rough else 1e-7,
-        "quadrature over a logarithm: halving its nodes changes the sum by less",
-    )
+    name = f"{shape}: half-space under p takes the shape d - f(r), over d"
+    why = "quadrature over a logarithm: halving its nodes changes the sum by less"
+    yield Check.at_most(name, off, 1e-6 if rough else 1e-7, why)
     yield Check.at_least(f"{shape}: least p inside the contact [Pa]", pull, 0, "a contact without adhesion never pulls")
 
 
@@ -225,9 +222,8 @@ def _sum_checks(amplitudes: tuple[float, ...]) -> Checks:
         for what, off in worst.items():
             scale = "2 E* a u_z0" if what == "F_N" else "2 E* a"
             name = f"{shape}: {what} of 16, 100 and 384 springs at u_z0 and u_z0 ± Δu_z, over {scale}"
-            yield Check.at_most(
-                name, off, ROUNDING, "the panels end there and each keeps its mean depth: only rounding is left"
-            )
+            why = "the panels end there and each keeps its mean depth: only rounding is left"
+            yield Check.at_most(name, off, ROUNDING, why)
 
 
 def _catalogue_sum_checks() -> Checks:
@@ -277,13 +273,8 @@ def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...
             "a cell of stiffness dk over which g rises by dg errs by dk dg/8 when half of it touches; g bends"
             " within a cell by less than 5 %"
         )
-        yield Check(
-            f"{shape}: greatest error of F_N over that of its widest cell, {counts[-1]} springs",
-            errors[-1] / bounds[-1],
-            1.0,
-            0.05,
-            why,
-        )
+        name = f"{shape}: greatest error of F_N over that of its widest cell, {counts[-1]} springs"
+        yield Check(name, errors[-1] / bounds[-1], 1.0, 0.05, why)
 
 
 # --- figures ---

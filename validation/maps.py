@@ -156,9 +156,8 @@ def _checks_of_v_c(study: mdr.Study, points: list[Point]) -> Checks:
         oscillation = replace(BODY.oscillation, omega=omega[j])
         case = replace(BODY, material=replace(BODY.material, tau=tau[i]), oscillation=oscillation)
         off = max(off, abs(study["v_c"][i, j] / mdr.critical_velocity(case) - 1))
-    yield Check.at_most(
-        "v_c in the study against critical_velocity(), two corners and the middle, worst", off, 1e-13, why
-    )
+    name = "v_c in the study against critical_velocity(), two corners and the middle, worst"
+    yield Check.at_most(name, off, 1e-13, why)
     for case, found in points:
         where = f"ω/ω_0 = {case.oscillation.omega / OMEGA:g}, ω_0 τ = {case.material.tau * OMEGA:g}"
         got = np.nan if found.v_c is None else found.v_c / mdr.full_slip_critical_velocity(case)

@@ -181,9 +181,8 @@ def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> Checks:
     why = (
         "a steady motion is solved for; the faintest harmonics drive too slowly at the highest speeds to be sure of it"
     )
-    yield Check.at_least(
-        f"runs of {len(driven) * len(speeds)} that are steady", n_found, 0.8 * len(driven) * len(speeds), why
-    )
+    name = f"runs of {len(driven) * len(speeds)} that are steady"
+    yield Check.at_least(name, n_found, 0.8 * len(driven) * len(speeds), why)
     fall = [(reduction("flat punch", 0.0, 1, v)[0] / share("flat punch", 0.0, 1) - 1) for v in (4, 16, 64)]
     power = float(np.polyfit(np.log([4, 16, 64]), np.log(fall), 1)[0])
     why = "pulses of a width ~ v^(-1/4) exceed the law by the square of it; the next order is not small at v = 4"

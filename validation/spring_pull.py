@@ -165,66 +165,40 @@ def _undamped_checks(effort: str) -> Checks:
     yield Check("undamped, elastic, mω² = 3.5 k_x: v_c over Eq. (2)", 1 + near.deviation, 1.0, near.tolerance, why)
     if effort != "quick":
         zero = measure(ZERO, 0.3, 0.0)
-        yield Check(
-            "undamped, ωτ = 0.3, at the zero: v_c over Eq. (1)",
-            zero.measured,
-            0.3,
-            0.3 * zero.tolerance,
-            why + "; Eq. (15) gives ωτ there",
-        )
+        name = "undamped, ωτ = 0.3, at the zero: v_c over Eq. (1)"
+        yield Check(name, zero.measured, 0.3, 0.3 * zero.tolerance, why + "; Eq. (15) gives ωτ there")
     case = punch(ZERO, 0.0, 0.0)
     run = mdr.slide(case, 0.01 * case.unit_velocity)
-    yield Check.at_most(
-        "undamped, elastic, at the zero: 1 − cof/mu_0 at 0.01 of Eq. (1)",
-        1 - run.cof / run.mu_0,
-        run.cof_error / run.mu_0,
+    name = "undamped, elastic, at the zero: 1 − cof/mu_0 at 0.01 of Eq. (1)"
+    why = (
         "Eq. (2) gives v_c = 0, so not even a crawl lowers friction (by more than the error of the run); static "
-        "cof/mu_0 is 0.9",
+        "cof/mu_0 is 0.9"
     )
+    yield Check.at_most(name, 1 - run.cof / run.mu_0, run.cof_error / run.mu_0, why)
 
 
 def _pole_checks(plateaus: dict[float, Array], swings: dict[float, list[mdr.SlidingRun]]) -> Checks:
     case = punch(1.0, 0.0, 0.0)
     found = mdr.measure_critical_velocity(case)
     yield Check("undamped pole: Eq. (15)", mdr.critical_velocity(case), np.inf, 0.0, "the denominator is zero")
-    yield Check(
-        "undamped pole: critical velocities found by measurement",
-        int(found.v_c is not None),
-        0,
-        0.0,
-        "friction stays reduced up to a million times Eq. (1), the highest velocity tried",
-    )
-    yield Check(
-        f"undamped pole: runs of {sum(map(len, swings.values()))} that have not settled",
-        sum(not run.settled for runs in swings.values() for run in runs),
-        0,
-        0.0,
-        "every one of them is a point of the plateau",
-    )
+    why = "friction stays reduced up to a million times Eq. (1), the highest velocity tried"
+    yield Check("undamped pole: critical velocities found by measurement", int(found.v_c is not None), 0, 0.0, why)
+    name = f"undamped pole: runs of {sum(map(len, swings.values()))} that have not settled"
+    got = sum(not run.settled for runs in swings.values() for run in runs)
+    yield Check(name, got, 0, 0.0, "every one of them is a point of the plateau")
     for T, cof in plateaus.items():
         far = 2 * cof[-1] - cof[-2]
-        yield Check(
-            f"undamped pole, ωτ = {T:g}: cof/mu_0 carried on to v_0 → ∞",
-            far,
-            half_way(T),
-            ALPHA / PLATEAU[-2],
+        name = f"undamped pole, ωτ = {T:g}: cof/mu_0 carried on to v_0 → ∞"
+        why = (
             "halfway between static COF and mu_0; from 64 and 256 times Eq. (1) by the power −1/2 of v_0, "
-            "the next power leaves α/64 at most",
+            "the next power leaves α/64 at most"
         )
-        yield Check.at_most(
-            f"undamped pole, ωτ = {T:g}: cof/mu_0 at 256 times Eq. (1)",
-            cof[-1],
-            half_way(T),
-            "the plateau is approached from below: mu_0 is never reached",
-        )
+        yield Check(name, far, half_way(T), ALPHA / PLATEAU[-2], why)
+        name = f"undamped pole, ωτ = {T:g}: cof/mu_0 at 256 times Eq. (1)"
+        yield Check.at_most(name, cof[-1], half_way(T), "the plateau is approached from below: mu_0 is never reached")
     rest = on_the_pole(0.0, 16.0, "rest")
-    yield Check(
-        "undamped pole: cof/mu_0 from rest less that from full slip, at 16 times Eq. (1)",
-        rest.cof / rest.mu_0 - plateaus[0.0][PLATEAU.index(16.0)],
-        0.0,
-        2e-6,
-        "both runs settled to 1e-6",
-    )
+    name = "undamped pole: cof/mu_0 from rest less that from full slip, at 16 times Eq. (1)"
+    yield Check(name, rest.cof / rest.mu_0 - plateaus[0.0][PLATEAU.index(16.0)], 0.0, 2e-6, "both runs settled to 1e-6")
 
 
 def _sweep_figure(points: list[Point], materials: tuple[float, ...]) -> Figure:

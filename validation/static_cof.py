@@ -189,13 +189,8 @@ def _approach_checks(a: Approach) -> Checks:
     limit = (grow * a.ratio[-1] - a.ratio[-2]) / (grow - 1)
     left = v_2 ** (2 * gap) + noise * grow / (grow - 1)
     yield Check(f"power of v_0 in COF − static: {a.name}", float(power), a.power, float(bend), why)
-    yield Check(
-        f"COF − static over the derived law, to v_0 → 0: {a.name}",
-        float(limit),
-        1.0,
-        float(left),
-        "the next but one term at the faster of the two runs, and the error of the runs",
-    )
+    why = "the next but one term at the faster of the two runs, and the error of the runs"
+    yield Check(f"COF − static over the derived law, to v_0 → 0: {a.name}", limit, 1.0, left, why)
 
 
 # --- figure ---

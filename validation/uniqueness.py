@@ -311,20 +311,12 @@ def _end_checks(found: list[Ends]) -> Checks:
     name = f"largest difference of the COFs of one system over μ_0, less both spreads, {len(compared)} systems"
     damped = [e for e in found if e.system.damping_ratio]
     yield Check.at_most(name, max(e.excess for e in compared), 1e-12, why)
-    yield Check(
-        f"starts of {len(damped)} damped systems that did not settle",
-        sum(len(STARTS) - len(e.settled) for e in damped),
-        0,
-        0,
-        "a damper of 0.5 % lets a free oscillation die out in some hundred periods",
-    )
-    yield Check(
-        f"settled motions of {len(damped)} damped systems that do not repeat after one period",
-        sum(s.kind != "periodic" for e in damped for s in e.settled),
-        0,
-        0,
-        "two motions one period apart merge like any other two; what alternates is followed for four times as long",
-    )
+    name = f"starts of {len(damped)} damped systems that did not settle"
+    got = sum(len(STARTS) - len(e.settled) for e in damped)
+    yield Check(name, got, 0, 0, "a damper of 0.5 % lets a free oscillation die out in some hundred periods")
+    name = f"settled motions of {len(damped)} damped systems that do not repeat after one period"
+    why = "two motions one period apart merge like any other two; what alternates is followed for four times as long"
+    yield Check(name, sum(s.kind != "periodic" for e in damped for s in e.settled), 0, 0, why)
 
 
 def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
@@ -366,26 +358,15 @@ def _sweep_checks() -> Checks:
     short, waited = swept(SHORT), swept(None)
     up, down = waited[0]
     off = np.abs(short[0] - waited[0])
-    yield Check.at_most(
-        "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads",
-        float(np.max(np.abs(up - down) - waited[1].sum(axis=0))),
-        1e-12,
-        "spreads that the runs state of themselves",
-    )
+    name = "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads"
+    got = np.max(np.abs(up - down) - waited[1].sum(axis=0))
+    yield Check.at_most(name, got, 1e-12, "spreads that the runs state of themselves")
     yield Check("of these runs settled", float(waited[2].mean()), 1.0, 0.0, "the damper ends every transient")
-    yield Check.at_least(
-        f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0",
-        float(np.abs(short[0][0] - short[0][1]).max()),
-        0.01,
-        "a loop made of transients",
-    )
-    yield Check(
-        f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0",
-        float(np.sum(short[2] & (off > TOLERANCE))),
-        0.0,
-        0.0,
-        "what settled means: a transient is not taken for an end",
-    )
+    name = f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0"
+    yield Check.at_least(name, np.abs(short[0][0] - short[0][1]).max(), 0.01, "a loop made of transients")
+    name = f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0"
+    got = np.sum(short[2] & (off > TOLERANCE))
+    yield Check(name, got, 0.0, 0.0, "what settled means: a transient is not taken for an end")
 
 
 def _distance_figure() -> Figure:

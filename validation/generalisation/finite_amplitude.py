@@ -226,28 +226,14 @@ def _measured_checks(points: list[Point]) -> Checks:
     yield Check(f"the same of {len(lost)} with the whole contact lost", sum(not p.in_bracket for p in lost), 0, 0, why)
     yield Check.at_least("shapes measured with the whole contact lost", len({p.shape for p in lost}), 4, "all of them")
     yield Check.at_most("worst |v_c/full-slip value − 1|", max(abs(p.miss) for p in points), 1e-4, resolution)
-    yield Check(
-        "measurements whose signs disagree",
-        sum(p.found.kind != "end of stick" for p in points),
-        0,
-        0,
-        "end of stick, least slip velocity and COF name one velocity; the damper lets every run settle",
-    )
-    yield Check.at_most(
-        f"flat punch in contact: worst |v_c/Eq. (15) − 1| of {len(kept)}",
-        max(abs(p.deviation) for p in kept),
-        1e-4,
-        "the force has one harmonic; " + resolution,
-    )
-    yield Check.at_least(
-        "flat punch lost: largest |v_c/Eq. (15) − 1| measured",
-        abs(flew.deviation),
-        0.01,
-        f"Eq. (15) is off by far more than the measurement ({flew.where})",
-    )
-    yield Check.at_least(
-        "curved shapes: largest |v_c/Eq. (15) − 1| measured", abs(far.deviation), 0.01, f"the same ({far.where})"
-    )
+    why = "end of stick, least slip velocity and COF name one velocity; the damper lets every run settle"
+    yield Check("measurements whose signs disagree", sum(p.found.kind != "end of stick" for p in points), 0, 0, why)
+    name = f"flat punch in contact: worst |v_c/Eq. (15) − 1| of {len(kept)}"
+    yield Check.at_most(name, max(abs(p.deviation) for p in kept), 1e-4, "the force has one harmonic; " + resolution)
+    why = f"Eq. (15) is off by far more than the measurement ({flew.where})"
+    yield Check.at_least("flat punch lost: largest |v_c/Eq. (15) − 1| measured", abs(flew.deviation), 0.01, why)
+    name = "curved shapes: largest |v_c/Eq. (15) − 1| measured"
+    yield Check.at_least(name, abs(far.deviation), 0.01, f"the same ({far.where})")
 
 
 def _power_checks(effort: str) -> Checks:

@@ -159,13 +159,8 @@ def _equivalence_checks(quick: bool) -> Checks:
         for share in (0.2, 0.6):
             v_0 = share * mdr.critical_velocity(pressed)
             one, two = (1 - mdr.slide(c, v_0).cof / c.mu_0 for c in (loaded, pressed))
-            yield Check(
-                f"COF deficit under load over that at its depth, {share:g} v_c: {shape}, {material}",
-                one / two,
-                1.0,
-                5e-3,
-                "first order in ΔF_z/F_z0 = 1e-3, with a factor of some units",
-            )
+            name = f"COF deficit under load over that at its depth, {share:g} v_c: {shape}, {material}"
+            yield Check(name, one / two, 1.0, 5e-3, "first order in ΔF_z/F_z0 = 1e-3, with a factor of some units")
 
 
 # --- how the formula ends ---
@@ -182,26 +177,17 @@ def deviation(shape: str, material: str, eps: float, pulled: bool, mass_ratio: f
 def _amplitude_checks() -> Checks:
     for shape, n in POWERS.items():
         value = deviation(shape, "elastic", 0.04, False) / 0.04**2
-        yield Check(
-            f"elastic, rigid pull: deviation of v_c over (ΔF_z/F_z0)²: {shape}",
-            value,
-            laws.load_error(1.0, n),
-            2e-3,
-            "the next term of the series, of order eps² = 1.6e-3",
-        )
+        name = f"elastic, rigid pull: deviation of v_c over (ΔF_z/F_z0)²: {shape}"
+        yield Check(name, value, laws.load_error(1.0, n), 2e-3, "the next term of the series, of order eps² = 1.6e-3")
     for name, motion in PERIODIC.items():
         if name == "square-like tapping":
             continue
         case = contact("paraboloid", "elastic", motion)
         t = np.linspace(0, 2 * np.pi / OMEGA, 200_001)
         rate = case.mu_0 * case.material.mindlin_ratio * float(np.max(motion.u_z_dot(t)))
-        yield Check(
-            f"v_c of a rigid pull over μ_0 κ max u_z': {name}",
-            mdr.critical_velocity(case) / rate,
-            1.0,
-            1e-6,
-            "200001 instants miss the maximum by (9 · 3e-5)²/2",
-        )
+        name = f"v_c of a rigid pull over μ_0 κ max u_z': {name}"
+        got = mdr.critical_velocity(case) / rate
+        yield Check(name, got, 1.0, 1e-6, "200001 instants miss the maximum by (9 · 3e-5)²/2")
 
 
 # --- figures ---

@@ -190,17 +190,11 @@ def _limit_checks() -> Checks:
     )
     punch = contact("flat punch", slow, 0.1)
     deficit = 1 - mdr.slide(punch, v_hat * punch.unit_velocity).cof / punch.mu_0
-    yield Check(
-        "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to",
-        one / two,
-        1.0,
-        1e-3,
-        "what the force of the arm lags, 1e-4, and the error of the runs",
-    )
-    yield Check(
-            "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)",
-            deficit / (0.1 * (1 + RATIO) * paper.deficit(v_hat)), 1.0, 2e-4, "1e-5 of the arm relaxes in a period",
-        )  # fmt: skip
+    name = "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to"
+    yield Check(name, one / two, 1.0, 1e-3, "what the force of the arm lags, 1e-4, and the error of the runs")
+    name = "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)"
+    got = deficit / (0.1 * (1 + RATIO) * paper.deficit(v_hat))
+    yield Check(name, got, 1.0, 2e-4, "1e-5 of the arm relaxes in a period")
 
 
 def _amplitude_checks() -> Checks:

@@ -188,26 +188,14 @@ def _measured_checks(points: list[Point]) -> Checks:
         here = [p for p in points if p.shape == shape]
         stiff, soft = [p for p in here if p.pull == "rigid pull"], [p for p in here if p.pull != "rigid pull"]
         if stiff:
-            yield Check.at_most(
-                f"{shape}, rigid pull: worst |v_c/Eq. (1) − 1| of {len(stiff)}",
-                max(abs(p.deviation) for p in stiff),
-                TOLERANCE,
-                why,
-            )
+            name = f"{shape}, rigid pull: worst |v_c/Eq. (1) − 1| of {len(stiff)}"
+            yield Check.at_most(name, max(abs(p.deviation) for p in stiff), TOLERANCE, why)
         if soft and shape == "flat punch":
-            yield Check.at_most(
-                f"{shape}, spring pull: worst |v_c/Eq. (15) − 1| of {len(soft)}",
-                max(abs(p.deviation) for p in soft),
-                TOLERANCE,
-                why,
-            )
+            name = f"{shape}, spring pull: worst |v_c/Eq. (15) − 1| of {len(soft)}"
+            yield Check.at_most(name, max(abs(p.deviation) for p in soft), TOLERANCE, why)
         elif soft:
-            yield Check.at_most(
-                f"{shape}, spring pull: worst |v_c/full-slip value − 1| of {len(soft)}",
-                max(abs(p.miss) for p in soft),
-                TOLERANCE,
-                why,
-            )
+            name = f"{shape}, spring pull: worst |v_c/full-slip value − 1| of {len(soft)}"
+            yield Check.at_most(name, max(abs(p.miss) for p in soft), TOLERANCE, why)
             large = max(soft, key=lambda p: abs(p.deviation))
             yield Check.at_least(
                 f"{shape}, spring pull: largest |v_c/Eq. (15) − 1|",
@@ -216,13 +204,8 @@ def _measured_checks(points: list[Point]) -> Checks:
                 f"Eq. (15) is off by far more than the measurement ({large.where})",
             )
     odd = [p for p in points if p.found.kind != "end of stick"]
-    yield Check(
-        f"measurements of {len(points)} whose signs disagree",
-        len(odd),
-        0,
-        0,
-        "end of stick, least slip velocity and COF name one velocity",
-    )
+    name = f"measurements of {len(points)} whose signs disagree"
+    yield Check(name, len(odd), 0, 0, "end of stick, least slip velocity and COF name one velocity")
 
 
 def _power_checks() -> Checks:
@@ -235,22 +218,14 @@ def _power_checks() -> Checks:
         ):
             if damped:
                 got, limit = constant(shape, T, pull), laws.first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
-                yield Check(
-                    f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0",
-                    got,
-                    limit,
-                    2e-3 * abs(limit),
-                    "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out",
-                )
+                name = f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0"
+                why = "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out"
+                yield Check(name, got, limit, 2e-3 * abs(limit), why)
             name = f"{shape}, {_called(T, pull, damped)}: power of α in the deviation"
-            yield Check(
-                name,
-                power(shape, T, pull, damped),
-                expected,
-                0.02,
-                "the next power adds up to 5 α, and alphas end at 0.002"
-                + ("" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"),
+            why = "the next power adds up to 5 α, and alphas end at 0.002" + (
+                "" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"
             )
+            yield Check(name, power(shape, T, pull, damped), expected, 0.02, why)
 
 
 def _map_checks() -> Checks:
