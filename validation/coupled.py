@@ -19,8 +19,9 @@ import numpy as np
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions, last_period
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import contact
+from validation.figures import figure
 from validation.half_space import pictures, tables
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Checks, Claim, Figure
@@ -148,39 +149,33 @@ def _again_checks(rows: list[Row], quick: bool) -> Checks:
 # --- figures ---
 
 
-def _curve_figure(rows: list[Row]) -> Figure:
-    """Friction over velocity, in three dimensions and of springs."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, panels = plt.subplots(2, 3, figsize=(10.2, 6.4), sharex=True, sharey=True)
-        for line, shape in zip(panels, SHAPES, strict=True):
-            for ax, mu_0 in zip(line, FRICTIONS, strict=True):
-                for nu, colour in zip(RATIOS, COLOURS, strict=False):
-                    own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
-                    v, cof = [r.point.v for r in own], [r.cof for r in own]
-                    ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
-                    end = 1 + _rub_of(nu, mu_0)
-                    if end < 0.98 * FASTEST_SHOWN:
-                        ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
-                ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")
-                ax.set_title(rf"{shape}, $\mu_0 = {mu_0:g}$")
-                ax.set_xlim(0, FASTEST_SHOWN)
-                ax.axvline(1, color="0.8", lw=0.8, zorder=0)
-        for ax in panels[1]:
-            ax.set_xlabel("$v_0$ over Eq. (1)")
-        panels[0, 0].set_ylim(None, 1.065)
-        for ax in panels[:, 0]:
-            ax.set_ylabel(r"$\mu/\mu_0$")
-        panels[0, 2].legend(loc="lower right")
-    return Figure(
-        name="cof",
-        caption="Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"
+@figure("cof", 2, 3, size=(10.2, 6.4), sharex=True, sharey=True)
+def _curve_figure(fig, panels, rows: list[Row]) -> str:
+    """Six panels of friction against velocity: four Poisson's ratios below the dashed springs."""
+    for line, shape in zip(panels, SHAPES, strict=True):
+        for ax, mu_0 in zip(line, FRICTIONS, strict=True):
+            for nu, colour in zip(RATIOS, COLOURS, strict=False):
+                own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
+                v, cof = [r.point.v for r in own], [r.cof for r in own]
+                ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
+                end = 1 + _rub_of(nu, mu_0)
+                if end < 0.98 * FASTEST_SHOWN:
+                    ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
+            ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")
+            ax.set_title(rf"{shape}, $\mu_0 = {mu_0:g}$")
+            ax.set_xlim(0, FASTEST_SHOWN)
+            ax.axvline(1, color="0.8", lw=0.8, zorder=0)
+    for ax in panels[1]:
+        ax.set_xlabel("$v_0$ over Eq. (1)")
+    panels[0, 0].set_ylim(None, 1.065)
+    for ax in panels[:, 0]:
+        ax.set_ylabel(r"$\mu/\mu_0$")
+    panels[0, 2].legend(loc="lower right")
+    return (
+        "Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"
         " know Poisson's ratio. The more compressible the body and the smaller μ_0, the lower; ν = 0.5 is the dashed"
         " line itself. Ticks above the curves: (1 + λ) v_c, about where stick ends, where this is below"
-        f" {FASTEST_SHOWN:g} v_c. Friction is not full there, nor beyond.",
-        drawing=fig,
-        alt="Six panels of friction against velocity: four Poisson's ratios below the dashed springs.",
+        f" {FASTEST_SHOWN:g} v_c. Friction is not full there, nor beyond."
     )
 
 

@@ -25,12 +25,12 @@ from scipy.optimize import curve_fit
 import mdr
 from mdr.closed_forms import coupling
 from mdr.half_space.friction import Settings
-from mdr.plots import style
 from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
+from validation.figures import figure
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation
 
 Column = Sequence[Row]  #: of one contact
 
@@ -243,70 +243,59 @@ def _group_checks(quick: bool) -> Checks:
 # --- figures ---
 
 
-def _collapse_figure(columns: Sequence[Column], constants: Array) -> Figure:
-    """Losses at nu = mu_0 = 0.3, the greatest and over L_0."""
-    import matplotlib.pyplot as plt
-
+@figure("collapse", 1, 2, size=(9.8, 4.0))
+def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array) -> str:
+    """Left: points on a line through zero. Right: curves of loss against velocity nearly on one."""
+    left, right = axes
     own = [column for column in columns if (column[0].point.nu, column[0].point.mu_0) == (0.3, 0.3)]
     first = Groups.of(own[0][0].point)
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.8, 4.0))
-        for column in own:
-            point = column[0].point
-            colour, marker = LOOKS[point.shape]
-            v = np.array([row.point.v for row in column])
-            loss = np.array([row.loss for row in column])
-            look = {"color": colour, "mfc": "w" if point.T else colour, "ms": 5}
-            groups = Groups.of(point)
-            left.plot(groups.lost, loss.max(), marker, **look)
-            right.plot(v, loss / groups.lost, "--" if point.T else "-", lw=1, color=colour)
-        left.axline((0, 0), slope=first.loss(constants) / first.lost, color="0.6")
-        for shape, (colour, marker) in LOOKS.items():
-            left.plot([], [], marker, color=colour, ms=5, label=shape_label(shape))
-        left.plot([], [], "o", color="0.3", mfc="w", label=r"Kelvin, $\omega\tau$ = 0.3 to 3")
-        left.plot([], [], "-", color="0.6", label="the law")
-        left.set(xlim=(0, None), ylim=(0, None), xlabel="$L_0$", ylabel=r"greatest loss = (springs $-$ 3D)/$\mu_0$")
-        right.set(xlim=(0, 2), xlabel="$v_0$ over Eq. (1)", ylabel="loss over $L_0$")
-        left.legend()
-    return Figure(
-        name="collapse",
-        caption=f"What springs are too high by in {len(own)} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes,"
+    for column in own:
+        point = column[0].point
+        colour, marker = LOOKS[point.shape]
+        v = np.array([row.point.v for row in column])
+        loss = np.array([row.loss for row in column])
+        look = {"color": colour, "mfc": "w" if point.T else colour, "ms": 5}
+        groups = Groups.of(point)
+        left.plot(groups.lost, loss.max(), marker, **look)
+        right.plot(v, loss / groups.lost, "--" if point.T else "-", lw=1, color=colour)
+    left.axline((0, 0), slope=first.loss(constants) / first.lost, color="0.6")
+    for shape, (colour, marker) in LOOKS.items():
+        left.plot([], [], marker, color=colour, ms=5, label=shape_label(shape))
+    left.plot([], [], "o", color="0.3", mfc="w", label=r"Kelvin, $\omega\tau$ = 0.3 to 3")
+    left.plot([], [], "-", color="0.6", label="the law")
+    left.set(xlim=(0, None), ylim=(0, None), xlabel="$L_0$", ylabel=r"greatest loss = (springs $-$ 3D)/$\mu_0$")
+    right.set(xlim=(0, 2), xlabel="$v_0$ over Eq. (1)", ylabel="loss over $L_0$")
+    left.legend()
+    return (
+        f"What springs are too high by in {len(own)} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes,"
         " Δu_z/u_z0 from 0.1 to 1.5, elastic and Kelvin. Left: the greatest loss of each, over a decade, goes with L_0,"
-        " what the springs lose at rest. Right: over L_0 the curves of all velocities fall together (Kelvin dashed).",
-        drawing=fig,
-        alt="Left: points on a line through zero. Right: curves of loss against velocity nearly on one.",
+        " what the springs lose at rest. Right: over L_0 the curves of all velocities fall together (Kelvin dashed)."
     )
 
 
-def _trial_figure(training: Sequence[Column], trials: Sequence[Trial], constants: dict[float | None, Array]) -> Figure:
-    """The law against three dimensions."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.2, 4.6))
-        ends = np.array([5e-4, 0.6])
-        ax.fill_between(
-            ends, ends * (1 - ALLOWED), ends * (1 + ALLOWED), color="0.92", label=f"± {100 * ALLOWED:.0f} %"
-        )
-        ax.plot(ends, ends, color="0.6", lw=0.8)
-        for trial in tried(training, constants):
-            ax.loglog(trial.found, trial.said, "+", color="k", ms=7)
-        for trial in trials:
-            known = trial.groups.rub <= coupling.FARTHEST
-            colour = LOOKS[trial.point.shape][0]
-            ax.loglog(trial.found, trial.said, "o", color=colour, mfc=colour if known else "w", ms=5)
-        ax.loglog([], [], "k+", label="fitted")
-        for shape, (colour, _) in LOOKS.items():
-            ax.loglog([], [], "o", color=colour, label=shape_label(shape))
-        ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.FARTHEST:g}")
-        ax.set_xlabel(r"greatest loss in three dimensions, over $\mu_0$")
-        ax.set_ylabel(r"the law, over $\mu_0$")
-        ax.legend(loc="upper left")
-    return Figure(
-        name="trials",
-        caption="The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"
+@figure("trials", size=(6.2, 4.6))
+def _trial_figure(
+    fig, ax, training: Sequence[Column], trials: Sequence[Trial], constants: dict[float | None, Array]
+) -> str:
+    """Scatter of the law against the computed loss over three decades, along the diagonal."""
+    ends = np.array([5e-4, 0.6])
+    ax.fill_between(ends, ends * (1 - ALLOWED), ends * (1 + ALLOWED), color="0.92", label=f"± {100 * ALLOWED:.0f} %")
+    ax.plot(ends, ends, color="0.6", lw=0.8)
+    for trial in tried(training, constants):
+        ax.loglog(trial.found, trial.said, "+", color="k", ms=7)
+    for trial in trials:
+        known = trial.groups.rub <= coupling.FARTHEST
+        colour = LOOKS[trial.point.shape][0]
+        ax.loglog(trial.found, trial.said, "o", color=colour, mfc=colour if known else "w", ms=5)
+    ax.loglog([], [], "k+", label="fitted")
+    for shape, (colour, _) in LOOKS.items():
+        ax.loglog([], [], "o", color=colour, label=shape_label(shape))
+    ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.FARTHEST:g}")
+    ax.set_xlabel(r"greatest loss in three dimensions, over $\mu_0$")
+    ax.set_ylabel(r"the law, over $\mu_0$")
+    ax.legend(loc="upper left")
+    return (
+        "The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"
         f" beyond λ = {coupling.FARTHEST:g}). Within the grey band it is good to {100 * ALLOWED:.0f} %; below it hang"
-        " flat punches at large λ, which lose more than it says.",
-        drawing=fig,
-        alt="Scatter of the law against the computed loss over three decades, along the diagonal.",
+        " flat punches at large λ, which lose more than it says."
     )

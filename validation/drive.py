@@ -17,9 +17,11 @@ import numpy as np
 
 import mdr
 from mdr import laws
+from mdr.plots import COLOURS
 from validation.cases import BODY, LOOKS, OMEGA, SHAPES, shaken, shape_label
+from validation.figures import figure
 from validation.measured import with_band
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 
 ALPHA, QUARTER = 0.5, math.pi / 2  #: of the figure; phase of the shake
 RUN = "what a run promises when it chooses step and springs itself"
@@ -141,49 +143,41 @@ def _side_checks() -> Checks:
     yield Check.at_least("its high end", held.high, 0.0, "zero load is held")
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("drive", 1, 3, size=(13.2, 4.3))
+def _figure(fig, axes, quick: bool) -> str:
+    """Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake"""
+    curves, well, ends = axes
     r = np.linspace(-0.2, 1.05, 16 if quick else 40)
     chis = np.geomspace(0.5, 50, 7 if quick else 14)
     law = laws.elliptic_drive(ALPHA)
-    with style():
-        fig, (curves, well, ends) = plt.subplots(1, 3, figsize=(13.2, 4.3))
-        for chi, colour in zip((1.0, 3.0, 30.0), COLOURS, strict=False):
-            case = shaken("flat punch", ALPHA, chi, QUARTER)
-            curves.plot(*with_band(case, r, OMEGA * chi * _reach(case)), color=colour, label=rf"$\chi = {chi:g}$")
-            free = mdr.no_load_velocity(case)
-            v = np.linspace(0, 1, 9 if quick else 17) * free
-            well.plot(
-                v / (OMEGA * chi * _reach(case)), [_efficiency(case, one) if one else 0.0 for one in v], color=colour
-            )
-        curves.plot(0, -law.blocked, "k*", ms=9, label="stiff contact")
-        curves.plot(law.free, 0, "k*", ms=9)
-        curves.axhline(0, color="0.75", lw=0.8)
-        curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="force over velocity, flat punch")
-        curves.legend(loc="upper left")
-        well.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel="efficiency", title="power out over power of the drives")
-        for shape, (colour, marker) in LOOKS.items():
-            cases = [shaken(shape, ALPHA, chi, QUARTER) for chi in chis]
-            push = [max(-mdr.holding_band(case).high, 0.0) / case.mu_0 for case in cases]
-            ends.plot(chis, push, marker, ls="-", lw=1, color=colour, label=shape_label(shape))
-        ends.axhline(law.blocked, color="k", lw=1, ls=":")
-        ends.set(
-            xscale="log",
-            xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$",
-            ylabel=r"push at rest over $\mu_0F_N$",
-            title="held",
-        )
-        ends.legend()
-    return Figure(
-        "drive",
+    for chi, colour in zip((1.0, 3.0, 30.0), COLOURS, strict=False):
+        case = shaken("flat punch", ALPHA, chi, QUARTER)
+        curves.plot(*with_band(case, r, OMEGA * chi * _reach(case)), color=colour, label=rf"$\chi = {chi:g}$")
+        free = mdr.no_load_velocity(case)
+        v = np.linspace(0, 1, 9 if quick else 17) * free
+        well.plot(v / (OMEGA * chi * _reach(case)), [_efficiency(case, one) if one else 0.0 for one in v], color=colour)
+    curves.plot(0, -law.blocked, "k*", ms=9, label="stiff contact")
+    curves.plot(law.free, 0, "k*", ms=9)
+    curves.axhline(0, color="0.75", lw=0.8)
+    curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="force over velocity, flat punch")
+    curves.legend(loc="upper left")
+    well.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel="efficiency", title="power out over power of the drives")
+    for shape, (colour, marker) in LOOKS.items():
+        cases = [shaken(shape, ALPHA, chi, QUARTER) for chi in chis]
+        push = [max(-mdr.holding_band(case).high, 0.0) / case.mu_0 for case in cases]
+        ends.plot(chis, push, marker, ls="-", lw=1, color=colour, label=shape_label(shape))
+    ends.axhline(law.blocked, color="k", lw=1, ls=":")
+    ends.set(
+        xscale="log",
+        xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$",
+        ylabel=r"push at rest over $\mu_0F_N$",
+        title="held",
+    )
+    ends.legend()
+    return (
         f"Elastic contacts, Δu_z/u_z0 = {ALPHA:g}, shaken along the slide a quarter of a period ahead of the depth, χ ="
         " Δu_x/(μ_0 κ u_z0). Left: the characteristic of a flat punch crosses zero at its velocity without load; stars"
         " are the law of a stiff contact. Middle: efficiency between held and free. Right: the push where it is held:"
         " nothing at small amplitude, where zero load is still held, and for the flat punch the dotted law of a stiff"
-        " face at great amplitude; curved shapes push more.",
-        fig,
-        "Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake",
+        " face at great amplitude; curved shapes push more."
     )

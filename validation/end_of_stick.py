@@ -36,8 +36,8 @@ import numpy as np
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import LastPeriod, Settings, contact_of, in_three_dimensions, last_period, path, stuck
-from mdr.plots import style
 from validation.cases import LOOKS, contact, shape_label
+from validation.figures import figure
 from validation.half_space import pictures, tables
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
@@ -231,37 +231,31 @@ def _tail_checks(quick: bool) -> Checks:
 # --- figures ---
 
 
-def _end_figure(ends: dict[Known, float], cells: int) -> Figure:
-    """Where stick ends against the estimate."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.2, 4.4))
-        line = np.array([1.0, 2.7])
-        ax.plot(line, line, "-", color="0.6", lw=0.9, label=r"$(1 + \lambda) v_c$")
-        for known, ratio in ends.items():
-            colour, marker = LOOKS[known[0]]
-            if known[0] == "flat punch":
-                limits = [fastest(cells, known[1], known[2], turned) for turned in (True, False)]
-                ax.plot([1 + _rub(known)] * 2, limits, "-", color=colour, lw=6, alpha=0.3)
-            ax.plot(1 + _rub(known), ratio, marker, color=colour, mfc="w", ms=7)
-        for shape in dict.fromkeys(known[0] for known in ends):
-            ax.plot([], [], LOOKS[shape][1], color=LOOKS[shape][0], mfc="w", label=shape_label(shape))
-        ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
-        ax.set_xlabel(r"$1 + \lambda$")
-        ax.set_ylabel("velocity at which stick ends, over Eq. (1)")
-        ax.legend()
-    return Figure(
-        name="ends",
-        caption="The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
+@figure("ends", size=(6.2, 4.4))
+def _end_figure(fig, ax, ends: dict[Known, float], cells: int) -> str:
+    """Scatter of the end of stick against one plus lambda, along the diagonal."""
+    line = np.array([1.0, 2.7])
+    ax.plot(line, line, "-", color="0.6", lw=0.9, label=r"$(1 + \lambda) v_c$")
+    for known, ratio in ends.items():
+        colour, marker = LOOKS[known[0]]
+        if known[0] == "flat punch":
+            limits = [fastest(cells, known[1], known[2], turned) for turned in (True, False)]
+            ax.plot([1 + _rub(known)] * 2, limits, "-", color=colour, lw=6, alpha=0.3)
+        ax.plot(1 + _rub(known), ratio, marker, color=colour, mfc="w", ms=7)
+    for shape in dict.fromkeys(known[0] for known in ends):
+        ax.plot([], [], LOOKS[shape][1], color=LOOKS[shape][0], mfc="w", label=shape_label(shape))
+    ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
+    ax.set_xlabel(r"$1 + \lambda$")
+    ax.set_ylabel("velocity at which stick ends, over Eq. (1)")
+    ax.legend()
+    return (
+        "The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
         " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end)."
         + (
             " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
             if len(ends) > 2
             else ""
-        ),
-        drawing=fig,
-        alt="Scatter of the end of stick against one plus lambda, along the diagonal.",
+        )
     )
 
 

@@ -19,10 +19,11 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 from validation.words import span
 
 LEVELS = tuple(
@@ -162,33 +163,30 @@ def _full_slip_checks(effort: str) -> Checks:
     yield Check(name, run.energy_balance.viscous_loss / viscous, 1.0, STEP, why)
 
 
-def _figure(balances: list[Balance]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, (bars, ax) = plt.subplots(1, 2, figsize=(9.8, 4.2), width_ratios=(1.2, 1))
-        _draw_bars(bars, [b for b in balances if b.name.startswith("paraboloid") and "ωτ = 1" in b.name])
-        n = np.array(LEVELS, dtype=float)
-        for b in balances:
-            colour, elastic = COLOURS["spring" in b.name], "elastic" in b.name
-            ax.plot(n, b.residual, "-" if elastic else "--", color=colour, lw=1.1)
-        top = 3 * max(float(b.residual[0]) for b in balances)
-        ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.4, label="second order")
-        for colour, pull in zip(COLOURS, PULLS, strict=False):
-            ax.plot([], [], color=colour, label=pull)
-        ax.plot([], [], "--", color="0.3", label=r"$\omega\tau$ = 1, else elastic")
-        ax.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="missing, over the losses")
-        ax.set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
-        ax.minorticks_off()
-        ax.legend(loc="lower left")
-    return Figure(
-        "balance",
+@figure("balance", 1, 2, size=(9.8, 4.2), width_ratios=(1.2, 1))
+def _figure(fig, axes, balances: list[Balance]) -> str:
+    """Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of the
+    steps.
+    """
+    bars, ax = axes
+    _draw_bars(bars, [b for b in balances if b.name.startswith("paraboloid") and "ωτ = 1" in b.name])
+    n = np.array(LEVELS, dtype=float)
+    for b in balances:
+        colour, elastic = COLOURS["spring" in b.name], "elastic" in b.name
+        ax.plot(n, b.residual, "-" if elastic else "--", color=colour, lw=1.1)
+    top = 3 * max(float(b.residual[0]) for b in balances)
+    ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.4, label="second order")
+    for colour, pull in zip(COLOURS, PULLS, strict=False):
+        ax.plot([], [], color=colour, label=pull)
+    ax.plot([], [], "--", color="0.3", label=r"$\omega\tau$ = 1, else elastic")
+    ax.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="missing, over the losses")
+    ax.set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
+    ax.minorticks_off()
+    ax.legend(loc="lower left")
+    return (
         "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at "
         "half of v_c, paraboloid, ωτ = 1; the bars end together. Right: what is missing, for all "
-        f"{len(balances)} contacts, falls with the second power of the step.",
-        fig,
-        "Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of "
-        "the steps.",
+        f"{len(balances)} contacts, falls with the second power of the step."
     )
 
 

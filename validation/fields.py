@@ -26,10 +26,11 @@ import mdr
 from mdr.friction.surface_fields import SurfaceFields, from_line_load, surface_fields
 from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, shape_label
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 
 BODY = mdr.Elastic(E=E, nu=0.5)
 MU_0 = 0.5
@@ -228,82 +229,68 @@ def _surface_checks() -> Checks:
 # --- figures ---
 
 
-def _traction_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.3))
-        r = RADIUS * np.linspace(0, 1.0, 601)[:-1]
-        some = RADIUS * np.linspace(0.02, 0.98, 17)
-        for share, colour in zip(SHARES, COLOURS, strict=False):
-            row, c = Row("paraboloid", 1000), RADIUS * math.sqrt(1 - share)
-            row.to(share * FULL)
-            q = row.f / (2 * RADIUS / 1000)
-            x = np.concatenate([[0.0], row.x, [RADIUS]])
-            tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
-            left.plot(r / RADIUS, tau / (MU_0 * P_0), color=colour, label=f"{share:g}")
-            left.plot(some / RADIUS, mindlin(some, c) / (MU_0 * P_0), "o", ms=4.5, mfc="white", mec=colour)
-        left.set(xlabel="radius $r/a$", ylabel=r"traction over $\mu_0 p_0$", title="paraboloid", xlim=(0, 1.02))
-        left.set_ylim(0, 1.05)
-        left.legend(title=r"$u_x$ over full slip")
-        for shape, indenter in SHAPES.items():
-            pulled = partial_slip(indenter, BODY, MU_0, DEPTH, 0.5 * FULL)
-            mean = MU_0 * pulled.F_z / (math.pi * RADIUS**2)
-            tau = surface_fields(pulled, r[1:]).traction / mean
-            right.plot(r[1:] / RADIUS, tau, color=LOOKS[shape][0], label=shape_label(shape))
-            c = float(pulled.stick_radius)
-            if 0 < c < RADIUS:
-                right.plot([c / RADIUS] * 2, [0, np.interp(c, r[1:], tau)], color=LOOKS[shape][0], lw=1, ls=":")
-        right.set(
-            xlabel="radius $r/a$",
-            ylabel=r"traction over $\mu_0 F_N/\pi a^2$",
-            title="half of full slip",
-            xlim=(0, 1.02),
-        )
-        right.set_ylim(0, 2.2)
-        right.legend()
-    return Figure(
-        "traction",
+@figure("traction", 1, 2, size=(9.4, 4.3))
+def _traction_figure(fig, axes) -> str:
+    """Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii."""
+    left, right = axes
+    r = RADIUS * np.linspace(0, 1.0, 601)[:-1]
+    some = RADIUS * np.linspace(0.02, 0.98, 17)
+    for share, colour in zip(SHARES, COLOURS, strict=False):
+        row, c = Row("paraboloid", 1000), RADIUS * math.sqrt(1 - share)
+        row.to(share * FULL)
+        q = row.f / (2 * RADIUS / 1000)
+        x = np.concatenate([[0.0], row.x, [RADIUS]])
+        tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
+        left.plot(r / RADIUS, tau / (MU_0 * P_0), color=colour, label=f"{share:g}")
+        left.plot(some / RADIUS, mindlin(some, c) / (MU_0 * P_0), "o", ms=4.5, mfc="white", mec=colour)
+    left.set(xlabel="radius $r/a$", ylabel=r"traction over $\mu_0 p_0$", title="paraboloid", xlim=(0, 1.02))
+    left.set_ylim(0, 1.05)
+    left.legend(title=r"$u_x$ over full slip")
+    for shape, indenter in SHAPES.items():
+        pulled = partial_slip(indenter, BODY, MU_0, DEPTH, 0.5 * FULL)
+        mean = MU_0 * pulled.F_z / (math.pi * RADIUS**2)
+        tau = surface_fields(pulled, r[1:]).traction / mean
+        right.plot(r[1:] / RADIUS, tau, color=LOOKS[shape][0], label=shape_label(shape))
+        c = float(pulled.stick_radius)
+        if 0 < c < RADIUS:
+            right.plot([c / RADIUS] * 2, [0, np.interp(c, r[1:], tau)], color=LOOKS[shape][0], lw=1, ls=":")
+    right.set(
+        xlabel="radius $r/a$", ylabel=r"traction over $\mu_0 F_N/\pi a^2$", title="half of full slip", xlim=(0, 1.02)
+    )
+    right.set_ylim(0, 2.2)
+    right.legend()
+    return (
         "Left: tractions under a paraboloid pulled sideways; lines from springs that stick and slip one by one, "
         "circles Cattaneo and Mindlin. Right: the four shapes at half of full slip; within the dotted radius the "
-        "surface sticks, and the punch sticks as a whole.",
-        fig,
-        "Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii.",
+        "surface sticks, and the punch sticks as a whole."
     )
 
 
-def _loop_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.3))
-        for shape, indenter in SHAPES.items():
-            colour = LOOKS[shape][0]
-            loop = tangential_loop(indenter, BODY, MU_0, DEPTH, 0.8 * FULL)
-            left.plot(loop.u_x / FULL, loop.F_x / (MU_0 * loop.F_z), color=colour, label=shape_label(shape))
-            row = Row(shape, 1000)
-            way = 0.8 * FULL * np.concatenate([[1.0], np.linspace(0.9, -0.9, 13), [-1.0], np.linspace(-0.9, 0.9, 13)])
-            F = np.array([row.to(u) for u in way])
-            left.plot(way / FULL, F / (MU_0 * loop.F_z), "o", ms=4, mfc="white", mec=colour)
-            shares = np.geomspace(0.02, 1.5, 40)
-            W = [tangential_loop(indenter, BODY, MU_0, DEPTH, share * FULL, n=3).loss for share in shares]
-            unit = 4 * MU_0 * loop.F_z * FULL
-            shown = np.array(W) > 1e-9 * unit
-            right.loglog(shares[shown], np.array(W)[shown] / unit, color=colour, label=shape_label(shape))
-        left.set(xlabel="displacement over full slip", ylabel=r"$F_x/\mu_0 F_N$", title="loops of 0.8 of full slip")
-        right.set(
-            xlabel="amplitude over full slip",
-            ylabel=r"loss over $4\mu_0 F_N u_s$",
-            title="loss in a loop",
-            ylim=(1e-7, 1),
-        )
-        right.axvline(1, color="0.6", lw=1, ls=":")
-        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return Figure(
-        "loops",
+@figure("loops", 1, 2, size=(9.4, 4.3))
+def _loop_figure(fig, axes) -> str:
+    """Hysteresis loops of four shapes, and loss against amplitude on logarithmic axes."""
+    left, right = axes
+    for shape, indenter in SHAPES.items():
+        colour = LOOKS[shape][0]
+        loop = tangential_loop(indenter, BODY, MU_0, DEPTH, 0.8 * FULL)
+        left.plot(loop.u_x / FULL, loop.F_x / (MU_0 * loop.F_z), color=colour, label=shape_label(shape))
+        row = Row(shape, 1000)
+        way = 0.8 * FULL * np.concatenate([[1.0], np.linspace(0.9, -0.9, 13), [-1.0], np.linspace(-0.9, 0.9, 13)])
+        F = np.array([row.to(u) for u in way])
+        left.plot(way / FULL, F / (MU_0 * loop.F_z), "o", ms=4, mfc="white", mec=colour)
+        shares = np.geomspace(0.02, 1.5, 40)
+        W = [tangential_loop(indenter, BODY, MU_0, DEPTH, share * FULL, n=3).loss for share in shares]
+        unit = 4 * MU_0 * loop.F_z * FULL
+        shown = np.array(W) > 1e-9 * unit
+        right.loglog(shares[shown], np.array(W)[shown] / unit, color=colour, label=shape_label(shape))
+    left.set(xlabel="displacement over full slip", ylabel=r"$F_x/\mu_0 F_N$", title="loops of 0.8 of full slip")
+    right.set(
+        xlabel="amplitude over full slip", ylabel=r"loss over $4\mu_0 F_N u_s$", title="loss in a loop", ylim=(1e-7, 1)
+    )
+    right.axvline(1, color="0.6", lw=1, ls=":")
+    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return (
         "Left: to and fro at fixed depth; lines by Masing's rule, circles springs one by one. Right: its cost, "
         "below full slip (dotted, displacement u_s) the third power of the amplitude for the curved shapes, "
-        "while the punch, which sticks as a whole, loses nothing.",
-        fig,
-        "Hysteresis loops of four shapes, and loss against amplitude on logarithmic axes.",
+        "while the punch, which sticks as a whole, loses nothing."
     )

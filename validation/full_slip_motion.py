@@ -16,9 +16,11 @@ import numpy as np
 import mdr
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import full_slip
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 
 #: alpha, T, k_x/k_xc, omega_0/omega of the flat punch; it keeps contact in all
 PUNCHES = ((0.5, 0.0, 0.5, 0.7), (0.5, 0.5, 0.5, 0.7), (0.2, 3.0, 3.0, 1.6), (0.3, 1.0, 1.0, 0.0))
@@ -209,67 +211,55 @@ def _force_checks(effort: str) -> Checks:
 # --- figures ---
 
 
-def _motion_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("motion", 1, 2, size=(8.6, 3.9))
+def _motion_figure(fig, axes) -> str:
+    """Body and foot positions and slip velocity over one period, circles of the run on the lines of the closed
+    forms.
+    """
+    left, right = axes
     motion = follow(PUNCHES[1], 256)
     phase = np.arange(1, motion.y.size + 1) * motion.h / (2 * np.pi)
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.9))
-        rows = (("body $u_x-v_0t$", motion.y, motion.y_closed), ("foot $u_{xc}-v_0t$", motion.foot, motion.foot_closed))
-        for (label, got, closed), colour in zip(rows, COLOURS, strict=False):
-            left.plot(phase, closed * 1e6, color=colour, label=f"{label}, closed form")
-            left.plot(phase[::8], got[::8] * 1e6, "o", mfc="white", mec=colour, ms=4.5)
-        right.plot(phase, motion.slip_closed / motion.v_c, color=COLOURS[2], label="slip velocity, Eq. (14)")
-        right.plot(phase[::8], motion.slip[::8] / motion.v_c, "o", mfc="white", mec=COLOURS[2], ms=4.5)
-        right.axhline(1.0, color="0.4", lw=1, ls=":")
-        right.annotate("$v_0-v_c$", (1.0, 1.0), (0, 3), ("data", "data"), "offset points", ha="right", va="bottom")
-        left.set(xlabel="time [periods]", ylabel="place [µm]")
-        right.set(xlabel="time [periods]", ylabel="slip velocity over $v_c$", ylim=(0, None))
-        left.plot([], [], "o", mfc="white", mec="0.3", ms=4.5, label="run")
-        fig.legend(
-            *[a + b for a, b in zip(left.get_legend_handles_labels(), right.get_legend_handles_labels(), strict=True)],
-            loc="outside lower center",
-            ncols=4,
-        )
-    return Figure(
-        "motion",
+    rows = (("body $u_x-v_0t$", motion.y, motion.y_closed), ("foot $u_{xc}-v_0t$", motion.foot, motion.foot_closed))
+    for (label, got, closed), colour in zip(rows, COLOURS, strict=False):
+        left.plot(phase, closed * 1e6, color=colour, label=f"{label}, closed form")
+        left.plot(phase[::8], got[::8] * 1e6, "o", mfc="white", mec=colour, ms=4.5)
+    right.plot(phase, motion.slip_closed / motion.v_c, color=COLOURS[2], label="slip velocity, Eq. (14)")
+    right.plot(phase[::8], motion.slip[::8] / motion.v_c, "o", mfc="white", mec=COLOURS[2], ms=4.5)
+    right.axhline(1.0, color="0.4", lw=1, ls=":")
+    right.annotate("$v_0-v_c$", (1.0, 1.0), (0, 3), ("data", "data"), "offset points", ha="right", va="bottom")
+    left.set(xlabel="time [periods]", ylabel="place [µm]")
+    right.set(xlabel="time [periods]", ylabel="slip velocity over $v_c$", ylim=(0, None))
+    left.plot([], [], "o", mfc="white", mec="0.3", ms=4.5, label="run")
+    fig.legend(
+        *[a + b for a, b in zip(left.get_legend_handles_labels(), right.get_legend_handles_labels(), strict=True)],
+        loc="outside lower center",
+        ncols=4,
+    )
+    return (
         "Flat punch on a Kelvin rubber (ωτ = 0.5) at v_0 = 2 v_c, driven above its natural frequency. Lines: Eqs. (10),"
         " (13), (14); circles: every eighth step of the run. Body and extension swing nearly together, so the foot"
-        " swings less than the body. Slip is slowest at v_0 − v_c: it would stop at v_0 = v_c.",
-        fig,
-        "Body and foot positions and slip velocity over one period, circles of the run on the lines of the"
-        " closed forms.",
+        " swings less than the body. Slip is slowest at v_0 − v_c: it would stop at v_0 = v_c."
     )
 
 
-def _order_figure(motions: dict[Any, list[Motion]], steps: tuple[int, ...]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
-    with style():
-        fig, ax = plt.subplots()
-        for (punch, refined), colour in zip(motions.items(), COLOURS, strict=False):
-            for k, marker in enumerate("os^"):
-                ax.loglog(steps, [m.errors[k] for m in refined], marker, mfc="white", color=colour, ms=5.5)
-            _, T, _, omega_0_ratio = punch
-            body = rf"$\omega_0/\omega={omega_0_ratio:g}$" if omega_0_ratio else "no mass"
-            ax.plot([], [], color=colour, lw=4, label=rf"$\omega\tau={T:g}$, {body}")
-        for marker, label in zip("os^", ("body", "foot", "slip velocity"), strict=True):
-            ax.plot([], [], marker, mfc="white", color="0.3", label=label)
-        n = np.array([steps[0], steps[-1]], dtype=float)
-        ax.loglog(n, (2 * np.pi / n) ** 2 / 3, color="0.4", lw=1, ls="--", label="$h^2/3$")
-        ax.set(xlabel="steps per period", ylabel="relative error")
-        ax.set_xticks(steps, [str(n) for n in steps])
-        ax.minorticks_off()
-        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return Figure(
-        "order",
+@figure("order")
+def _order_figure(fig, ax, motions: dict[Any, list[Motion]], steps: tuple[int, ...]) -> str:
+    """Errors of body, foot and slip velocity against the steps per period, parallel to a line of second order."""
+    for (punch, refined), colour in zip(motions.items(), COLOURS, strict=False):
+        for k, marker in enumerate("os^"):
+            ax.loglog(steps, [m.errors[k] for m in refined], marker, mfc="white", color=colour, ms=5.5)
+        _, T, _, omega_0_ratio = punch
+        body = rf"$\omega_0/\omega={omega_0_ratio:g}$" if omega_0_ratio else "no mass"
+        ax.plot([], [], color=colour, lw=4, label=rf"$\omega\tau={T:g}$, {body}")
+    for marker, label in zip("os^", ("body", "foot", "slip velocity"), strict=True):
+        ax.plot([], [], marker, mfc="white", color="0.3", label=label)
+    n = np.array([steps[0], steps[-1]], dtype=float)
+    ax.loglog(n, (2 * np.pi / n) ** 2 / 3, color="0.4", lw=1, ls="--", label="$h^2/3$")
+    ax.set(xlabel="steps per period", ylabel="relative error")
+    ax.set_xticks(steps, [str(n) for n in steps])
+    ax.minorticks_off()
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return (
         "Error of the run against Eqs. (10), (13) and (14) in four systems: it falls by four when the step is"
-        " halved, so nothing but the step stands between the march and the closed forms.",
-        fig,
-        "Errors of body, foot and slip velocity against the steps per period, parallel to a line of second order.",
+        " halved, so nothing but the step stands between the march and the closed forms."
     )

@@ -20,11 +20,12 @@ import numpy as np
 
 import mdr
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import contact
+from validation.figures import figure
 from validation.half_space import rings
 from validation.half_space.benchmarks import PartialSlip, cattaneo_mindlin, hertz, punch, spence
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 
 SHARES = (0.2, 0.5, 0.8)  #: of the way to full slip
 SPENCE = ((0.0, 0.3), (0.0, 0.6), (0.15, 0.3), (0.3, 0.3))  #: nu, mu_0
@@ -143,44 +144,40 @@ def _order_checks(quick: bool) -> Checks:
 # --- figure ---
 
 
-def _figure(quick: bool) -> Figure:
-    """Forces against cells, and the radius of stick against Poisson's ratio."""
-    import matplotlib.pyplot as plt
-
+@figure("trust", 1, 2, size=(9.6, 3.9))
+def _figure(fig, axes, quick: bool) -> str:
+    """Two panels: relative errors falling with the number of cells; stick radius against Poisson's ratio for three
+    coefficients of friction, circles on full lines.
+    """
+    left, right = axes
     cells = (16, 32) if quick else (16, 24, 32, 48, 64)
     nus = np.linspace(0, 0.49, 15)
     betas = [_beta(nu) for nu in nus]
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.9))
-        known = np.log(3)
-        left.loglog(cells, [abs(hertz(n) - 1) for n in cells], "o-", label="Hertz")
-        left.loglog(cells, [abs(punch(n, 0.0)[0] - 1) for n in cells], "s-", label="punch, smooth")
-        left.loglog(cells, [abs(punch(n, 0.0)[1] / known - 1) for n in cells], "^-", label="punch, bonded over smooth")
-        left.loglog(cells, 0.2 / np.array(cells), "k:", lw=1, label="first order")
-        left.set_xticks(cells, [str(n) for n in cells])
-        left.minorticks_off()
-        left.set_ylim(3e-5, 0.15)
-        left.set_xlabel("cells along a side")
-        left.set_ylabel("relative error of the force")
-        left.legend(loc="upper right", ncols=2)
-        for mu_0, colour in ((0.1, COLOURS[3]), (0.3, COLOURS[0]), (0.6, COLOURS[1])):
-            right.plot(nus, [rings.stick_radius(b, mu_0) for b in betas], color=colour, label=rf"$\mu_0 = {mu_0:g}$")
-            right.plot(nus, [rings.goodman(b, mu_0) for b in betas], "--", color=colour, lw=1)
-            some = (0.0, 0.3) if quick else (0.0, 0.1, 0.2, 0.3, 0.4)
-            right.plot(some, [spence(32 if quick else 64, nu, mu_0) for nu in some], "o", color=colour, mfc="w")
-        right.plot([], [], "k--", lw=1, label="Goodman's approximation")
-        right.plot([], [], "ko", mfc="w", label="three dimensions")
-        right.set_xlabel(r"Poisson's ratio $\nu$")
-        right.set_ylabel(r"stick radius over $a$")
-        right.set_ylim(0, 1.02)
-        right.legend(loc=(0.02, 0.13), fontsize=9)
-    return Figure(
-        name="trust",
-        caption="Left: forces of the reference solver approach the closed forms with the number of cells, at first"
+    known = np.log(3)
+    left.loglog(cells, [abs(hertz(n) - 1) for n in cells], "o-", label="Hertz")
+    left.loglog(cells, [abs(punch(n, 0.0)[0] - 1) for n in cells], "s-", label="punch, smooth")
+    left.loglog(cells, [abs(punch(n, 0.0)[1] / known - 1) for n in cells], "^-", label="punch, bonded over smooth")
+    left.loglog(cells, 0.2 / np.array(cells), "k:", lw=1, label="first order")
+    left.set_xticks(cells, [str(n) for n in cells])
+    left.minorticks_off()
+    left.set_ylim(3e-5, 0.15)
+    left.set_xlabel("cells along a side")
+    left.set_ylabel("relative error of the force")
+    left.legend(loc="upper right", ncols=2)
+    for mu_0, colour in ((0.1, COLOURS[3]), (0.3, COLOURS[0]), (0.6, COLOURS[1])):
+        right.plot(nus, [rings.stick_radius(b, mu_0) for b in betas], color=colour, label=rf"$\mu_0 = {mu_0:g}$")
+        right.plot(nus, [rings.goodman(b, mu_0) for b in betas], "--", color=colour, lw=1)
+        some = (0.0, 0.3) if quick else (0.0, 0.1, 0.2, 0.3, 0.4)
+        right.plot(some, [spence(32 if quick else 64, nu, mu_0) for nu in some], "o", color=colour, mfc="w")
+    right.plot([], [], "k--", lw=1, label="Goodman's approximation")
+    right.plot([], [], "ko", mfc="w", label="three dimensions")
+    right.set_xlabel(r"Poisson's ratio $\nu$")
+    right.set_ylabel(r"stick radius over $a$")
+    right.set_ylim(0, 1.02)
+    right.legend(loc=(0.02, 0.13), fontsize=9)
+    return (
+        "Left: forces of the reference solver approach the closed forms with the number of cells, at first"
         " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver"
         " lie on the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed)"
-        " leaves out that friction moves the surface down, and is too high where ν and μ_0 are small.",
-        drawing=fig,
-        alt="Two panels: relative errors falling with the number of cells; stick radius against Poisson's ratio for"
-        " three coefficients of friction, circles on full lines.",
+        " leaves out that friction moves the surface down, and is too high where ν and μ_0 are small."
     )

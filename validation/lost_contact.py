@@ -18,11 +18,12 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.normal.kelvin_edges import contact_edge
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import DAMPING, LOOKS, SHAPES, STIFFNESS, contact, driven, loss, shape_label
+from validation.figures import figure
 from validation.measured import SHARP, Measured, deviation, worst
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation
 from validation.words import counted, listed, percent, ranged
 
 RATIOS = (0.6, 1.5, 2.5)  # omega_0/omega
@@ -246,117 +247,106 @@ def _body_checks(points: list[Point]) -> Checks:
 # --- figures ---
 
 
-def _rigid_figure(points: list[Point]) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("rigid", 1, 2, size=(9.6, 4.2))
+def _rigid_figure(fig, axes, points: list[Point]) -> str:
+    """Left: critical velocity over Eq. (1), flat at one and falling beyond an amplitude that is smaller for slower
+    materials. Right: the two limits in the plane of amplitude and relaxation time.
+    """
+    ax, where = axes
     colours = dict(zip(TIMES, (COLOURS[6], *COLOURS), strict=False))
     alphas, times = np.geomspace(0.01, 2, 160), np.geomspace(0.1, 300, 200)
-    with style():
-        fig, (ax, where) = plt.subplots(1, 2, figsize=(9.6, 4.2))
-        for T, colour in colours.items():
-            ax.plot(
-                alphas, [laws.late_return(1 / alpha, T) for alpha in alphas], color=colour, label=rf"$\omega\tau={T:g}$"
-            )
-        for p in points:
-            size = 5 + 2 * list(SHAPES).index(p.shape)
-            ax.plot(p.alpha, p.over_rigid, LOOKS[p.shape][1], mfc="none", mec=colours[p.T], ms=size)
-        for shape in dict.fromkeys(p.shape for p in points):
-            ax.plot([], [], LOOKS[shape][1], mfc="none", mec="0.3", label=shape_label(shape))
-        ax.set(xscale="log", xlabel=r"amplitude $\Delta u_z/u_{z0}$", ylabel="$v_c$ over Eq. (1)", ylim=(0.3, 1.05))
-        ax.set_xticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
-        ax.legend(loc="lower left", fontsize=8)
-        lost, end = 1 / np.hypot(1, times), np.array([laws.amplitude_limit(T) for T in times])
-        where.plot(times, lost, color="0.3", ls=":", label="contact is lost, Eq. (5)")
-        where.plot(times, end, color=COLOURS[0], label=r"Eq. (1) ends, $\alpha_1$")
-        where.fill_between(times, lost, np.minimum(end, 10), color=COLOURS[0], alpha=0.12, lw=0)
-        where.set(xscale="log", yscale="log", ylim=(3e-3, 10), xlim=(times[0], times[-1]))
-        where.set(xlabel=r"$\omega\tau$", ylabel=r"amplitude $\Delta u_z/u_{z0}$")
-        where.text(0.16, 0.03, "kept: Eq. (1)", fontsize=9)
-        where.text(0.16, 2.4, "lost, back in time:\nEq. (1)", fontsize=9)
-        where.text(60, 1.6, "back late:\nEq. (1) sin|$\\varphi_c$|", fontsize=9, ha="center", va="center")
-        where.legend(loc="lower left", bbox_to_anchor=(0.0, 0.0), fontsize=8)
-    return Figure(
-        "rigid",
+    for T, colour in colours.items():
+        ax.plot(
+            alphas, [laws.late_return(1 / alpha, T) for alpha in alphas], color=colour, label=rf"$\omega\tau={T:g}$"
+        )
+    for p in points:
+        size = 5 + 2 * list(SHAPES).index(p.shape)
+        ax.plot(p.alpha, p.over_rigid, LOOKS[p.shape][1], mfc="none", mec=colours[p.T], ms=size)
+    for shape in dict.fromkeys(p.shape for p in points):
+        ax.plot([], [], LOOKS[shape][1], mfc="none", mec="0.3", label=shape_label(shape))
+    ax.set(xscale="log", xlabel=r"amplitude $\Delta u_z/u_{z0}$", ylabel="$v_c$ over Eq. (1)", ylim=(0.3, 1.05))
+    ax.set_xticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
+    ax.legend(loc="lower left", fontsize=8)
+    lost, end = 1 / np.hypot(1, times), np.array([laws.amplitude_limit(T) for T in times])
+    where.plot(times, lost, color="0.3", ls=":", label="contact is lost, Eq. (5)")
+    where.plot(times, end, color=COLOURS[0], label=r"Eq. (1) ends, $\alpha_1$")
+    where.fill_between(times, lost, np.minimum(end, 10), color=COLOURS[0], alpha=0.12, lw=0)
+    where.set(xscale="log", yscale="log", ylim=(3e-3, 10), xlim=(times[0], times[-1]))
+    where.set(xlabel=r"$\omega\tau$", ylabel=r"amplitude $\Delta u_z/u_{z0}$")
+    where.text(0.16, 0.03, "kept: Eq. (1)", fontsize=9)
+    where.text(0.16, 2.4, "lost, back in time:\nEq. (1)", fontsize=9)
+    where.text(60, 1.6, "back late:\nEq. (1) sin|$\\varphi_c$|", fontsize=9, ha="center", va="center")
+    where.legend(loc="lower left", bbox_to_anchor=(0.0, 0.0), fontsize=8)
+    return (
         "Rigid pull, any shape. Left: v_c over Eq. (1) against amplitude, measured (symbols) and sin|φ_c| of the phase "
         "at which the centre touches again (lines); an elastic contact stays at 1. Right: where contact is lost "
         "(dotted) nothing happens to v_c; Eq. (1) holds through the shaded region and ends at the full line, "
         f"{laws.slow_limit():.1f}/ωτ for slow materials, above which the surface is not back when the depth grows "
-        "fastest.",
-        fig,
-        "Left: critical velocity over Eq. (1), flat at one and falling beyond an amplitude that is smaller for slower "
-        "materials. Right: the two limits in the plane of amplitude and relaxation time.",
+        "fastest."
     )
 
 
-def _onset_figure(effort: str) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("onset", 1, 2, size=(9.6, 4.2), sharey=True)
+def _onset_figure(fig, axes, effort: str) -> str:
+    """Log-log plots of the deviation from Eq. (15) over the excess amplitude, slope three halves and two."""
     eps, law = np.geomspace(1e-7, 1, 15 if effort == "quick" else 29), np.geomspace(1e-7, 1, 2)
-    with style():
-        fig, axes = plt.subplots(1, 2, sharey=True, figsize=(9.6, 4.2))
-        for ax, T in zip(axes, (0.0, 1.0), strict=True):
-            for colour, mark, ratio in zip(COLOURS, "os^", RATIOS, strict=False):
-                values = np.array([abs(_punch(float(e), T, ratio)) for e in eps])
-                seen = values > 1e-11
-                ax.plot(law, [abs(laws.onset(lost_punch(e, T, ratio))) for e in law], color=colour, lw=1.1)
-                label = rf"$\omega_0$ = {ratio:g} $\omega$"
-                ax.plot(eps[seen], values[seen], mark, color=colour, mfc="white", label=label)
-            ax.set(xscale="log", yscale="log", ylim=(1e-11, 5), xlabel=r"$\varepsilon$")
-            power = r"elastic: $\varepsilon^{3/2}$" if T == 0 else r"$\omega\tau$ = 1: $\varepsilon^2$"
-            ax.set_title(power)
-        axes[0].set_ylabel("|full-slip value over Eq. (15) − 1|")
-        axes[0].legend(loc="upper left")
-    return Figure(
-        "onset",
+    for ax, T in zip(axes, (0.0, 1.0), strict=True):
+        for colour, mark, ratio in zip(COLOURS, "os^", RATIOS, strict=False):
+            values = np.array([abs(_punch(float(e), T, ratio)) for e in eps])
+            seen = values > 1e-11
+            ax.plot(law, [abs(laws.onset(lost_punch(e, T, ratio))) for e in law], color=colour, lw=1.1)
+            label = rf"$\omega_0$ = {ratio:g} $\omega$"
+            ax.plot(eps[seen], values[seen], mark, color=colour, mfc="white", label=label)
+        ax.set(xscale="log", yscale="log", ylim=(1e-11, 5), xlabel=r"$\varepsilon$")
+        power = r"elastic: $\varepsilon^{3/2}$" if T == 0 else r"$\omega\tau$ = 1: $\varepsilon^2$"
+        ax.set_title(power)
+    axes[0].set_ylabel("|full-slip value over Eq. (15) − 1|")
+    axes[0].legend(loc="upper left")
+    return (
         "A flat punch under mass and spring leaves Eq. (15) when its contact is lost, α √(1 + (ωτ)²) = 1 + ε. "
         "Full-slip values (symbols) and the law (*), nothing fitted (lines): the missing pull costs ε^{3/2} if "
-        "elastic; if viscoelastic it is repaid before the contact returns, and ε^2 is left.",
-        fig,
-        "Log-log plots of the deviation from Eq. (15) over the excess amplitude, slope three halves and two.",
+        "elastic; if viscoelastic it is repaid before the contact returns, and ε^2 is left."
     )
 
 
-def _slow_figure(points: list[Point], effort: str) -> Figure:
-    import matplotlib.pyplot as plt
+@figure("slow", 1, 3, size=(9.6, 4.4), sharey=True)
+def _slow_figure(fig, axes, points: list[Point], effort: str) -> str:
+    """Critical velocity over relaxation time for three natural frequencies: Eq. (15) rises without end, the full-slip
+    value levels off.
+    """
     from matplotlib.lines import Line2D
 
     times, shapes = np.geomspace(0.3, 1e4, 24 if effort == "quick" else 60), ("flat punch", "cone")
-    with style():
-        fig, axes = plt.subplots(1, 3, sharey=True, figsize=(9.6, 4.4))
-        for ax, ratio in zip(axes, RATIOS, strict=True):
-            cases = {shape: [driven(shape, 1.0, float(T), ratio) for T in times] for shape in shapes}
-            unit = laws.half_a_blow(cases["cone"][0])
-            for shape in shapes:
-                colour = LOOKS[shape][0]
-                ax.plot(times, [mdr.full_slip_critical_velocity(c) / unit for c in cases[shape]], color=colour)
-                slow = [case for case in cases[shape] if case.T > 30]
-                ax.plot([c.T for c in slow], [laws.blow(c) / unit for c in slow], color=colour, ls="-.", lw=1)
-            ax.plot(times, [mdr.critical_velocity(c) / unit for c in cases["cone"]], color="0.2", ls="--", lw=1)
-            ax.axhline(1.0, color="0.5", lw=0.9, ls=":")
-            for p in points:
-                if (p.alpha, p.ratio) == (1.0, ratio):
-                    colour, mark = LOOKS[p.shape]
-                    ax.plot(p.T, p.v_c / laws.half_a_blow(p.case), mark, color=colour, ms=7, mec="white")
-            ax.set(xscale="log", yscale="log", xlabel=r"$\omega\tau$", title=rf"$\omega_0$ = {ratio:g} $\omega$")
-            ax.set_ylim(0.05, 30)
-        axes[0].set_ylabel(r"$v_c$ over $\pi\mu_0 F_N(u_{z0}+\Delta u_z)/(m\omega)$")
-        handles = [Line2D([], [], color=LOOKS[shape][0], label=shape) for shape in shapes]
-        handles += [
-            Line2D([], [], color=LOOKS[shape][0], marker=LOOKS[shape][1], ls="", label=f"{shape}, measured")
-            for shape in dict.fromkeys(p.shape for p in points if p.alpha == 1.0)
-        ]
-        handles += [
-            Line2D([], [], color="0.2", ls="--", lw=1, label="Eq. (15)"),
-            Line2D([], [], color="0.4", ls="-.", lw=1, label="law (**)"),
-        ]
-        fig.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8.5)
-    return Figure(
-        "slow",
+    for ax, ratio in zip(axes, RATIOS, strict=True):
+        cases = {shape: [driven(shape, 1.0, float(T), ratio) for T in times] for shape in shapes}
+        unit = laws.half_a_blow(cases["cone"][0])
+        for shape in shapes:
+            colour = LOOKS[shape][0]
+            ax.plot(times, [mdr.full_slip_critical_velocity(c) / unit for c in cases[shape]], color=colour)
+            slow = [case for case in cases[shape] if case.T > 30]
+            ax.plot([c.T for c in slow], [laws.blow(c) / unit for c in slow], color=colour, ls="-.", lw=1)
+        ax.plot(times, [mdr.critical_velocity(c) / unit for c in cases["cone"]], color="0.2", ls="--", lw=1)
+        ax.axhline(1.0, color="0.5", lw=0.9, ls=":")
+        for p in points:
+            if (p.alpha, p.ratio) == (1.0, ratio):
+                colour, mark = LOOKS[p.shape]
+                ax.plot(p.T, p.v_c / laws.half_a_blow(p.case), mark, color=colour, ms=7, mec="white")
+        ax.set(xscale="log", yscale="log", xlabel=r"$\omega\tau$", title=rf"$\omega_0$ = {ratio:g} $\omega$")
+        ax.set_ylim(0.05, 30)
+    axes[0].set_ylabel(r"$v_c$ over $\pi\mu_0 F_N(u_{z0}+\Delta u_z)/(m\omega)$")
+    handles = [Line2D([], [], color=LOOKS[shape][0], label=shape) for shape in shapes]
+    handles += [
+        Line2D([], [], color=LOOKS[shape][0], marker=LOOKS[shape][1], ls="", label=f"{shape}, measured")
+        for shape in dict.fromkeys(p.shape for p in points if p.alpha == 1.0)
+    ]
+    handles += [
+        Line2D([], [], color="0.2", ls="--", lw=1, label="Eq. (15)"),
+        Line2D([], [], color="0.4", ls="-.", lw=1, label="law (**)"),
+    ]
+    fig.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8.5)
+    return (
         "A slow material that loses contact, α = 1, under mass and spring: full-slip v_c (full lines) and what was "
         "measured (symbols) over half of what one blow gives the body. Eq. (15) (dashed) grows with ωτ; the true v_c "
         "levels off at a value without τ and nearly without k_x (dotted; a damper of 2 % keeps it a little above), "
-        "along the law (**) (chain line), for either shape.",
-        fig,
-        "Critical velocity over relaxation time for three natural frequencies: Eq. (15) rises without end, the "
-        "full-slip value levels off.",
+        "along the law (**) (chain line), for either shape."
     )

@@ -20,9 +20,11 @@ import numpy as np
 
 import mdr
 import mdr.indenters as shapes
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import CATALOGUE, DEPTH, OMEGA, RADIUS, SHAPES, E, contact, depth_of, shape_label
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 
 E_STAR = E / (1 - 0.5**2)  # of the rubber
 ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim
@@ -280,129 +282,103 @@ def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...
 # --- figures ---
 
 
-def _pressure_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("shapes", 1, 2, size=(8.2, 3.9))
+def _pressure_figure(fig, axes) -> str:
+    """Pressure over radius and normal force over depth for flat punch, cone, paraboloid and r^4, lines on textbook
+    circles.
+    """
+    left, right = axes
     r = np.linspace(0.002, 0.998, 400)
     few = np.linspace(0.05, 0.95, 13)
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.9))
-        d = DEPTH * np.geomspace(0.05, 2, 100)
-        some = DEPTH * np.geomspace(0.06, 1.9, 9)
-        for (shape, indenter), colour in zip(SHAPES.items(), COLOURS, strict=False):
-            mean = float(indenter.force(DEPTH, E_STAR)) / (np.pi * RADIUS**2)
-            left.plot(
-                r,
-                np.asarray(indenter.pressure(r * RADIUS, DEPTH, E_STAR)) / mean,
-                color=colour,
-                label=shape_label(shape),
-            )
-            left.plot(few, textbook_pressure(shape, few * RADIUS, DEPTH) / mean, "o", mfc="white", mec=colour, ms=4.5)
-            right.loglog(d * 1e6, np.asarray(indenter.force(d, E_STAR)), color=colour)
-            right.loglog(some * 1e6, textbook(shape, some)[1], "o", mfc="white", mec=colour, ms=4.5)
-        left.set(
-            ylim=(0, 3.2),
-            xlim=(0, 1.02),
-            xlabel="radius $r/a$",
-            ylabel="pressure over its mean",
-            title="pressure at 20 µm",
+    d = DEPTH * np.geomspace(0.05, 2, 100)
+    some = DEPTH * np.geomspace(0.06, 1.9, 9)
+    for (shape, indenter), colour in zip(SHAPES.items(), COLOURS, strict=False):
+        mean = float(indenter.force(DEPTH, E_STAR)) / (np.pi * RADIUS**2)
+        left.plot(
+            r, np.asarray(indenter.pressure(r * RADIUS, DEPTH, E_STAR)) / mean, color=colour, label=shape_label(shape)
         )
-        right.set(xlabel="depth $d$ [µm]", ylabel="normal force $F_N$ [N]", title="force")
-        left.plot([], [], "o", mfc="white", mec="0.3", ms=4.5, label="textbook")
-        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    return Figure(
-        "shapes",
+        left.plot(few, textbook_pressure(shape, few * RADIUS, DEPTH) / mean, "o", mfc="white", mec=colour, ms=4.5)
+        right.loglog(d * 1e6, np.asarray(indenter.force(d, E_STAR)), color=colour)
+        right.loglog(some * 1e6, textbook(shape, some)[1], "o", mfc="white", mec=colour, ms=4.5)
+    left.set(
+        ylim=(0, 3.2), xlim=(0, 1.02), xlabel="radius $r/a$", ylabel="pressure over its mean", title="pressure at 20 µm"
+    )
+    right.set(xlabel="depth $d$ [µm]", ylabel="normal force $F_N$ [N]", title="force")
+    left.plot([], [], "o", mfc="white", mec="0.3", ms=4.5, label="textbook")
+    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    return (
         "The four test shapes on rubber of E = 3 MPa. Lines: the library; circles: the textbook,"
         " Boussinesq for the flat punch, Hertz for the paraboloid, Sneddon for cone and r^4. Their pressures differ"
         " as widely as pressures can, infinite at the rim of the punch"
-        " and at the tip of the cone, yet all touch over the same disc at 20 µm and are equally stiff there.",
-        fig,
-        "Pressure over radius and normal force over depth for flat punch, cone, paraboloid and r^4, lines on"
-        " textbook circles.",
+        " and at the tip of the cone, yet all touch over the same disc at 20 µm and are equally stiff there."
     )
 
 
 TALLEST = 3.2  #: pressure over its mean up to which it is drawn
 
 
-def _catalogue_figure(sunk: dict[str, Array]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("catalogue", 3, 4, size=(9.6, 8.0), sharex=True, sharey=True)
+def _catalogue_figure(fig, axes, sunk: dict[str, Array]) -> str:
+    """Twelve small panels, one a shape, with the pressure above and the shape with circles on it below."""
     r = np.linspace(0.0, 1.0, 201)
-    with style():
-        fig, axes = plt.subplots(3, 4, figsize=(9.6, 8.0), sharex=True, sharey=True)
-        for ax, (shape, indenter) in zip(axes.flat, CATALOGUE.items(), strict=True):
-            d = depth_of(indenter)
-            a = float(indenter.contact_radius(d))
-            f = np.asarray(indenter.profile_3d(r * a)) / d
-            p = np.asarray(indenter.pressure(np.minimum(r, 0.9995) * a, d, E_STAR))
-            mean = float(indenter.force(d, E_STAR)) / (np.pi * a**2)
-            ax.fill_between(r, f - 1, 0, color="0.88", lw=0)
-            ax.plot(r, f - 1, color="0.3", lw=1.2)
-            ax.plot(PLACES / RADIUS, -sunk[shape] / d, "o", mfc="white", mec=COLOURS[1], ms=4.5, clip_on=False)
-            shown = p / mean < TALLEST
-            ax.plot(r, np.where(shown, p / mean, np.nan), color=COLOURS[0])
-            for peak in r[1:-1][~shown[1:-1] & (p[1:-1] >= p[:-2]) & (p[1:-1] >= p[2:])]:
-                ax.plot(peak, TALLEST, "^", color=COLOURS[0], ms=6)
-            ax.axhline(0.0, color="0.4", lw=0.8)
-            ax.set_title(shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$"), fontsize="medium")
-        axes[0, 0].set(xlim=(0, 1.05), ylim=(-1.5, TALLEST + 0.3), yticks=[-1, 0, 1, 2, 3])
-        axes[0, 0].set_xticks([0, 0.5, 1], ["0", "0.5", "1"])
-        for ax in axes[-1]:
-            ax.set_xlabel("$r/a$")
-        left = axes[0, 0]
-        left.plot([], [], color=COLOURS[0], label="pressure over its mean")
-        left.plot([], [], "^", color=COLOURS[0], ms=6, label="infinite")
-        left.plot([], [], color="0.3", lw=1.2, label="indenter, depth over $d$")
-        left.plot([], [], "o", mfc="white", mec=COLOURS[1], ms=4.5, label="half-space under that pressure")
-        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return Figure(
-        "catalogue",
+    for ax, (shape, indenter) in zip(axes.flat, CATALOGUE.items(), strict=True):
+        d = depth_of(indenter)
+        a = float(indenter.contact_radius(d))
+        f = np.asarray(indenter.profile_3d(r * a)) / d
+        p = np.asarray(indenter.pressure(np.minimum(r, 0.9995) * a, d, E_STAR))
+        mean = float(indenter.force(d, E_STAR)) / (np.pi * a**2)
+        ax.fill_between(r, f - 1, 0, color="0.88", lw=0)
+        ax.plot(r, f - 1, color="0.3", lw=1.2)
+        ax.plot(PLACES / RADIUS, -sunk[shape] / d, "o", mfc="white", mec=COLOURS[1], ms=4.5, clip_on=False)
+        shown = p / mean < TALLEST
+        ax.plot(r, np.where(shown, p / mean, np.nan), color=COLOURS[0])
+        for peak in r[1:-1][~shown[1:-1] & (p[1:-1] >= p[:-2]) & (p[1:-1] >= p[2:])]:
+            ax.plot(peak, TALLEST, "^", color=COLOURS[0], ms=6)
+        ax.axhline(0.0, color="0.4", lw=0.8)
+        ax.set_title(shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$"), fontsize="medium")
+    axes[0, 0].set(xlim=(0, 1.05), ylim=(-1.5, TALLEST + 0.3), yticks=[-1, 0, 1, 2, 3])
+    axes[0, 0].set_xticks([0, 0.5, 1], ["0", "0.5", "1"])
+    for ax in axes[-1]:
+        ax.set_xlabel("$r/a$")
+    left = axes[0, 0]
+    left.plot([], [], color=COLOURS[0], label="pressure over its mean")
+    left.plot([], [], "^", color=COLOURS[0], ms=6, label="infinite")
+    left.plot([], [], color="0.3", lw=1.2, label="indenter, depth over $d$")
+    left.plot([], [], "o", mfc="white", mec=COLOURS[1], ms=4.5, label="half-space under that pressure")
+    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return (
         "Every other shape of the library, pressed until it touches over a disc of radius a. Above the line the"
         " pressure that follows from its one-dimensional image; below it the indenter and, as circles, where that"
-        " pressure puts the surface of an elastic half-space: they meet the indenter in each case.",
-        fig,
-        "Twelve small panels, one a shape, with the pressure above and the shape with circles on it below.",
+        " pressure puts the surface of an elastic half-space: they meet the indenter in each case."
     )
 
 
-def _error_figure(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
-    with style():
-        fig, ax = plt.subplots()
-        for (shape, (errors, _)), colour, marker in zip(orders.items(), COLOURS[1:], "osD", strict=False):
-            ax.loglog(
-                counts,
-                errors,
-                marker,
-                color=colour,
-                ms=6,
-                mfc="white",
-                label=f"{shape.replace('r^4', '$r^4$')}, between the extremes",
-            )
-            at_ends = [_at_ends(shape, n) for n in counts]
-            ax.loglog(counts, np.maximum(at_ends, 1e-17), marker, color=colour, ms=4)
-        n = np.array([counts[0], counts[-1]], dtype=float)
-        ax.loglog(n, 1.6 * orders["cone"][0][0] * (n[0] / n) ** 2, color="0.4", lw=1, ls="--", label="second order")
-        ax.plot([], [], "o", color="0.3", ms=4, label="at $u_{z0}$ and $u_{z0}\\pm\\Delta u_z$")
-        ax.set(xlabel="number of springs", ylabel=r"error of $F_N$ over $2E^{*}a\,u_{z0}$", ylim=(1e-17, 1e-2))
-        ax.set_xticks(counts, [str(n) for n in counts])
-        ax.minorticks_off()
-        ax.legend(loc="center right", bbox_to_anchor=(1.0, 0.4))
-    return Figure(
-        "springs",
+@figure("springs")
+def _error_figure(fig, ax, orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> str:
+    """Error of the normal force against the number of springs, with a line of second order and points at rounding."""
+    for (shape, (errors, _)), colour, marker in zip(orders.items(), COLOURS[1:], "osD", strict=False):
+        ax.loglog(
+            counts,
+            errors,
+            marker,
+            color=colour,
+            ms=6,
+            mfc="white",
+            label=f"{shape.replace('r^4', '$r^4$')}, between the extremes",
+        )
+        at_ends = [_at_ends(shape, n) for n in counts]
+        ax.loglog(counts, np.maximum(at_ends, 1e-17), marker, color=colour, ms=4)
+    n = np.array([counts[0], counts[-1]], dtype=float)
+    ax.loglog(n, 1.6 * orders["cone"][0][0] * (n[0] / n) ** 2, color="0.4", lw=1, ls="--", label="second order")
+    ax.plot([], [], "o", color="0.3", ms=4, label="at $u_{z0}$ and $u_{z0}\\pm\\Delta u_z$")
+    ax.set(xlabel="number of springs", ylabel=r"error of $F_N$ over $2E^{*}a\,u_{z0}$", ylim=(1e-17, 1e-2))
+    ax.set_xticks(counts, [str(n) for n in counts])
+    ax.minorticks_off()
+    ax.legend(loc="center right", bbox_to_anchor=(1.0, 0.4))
+    return (
         "Force of the spring array at Δu_z/u_z0 = 0.3. Hollow: the greatest error in between falls by four"
         " when the springs are doubled. Full: at the mean depth and at both extremes the sum is exact to"
-        " rounding with any number of springs.",
-        fig,
-        "Error of the normal force against the number of springs, with a line of second order and points at rounding.",
+        " rounding with any number of springs."
     )
 
 

@@ -21,8 +21,9 @@ import numpy as np
 
 import mdr
 from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
+from validation.figures import figure
 from validation.measured import TOLERANCE
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import number, span
 
 Point = tuple[mdr.SlidingContact, mdr.MeasuredVelocity]
@@ -217,98 +218,77 @@ def _checks_of_half(halves: list[Half]) -> list[Check]:
 # --- figures ---
 
 
-def _figure_of_v_c(study: mdr.Study, points: list[Point]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
+@figure("critical_velocity", size=(6.8, 4.4))
+def _figure_of_v_c(fig, ax, study: mdr.Study, points: list[Point]) -> str:
+    """Map of the critical velocity over frequency and relaxation time with a ridge and a valley."""
     tau, omega = study.axes["material.tau"] * OMEGA, study.axes["oscillation.omega"] / OMEGA
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.4))
-        values = study["v_c"] / study["eq_1"]
-        levels = (0.03, 0.1, 0.3, 0.9, 1.1, 3, 10, 20)
-        from matplotlib.colors import LogNorm
+    values = study["v_c"] / study["eq_1"]
+    levels = (0.03, 0.1, 0.3, 0.9, 1.1, 3, 10, 20)
+    from matplotlib.colors import LogNorm
 
-        mesh = ax.pcolormesh(omega, tau, values, norm=LogNorm(), cmap="viridis", rasterized=True, shading="nearest")
-        lines = ax.contour(omega, tau, values, levels=levels, colors="white", linewidths=1)
-        ax.clabel(lines, fmt="%g", fontsize=9)
-        places = [(case.oscillation.omega / OMEGA, case.material.tau * OMEGA) for case, _ in points]
-        ax.plot(*np.transpose(places), "o", mfc="none", mec="w", ms=7, mew=1.6)
-        ax.set(
-            xscale="log", yscale="log", xlabel=r"frequency $\omega/\omega_0$", ylabel=r"relaxation time $\omega_0\tau$",
-            xlim=(omega[0], omega[-1]), ylim=(tau[0], tau[-1]),
-        )  # fmt: skip
-        bar = fig.colorbar(mesh, ax=ax, pad=0.02)
-        bar.set_label("$v_c$ over Eq. (1)")
-        bar.outline.set_visible(False)
-    return Figure(
-        "critical_velocity",
+    mesh = ax.pcolormesh(omega, tau, values, norm=LogNorm(), cmap="viridis", rasterized=True, shading="nearest")
+    lines = ax.contour(omega, tau, values, levels=levels, colors="white", linewidths=1)
+    ax.clabel(lines, fmt="%g", fontsize=9)
+    places = [(case.oscillation.omega / OMEGA, case.material.tau * OMEGA) for case, _ in points]
+    ax.plot(*np.transpose(places), "o", mfc="none", mec="w", ms=7, mew=1.6)
+    ax.set(
+        xscale="log", yscale="log", xlabel=r"frequency $\omega/\omega_0$", ylabel=r"relaxation time $\omega_0\tau$",
+        xlim=(omega[0], omega[-1]), ylim=(tau[0], tau[-1]),
+    )  # fmt: skip
+    bar = fig.colorbar(mesh, ax=ax, pad=0.02)
+    bar.set_label("$v_c$ over Eq. (1)")
+    bar.outline.set_visible(False)
+    return (
         f"Eq. (15) over Eq. (1) for a body on a paraboloid, k_x = {STIFFNESS:g} k_x,c, {100 * ZETA:g} % of critical"
         " damping. The ridge at ω = ω_0 is the body on its spring; the valley at ω = 1.22 ω_0 is the body on spring"
         " and contact, where almost any velocity is too fast to be controlled, and dashpots fill it. To the"
         " right the body is too heavy to move, and v_c is Eq. (1); to the left a slow body follows the force, which"
-        " dashpots raise. Circles: where v_c was measured.",
-        fig,
-        "Map of the critical velocity over frequency and relaxation time with a ridge and a valley.",
+        " dashpots raise. Circles: where v_c was measured."
     )
 
 
-def _figure_of_cof(rigid: mdr.Study, body: mdr.Study) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True)
-        for ax, study, title in zip(axes, (rigid, body), ("rigid pull", "body on a spring"), strict=True):
-            study.plot_map("cof", "v_0/v_c", ax, levels=RIGID.mu_0 * np.array([0.25, 0.5, 0.75, 0.9]),
-                     limits=(0, RIGID.mu_0), colorbar=ax is axes[-1])  # fmt: skip
-            alpha = study.axes["alpha"]
-            ax.plot((study["full_slip_v_c"] / study["v_c"])[:, 0], alpha, color="#D55E00", lw=2)
-            ax.axhline(1 / np.hypot(1, 0.3), color="w", lw=1, ls=":")
-            ax.set_title(title)
-        axes[1].set_ylabel("")
-    return Figure(
-        "friction",
+@figure("friction", 1, 2, size=(11, 4.4), sharey=True)
+def _figure_of_cof(fig, axes, rigid: mdr.Study, body: mdr.Study) -> str:
+    """Two maps of friction over velocity and amplitude with the line on which it becomes full."""
+    for ax, study, title in zip(axes, (rigid, body), ("rigid pull", "body on a spring"), strict=True):
+        study.plot_map("cof", "v_0/v_c", ax, levels=RIGID.mu_0 * np.array([0.25, 0.5, 0.75, 0.9]),
+                 limits=(0, RIGID.mu_0), colorbar=ax is axes[-1])  # fmt: skip
+        alpha = study.axes["alpha"]
+        ax.plot((study["full_slip_v_c"] / study["v_c"])[:, 0], alpha, color="#D55E00", lw=2)
+        ax.axhline(1 / np.hypot(1, 0.3), color="w", lw=1, ls=":")
+        ax.set_title(title)
+    axes[1].set_ylabel("")
+    return (
         "μ (μ_0 = 0.5) over velocity and amplitude, a paraboloid, ωτ = 0.3. Dashed, v_c: Eq. (15). Orange: the"
         " full-slip v_c, to the right of which friction is full. Under a rigid pull it is v_c of Eq. (1) at every"
         " amplitude; for a body (ω_0 = 1.9 ω) it"
         " bends away from Eq. (15), as the second harmonic of the force grows, which is near the resonance. Dotted:"
         " above it the contact is lost in every period. To halve friction takes an amplitude of about a third of the"
-        f" depth; with more of it half lasts up to {reach_of_half(rigid):.2f} v_c, but no amplitude takes it further.",
-        fig,
-        "Two maps of friction over velocity and amplitude with the line on which it becomes full.",
+        f" depth; with more of it half lasts up to {reach_of_half(rigid):.2f} v_c, but no amplitude takes it further."
     )
 
 
-def _figure_of_half(halves: list[Half]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
-    with style():
-        fig, (rest, motion) = plt.subplots(1, 2, figsize=(10, 4))
-        for shape, (colour, marker) in LOOKS.items():
-            own = [half for half in halves if half.shape == shape]
-            T = [max(half.T, 0.03) for half in own]
-            look = {"color": colour, "marker": marker, "label": shape_label(shape)}
-            rest.plot(T, [half.at_rest for half in own], **look)
-            motion.plot(T, [half.reach for half in own], **look)
-        for ax in (rest, motion):
-            ax.set(xscale="log", xlabel=r"loss tangent $\omega\tau$")
-            ax.set_xticks([0.03, 0.1, 1, 10], ["0", "0.1", "1", "10"])
-        rest.set(yscale="log", ylabel=r"amplitude $\alpha$ that halves static friction")
-        motion.set(ylim=(0, 0.4), ylabel="greatest $v_0/v_c$ with half the friction")
-        rest.set_yticks([0.03, 0.1, 0.3, 0.5], ["0.03", "0.1", "0.3", "0.5"])
-        rest.minorticks_off()
-        rest.legend()
-    return Figure(
-        "half",
+@figure("half", 1, 2, size=(10, 4))
+def _figure_of_half(fig, axes, halves: list[Half]) -> str:
+    """Two panels over the loss tangent: the amplitude for half the static friction, and the velocity with half."""
+    rest, motion = axes
+    for shape, (colour, marker) in LOOKS.items():
+        own = [half for half in halves if half.shape == shape]
+        T = [max(half.T, 0.03) for half in own]
+        look = {"color": colour, "marker": marker, "label": shape_label(shape)}
+        rest.plot(T, [half.at_rest for half in own], **look)
+        motion.plot(T, [half.reach for half in own], **look)
+    for ax in (rest, motion):
+        ax.set(xscale="log", xlabel=r"loss tangent $\omega\tau$")
+        ax.set_xticks([0.03, 0.1, 1, 10], ["0", "0.1", "1", "10"])
+    rest.set(yscale="log", ylabel=r"amplitude $\alpha$ that halves static friction")
+    motion.set(ylim=(0, 0.4), ylabel="greatest $v_0/v_c$ with half the friction")
+    rest.set_yticks([0.03, 0.1, 0.3, 0.5], ["0.03", "0.1", "0.3", "0.5"])
+    rest.minorticks_off()
+    rest.legend()
+    return (
         "Rigid pull. Left: the amplitude, over the depth, that halves friction at rest; dashpots lower it as they"
         " unload the contact on its way up. Right: how fast the contact may slide for any amplitude to halve its"
-        " friction: up to a quarter to a third of v_c, whatever the shape, given the amplitude. The best one is one"
-        " to three times that at which contact is first lost; more raises v_c, but the share with half the friction"
-        " falls.",
-        fig,
-        "Two panels over the loss tangent: the amplitude for half the static friction, and the velocity with half.",
+        " friction: up to a quarter to a third of v_c, whatever the shape, given the amplitude. The best one is one to"
+        " three times that at which contact is first lost; more raises v_c, but the share with half the friction falls."
     )

@@ -21,9 +21,10 @@ import numpy as np
 
 import mdr
 from mdr.normal.indentation import Indentation, indent
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 from validation.words import listed, ranged, span
 
 P = 20e-3  #: duration of a press [s]
@@ -205,73 +206,65 @@ def _press_checks(presses: dict[tuple[str, str, float], tuple[Indentation, Ting]
 # --- figures ---
 
 
-def _press_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, axes = plt.subplots(2, 2, figsize=(9.4, 7.2), sharex=True, sharey=True)
-        for row, kind in zip(axes, ("Kelvin", "standard solid"), strict=True):
-            for ax, shape in zip(row, POWERS, strict=True):
-                scale = E_STAR * float(SHAPES[shape].force(DEPTH, 1.0))
-                for T, colour in zip(DRAWN, COLOURS, strict=False):
-                    run, ting = pressed(shape, kind, T)
-                    kept = np.arange(np.flatnonzero(run.contact_radius)[-1] + 2)
-                    ax.plot(run.u_z[kept] / DEPTH, run.F_z[kept] / scale, color=colour, label=f"{T:g}")
-                    some = np.linspace(0.02 * P, ting.end * 0.999, 23)
-                    F = np.array([ting.force(t) for t in some])
-                    ax.plot(ting.u(some) / DEPTH, F / scale, "o", ms=4.5, mfc="white", mec=colour)
-                    ax.plot(ting.u(ting.end) / DEPTH, 0, "x", color=colour, ms=7, mew=1.8, clip_on=False, zorder=4)
-                ax.set_title(f"{shape_label(shape)}, {kind}")
-                ax.set(xlim=(0, 1.02))
-            row[0].set_ylabel(r"force over elastic peak, $E_\infty$")
-        axes[0, 0].set_ylim(0, 10.5)
-        for ax in axes[1]:
-            ax.set_xlabel("depth $u/d$")
-        handles, labels = axes[0, 0].get_legend_handles_labels()
-        fig.legend(handles, [f"relaxation time {label} $P$" for label in labels], loc="outside lower center", ncols=3)
-    return Figure(
-        "press",
+@figure("press", 2, 2, size=(9.4, 7.2), sharex=True, sharey=True)
+def _press_figure(fig, axes) -> str:
+    """Force-depth loops of cone and paraboloid on Kelvin body and standard solid, lines of springs through Ting's
+    circles.
+    """
+    for row, kind in zip(axes, ("Kelvin", "standard solid"), strict=True):
+        for ax, shape in zip(row, POWERS, strict=True):
+            scale = E_STAR * float(SHAPES[shape].force(DEPTH, 1.0))
+            for T, colour in zip(DRAWN, COLOURS, strict=False):
+                run, ting = pressed(shape, kind, T)
+                kept = np.arange(np.flatnonzero(run.contact_radius)[-1] + 2)
+                ax.plot(run.u_z[kept] / DEPTH, run.F_z[kept] / scale, color=colour, label=f"{T:g}")
+                some = np.linspace(0.02 * P, ting.end * 0.999, 23)
+                F = np.array([ting.force(t) for t in some])
+                ax.plot(ting.u(some) / DEPTH, F / scale, "o", ms=4.5, mfc="white", mec=colour)
+                ax.plot(ting.u(ting.end) / DEPTH, 0, "x", color=colour, ms=7, mew=1.8, clip_on=False, zorder=4)
+            ax.set_title(f"{shape_label(shape)}, {kind}")
+            ax.set(xlim=(0, 1.02))
+        row[0].set_ylabel(r"force over elastic peak, $E_\infty$")
+    axes[0, 0].set_ylim(0, 10.5)
+    for ax in axes[1]:
+        ax.set_xlabel("depth $u/d$")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    fig.legend(handles, [f"relaxation time {label} $P$" for label in labels], loc="outside lower center", ncols=3)
+    return (
         "Half a sine of depth in the duration P, force over depth; every loop runs clockwise. Lines: springs, each"
         " released where its own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is"
         " lost while the indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or,"
-        " once they are glassy throughout the press, close to the old surface again (standard solid).",
-        fig,
-        "Force-depth loops of cone and paraboloid on Kelvin body and standard solid, lines of springs through Ting's "
-        "circles.",
+        " once they are glassy throughout the press, close to the old surface again (standard solid)."
     )
 
 
-def _creep_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("creep", 1, 2, size=(9.4, 4.2))
+def _creep_figure(fig, axes) -> str:
+    """Creep curves over eight decades through circles, and the compression of the central spring under tapping."""
+    left, right = axes
     t = np.concatenate([[0.0], P * np.geomspace(1e-5, 1e3, 161)])
     some = P * np.geomspace(1.3e-5, 0.8e3, 17)
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.2))
-        for (name, body), colour in zip(BODIES.items(), COLOURS, strict=False):
-            run = indent(SHAPES["paraboloid"], body, t, F_z=np.full(t.size, LOAD))
-            left.loglog(t[1:] / P, run.u_z[1:] * 1e6, color=colour, label=name)
-            J = np.asarray(body.creep_compliance(some))
-            left.loglog(some / P, creep_depth("paraboloid", LOAD * J) * 1e6, "o", ms=4.5, mfc="white", mec=colour)
-        left.set(xlabel="time $t/P$", ylabel="depth [µm]", title="creep of a paraboloid under 0.1 N")
-        body = BODIES["standard solid"]
-        t = P * np.linspace(0, 6, 1201)
-        u_z = DEPTH * np.sin(2 * np.pi * t / (2 * P))
-        run = indent(SHAPES["paraboloid"], body, t, u_z, record=True)
-        assert run.s is not None
-        right.plot(t / P, u_z / DEPTH, color="0.6", label="indenter")
-        right.plot(t / P, run.s[:, 0] / DEPTH, color=COLOURS[0], label="surface in the centre")
-        touching = run.F_z > 0
-        right.fill_between(t / P, -1.05, 1.05, where=list(touching), color=COLOURS[5], alpha=0.2, lw=0, label="contact")
-        right.set(xlabel="time $t/P$", ylabel="over peak depth", ylim=(-1.05, 1.05), title="standard solid, tapped")
-        handles = [*left.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
-        names = [*left.get_legend_handles_labels()[1], *right.get_legend_handles_labels()[1]]
-        fig.legend(handles, names, loc="outside lower center", ncols=4)
-    return Figure(
-        "creep",
+    for (name, body), colour in zip(BODIES.items(), COLOURS, strict=False):
+        run = indent(SHAPES["paraboloid"], body, t, F_z=np.full(t.size, LOAD))
+        left.loglog(t[1:] / P, run.u_z[1:] * 1e6, color=colour, label=name)
+        J = np.asarray(body.creep_compliance(some))
+        left.loglog(some / P, creep_depth("paraboloid", LOAD * J) * 1e6, "o", ms=4.5, mfc="white", mec=colour)
+    left.set(xlabel="time $t/P$", ylabel="depth [µm]", title="creep of a paraboloid under 0.1 N")
+    body = BODIES["standard solid"]
+    t = P * np.linspace(0, 6, 1201)
+    u_z = DEPTH * np.sin(2 * np.pi * t / (2 * P))
+    run = indent(SHAPES["paraboloid"], body, t, u_z, record=True)
+    assert run.s is not None
+    right.plot(t / P, u_z / DEPTH, color="0.6", label="indenter")
+    right.plot(t / P, run.s[:, 0] / DEPTH, color=COLOURS[0], label="surface in the centre")
+    touching = run.F_z > 0
+    right.fill_between(t / P, -1.05, 1.05, where=list(touching), color=COLOURS[5], alpha=0.2, lw=0, label="contact")
+    right.set(xlabel="time $t/P$", ylabel="over peak depth", ylim=(-1.05, 1.05), title="standard solid, tapped")
+    handles = [*left.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
+    names = [*left.get_legend_handles_labels()[1], *right.get_legend_handles_labels()[1]]
+    fig.legend(handles, names, loc="outside lower center", ncols=4)
+    return (
         "P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form of"
         " Lee and Radok. Right: the spring in the centre is left by the indenter while still compressed, relaxes, and"
-        " is met again below the old surface, a little deeper at every stroke.",
-        fig,
-        "Creep curves over eight decades through circles, and the compression of the central spring under tapping.",
+        " is met again below the old surface, a little deeper at every stroke."
     )

@@ -17,9 +17,11 @@ from mdr import laws
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.rigid_pull import average_friction
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim, Equation
 
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
 SHOWN = 0.3  #: alpha of the figure
@@ -186,38 +188,33 @@ def _order_checks(law: OneCurve, orders: dict[str, float]) -> Checks:
 # --- figure ---
 
 
-def _figure(law: OneCurve) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("collapse", 1, 3, size=(12.6, 4.2))
+def _figure(fig, axes, law: OneCurve) -> str:
+    """Three panels over velocity: four curves apart; the same scaled, nearly one; what is left with and without a
+    correction.
+    """
+    curves, scaled, left = axes
     v = law.v
-    with style():
-        fig, (curves, scaled, left) = plt.subplots(1, 3, figsize=(12.6, 4.2))
-        for shape, colour in zip(SHAPES, COLOURS, strict=False):
-            label = shape_label(shape)
-            raw = lost(shape, SHOWN, v)
-            curves.plot(v, raw, color=colour, label=label)
-            scaled.plot(v, raw / unit(shape, SHOWN), color=colour)
-            left.plot(v, left_over(shape, SHOWN, law, corrected=False), color=colour, lw=1, ls="--")
-            left.plot(v, left_over(shape, SHOWN, law, corrected=True), color=colour)
-        scaled.plot(v, law.psi, color="k", lw=1, ls=":", label=r"$\psi$")
-        left.plot([], [], color="0.3", lw=1, ls="--", label=r"from $\psi$")
-        left.plot([], [], color="0.3", label=r"from $\psi\,(1+C\alpha/n)$")
-        curves.set(title="lost friction", ylabel=r"$1-\mu/\mu_0$")
-        scaled.set(title="scaled", ylabel=r"$(1-\mu/\mu_0)\,\langle F_N\rangle/(k_{zc}\,\Delta u_z)$")
-        left.set(title="difference of the scaled curves", ylabel="scaled curve less its law")
-        for ax in (curves, scaled, left):
-            ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1))
-            ax.legend()
+    for shape, colour in zip(SHAPES, COLOURS, strict=False):
+        label = shape_label(shape)
+        raw = lost(shape, SHOWN, v)
+        curves.plot(v, raw, color=colour, label=label)
+        scaled.plot(v, raw / unit(shape, SHOWN), color=colour)
+        left.plot(v, left_over(shape, SHOWN, law, corrected=False), color=colour, lw=1, ls="--")
+        left.plot(v, left_over(shape, SHOWN, law, corrected=True), color=colour)
+    scaled.plot(v, law.psi, color="k", lw=1, ls=":", label=r"$\psi$")
+    left.plot([], [], color="0.3", lw=1, ls="--", label=r"from $\psi$")
+    left.plot([], [], color="0.3", label=r"from $\psi\,(1+C\alpha/n)$")
+    curves.set(title="lost friction", ylabel=r"$1-\mu/\mu_0$")
+    scaled.set(title="scaled", ylabel=r"$(1-\mu/\mu_0)\,\langle F_N\rangle/(k_{zc}\,\Delta u_z)$")
+    left.set(title="difference of the scaled curves", ylabel="scaled curve less its law")
+    for ax in (curves, scaled, left):
+        ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1))
+        ax.legend()
     raw, before, after = spreads(law)
-    return Figure(
-        "collapse",
+    return (
         f"Elastic contacts of four shapes, α = Δu_z/u_z0 = {SHOWN:g}. Left: they lose up to {raw:.2g} μ_0 more or less"
         " than each other. Middle: in units of k_zc Δu_z/⟨F_N⟩ all lose ψ(v_0/v_c), the deficit of a single spring, to"
         f" {before:.1g}. Right: what the edge adds in first order, <i>C</i>(v_0/v_c) α/<i>n</i>, leaves {after:.1g} of"
-        " the paraboloid and less of r^4 (solid), and nothing of the punch and the cone, solid lines at zero.",
-        fig,
-        "Three panels over velocity: four curves apart; the same scaled, nearly one; what is left with and without a"
-        " correction.",
+        " the paraboloid and less of r^4 (solid), and nothing of the punch and the cone, solid lines at zero."
     )

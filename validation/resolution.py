@@ -15,10 +15,11 @@ from typing import Any
 import numpy as np
 
 import mdr
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss
-from validation.report import Check, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Claim
 from validation.words import span
 
 LEVELS = {
@@ -166,33 +167,28 @@ def _span(knob: str) -> str:
     return f"{LEVELS[knob][0]} to {LEVELS[knob][-1]} {knob}"
 
 
-def _figure(studies: list[Study]) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("orders", 1, 2, size=(8.8, 4.9), sharey=True)
+def _figure(fig, axes, studies: list[Study]) -> str:
+    """Two log-log plots of errors that fall with the second or a higher power of the resolution."""
     tau = r"$\omega\tau$"
     orders = [s.order for s in studies]
-    with style():
-        fig, axes = plt.subplots(1, 2, sharey=True, figsize=(8.8, 4.9))
-        for ax, knob, label in zip(axes, ("steps", "springs"), ("steps per period", "springs"), strict=True):
-            n = np.array(LEVELS[knob], dtype=float)
-            these = [s for s in studies if s.knob == knob]
-            for s, colour, marker in zip(these, COLOURS, "osD^", strict=False):
-                ax.plot(n, s.error, marker, color=colour, ms=5, label=f"{s.name.replace('ωτ', tau)}: {s.order:.2f}")
-                fit = np.polyfit(np.log(n), np.log(s.error), 1)
-                ax.plot(n, np.exp(np.polyval(fit, np.log(n))), color=colour, lw=0.9)
-            top = 3 * max(float(s.error[0]) for s in these)
-            ax.plot(n, top * (n[0] / n) ** 2, color="0.5", ls="--", lw=0.9, label="second order: 2")
-            ax.set(xscale="log", yscale="log", xlabel=label)
-            ticks = n[:: 4 if knob == "steps" else 1]
-            ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-            ax.minorticks_off()
-            ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), title="observed order")
-        axes[0].set_ylabel(r"error of $\mu/\mu_0$")
-    return Figure(
-        "orders",
+    for ax, knob, label in zip(axes, ("steps", "springs"), ("steps per period", "springs"), strict=True):
+        n = np.array(LEVELS[knob], dtype=float)
+        these = [s for s in studies if s.knob == knob]
+        for s, colour, marker in zip(these, COLOURS, "osD^", strict=False):
+            ax.plot(n, s.error, marker, color=colour, ms=5, label=f"{s.name.replace('ωτ', tau)}: {s.order:.2f}")
+            fit = np.polyfit(np.log(n), np.log(s.error), 1)
+            ax.plot(n, np.exp(np.polyval(fit, np.log(n))), color=colour, lw=0.9)
+        top = 3 * max(float(s.error[0]) for s in these)
+        ax.plot(n, top * (n[0] / n) ** 2, color="0.5", ls="--", lw=0.9, label="second order: 2")
+        ax.set(xscale="log", yscale="log", xlabel=label)
+        ticks = n[:: 4 if knob == "steps" else 1]
+        ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        ax.minorticks_off()
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), title="observed order")
+    axes[0].set_ylabel(r"error of $\mu/\mu_0$")
+    return (
         "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and against"
         f" the springs, right. The least-squares lines have the slopes of the legends, {span(orders)}: second order"
-        " (dashed) or better, up to the scatter of the kinks.",
-        fig,
-        "Two log-log plots of errors that fall with the second or a higher power of the resolution.",
+        " (dashed) or better, up to the scatter of the kinks."
     )

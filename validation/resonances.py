@@ -26,11 +26,12 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import contact, loss
+from validation.figures import figure
 from validation.measured import TOLERANCE
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import listed, percent
 
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
@@ -211,44 +212,39 @@ def _order_checks() -> Checks:
         yield Check(name, got, power, 0.1, "the next power of α is a few α of it")
 
 
-def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("plateau", size=(7.2, 4.6))
+def _plateau_figure(fig, ax, driven: list[Any], speeds: tuple[int, ...]) -> str:
+    """Reduction of friction over the share of the driving harmonic, falling to one with the velocity."""
     shown = [knobs for knobs in driven if knobs[1] == 0.0]
     velocities = np.geomspace(1.5, max(speeds), 6 if len(speeds) == 1 else 14)
-    with style():
-        fig, ax = plt.subplots(figsize=(7.2, 4.6))
-        for knobs in shown:
-            shape, T, n = knobs
-            colour, _ = LOOKS[shape]
-            over = np.array([reduction(shape, T, n, float(v))[0] for v in velocities]) / share(*knobs)
-            name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$: $|F_n|/F_0$ = {percent(share(*knobs))}"
-            ax.plot(velocities, over, "os^vD"[n - 1], ms=6, mfc="w", color=colour, label=name)
-        ax.axhline(1.0, color="0.3", lw=1.0)
-        ax.set(
-            xscale="log",
-            xlim=(1.2, 1.25 * max(speeds)),
-            ylim=(0.98, None),
-            xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)",
-            ylabel=r"$(1 - \mu/\mu_0)$ over $|F_n|/F_0$",
-        )
-        ax.legend(loc="upper right")
-        ax.set_xticks([2, 5, 10, 20, 50, 100][: 4 if len(speeds) == 1 else 6])
-        ax.xaxis.set_major_formatter("{x:g}")
-        ax.minorticks_off()
-    return Figure(
-        "plateau",
+    for knobs in shown:
+        shape, T, n = knobs
+        colour, _ = LOOKS[shape]
+        over = np.array([reduction(shape, T, n, float(v))[0] for v in velocities]) / share(*knobs)
+        name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$: $|F_n|/F_0$ = {percent(share(*knobs))}"
+        ax.plot(velocities, over, "os^vD"[n - 1], ms=6, mfc="w", color=colour, label=name)
+    ax.axhline(1.0, color="0.3", lw=1.0)
+    ax.set(
+        xscale="log",
+        xlim=(1.2, 1.25 * max(speeds)),
+        ylim=(0.98, None),
+        xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)",
+        ylabel=r"$(1 - \mu/\mu_0)$ over $|F_n|/F_0$",
+    )
+    ax.legend(loc="upper right")
+    ax.set_xticks([2, 5, 10, 20, 50, 100][: 4 if len(speeds) == 1 else 6])
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.minorticks_off()
+    return (
         "Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs"
         " (symbols). It does not come back to μ_0: what is missing comes down to |F_n|/F_0, the share of the harmonic"
-        " of the normal force that drives the body, like v_0^{−1/2}, and never below it.",
-        fig,
-        "Reduction of friction over the share of the driving harmonic, falling to one with the velocity.",
+        " of the normal force that drives the body, like v_0^{−1/2}, and never below it."
     )
 
 
-def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("window", 1, 2, size=(9.6, 4.2), sharey=True)
+def _window_figure(fig, axes, effort: str, damped: dict[Any, Any]) -> str:
+    """Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch."""
     near = [
         n + side * s
         for n in MULTIPLES
@@ -257,31 +253,26 @@ def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
     ]
     even = np.linspace(0.55, 5.5, 30 if effort == "quick" else 120)
     ratios = np.unique(np.array([r for r in [*near, *even] if r > 0.55]))
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(9.6, 4.2), sharey=True)
-        for ax, T in zip(axes, (0.0, 1.0), strict=True):
-            for shape, (colour, marker) in LOOKS.items():
-                for damping_ratio, line in ((0.0, "-"), (0.01, ":")):
-                    values = [_full_over_unit(shape, T, float(r), damping_ratio) for r in ratios]
-                    label = f"{shape}, {'no damper' if damping_ratio == 0 else 'damper 1 %'}"
-                    ax.plot(ratios, values, line, color=colour, lw=1.2, label=label)
-                here = [
-                    (n, end[0] * _eq_15_over_unit(s, t, n)) for (s, t, n), end in damped.items() if (s, t) == (shape, T)
-                ]
-                if here:
-                    ax.plot(*np.array(here).T, marker, color=colour, mec="white", mew=0.6, ms=7)
-            ax.set(yscale="log", ylim=(0.8, 60), xlim=(0.55, 5.5), xlabel=r"$\omega_0/\omega$")
-            ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau = {T:g}$")
-        axes[0].set_ylabel("full-slip $v_c$ over Eq. (1)")
-        fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return Figure(
-        "window",
+    for ax, T in zip(axes, (0.0, 1.0), strict=True):
+        for shape, (colour, marker) in LOOKS.items():
+            for damping_ratio, line in ((0.0, "-"), (0.01, ":")):
+                values = [_full_over_unit(shape, T, float(r), damping_ratio) for r in ratios]
+                label = f"{shape}, {'no damper' if damping_ratio == 0 else 'damper 1 %'}"
+                ax.plot(ratios, values, line, color=colour, lw=1.2, label=label)
+            here = [
+                (n, end[0] * _eq_15_over_unit(s, t, n)) for (s, t, n), end in damped.items() if (s, t) == (shape, T)
+            ]
+            if here:
+                ax.plot(*np.array(here).T, marker, color=colour, mec="white", mew=0.6, ms=7)
+        ax.set(yscale="log", ylim=(0.8, 60), xlim=(0.55, 5.5), xlabel=r"$\omega_0/\omega$")
+        ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau = {T:g}$")
+    axes[0].set_ylabel("full-slip $v_c$ over Eq. (1)")
+    fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return (
         "Critical velocity in full slip over the natural frequency of the body. The punch has the one pole of Eq. (15);"
         " the paraboloid has one at every whole multiple, the narrower the higher, and wider where the material"
         " dissipates and the force is less sinusoidal. A damper of 1 % (dotted) leaves the first two. Symbols:"
-        f" measured, with damper{', elastic only' if effort == 'quick' else ''}.",
-        fig,
-        "Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch.",
+        f" measured, with damper{', elastic only' if effort == 'quick' else ''}."
     )
 
 

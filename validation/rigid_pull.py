@@ -20,10 +20,12 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
+from validation.figures import figure
 from validation.measured import SHARP, worst
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation
 
 Measured = dict[tuple[float, float], dict[str, tuple[float | None, float]]]  #: alpha, T: shape: runs, full slip
 
@@ -218,32 +220,25 @@ def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> Che
 # --- figures ---
 
 
-def _curve_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
+@figure("curves", 1, 2, size=(9.4, 4.2), sharey=True)
+def _curve_figure(fig, axes) -> str:
+    """COF over mu_0 against v_0 over v_c for four shapes, elastic and Kelvin, all ending at v_c."""
     alpha, grid = 0.3, 1.2 * np.linspace(0, 1, 200) ** 2
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(9.4, 4.2), sharey=True)
-        for ax, T in zip(axes, (0.0, 1.0), strict=True):
-            for shape in SHAPES:
-                case = contact(shape, alpha, T)
-                curve = mdr.cof_curve(case, grid * mdr.critical_velocity(case))
-                ax.plot(curve.v_0 / curve.v_c, curve.cof / curve.mu_0, label=shape_label(shape))
-            ax.axvline(1.0, color="0.4", lw=1, ls=":", zorder=0)
-            ax.set_title(_material(T), y=1.05)
-            ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1.2))
-            ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
-        axes[0].set_ylabel(r"coefficient of friction $\mu/\mu_0$")
-        axes[0].legend(loc="lower center")
-    return Figure(
-        "curves",
+    for ax, T in zip(axes, (0.0, 1.0), strict=True):
+        for shape in SHAPES:
+            case = contact(shape, alpha, T)
+            curve = mdr.cof_curve(case, grid * mdr.critical_velocity(case))
+            ax.plot(curve.v_0 / curve.v_c, curve.cof / curve.mu_0, label=shape_label(shape))
+        ax.axvline(1.0, color="0.4", lw=1, ls=":", zorder=0)
+        ax.set_title(_material(T), y=1.05)
+        ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1.2))
+        ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
+    axes[0].set_ylabel(r"coefficient of friction $\mu/\mu_0$")
+    axes[0].legend(loc="lower center")
+    return (
         f"COF of the four shapes under a rigid pull, Δu_z/u_z0 = {alpha:g}. Each starts at its own static value and"
         " takes its own way, and all reach μ_0 at the velocity of Eq. (1). Viscosity lowers the static value"
-        " and bends the start upwards, but leaves v_c where it was.",
-        fig,
-        "COF over mu_0 against v_0 over v_c for four shapes, elastic and Kelvin, all ending at v_c.",
+        " and bends the start upwards, but leaves v_c where it was."
     )
 
 
@@ -261,36 +256,29 @@ def _reach(case: mdr.SlidingContact) -> float:
     return float(x[np.argmax(bad)])
 
 
-def _end_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("near-critical", 1, 2, size=(9.4, 4.4), sharey=True)
+def _end_figure(fig, axes) -> str:
+    """Double logarithmic plot of one less COF over mu_0 against one less v_0 over v_c, slopes two and three halves."""
     alpha, x, threshold = 0.3, np.geomspace(1e-4, 0.99, 25), 1e-3
     cases = {(shape, T): contact(shape, alpha, T) for shape, T in product(SHAPES, (0.0, 1.0))}
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(9.4, 4.4), sharey=True)
-        for (shape, T), case in cases.items():
-            ax, law, colour = axes[int(T)], near_critical(case), COLOURS[list(SHAPES).index(shape)]
-            ax.loglog(x, law.coefficient * x**law.power, color=colour, lw=1.1)
-            ax.loglog(x, _near_v_c(case, x), "o", mfc="white", color=colour, ms=4.5, label=shape_label(shape))
-            power = "2" if T == 0 else "3/2"
-            ax.set(title=f"{_material(T)}: power {power}", xlabel="$1-v_0/v_c$")
-        for ax in axes:
-            ax.axhline(threshold, color="0.4", lw=1, ls=":", zorder=0)
-        axes[0].set_ylabel(r"$1-\mu/\mu_0$")
-        axes[0].legend(loc="lower right")
+    for (shape, T), case in cases.items():
+        ax, law, colour = axes[int(T)], near_critical(case), COLOURS[list(SHAPES).index(shape)]
+        ax.loglog(x, law.coefficient * x**law.power, color=colour, lw=1.1)
+        ax.loglog(x, _near_v_c(case, x), "o", mfc="white", color=colour, ms=4.5, label=shape_label(shape))
+        power = "2" if T == 0 else "3/2"
+        ax.set(title=f"{_material(T)}: power {power}", xlabel="$1-v_0/v_c$")
+    for ax in axes:
+        ax.axhline(threshold, color="0.4", lw=1, ls=":", zorder=0)
+    axes[0].set_ylabel(r"$1-\mu/\mu_0$")
+    axes[0].legend(loc="lower right")
     low, high = (f([read_off(case, threshold) for case in cases.values()]) for f in (min, max))
     elastic, Kelvin = (min(_reach(case) for (_, at), case in cases.items() if at == T) for T in (0.0, 1.0))
-    return Figure(
-        "near-critical",
+    return (
         f"How friction joins μ_0, Δu_z/u_z0 = {alpha:g}: closed form (symbols) and leading terms, none of them fitted"
         " (lines). The shapes differ by a factor alone, their stiffness over their mean force. The elastic law is good"
         f" to a tenth down to {1 - elastic:.2f} v_c; that of the Kelvin contact, whose lag outlives the stick by the"
         f" time τ, down to {1 - Kelvin:.3f} v_c only, as below the stick is no longer short beside τ. So"
-        f" soft an end hides v_c: a thousandth below μ_0 (dotted) the velocity is only {low:.2f} to {high:.2f} v_c.",
-        fig,
-        "Double logarithmic plot of one less COF over mu_0 against one less v_0 over v_c, slopes two and three halves.",
+        f" soft an end hides v_c: a thousandth below μ_0 (dotted) the velocity is only {low:.2f} to {high:.2f} v_c."
     )
 
 

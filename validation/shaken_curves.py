@@ -18,10 +18,12 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.half_space.friction import Settings, in_three_dimensions
+from mdr.plots import COLOURS
 from validation.cases import LOOKS, SHAPES, shaken, shape_label
+from validation.figures import figure
 from validation.half_space.springs import of_springs
 from validation.measured import with_band
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 
 CHIS = (0.3, 1.0, 3.0, 30.0)  #: of the figure
 ALPHA_3D = 0.4  #: du_z/u_z0 of the contact that is computed in three dimensions
@@ -142,57 +144,50 @@ def _half_space_checks() -> Checks:
         yield Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells")
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("shaken_curves", 1, 3, size=(13.2, 4.3))
+def _figure(fig, axes, quick: bool) -> str:
+    """Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude"""
+    curves, one, held = axes
     from mdr.closed_forms.paper import deficit
-    from mdr.plots import COLOURS, style
 
     r = np.linspace(-1.2, 1.2, 25 if quick else 49)
     fine, v = np.linspace(-1.2, 1.2, 241), np.linspace(0.05, 0.95, 7 if quick else 13)
-    with style():
-        fig, (curves, one, held) = plt.subplots(1, 3, figsize=(13.2, 4.3))
-        for chi, colour in zip(CHIS, COLOURS, strict=False):
-            case = shaken("paraboloid", 0.0, chi)
-            curves.plot(*with_band(case, r, mdr.critical_velocity(case)), color=colour, label=rf"$\chi = {chi:g}$")
-        curves.plot(fine, [laws.rigid_shake(x) for x in fine], "k:", lw=1, label="rigid")
-        curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="paraboloid, longitudinal")
-        curves.legend(loc="upper left")
-        one.plot(v, [deficit(x) for x in v], "k", lw=1, label=r"$\psi$")
-        for (shape, (colour, marker)), phi in zip(LOOKS.items(), (0.7, math.pi / 2, math.pi, 5.0), strict=True):
-            for way, face in ((1, colour), (-1, "white")):
-                case = shaken(shape, 0.02, 0.015, phi)
-                v_c = mdr.critical_velocity(case, way)
-                unit = laws.lost_under_shake(case, way * 0.5 * v_c) / deficit(0.5)
-                name = f"{shape_label(shape)}, {phi / math.pi:.2g}$\\pi$" if way == 1 else None
-                points = [lost(case, way * x * v_c) / unit for x in v]
-                one.plot(v, points, marker, ls="", mfc=face, mec=colour, label=name)
-        one.set(
-            xlabel=r"$v_0/(\omega A)$",
-            ylabel=r"lost friction over $k_{xc}A/(\mu_0F_N)$",
-            title="small, any phase, both ways",
-        )
-        one.legend()
-        chi = np.linspace(0, 1.2, 121)
-        for shape, (colour, marker) in LOOKS.items():
-            law = [laws.held_under_shake(SHAPES[shape], 2e-5, 2e-5 * x) for x in chi]
-            at = np.arange(0.15, 1.2, 0.25)
-            held.plot(chi, law, color=colour, lw=1)
-            bands = [mdr.holding_band(shaken(shape, 0.0, x)).high / 0.5 for x in at]
-            held.plot(at, bands, marker, ls="", color=colour, label=shape_label(shape))
-        held.set(
-            xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$",
-            ylabel=r"load held at rest over $\mu_0F_N$",
-            title="at rest",
-        )
-        held.legend()
-    return Figure(
-        "shaken_curves",
+    for chi, colour in zip(CHIS, COLOURS, strict=False):
+        case = shaken("paraboloid", 0.0, chi)
+        curves.plot(*with_band(case, r, mdr.critical_velocity(case)), color=colour, label=rf"$\chi = {chi:g}$")
+    curves.plot(fine, [laws.rigid_shake(x) for x in fine], "k:", lw=1, label="rigid")
+    curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="paraboloid, longitudinal")
+    curves.legend(loc="upper left")
+    one.plot(v, [deficit(x) for x in v], "k", lw=1, label=r"$\psi$")
+    for (shape, (colour, marker)), phi in zip(LOOKS.items(), (0.7, math.pi / 2, math.pi, 5.0), strict=True):
+        for way, face in ((1, colour), (-1, "white")):
+            case = shaken(shape, 0.02, 0.015, phi)
+            v_c = mdr.critical_velocity(case, way)
+            unit = laws.lost_under_shake(case, way * 0.5 * v_c) / deficit(0.5)
+            name = f"{shape_label(shape)}, {phi / math.pi:.2g}$\\pi$" if way == 1 else None
+            points = [lost(case, way * x * v_c) / unit for x in v]
+            one.plot(v, points, marker, ls="", mfc=face, mec=colour, label=name)
+    one.set(
+        xlabel=r"$v_0/(\omega A)$",
+        ylabel=r"lost friction over $k_{xc}A/(\mu_0F_N)$",
+        title="small, any phase, both ways",
+    )
+    one.legend()
+    chi = np.linspace(0, 1.2, 121)
+    for shape, (colour, marker) in LOOKS.items():
+        law = [laws.held_under_shake(SHAPES[shape], 2e-5, 2e-5 * x) for x in chi]
+        at = np.arange(0.15, 1.2, 0.25)
+        held.plot(chi, law, color=colour, lw=1)
+        bands = [mdr.holding_band(shaken(shape, 0.0, x)).high / 0.5 for x in at]
+        held.plot(at, bands, marker, ls="", color=colour, label=shape_label(shape))
+    held.set(
+        xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", ylabel=r"load held at rest over $\mu_0F_N$", title="at rest"
+    )
+    held.legend()
+    return (
         "Elastic contacts under a rigid pull. Left: friction of a paraboloid of constant depth that is shaken along its"
         " way goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at rest"
         " it holds all loads of the vertical part. Middle: small oscillations of four shapes, normal and longitudinal"
         " together, each in another phase, filled forward and hollow the other way: all lose ψ. Right: what is held at"
-        " rest, closed form (lines) and runs: nothing from χ = 1 on.",
-        fig,
-        "Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude",
+        " rest, closed form (lines) and runs: nothing from χ = 1 on."
     )

@@ -16,7 +16,8 @@ import numpy as np
 
 import mdr
 from validation.cases import BODY, LOOKS, OMEGA, SHAPES, shaken, shape_label
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 
 ALPHA, CHI = 0.4, 0.6  #: of the figure
 WAYS = {1: "forward", -1: "the other way"}
@@ -144,41 +145,35 @@ def _in_phase_checks() -> Checks:
         yield Check(f"the same the other way: v_c over Eq. (1): {shape}", back, 2.0, 2e-4, BRACKET)
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
+@figure("shaken_velocity", 1, 2, size=(11.0, 4.3), sharex=True)
+def _figure(fig, axes, quick: bool) -> str:
+    """Critical velocities over the phase of the shake, for both directions of the pull"""
+    both, body = axes
     phi = np.linspace(0, 2 * math.pi, 241)
     unit = shaken("flat punch", ALPHA, CHI).unit_velocity
-    with style():
-        fig, (both, body) = plt.subplots(1, 2, figsize=(11.0, 4.3), sharex=True)
-        for way, look in ((1, "-"), (-1, "--")):
-            cases = [shaken("flat punch", ALPHA, CHI, one) for one in phi]
-            both.plot(phi / math.pi, [_pointers(one, way) / unit for one in cases], f"k{look}", lw=1, label=WAYS[way])
-            cases = [shaken("flat punch", ALPHA, CHI, one, 1.0, **BODY) for one in phi]
-            body.plot(phi / math.pi, [mdr.critical_velocity(one, way) / unit for one in cases], f"k{look}", lw=1)
-        for (shape, (colour, marker)), shift in zip(LOOKS.items(), (0.0, 0.09, 0.18, 0.27), strict=True):
-            at = np.arange(0.1 + shift, 2, 0.5 if quick else 0.36)
-            for way in WAYS:
-                filled = {"mfc": colour if way == 1 else "white", "mec": colour}
-                name = shape_label(shape) if way == 1 else None
-                found = [_measured(shaken(shape, ALPHA, CHI, one * math.pi), way) / unit for one in at]
-                both.plot(at, found, marker, ls="", label=name, **filled)
-                if shape in ("flat punch", "cone"):
-                    found = [_measured(shaken(shape, ALPHA, CHI, one * math.pi, 1.0, **BODY), way) / unit for one in at]
-                    body.plot(at, found, marker, ls="", **filled)
-        both.set(title="rigid pull, elastic", ylabel=r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
-        body.set(title=r"body on a spring, $\omega\tau = 1$")
-        for ax in (both, body):
-            ax.set(xlabel=r"phase of the shake $\varphi_x/\pi$", ylim=(0, None))
-        fig.legend(loc="outside lower center", ncols=6)
-    return Figure(
-        "shaken_velocity",
+    for way, look in ((1, "-"), (-1, "--")):
+        cases = [shaken("flat punch", ALPHA, CHI, one) for one in phi]
+        both.plot(phi / math.pi, [_pointers(one, way) / unit for one in cases], f"k{look}", lw=1, label=WAYS[way])
+        cases = [shaken("flat punch", ALPHA, CHI, one, 1.0, **BODY) for one in phi]
+        body.plot(phi / math.pi, [mdr.critical_velocity(one, way) / unit for one in cases], f"k{look}", lw=1)
+    for (shape, (colour, marker)), shift in zip(LOOKS.items(), (0.0, 0.09, 0.18, 0.27), strict=True):
+        at = np.arange(0.1 + shift, 2, 0.5 if quick else 0.36)
+        for way in WAYS:
+            filled = {"mfc": colour if way == 1 else "white", "mec": colour}
+            name = shape_label(shape) if way == 1 else None
+            found = [_measured(shaken(shape, ALPHA, CHI, one * math.pi), way) / unit for one in at]
+            both.plot(at, found, marker, ls="", label=name, **filled)
+            if shape in ("flat punch", "cone"):
+                found = [_measured(shaken(shape, ALPHA, CHI, one * math.pi, 1.0, **BODY), way) / unit for one in at]
+                body.plot(at, found, marker, ls="", **filled)
+    both.set(title="rigid pull, elastic", ylabel=r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
+    body.set(title=r"body on a spring, $\omega\tau = 1$")
+    for ax in (both, body):
+        ax.set(xlabel=r"phase of the shake $\varphi_x/\pi$", ylim=(0, None))
+    fig.legend(loc="outside lower center", ncols=6)
+    return (
         f"Critical velocity against the phase between normal (Δu_z/u_z0 = {ALPHA:g}) and longitudinal oscillation (Δu_x"
         f" = {CHI:g} μ_0 κ u_z0): closed form (lines) and measurements, filled forward, hollow the other way. Left, all"
         " shapes lie on one curve each way: least forward in phase, where depth and shake go together. Right, with a"
-        " body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15).",
-        fig,
-        "Critical velocities over the phase of the shake, for both directions of the pull",
+        " body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15)."
     )

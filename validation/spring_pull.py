@@ -20,10 +20,11 @@ from dataclasses import dataclass
 import numpy as np
 
 import mdr
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact
-from validation.report import Check, Checks, Claim, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 from validation.words import listed, ranged
 
 ALPHA = 0.1
@@ -201,75 +202,66 @@ def _pole_checks(plateaus: dict[float, Array], swings: dict[float, list[mdr.Slid
     yield Check(name, rest.cof / rest.mu_0 - plateaus[0.0][PLATEAU.index(16.0)], 0.0, 2e-6, "both runs settled to 1e-6")
 
 
-def _sweep_figure(points: list[Point], materials: tuple[float, ...]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(7.2, 4.6))
-        s = np.unique(np.r_[np.linspace(0.005, 6.5, 300), np.linspace(0.9, 1.1, 101), np.linspace(1.8, 2.2, 101)])
-        for T, colour in zip(materials, COLOURS, strict=False):
-            for damping, look in ((DAMPING, {"lw": 1.6}), (0.0, {"lw": 0.8, "ls": "--"})):
-                cases = [punch(float(value), T, damping) for value in s]
-                curve = np.array([mdr.critical_velocity(case) / case.unit_velocity for case in cases])
-                ax.plot(s, np.where(np.isfinite(curve), curve, np.nan), color=colour, **look)
-            here = [p for p in points if p.T == T and p.measured is not None]
-            name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
-            ax.plot(
-                [p.s for p in here],
-                [p.measured or np.nan for p in here],
-                "o",
-                color=colour,
-                mec="white",
-                mew=0.6,
-                ms=7,
-                label=name,
-                zorder=3,
-            )
-        ax.set(yscale="log", xlim=(-0.1, 6.6), ylim=(0.02, 60), xlabel=r"$m\omega^2/k_x$", ylabel=r"$v_c$ over Eq. (1)")
-        for place, name in ((1.0, "pole\n$m\\omega^2 = k_x$"), (ZERO, "zero\n$m\\omega^2 = k_x + k_{xc}$")):
-            ax.axvline(place, color="0.6", lw=0.8, ls=":", zorder=0)
-            ax.annotate(name, (place, 60), (4, -2), textcoords="offset points", va="top", fontsize=9)
-        ax.plot([], [], color="0.3", label=f"Eq. (15), damper {100 * DAMPING:g} % of critical")
-        ax.plot([], [], color="0.3", lw=0.8, ls="--", label="Eq. (15), undamped")
-        ax.legend(loc="upper right", title="points: measured", alignment="left")
-    return Figure(
-        "sweep",
+@figure("sweep", size=(7.2, 4.6))
+def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]) -> str:
+    """Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a dip at
+    the zero.
+    """
+    s = np.unique(np.r_[np.linspace(0.005, 6.5, 300), np.linspace(0.9, 1.1, 101), np.linspace(1.8, 2.2, 101)])
+    for T, colour in zip(materials, COLOURS, strict=False):
+        for damping, look in ((DAMPING, {"lw": 1.6}), (0.0, {"lw": 0.8, "ls": "--"})):
+            cases = [punch(float(value), T, damping) for value in s]
+            curve = np.array([mdr.critical_velocity(case) / case.unit_velocity for case in cases])
+            ax.plot(s, np.where(np.isfinite(curve), curve, np.nan), color=colour, **look)
+        here = [p for p in points if p.T == T and p.measured is not None]
+        name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
+        ax.plot(
+            [p.s for p in here],
+            [p.measured or np.nan for p in here],
+            "o",
+            color=colour,
+            mec="white",
+            mew=0.6,
+            ms=7,
+            label=name,
+            zorder=3,
+        )
+    ax.set(yscale="log", xlim=(-0.1, 6.6), ylim=(0.02, 60), xlabel=r"$m\omega^2/k_x$", ylabel=r"$v_c$ over Eq. (1)")
+    for place, name in ((1.0, "pole\n$m\\omega^2 = k_x$"), (ZERO, "zero\n$m\\omega^2 = k_x + k_{xc}$")):
+        ax.axvline(place, color="0.6", lw=0.8, ls=":", zorder=0)
+        ax.annotate(name, (place, 60), (4, -2), textcoords="offset points", va="top", fontsize=9)
+    ax.plot([], [], color="0.3", label=f"Eq. (15), damper {100 * DAMPING:g} % of critical")
+    ax.plot([], [], color="0.3", lw=0.8, ls="--", label="Eq. (15), undamped")
+    ax.legend(loc="upper right", title="points: measured", alignment="left")
+    return (
         "Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from runs"
         " alone, curves are Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact"
-        " swing in step and v_c falls, for an elastic contact to nothing, for a viscoelastic one to ωτ times Eq. (1).",
-        fig,
-        "Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a "
-        "dip at the zero.",
+        " swing in step and v_c falls, for an elastic contact to nothing, for a viscoelastic one to ωτ times Eq. (1)."
     )
 
 
-def _pole_figure(plateaus: dict[float, Array]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.0))
-        for (T, cof), colour in zip(plateaus.items(), COLOURS, strict=False):
-            name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
-            ax.axhline(half_way(T), color=colour, lw=0.9, ls="--", zorder=0)
-            ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {name}")
-        off = punch(0.5, 0.0)
-        ratios = np.geomspace(0.1, 6.0, 40)
-        away = [mdr.slide(off, ratio * off.unit_velocity) for ratio in ratios]
-        ax.plot(
-            ratios,
-            [run.cof / run.mu_0 for run in away],
-            "-",
-            color="0.45",
-            lw=1.0,
-            label=r"off the pole, $m\omega^2 = k_x/2$",
-        )
-        ax.axhline(1.0, color="0.75", lw=0.8, zorder=0)
-        ax.set(xscale="log", xlabel=r"$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$", ylim=(None, 1.008))
-        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
-    return Figure(
-        "pole",
+@figure("pole", size=(6.8, 4.0))
+def _pole_figure(fig, ax, plateaus: dict[float, Array]) -> str:
+    """COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole."""
+    for (T, cof), colour in zip(plateaus.items(), COLOURS, strict=False):
+        name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
+        ax.axhline(half_way(T), color=colour, lw=0.9, ls="--", zorder=0)
+        ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {name}")
+    off = punch(0.5, 0.0)
+    ratios = np.geomspace(0.1, 6.0, 40)
+    away = [mdr.slide(off, ratio * off.unit_velocity) for ratio in ratios]
+    ax.plot(
+        ratios,
+        [run.cof / run.mu_0 for run in away],
+        "-",
+        color="0.45",
+        lw=1.0,
+        label=r"off the pole, $m\omega^2 = k_x/2$",
+    )
+    ax.axhline(1.0, color="0.75", lw=0.8, zorder=0)
+    ax.set(xscale="log", xlabel=r"$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$", ylim=(None, 1.008))
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
+    return (
         "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between static"
-        " COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c.",
-        fig,
-        "COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole.",
+        " COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c."
     )

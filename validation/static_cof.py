@@ -21,9 +21,11 @@ from mdr import laws
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim, Equation
 
 QUICK = (
     ("flat punch", 0.2, 0.0),
@@ -196,33 +198,25 @@ def _approach_checks(a: Approach) -> Checks:
 # --- figure ---
 
 
-def _figure(approaches: list[Approach]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("approach", size=(7.6, 4.4))
+def _figure(fig, ax, approaches: list[Approach]) -> str:
+    """Double logarithmic plot of COF less static COF over velocity with lines of slope one and two thirds."""
     shown: Any = [a for a in approaches if a.name.split(",")[0] in ("flat punch", "paraboloid", "cone")][:7]
-    with style():
-        fig, ax = plt.subplots(figsize=(7.6, 4.4))
-        for a, colour, marker in zip(shown, COLOURS, "osD^vPX", strict=False):
-            v = np.geomspace(a.v[-1], a.v[0])
-            ax.loglog(v, a.factor * v**a.power, color=colour, lw=1, ls="-" if a.power == 1 else "--")
-            shape, T, alpha = a.name.split(", ")
-            label = (
-                f"{shape.replace('r^4', '$r^4$')}, $\\omega\\tau={T[5:]}$, $\\Delta"
-                f" u_z/u_{{z0}}={alpha.split('= ')[1]}$"
-            )
-            ax.loglog(a.v, a.rise, marker, mfc="white", color=colour, ms=5.5, label=label)
-        ax.plot([], [], color="0.3", lw=1, label="law of power 1")
-        ax.plot([], [], color="0.3", lw=1, ls="--", label="law of power 2/3")
-        ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"$(\mu-\mu_{\mathrm{static}})/\mu_0$")
-        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return Figure(
-        "approach",
+    for a, colour, marker in zip(shown, COLOURS, "osD^vPX", strict=False):
+        v = np.geomspace(a.v[-1], a.v[0])
+        ax.loglog(v, a.factor * v**a.power, color=colour, lw=1, ls="-" if a.power == 1 else "--")
+        shape, T, alpha = a.name.split(", ")
+        label = (
+            f"{shape.replace('r^4', '$r^4$')}, $\\omega\\tau={T[5:]}$, $\\Delta u_z/u_{{z0}}={alpha.split('= ')[1]}$"
+        )
+        ax.loglog(a.v, a.rise, marker, mfc="white", color=colour, ms=5.5, label=label)
+    ax.plot([], [], color="0.3", lw=1, label="law of power 1")
+    ax.plot([], [], color="0.3", lw=1, ls="--", label="law of power 2/3")
+    ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"$(\mu-\mu_{\mathrm{static}})/\mu_0$")
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return (
         "How friction leaves its static value: runs (symbols) and the leading laws, none of them fitted"
         " (lines). Elastic contacts, and Kelvin contacts that are lost, rise like v_0; Kelvin contacts with a"
         " core that stays pressed rise like v_0^{2/3}: at 10^-4 v_c the Kelvin punch is seventeen times"
-        " further above its static value than the elastic punch of the same amplitude.",
-        fig,
-        "Double logarithmic plot of COF less static COF over velocity with lines of slope one and two thirds.",
+        " further above its static value than the elastic punch of the same amplitude."
     )

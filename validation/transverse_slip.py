@@ -11,10 +11,11 @@ from functools import cache
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import contact
+from validation.figures import figure
 from validation.half_space.springs import of_springs
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import listed, number, span
 
 ALPHA, FRICTION = 0.3, 0.3
@@ -126,33 +127,27 @@ _FEW = (
 )
 
 
-def _figure(found: list[Losses]) -> Figure:
-    """Loss with and without slip across."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.4, 4.0))
-        few = len({one.v for one in found}) < 3  # no line through two points
-        for nu, colour in zip(sorted({one.nu for one in found if one.nu < 0.5}), COLOURS, strict=False):
-            own = [one for one in found if one.nu == nu]
-            v = [one.v for one in own]
-            for of, mark, line, label in (
-                ("coupled", "o", "-", rf"$\nu = {nu:g}$"),
-                ("along", "s", "--", "the same, slip along the pull only"),
-                ("uncoupled", "x" if few else "", ":", "the same, without coupling"),
-            ):
-                look = {"marker": mark, "ls": "" if few else line, "mfc": colour if of == "coupled" else "w"}
-                ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
-        ax.set_xlabel("$v_0$ over Eq. (1)")
-        ax.set_ylabel(r"(springs $-$ 3D)/$\mu_0$")
-        ax.legend()
-    return Figure(
-        name="loss",
-        caption=_FEW
+@figure("loss", size=(6.4, 4.0))
+def _figure(fig, ax, found: list[Losses]) -> str:
+    """Curves of the loss of friction against velocity, full above dashed, dotted at zero."""
+    few = len({one.v for one in found}) < 3  # no line through two points
+    for nu, colour in zip(sorted({one.nu for one in found if one.nu < 0.5}), COLOURS, strict=False):
+        own = [one for one in found if one.nu == nu]
+        v = [one.v for one in own]
+        for of, mark, line, label in (
+            ("coupled", "o", "-", rf"$\nu = {nu:g}$"),
+            ("along", "s", "--", "the same, slip along the pull only"),
+            ("uncoupled", "x" if few else "", ":", "the same, without coupling"),
+        ):
+            look = {"marker": mark, "ls": "" if few else line, "mfc": colour if of == "coupled" else "w"}
+            ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
+    ax.set_xlabel("$v_0$ over Eq. (1)")
+    ax.set_ylabel(r"(springs $-$ 3D)/$\mu_0$")
+    ax.legend()
+    return (
+        _FEW
         if few
         else "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
         " only, which stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by"
-        " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing.",
-        drawing=fig,
-        alt="Curves of the loss of friction against velocity, full above dashed, dotted at zero.",
+        " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing."
     )

@@ -13,11 +13,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from mdr.half_space.friction import Settings
-from mdr.plots import style
 from validation.cases import LOOKS, SHAPES, loss, shape_label
+from validation.figures import figure
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import number
 
 KEPT, LOST = 0.3, 1.5  # du_z/u_z0
@@ -86,27 +86,21 @@ def _again_checks(again: list[Row], rows: list[Row]) -> Checks:
     yield Check.at_most(name, max(shares), 1, "steps, cells and settling")
 
 
-def _figure(rows: list[Row]) -> Figure:
-    """COF of both over velocity."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, panels = plt.subplots(1, 4, figsize=(10.4, 3.4), sharey=True)
-        for ax, (alpha, T) in zip(panels, ((a, t) for a in (KEPT, LOST) for t in TIMES), strict=True):
-            for shape, (colour, marker) in LOOKS.items():
-                own = [r for r in rows if (r.point.shape, r.point.alpha, r.point.T) == (shape, alpha, T)]
-                v = [row.point.v for row in own]
-                ax.plot(v, [row.springs for row in own], "-", color=colour, label=shape_label(shape))
-                ax.plot(v, [row.cof for row in own], marker, color=colour, mfc="w", ms=7)
-            ax.set_title(f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}")
-            ax.set_xlabel("$v_0/v_c$")
-            ax.set_xlim(0, 0.9)
-        panels[0].set_ylabel(r"$\mu/\mu_0$")
-        panels[0].legend()
-    return Figure(
-        name="cof",
-        caption="Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no"
-        " difference can be seen, with contact kept and lost.",
-        drawing=fig,
-        alt="Four panels of friction against velocity; marks of four shapes lie on their lines.",
+@figure("cof", 1, 4, size=(10.4, 3.4), sharey=True)
+def _figure(fig, panels, rows: list[Row]) -> str:
+    """Four panels of friction against velocity; marks of four shapes lie on their lines."""
+    for ax, (alpha, T) in zip(panels, ((a, t) for a in (KEPT, LOST) for t in TIMES), strict=True):
+        for shape, (colour, marker) in LOOKS.items():
+            own = [r for r in rows if (r.point.shape, r.point.alpha, r.point.T) == (shape, alpha, T)]
+            v = [row.point.v for row in own]
+            ax.plot(v, [row.springs for row in own], "-", color=colour, label=shape_label(shape))
+            ax.plot(v, [row.cof for row in own], marker, color=colour, mfc="w", ms=7)
+        ax.set_title(f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}")
+        ax.set_xlabel("$v_0/v_c$")
+        ax.set_xlim(0, 0.9)
+    panels[0].set_ylabel(r"$\mu/\mu_0$")
+    panels[0].legend()
+    return (
+        "Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no"
+        " difference can be seen, with contact kept and lost."
     )

@@ -46,11 +46,12 @@ from mdr.march.orbit_search import search_from_full_slip
 from mdr.march.steady_state import TOLERANCE, Settling
 from mdr.march.stepper import Stepper
 from mdr.march.waiting import Waiting, way_from_rest
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim, Equation
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
 SYSTEMS = {"quick": 6, "full": 60, "long": 200}
@@ -369,9 +370,11 @@ def _sweep_checks() -> Checks:
     yield Check(name, got, 0.0, 0.0, "what settled means: a transient is not taken for an end")
 
 
-def _distance_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("distance", size=(7.4, 4.4))
+def _distance_figure(fig, ax) -> str:
+    """Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an undamped
+    body in full slip.
+    """
     shown = (
         ("damper 1 %, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.01, 0.5)),
         ("no damper, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.0, 0.5)),
@@ -379,43 +382,32 @@ def _distance_figure() -> Figure:
         ("damper 1 %, 1.5 $v_c$", System("r^4", 0.5, 0.0, 1.3, 1.5, 0.01, 1.5)),
         ("no damper, 1.5 $v_c$", System("r^4", 0.5, 0.0, 1.3, 1.5, 0.0, 1.5)),
     )
-    with style():
-        fig, ax = plt.subplots(figsize=(7.4, 4.4))
-        for colour, (label, system) in zip(COLOURS, shown, strict=False):
-            D = distances(system)
-            ax.semilogy(np.maximum(D / D[0], 1e-18), "o-", ms=3, lw=1.1, color=colour, label=label)
-        ax.set(xlabel="periods", ylabel="distance $D$ of two motions, over its start", ylim=(1e-10, 10))
-        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return Figure(
-        "distance",
+    for colour, (label, system) in zip(COLOURS, shown, strict=False):
+        D = distances(system)
+        ax.semilogy(np.maximum(D / D[0], 1e-18), "o-", ms=3, lw=1.1, color=colour, label=label)
+    ax.set(xlabel="periods", ylabel="distance $D$ of two motions, over its start", ylim=(1e-10, 10))
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return (
         "Two motions of one contact from random states never move apart. Below v_c stick takes part of their "
         "difference in every period, with or without a damper; above v_c they slip with the same forces, only a "
-        "damper sees them differ, and without one the free oscillation of the body stays as it is.",
-        fig,
-        "Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an "
-        "undamped body in full slip.",
+        "damper sees them differ, and without one the free oscillation of the body stays as it is."
     )
 
 
-def _sweep_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("sweep", size=(6.8, 4.2))
+def _sweep_figure(fig, ax) -> str:
+    """Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones."""
     short, waited, v = swept(SHORT)[0], swept(None)[0], np.array(SWEEP)
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.2))
-        ax.plot(v, short[0], ">-", color=COLOURS[1], lw=1, label=f"up, {SHORT} periods each")
-        ax.plot(v, short[1], "<-", color=COLOURS[2], lw=1, label=f"down, {SHORT} periods each")
-        ax.plot(v, waited[0], "o", ms=9, mfc="none", color=COLOURS[0], label="up, until settled")
-        ax.plot(v, waited[1], ".", color=COLOURS[0], label="down, until settled")
-        ax.axvline(1.0, color="0.5", lw=0.9, ls=":")
-        ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"coefficient of friction $\mu/\mu_0$")
-        ax.legend(loc="lower right")
-    return Figure(
-        "sweep",
+    ax.plot(v, short[0], ">-", color=COLOURS[1], lw=1, label=f"up, {SHORT} periods each")
+    ax.plot(v, short[1], "<-", color=COLOURS[2], lw=1, label=f"down, {SHORT} periods each")
+    ax.plot(v, waited[0], "o", ms=9, mfc="none", color=COLOURS[0], label="up, until settled")
+    ax.plot(v, waited[1], ".", color=COLOURS[0], label="down, until settled")
+    ax.axvline(1.0, color="0.5", lw=0.9, ls=":")
+    ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"coefficient of friction $\mu/\mu_0$")
+    ax.legend(loc="lower right")
+    return (
         "A loop that is none: velocity swept up and down on a lightly damped body (paraboloid, elastic, α = 0.5, ω_0 = "
         f"0.97 ω, damper 1 %), each run going on from the state of the last. With {SHORT} periods at each velocity "
         "(triangles) friction seems to depend on the direction; when each run is awaited (circles and dots) the two "
-        "ways coincide.",
-        fig,
-        "Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones.",
+        "ways coincide."
     )

@@ -28,6 +28,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation import measured
 from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, shape_label
+from validation.figures import figure
 from validation.measured import TOLERANCE, Measured
 from validation.report import Check, Checks, Figure, Part
 from validation.words import counted
@@ -262,46 +263,42 @@ def _power_checks(effort: str) -> Checks:
         yield Check(name, half / C[0], 2, 0.1, why)
 
 
-def _map_figure(known: list[Map], points: list[Point]) -> Figure:
-    import matplotlib.pyplot as plt
+@figure("errors", 2, 3, size=(9.6, 6.6), sharex=True, sharey=True)
+def _map_figure(fig, axes, known: list[Map], points: list[Point]) -> str:
+    """Six maps of the error of Eq. (15) over amplitude and natural frequency: pale at small amplitude and for heavy
+    bodies, a ridge where the natural frequency is twice that of the oscillation, darker where the material dissipates.
+    """
     from matplotlib.colors import BoundaryNorm
 
     norm = BoundaryNorm(BANDS, 256, extend="max")
-    with style():
-        fig, axes = plt.subplots(2, 3, sharex=True, sharey=True, figsize=(9.6, 6.6))
-        for ax, one in zip(axes.flat, known, strict=True):
-            name = one.name.replace("r^4", "$r^4$").replace("ωτ", r"$\omega\tau$")
-            corners = np.exp(_edges(np.log(one.alphas))), _edges(one.ratios)
-            mesh = ax.pcolormesh(*corners, 100 * abs(one.values), norm=norm, cmap="YlGnBu", rasterized=True)
-            ax.axvline(1 / np.hypot(1, one.T), color="0.15", lw=1, ls=":")
-            here = [p for p in points if (p.shape, p.T) == (one.shape, one.T)]
-            if here:
-                ax.plot([p.alpha for p in here], [p.ratio for p in here], "o", ms=5, mfc="w", mec="0.15", clip_on=False)
-            ax.set(xscale="log", xlim=RANGE[0], ylim=RANGE[1], title=name)
-            ax.grid(False)
-            ax.set_xticks([0.01, 0.03, 0.1, 0.3, 1], ["0.01", "0.03", "0.1", "0.3", "1"])
-            ax.minorticks_off()
-        for ax in axes[1]:
-            ax.set_xlabel(r"amplitude $\Delta u_z/u_{z0}$")
-        for ax in axes[:, 0]:
-            ax.set_ylabel(r"$\omega_0/\omega$")
-        bar = fig.colorbar(mesh, ax=axes, ticks=BANDS, aspect=35, pad=0.02)
-        bar.set_label("$v_c$ off Eq. (15) by [%]")
+    for ax, one in zip(axes.flat, known, strict=True):
+        name = one.name.replace("r^4", "$r^4$").replace("ωτ", r"$\omega\tau$")
+        corners = np.exp(_edges(np.log(one.alphas))), _edges(one.ratios)
+        mesh = ax.pcolormesh(*corners, 100 * abs(one.values), norm=norm, cmap="YlGnBu", rasterized=True)
+        ax.axvline(1 / np.hypot(1, one.T), color="0.15", lw=1, ls=":")
+        here = [p for p in points if (p.shape, p.T) == (one.shape, one.T)]
+        if here:
+            ax.plot([p.alpha for p in here], [p.ratio for p in here], "o", ms=5, mfc="w", mec="0.15", clip_on=False)
+        ax.set(xscale="log", xlim=RANGE[0], ylim=RANGE[1], title=name)
+        ax.grid(False)
+        ax.set_xticks([0.01, 0.03, 0.1, 0.3, 1], ["0.01", "0.03", "0.1", "0.3", "1"])
+        ax.minorticks_off()
+    for ax in axes[1]:
+        ax.set_xlabel(r"amplitude $\Delta u_z/u_{z0}$")
+    for ax in axes[:, 0]:
+        ax.set_ylabel(r"$\omega_0/\omega$")
+    bar = fig.colorbar(mesh, ax=axes, ticks=BANDS, aspect=35, pad=0.02)
+    bar.set_label("$v_c$ off Eq. (15) by [%]")
     far = max(known, key=lambda m: abs(m.values).max())
     row, column = np.unravel_index(np.argmax(abs(far.values)), far.values.shape)
     by_T = {T: np.mean([m.share_within(0.01) for m in known if m.T == T]) for T in (0.0, 1.0)}
-    return Figure(
-        "errors",
+    return (
         "How far the full-slip v_c with all harmonics is from Eq. (15), up or down, over amplitude and natural"
         f" frequency of the body. Palest: less than 1 %, which is {100 * by_T[0.0]:.0f} % of the elastic maps and"
         f" {100 * by_T[1.0]:.0f} % of the viscoelastic ones. Most is off right of the dotted line, where the whole"
         " contact is lost in every period, and at ω_0 = 2ω, where the second harmonic of the force drives the body."
         f" Greatest: {100 * far.values[row, column]:+.0f} % ({far.name}, α = {far.alphas[column]:.2g}, ω_0 ="
-        f" {far.ratios[row]:.2g} ω). Circles: where v_c was measured.",
-        fig,
-        "Six maps of the error of Eq. (15) over amplitude and natural frequency: pale at small amplitude and for heavy "
-        "bodies, a ridge where the natural frequency is twice that of the oscillation, darker where the "
-        "material dissipates.",
+        f" {far.ratios[row]:.2g} ω). Circles: where v_c was measured."
     )
 
 

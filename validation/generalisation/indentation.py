@@ -24,13 +24,14 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation.figures import figure
 from validation.generalisation import shapes as powers
 from validation.generalisation.shapes import PULLS, Point, measure
 from validation.measured import TOLERANCE
-from validation.report import Check, Checks, Equation, Figure, Part
+from validation.report import Check, Checks, Equation, Part
 from validation.words import counted, listed, number
 
 AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
@@ -167,66 +168,56 @@ def _over_depth(shape: str, u_z0: float, T: float) -> float:
     return mdr.full_slip_critical_velocity(system(shape, u_z0, T, "soft spring", TINY * u_z0)) / u_z0
 
 
-def _depth_figure(points: list[Point], effort: str) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("depth", 1, 2, size=(9.6, 4.2), sharey=True)
+def _depth_figure(fig, axes, points: list[Point], effort: str) -> str:
+    """Critical velocity over depth: constant for the flat punch, rising for curved shapes on the left, with a minimum
+    on the right.
+    """
     ratios = np.geomspace(0.1, 10, 60)
     panels = [(0.0, "stiff spring", r"elastic, $\omega_0$ = 1.7 $\omega$")]
     panels.append((1.0, "soft spring", r"$\omega\tau$ = 1, $\omega_0$ = 0.6 $\omega$"))
-    with style():
-        fig, axes = plt.subplots(1, 2, sharey=True, figsize=(9.6, 4.2))
-        for ax, (T, pull, title) in zip(axes, panels, strict=True):
-            for shape, (colour, marker) in LOOKS.items():
-                cases = [system(shape, float(r * DEPTH), T, pull) for r in ratios]
-                curve = [mdr.critical_velocity(case) / case.unit_velocity for case in cases]
-                ax.plot(ratios * DEPTH * 1e6, curve, color=colour, lw=1.2, label=shape_label(shape))
-                here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
-                ax.plot([p.u_z0 * 1e6 for p in here], [p.over_rigid for p in here], marker, color=colour, mec="white")
-            ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
-            ax.set(xscale="log", yscale="log", xlabel="mean depth $u_{z0}$ [µm]", title=title)
-            ax.set_xticks([2, 5, 10, 20, 50, 100, 200], ["2", "5", "10", "20", "50", "100", "200"])
-            ax.set_yticks([0.7, 1, 2, 5, 10], ["0.7", "1", "2", "5", "10"])
-            ax.minorticks_off()
-        axes[0].annotate("rigid pull", (190, 1.0), (0, -11), textcoords="offset points", ha="right", fontsize=9)
-        axes[0].set_ylabel("$v_c$ over Eq. (1)")
-        axes[0].legend(loc="upper left")
-    return Figure(
-        "depth",
+    for ax, (T, pull, title) in zip(axes, panels, strict=True):
+        for shape, (colour, marker) in LOOKS.items():
+            cases = [system(shape, float(r * DEPTH), T, pull) for r in ratios]
+            curve = [mdr.critical_velocity(case) / case.unit_velocity for case in cases]
+            ax.plot(ratios * DEPTH * 1e6, curve, color=colour, lw=1.2, label=shape_label(shape))
+            here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
+            ax.plot([p.u_z0 * 1e6 for p in here], [p.over_rigid for p in here], marker, color=colour, mec="white")
+        ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
+        ax.set(xscale="log", yscale="log", xlabel="mean depth $u_{z0}$ [µm]", title=title)
+        ax.set_xticks([2, 5, 10, 20, 50, 100, 200], ["2", "5", "10", "20", "50", "100", "200"])
+        ax.set_yticks([0.7, 1, 2, 5, 10], ["0.7", "1", "2", "5", "10"])
+        ax.minorticks_off()
+    axes[0].annotate("rigid pull", (190, 1.0), (0, -11), textcoords="offset points", ha="right", fontsize=9)
+    axes[0].set_ylabel("$v_c$ over Eq. (1)")
+    axes[0].legend(loc="upper left")
+    return (
         f"v_c over the mean depth at a fixed amplitude of {AMPLITUDE * 1e6:g} µm under one and the same spring, mass "
         "and damper: Eq. (15) with the stiffness at that depth (lines) and measured (points"
         f"{'; the right panel has them in the full report' if effort == 'quick' else ''}). Eq. (15) is independent"
         " of the depth as far as k_x,c is: for the flat punch, and for all "
         "shapes under a rigid pull (dashed). Below its resonance the body amplifies and v_c grows with depth; a heavy "
-        "body has one depth of least v_c, the same stiffness for every shape.",
-        fig,
-        "Critical velocity over depth: constant for the flat punch, rising for curved shapes on the left, with a "
-        "minimum on the right.",
+        "body has one depth of least v_c, the same stiffness for every shape."
     )
 
 
-def _slope_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("slope", size=(6.8, 4.2))
+def _slope_figure(fig, ax) -> str:
+    """Sensitivity of the critical velocity to depth over the detuning of the body, with a pole-like swing for small
+    damping.
+    """
     q = np.linspace(-4, 8, 1201)
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.2))
-        for colour, T in zip(COLOURS, (0.1, 0.3, 1.0, 3.0), strict=False):
-            z = 1 + 1j * T
-            ax.plot(q, (-z / (q - z)).real, color=colour, label=rf"$\omega\tau$ = {T:g}")
-            if abs(z) ** 2 < q[-1]:
-                ax.plot(abs(z) ** 2, 0, "o", mfc="white", color=colour)
-        ax.axhline(0, color="0.5", lw=0.8)
-        ax.axvline(0, color="0.5", lw=0.8, ls=":")
-        ax.set(
-            xlabel=r"$(m\omega^2-k_x)/k_{x,c}$", ylabel=r"$S = n\,\mathrm{d}\ln v_c/\mathrm{d}\ln u_{z0}$", ylim=(-4, 4)
-        )
-        ax.legend(loc="upper right")
-    return Figure(
-        "slope",
+    for colour, T in zip(COLOURS, (0.1, 0.3, 1.0, 3.0), strict=False):
+        z = 1 + 1j * T
+        ax.plot(q, (-z / (q - z)).real, color=colour, label=rf"$\omega\tau$ = {T:g}")
+        if abs(z) ** 2 < q[-1]:
+            ax.plot(abs(z) ** 2, 0, "o", mfc="white", color=colour)
+    ax.axhline(0, color="0.5", lw=0.8)
+    ax.axvline(0, color="0.5", lw=0.8, ls=":")
+    ax.set(xlabel=r"$(m\omega^2-k_x)/k_{x,c}$", ylabel=r"$S = n\,\mathrm{d}\ln v_c/\mathrm{d}\ln u_{z0}$", ylim=(-4, 4))
+    ax.legend(loc="upper right")
+    return (
         "How strongly v_c depends on the depth, S = d ln v_c/d ln k_x,c, over the state of the body without damper. At "
         "the pole mω² = k_x (dotted) S = 1, beside the zero mω² = k_x + k_x,c of a nearly elastic contact it is "
-        "largest, and far from both it tends to 0, the rigid pull. Circles: no dependence to first order.",
-        fig,
-        "Sensitivity of the critical velocity to depth over the detuning of the body, with a pole-like swing for "
-        "small damping.",
+        "largest, and far from both it tends to 0, the rigid pull. Circles: no dependence to first order."
     )

@@ -33,6 +33,7 @@ from mdr.plots import style
 from mdr.tools.progress import progress
 from validation import measured
 from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, body, shape_label
+from validation.figures import figure
 from validation.measured import TOLERANCE, Point
 from validation.report import Check, Checks, Figure, Part
 
@@ -225,31 +226,26 @@ def _figure_of_loads(quick: bool) -> Figure:
     )
 
 
-def _figure_of_series() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(8.8, 3.6))
-        phase = np.linspace(0, 1, 600)
-        for (name, motion), colour in zip(PERIODIC.items(), ("C0", "C1", "C2", "C3"), strict=True):
-            axes[0].plot(phase, motion.u_z(phase * 2 * np.pi / OMEGA) * 1e6, color=colour, label=name)
-            case = contact("paraboloid", "elastic", motion)
-            v_c = mdr.full_slip_critical_velocity(case)
-            first: Any = mdr.NormalOscillation(motion.u_z0, float(np.hypot(motion.cos[0], motion.sin[0])), OMEGA)
-            alone = mdr.full_slip_critical_velocity(contact("paraboloid", "elastic", first))
-            v = np.array([0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.1])
-            cof = [mdr.slide(case, x * v_c, n_springs=96, steps_per_period=512).cof / case.mu_0 for x in v]
-            axes[1].plot(np.r_[0, v] * v_c * 1e3, [mdr.static_cof(case) / case.mu_0, *cof], "-o", ms=3, color=colour)
-            axes[1].axvline(alone * 1e3, color=colour, lw=0.8, ls=":")
-        axes[0].axhline(0, color="0.6", lw=0.8)
-        axes[0].set(xlabel="time over period", ylabel="depth $u_z$ [µm]")
-        axes[0].legend(loc="lower left")
-        axes[1].set(xlabel="pulling velocity $v_0$ [mm/s]", ylabel=r"$\mu/\mu_0$", xlim=(0, 8))
-    return Figure(
-        "series",
+@figure("series", 1, 2, size=(8.8, 3.6))
+def _figure_of_series(fig, axes) -> str:
+    """Depth over a period for four drives, and their COF curves."""
+    phase = np.linspace(0, 1, 600)
+    for (name, motion), colour in zip(PERIODIC.items(), ("C0", "C1", "C2", "C3"), strict=True):
+        axes[0].plot(phase, motion.u_z(phase * 2 * np.pi / OMEGA) * 1e6, color=colour, label=name)
+        case = contact("paraboloid", "elastic", motion)
+        v_c = mdr.full_slip_critical_velocity(case)
+        first: Any = mdr.NormalOscillation(motion.u_z0, float(np.hypot(motion.cos[0], motion.sin[0])), OMEGA)
+        alone = mdr.full_slip_critical_velocity(contact("paraboloid", "elastic", first))
+        v = np.array([0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.1])
+        cof = [mdr.slide(case, x * v_c, n_springs=96, steps_per_period=512).cof / case.mu_0 for x in v]
+        axes[1].plot(np.r_[0, v] * v_c * 1e3, [mdr.static_cof(case) / case.mu_0, *cof], "-o", ms=3, color=colour)
+        axes[1].axvline(alone * 1e3, color=colour, lw=0.8, ls=":")
+    axes[0].axhline(0, color="0.6", lw=0.8)
+    axes[0].set(xlabel="time over period", ylabel="depth $u_z$ [µm]")
+    axes[0].legend(loc="lower left")
+    axes[1].set(xlabel="pulling velocity $v_0$ [mm/s]", ylabel=r"$\mu/\mu_0$", xlim=(0, 8))
+    return (
         "Periodic depths (left) and the friction of an elastic paraboloid under a rigid pull (right). Dotted lines: v_c"
         " of the first harmonic alone. Steep fronts reduce friction up to velocities several times higher, but the"
-        " reduction there is slight: what matters for the COF is how long the contact is lightly pressed.",
-        fig,
-        "Depth over a period for four drives, and their COF curves.",
+        " reduction there is slight: what matters for the COF is how long the contact is lightly pressed."
     )

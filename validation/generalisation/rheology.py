@@ -24,11 +24,11 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms import paper
-from mdr.plots import style
 from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, body, shape_label
+from validation.figures import figure
 from validation.measured import TOLERANCE, Point, deviation
-from validation.report import Check, Checks, Equation, Figure, Part
+from validation.report import Check, Checks, Equation, Part
 from validation.words import counted, listed
 
 NU = 0.5
@@ -211,79 +211,71 @@ def _amplitude_checks() -> Checks:
 # --- figures ---
 
 
-def _figure_of_curves() -> Figure:
-    import matplotlib.pyplot as plt
+@figure("curves", 1, 2, size=(8.6, 3.7), sharey=True)
+def _figure_of_curves(fig, axes) -> str:
+    """Two panels of COF curves, one for each relaxation time, that meet at velocity one."""
+    from matplotlib import colormaps
 
     times = (0.1, 0.5, 2.0, 10.0, 100.0)
     v_hat = np.array([0.02, 0.06, 0.12, 0.2, 0.3, 0.42, 0.55, 0.7, 0.85, 0.95, 1.05])
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.7), sharey=True)
-        for ax, shape in zip(axes, ("flat punch", "paraboloid"), strict=True):
-            for colour, time in zip(plt.get_cmap("viridis")(np.linspace(0, 0.9, len(times))), times, strict=True):
-                case = contact(shape, mdr.StandardLinearSolid(E, RATIO * E, time / OMEGA, NU), 0.15)
-                cof = [mdr.slide(case, v * case.unit_velocity, n_springs=96, steps_per_period=512).cof for v in v_hat]
-                curve = np.array([mdr.static_cof(case), *cof]) / case.mu_0
-                ax.plot([0, *v_hat], curve, "-o", ms=3, color=colour, label=rf"$\omega\tau_1={time:g}$")
-            for modulus, ls, label in ((E, "--", "$E_\\infty$ alone"), (E * (1 + RATIO), ":", "glassy")):
-                case = contact(shape, mdr.Elastic(modulus, NU), 0.15)
-                known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
-                if label == "glassy":  # stiff against the oscillation, soft under the mean load
-                    known_cof = 1 - (1 + RATIO) * (1 - known.cof / case.mu_0)
-                    if shape != "flat punch":
-                        continue
-                else:
-                    known_cof = known.cof / case.mu_0
-                ax.plot(known.v_0 / case.unit_velocity, known_cof, ls, color="0.4", lw=1, label=label)
-            ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
-        axes[0].set_ylabel(r"$\mu/\mu_0$")
-        axes[0].legend(loc="lower right")
-    return Figure(
-        "curves",
+    for ax, shape in zip(axes, ("flat punch", "paraboloid"), strict=True):
+        for colour, time in zip(colormaps["viridis"](np.linspace(0, 0.9, len(times))), times, strict=True):
+            case = contact(shape, mdr.StandardLinearSolid(E, RATIO * E, time / OMEGA, NU), 0.15)
+            cof = [mdr.slide(case, v * case.unit_velocity, n_springs=96, steps_per_period=512).cof for v in v_hat]
+            curve = np.array([mdr.static_cof(case), *cof]) / case.mu_0
+            ax.plot([0, *v_hat], curve, "-o", ms=3, color=colour, label=rf"$\omega\tau_1={time:g}$")
+        for modulus, ls, label in ((E, "--", "$E_\\infty$ alone"), (E * (1 + RATIO), ":", "glassy")):
+            case = contact(shape, mdr.Elastic(modulus, NU), 0.15)
+            known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
+            if label == "glassy":  # stiff against the oscillation, soft under the mean load
+                known_cof = 1 - (1 + RATIO) * (1 - known.cof / case.mu_0)
+                if shape != "flat punch":
+                    continue
+            else:
+                known_cof = known.cof / case.mu_0
+            ax.plot(known.v_0 / case.unit_velocity, known_cof, ls, color="0.4", lw=1, label=label)
+        ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
+    axes[0].set_ylabel(r"$\mu/\mu_0$")
+    axes[0].legend(loc="lower right")
+    return (
         "COF of a standard solid (E_1 = 3 E_inf, Δu_z/u_z0 = 0.15) under a rigid pull, for relaxation times from a"
         " tenth of 1/ω to a hundred times it. All curves end at Eq. (1), whatever the rheology. Slow arms (bright)"
         " never relax within the period and multiply what the oscillation takes from friction: for the punch they end"
-        " on the dotted curve, four times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed.",
-        fig,
-        "Two panels of COF curves, one for each relaxation time, that meet at velocity one.",
+        " on the dotted curve, four times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed."
     )
 
 
-def _figure_of_velocities(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("velocities", 1, 2, size=(8.6, 3.6))
+def _figure_of_velocities(fig, axes, quick: bool) -> str:
+    """Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body."""
     times = np.geomspace(1e-2, 1e2, 121)
     solid: list[Any] = [mdr.StandardLinearSolid(E, RATIO * E, t / OMEGA, NU) for t in times]
     kelvin: list[Any] = [mdr.KelvinVoigt(E, NU, RATIO * t / OMEGA) for t in times]
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
-        bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
-        for ax, (title, groups) in zip(axes, bodies, strict=True):
-            for materials, look, label in (
-                (solid, {"color": "C0"}, "standard solid"),
-                (kelvin, {"color": "0.15", "ls": "-."}, "Kelvin, same first loss"),
-            ):
-                cases = [contact("flat punch", material, 0.01, groups) for material in materials]
-                ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
-            for material, ls, label in (
-                (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
-                (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
-            ):
-                soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, groups)
-                case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
-                ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
-            for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
-                if groups is BODY and not quick:
-                    found = _measured("flat punch", name)
-                    label = "measured from runs" if name.endswith("5") and "0.5" in name else None
-                    ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)
-            ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
-        axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
-        axes[0].legend(loc="upper left")
-    return Figure(
-        "velocities",
+    bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
+    for ax, (title, groups) in zip(axes, bodies, strict=True):
+        for materials, look, label in (
+            (solid, {"color": "C0"}, "standard solid"),
+            (kelvin, {"color": "0.15", "ls": "-."}, "Kelvin, same first loss"),
+        ):
+            cases = [contact("flat punch", material, 0.01, groups) for material in materials]
+            ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
+        for material, ls, label in (
+            (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
+            (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
+        ):
+            soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, groups)
+            case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
+            ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
+        for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
+            if groups is BODY and not quick:
+                found = _measured("flat punch", name)
+                label = "measured from runs" if name.endswith("5") and "0.5" in name else None
+                ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)
+        ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
+    axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
+    axes[0].legend(loc="upper left")
+    return (
         "Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that"
         " of the long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the"
-        " same loss at low frequency (chain line) has no such end and rises without bound.",
-        fig,
-        "Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body.",
+        " same loss at low frequency (chain line) has no such end and rises without bound."
     )

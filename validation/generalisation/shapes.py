@@ -23,13 +23,13 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation.figures import figure
 from validation.measured import TOLERANCE, Measured, slope_at_zero
 from validation.measured import deviation as deviation_of
-from validation.report import Check, Checks, Figure, Part
+from validation.report import Check, Checks, Part
 from validation.words import counted, listed, number, ranged
 
 PULLS: dict[str, dict[str, Any]] = {
@@ -244,8 +244,11 @@ def _called(T: float, pull: str, damped: bool) -> str:
     return f"{loss(T)}, {pull}{'' if damped else ' undamped'}"
 
 
-def _glance(points: list[Point], effort: str) -> Figure:
-    import matplotlib.pyplot as plt
+@figure("glance", 1, 3, size=(9.6, 4.6), sharey=True)
+def _glance(fig, axes, points: list[Point], effort: str) -> str:
+    """Three panels of measured critical velocity over Eq. (15) against amplitude: all on one for a rigid pull, falling
+    away from one for curved shapes under a spring pull, the cone rising again at large amplitude.
+    """
     from matplotlib.lines import Line2D
 
     panels = (
@@ -255,52 +258,47 @@ def _glance(points: list[Point], effort: str) -> Figure:
     )
     alphas = np.geomspace(0.01, 0.7, 30 if effort == "quick" else 80)
     rigid, springs = ([p for p in points if (p.pull == "rigid pull") is side] for side in (True, False))
-    with style():
-        fig, axes = plt.subplots(1, 3, sharey=True, figsize=(9.6, 4.6))
-        for ax, (title, T, pull) in zip(axes, panels, strict=True):
-            ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
-            for shape, (colour, marker) in LOOKS.items():
-                if T is not None:
-                    ax.plot(alphas, [1 + deviation(shape, float(a), T, pull) for a in alphas], color=colour, lw=1.2)
-                here = [
-                    p
-                    for p in points
-                    if p.shape == shape and p.pull == pull and (T is None or (p.T == T and p.u_z0 == DEPTH))
-                ]
-                ax.plot(
-                    [p.alpha * (BESIDE[shape] if T is None else 1) for p in here],
-                    [1 + p.deviation for p in here],
-                    marker,
-                    color=colour,
-                    ms=7,
-                    mfc="none",
-                    mew=1.6,
-                )
-            ax.set(xscale="log", xlim=(0.009, 0.9), xlabel=r"amplitude $\Delta u_z/u_{z0}$", title=title)
-            ax.set_xticks([0.01, 0.03, 0.1, 0.3], ["0.01", "0.03", "0.1", "0.3"])
-            ax.minorticks_off()
-        axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
-        handles = [
-            Line2D([], [], color=colour, marker=marker, mfc="none", mew=1.6, ms=7, label=shape_label(shape))
-            for shape, (colour, marker) in LOOKS.items()
-        ]
-        fig.legend(handles=handles, loc="outside lower center", ncols=4)
-    return Figure(
-        "glance",
+    for ax, (title, T, pull) in zip(axes, panels, strict=True):
+        ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
+        for shape, (colour, marker) in LOOKS.items():
+            if T is not None:
+                ax.plot(alphas, [1 + deviation(shape, float(a), T, pull) for a in alphas], color=colour, lw=1.2)
+            here = [
+                p
+                for p in points
+                if p.shape == shape and p.pull == pull and (T is None or (p.T == T and p.u_z0 == DEPTH))
+            ]
+            ax.plot(
+                [p.alpha * (BESIDE[shape] if T is None else 1) for p in here],
+                [1 + p.deviation for p in here],
+                marker,
+                color=colour,
+                ms=7,
+                mfc="none",
+                mew=1.6,
+            )
+        ax.set(xscale="log", xlim=(0.009, 0.9), xlabel=r"amplitude $\Delta u_z/u_{z0}$", title=title)
+        ax.set_xticks([0.01, 0.03, 0.1, 0.3], ["0.01", "0.03", "0.1", "0.3"])
+        ax.minorticks_off()
+    axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
+    handles = [
+        Line2D([], [], color=colour, marker=marker, mfc="none", mew=1.6, ms=7, label=shape_label(shape))
+        for shape, (colour, marker) in LOOKS.items()
+    ]
+    fig.legend(handles=handles, loc="outside lower center", ncols=4)
+    return (
         "Points: critical velocities measured with arrays of springs, over Eq. (15) with the contact "
         "stiffness at the mean depth. Lines: the full-slip condition. Under a rigid pull "
         f"({_tested(rigid)}; points of one amplitude side by side) all lie on 1. Under a spring and a mass (ω_0 = "
         f"1.7 ω, damper 5 % of critical, {DEPTH * 1e6:g} µm deep) only the flat punch does; the other lines tend to "
         "1 in proportion to α as it becomes small, and for large α that of the cone turns back and crosses 1."
-        + (f" Measured under a spring were {_tested(springs)}, not all combined." if effort == "quick" else ""),
-        fig,
-        "Three panels of measured critical velocity over Eq. (15) against amplitude: all on one for a rigid pull, "
-        "falling away from one for curved shapes under a spring pull, the cone rising again at large amplitude.",
+        + (f" Measured under a spring were {_tested(springs)}, not all combined." if effort == "quick" else "")
     )
 
 
-def _powers(effort: str) -> Figure:
-    import matplotlib.pyplot as plt
+@figure("powers", size=(6.8, 4.6))
+def _powers(fig, ax, effort: str) -> str:
+    """Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two."""
     from matplotlib.lines import Line2D
 
     alphas = np.r_[np.geomspace(1e-3, 0.1, 9), np.linspace(0.11, 0.6, 20 if effort == "quick" else 50)]
@@ -309,30 +307,25 @@ def _powers(effort: str) -> Figure:
         ("elastic, damper", 0.0, True, "--"),
         (r"$\omega\tau$ = 1, damper", 1.0, True, "-"),
     )
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.6))
-        for shape in list(SHAPES)[1:]:
-            for _, T, damped, line in kinds:
-                values = np.array([abs(deviation(shape, float(a), T, "stiff spring", damped)) for a in alphas])
-                ax.plot(alphas, np.where(values > LEAST, values, np.nan), line, color=LOOKS[shape][0])
-        ax.set(
-            xscale="log",
-            yscale="log",
-            xlabel=r"amplitude $\alpha = \Delta u_z/u_{z0}$",
-            ylabel="|full-slip value over Eq. (15) − 1|",
-            ylim=(LEAST, 1),
-        )
-        handles = [Line2D([], [], color=LOOKS[shape][0], label=shape_label(shape)) for shape in list(SHAPES)[1:]]
-        handles += [Line2D([], [], color="0.3", ls=line, label=name) for name, _, _, line in kinds]
-        ax.legend(handles=handles, loc="lower right", ncols=2)
-    return Figure(
-        "powers",
+    for shape in list(SHAPES)[1:]:
+        for _, T, damped, line in kinds:
+            values = np.array([abs(deviation(shape, float(a), T, "stiff spring", damped)) for a in alphas])
+            ax.plot(alphas, np.where(values > LEAST, values, np.nan), line, color=LOOKS[shape][0])
+    ax.set(
+        xscale="log",
+        yscale="log",
+        xlabel=r"amplitude $\alpha = \Delta u_z/u_{z0}$",
+        ylabel="|full-slip value over Eq. (15) − 1|",
+        ylim=(LEAST, 1),
+    )
+    handles = [Line2D([], [], color=LOOKS[shape][0], label=shape_label(shape)) for shape in list(SHAPES)[1:]]
+    handles += [Line2D([], [], color="0.3", ls=line, label=name) for name, _, _, line in kinds]
+    ax.legend(handles=handles, loc="lower right", ncols=2)
+    return (
         "How fast Eq. (15) becomes exact under a spring pull (ω_0 = 1.7 ω): with α^2 where nothing dissipates "
         "(dotted), with α as soon as the contact or the system is damped. For small α the shapes then differ by the "
         f"exponent of their stiffness, {_ratios(0.0, True)} (dashed) and {_ratios(1.0, True)} (full); undamped by "
-        f"more, {_ratios(0.0, False)}. The dip of the cone is a change of sign.",
-        fig,
-        "Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two.",
+        f"more, {_ratios(0.0, False)}. The dip of the cone is a change of sign."
     )
 
 
@@ -342,30 +335,27 @@ def _ratios(T: float, damped: bool) -> str:
     return " : ".join(f"{value / at[0]:.2g}" for value in at)
 
 
-def _map_figure(ratios: Array, losses: Array, C: Array) -> Figure:
-    import matplotlib.pyplot as plt
+@figure("map", size=(7.6, 4.4))
+def _map_figure(fig, ax, ratios: Array, losses: Array, C: Array) -> str:
+    """Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: dark for slow
+    materials and near twice the frequency.
+    """
     from matplotlib.colors import LogNorm
 
     reach = 0.01 / np.abs(C)
-    with style():
-        fig, ax = plt.subplots(figsize=(7.6, 4.4))
-        mesh = ax.pcolormesh(ratios, losses, reach, norm=LogNorm(5e-4, 0.5), cmap="viridis", rasterized=True)
-        ax.contour(ratios, losses, reach, (1e-3, 1e-2, 1e-1), colors="white", linewidths=0.8)
-        ax.set(yscale="log", xlabel=r"$\omega_0/\omega$", ylabel=r"$\omega\tau$")
-        ax.grid(False)
-        bar = fig.colorbar(mesh, ax=ax, extend="both")
-        bar.set_label("amplitude at which Eq. (15) is off by 1 %, cone")
+    mesh = ax.pcolormesh(ratios, losses, reach, norm=LogNorm(5e-4, 0.5), cmap="viridis", rasterized=True)
+    ax.contour(ratios, losses, reach, (1e-3, 1e-2, 1e-1), colors="white", linewidths=0.8)
+    ax.set(yscale="log", xlabel=r"$\omega_0/\omega$", ylabel=r"$\omega\tau$")
+    ax.grid(False)
+    bar = fig.colorbar(mesh, ax=ax, extend="both")
+    bar.set_label("amplitude at which Eq. (15) is off by 1 %, cone")
     row, column = np.unravel_index(np.argmin(reach), reach.shape)
-    return Figure(
-        "map",
+    return (
         "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone"
         " (n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four"
         " times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies"
         f" near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: α = {number(reach[row, column])}"
         f" at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials under heavy bodies, ω_0 < ω, are the"
         " best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 = 0.8 ω. Along thin bright lines C"
-        " changes its sign, and the next order decides.",
-        fig,
-        "Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: "
-        "dark for slow materials and near twice the frequency.",
+        " changes its sign, and the next order decides."
     )

@@ -1,0 +1,39 @@
+"""One way to make the figure of a claim: panels in the style of the library, what is drawn on them, words for both."""
+
+from collections.abc import Callable, Iterable
+from functools import wraps
+from typing import Any
+
+from mdr.plots import style
+from validation.report import Figure
+
+
+def figure(
+    name: str, rows: int = 1, columns: int = 1, size: tuple[float, float] | None = None, **panels: Any
+) -> Callable[[Callable[..., str]], Callable[..., Figure]]:
+    """Decorates draw(fig, axes, ...), which draws on axes as `plt.subplots` gives them and returns the caption.
+
+    Its docstring says what there is to see, for those who cannot see it. The decorated function takes the further
+    arguments alone, and returns the Figure.
+    """
+
+    def decorated(draw: Callable[..., str]) -> Callable[..., Figure]:
+        @wraps(draw)
+        def made(*args: Any) -> Figure:
+            import matplotlib.pyplot as plt
+
+            with style():
+                fig, axes = plt.subplots(rows, columns, figsize=size, **panels)
+                caption = draw(fig, axes, *args)
+            return Figure(name, caption, fig, " ".join((draw.__doc__ or "").split()))
+
+        return made
+
+    return decorated
+
+
+def ticks(axis: Any, places: Iterable[float]) -> None:
+    """Mark these places of an axis, as numbers, and no others."""
+    places = list(places)
+    axis.set_ticks(places, [f"{place:g}" for place in places])
+    axis.axes.minorticks_off()
