@@ -58,6 +58,13 @@ def depth_of(indenter: mdr.Indenter) -> float:
     return float(indenter.profile_1d(RADIUS))
 
 
+def widest_cell(case: mdr.SlidingContact, springs: mdr.SpringArray) -> float:
+    """Greatest dk dg/8 [N] of the springs that come and go, dg the rise of g over half of a cell: error of a force."""
+    half, profile = springs.width / 4, case.indenter.profile_1d
+    rise = np.asarray(profile(springs.x + half)) - np.asarray(profile(springs.x - half))
+    return float(np.max((springs.dk_z * rise / 8)[np.arange(springs.x.size) >= springs.n_core]))
+
+
 def shape_label(shape: str) -> str:
     """The name of a shape as matplotlib sets it."""
     return shape.replace("r^4", "$r^4$")

@@ -5,6 +5,7 @@ from functools import wraps
 from typing import Any
 
 from mdr.plots import style
+from validation.cases import LOOKS, shape_label
 from validation.report import Figure
 
 
@@ -30,6 +31,23 @@ def figure(
         return made
 
     return decorated
+
+
+def circles(ax: Any, x: Any, y: Any, colour: str, **look: Any) -> None:
+    """Hollow circles: a known answer beside a line, or the other way round."""
+    ax.plot(x, y, "o", **{"mfc": "white", "mec": colour, "ms": 4.5, **look})
+
+
+def key(label: str, **look: Any) -> Any:
+    """An entry of a legend for what is drawn without one."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], label=label, **look)
+
+
+def shape_keys(**look: Any) -> list[Any]:
+    """An entry for each of the shapes, in its colour and with its marker."""
+    return [key(shape_label(s), color=colour, marker=mark, **look) for s, (colour, mark) in LOOKS.items()]
 
 
 def ticks(axis: Any, places: Iterable[float]) -> None:

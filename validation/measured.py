@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,11 @@ class Measured:
 
     case: mdr.SlidingContact
     found: mdr.MeasuredVelocity
+
+    @property
+    def u_z0(self) -> float:
+        """Mean depth [m]."""
+        return self.case.oscillation.u_z0
 
     @property
     def v_c(self) -> float:
@@ -48,9 +54,18 @@ class Measured:
 
 @dataclass(frozen=True)
 class Point(Measured):
-    """One contact, said in words."""
+    """One contact in words, and what it is told by where a claim varies shape, amplitude, T = omega tau and pull."""
 
     where: str
+    shape: str = ""
+    alpha: float = np.nan
+    T: float = np.nan
+    pull: Any = None  #: the name of the pull, or omega_0/omega of the body
+
+
+def measured(case: mdr.SlidingContact, where: str, *told: Any) -> Point:
+    """Measure the critical velocity of a case from runs alone."""
+    return Point(case, mdr.measure_critical_velocity(case), where, *told)
 
 
 def deviation(case: mdr.SlidingContact) -> float:
@@ -72,6 +87,11 @@ def with_band(case: mdr.SlidingContact, r: Array, unit: float) -> tuple[Array, A
     moving, band = r[np.abs(r) > 1e-9], mdr.holding_band(case)
     cof, at = mdr.cof_curve(case, moving * unit).cof, int(np.searchsorted(moving, 0.0))
     return np.insert(moving, at, (0.0, 0.0)), np.insert(cof, at, (band.low, band.high)) / case.mu_0
+
+
+def power(x: Any, y: Any) -> float:
+    """Power of x with which y goes: slope of the least-squares line of the logarithms."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def worst(values: Iterable[float], expected: float) -> float:

@@ -26,10 +26,10 @@ import mdr
 from mdr.plots import style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
-from validation import measured
 from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, shape_label
 from validation.figures import figure
-from validation.measured import TOLERANCE, Measured
+from validation.measured import TOLERANCE, Point, measured, power, worst
+from validation.measured import deviation as deviation_of
 from validation.report import Check, Checks, Figure, Part
 from validation.words import counted
 
@@ -63,34 +63,19 @@ FEW = (  # of the quick grid
 
 def deviation(shape: str, alpha: float, T: float, ratio: float, damping_ratio: float = DAMPING) -> float:
     """Full-slip value over Eq. (15), less 1."""
-    return measured.deviation(driven(shape, alpha, T, ratio, damping_ratio))
-
-
-@dataclass(frozen=True)
-class Point(Measured):
-    """One contact of the table, measured from runs alone."""
-
-    shape: str
-    alpha: float
-    T: float
-    ratio: float
-
-    @property
-    def lost(self) -> bool:
-        """Whether the whole contact is lost in every period."""
-        return bool(self.alpha * np.hypot(1, self.T) > 1)
-
-    @property
-    def where(self) -> str:
-        """Shape, amplitude, loss and body in words."""
-        return f"{self.shape}, α = {self.alpha:g}, ωτ = {self.T:g}, ω_0 = {self.ratio:g} ω"
+    return deviation_of(driven(shape, alpha, T, ratio, damping_ratio))
 
 
 @cache
 def measure(shape: str, alpha: float, T: float, ratio: float) -> Point:
     """Measure v_c of one contact."""
-    case = driven(shape, alpha, T, ratio)
-    return Point(case, mdr.measure_critical_velocity(case), shape, alpha, T, ratio)
+    where = f"{shape}, α = {alpha:g}, ωτ = {T:g}, ω_0 = {ratio:g} ω"
+    return measured(driven(shape, alpha, T, ratio), where, shape, alpha, T, ratio)
+
+
+def _lost(p: Point) -> bool:
+    """Whether the whole contact is lost in every period."""
+    return bool(p.alpha * np.hypot(1, p.T) > 1)
 
 
 def grid(effort: str) -> list[tuple[str, float, float, float]]:
@@ -153,11 +138,10 @@ def _edges(centres: Array) -> Array:
     return np.concatenate([centres[:1], middle, centres[-1:]])
 
 
-def power(shape: str, T: float, ratio: float, damping_ratio: float) -> float:
-    """Slope of log|deviation| over log alpha, at alphas below alpha_x where something dissipates."""
+def power_of(shape: str, T: float, ratio: float, damping_ratio: float) -> float:
+    """Power of alpha in the deviation, at alphas below alpha_x where something dissipates."""
     alphas = np.geomspace(1e-3, 1e-2, 3) if T == damping_ratio == 0 else np.geomspace(1e-5, 1e-4, 3)
-    values = [abs(deviation(shape, float(alpha), T, ratio, damping_ratio)) for alpha in alphas]
-    return float(np.polyfit(np.log(alphas), np.log(values), 1)[0])
+    return power(alphas, [abs(deviation(shape, float(alpha), T, ratio, damping_ratio)) for alpha in alphas])
 
 
 def alpha_x(shape: str, T: float, ratio: float, damping_ratio: float = DAMPING) -> float:
@@ -178,7 +162,7 @@ def part(effort: str) -> Part:
     points = [measure(*knobs) for knobs in progress(grid(effort), "finite_amplitude, measured")]
     known = maps(effort)
     far = max(known, key=lambda m: abs(m.values).max())
-    far_point, lost = max(points, key=lambda p: abs(p.deviation)), [p for p in points if p.lost]
+    far_point, lost = max(points, key=lambda p: abs(p.deviation)), [p for p in points if _lost(p)]
     row, column = np.unravel_index(np.argmax(abs(far.values)), far.values.shape)
     reach = {T: min(m.reach(0.01) for m in known if m.T == T) for T in (0.0, 1.0)}
     crossing = {r: alpha_x("cone", 0.0, r) for r in (1.5, 2.5)}
@@ -217,11 +201,11 @@ def part(effort: str) -> Part:
 
 
 def _measured_checks(points: list[Point]) -> Checks:
-    lost, why = [p for p in points if p.lost], "each measurement brings its bracket; both name one velocity"
+    lost, why = [p for p in points if _lost(p)], "each measurement brings its bracket; both name one velocity"
     out = [p.where for p in points if not p.in_bracket]
     resolution = f"bracket and second order in the step, {TOLERANCE:.1e}, and as much where contact returns within one"
     far = max((p for p in points if p.shape != "flat punch"), key=lambda p: abs(p.deviation))
-    kept = [p for p in points if p.shape == "flat punch" and not p.lost]
+    kept = [p for p in points if p.shape == "flat punch" and not _lost(p)]
     flew = max((p for p in lost if p.shape == "flat punch"), key=lambda p: abs(p.deviation))
     yield Check(f"measured v_c of {len(points)} whose bracket misses the full-slip value", len(out), 0, 0, why)
     yield Check(f"the same of {len(lost)} with the whole contact lost", sum(not p.in_bracket for p in lost), 0, 0, why)
@@ -241,7 +225,7 @@ def _power_checks(effort: str) -> Checks:
     ratios = (0.6, 2.5) if effort == "quick" else RATIOS[1:]
     for shape in CURVED:
         for T, damping_ratio, expected in ((0.0, 0.0, 2), (0.0, DAMPING, 1), (1.0, 0.0, 1), (1.0, DAMPING, 1)):
-            got = max((power(shape, T, r, damping_ratio) for r in ratios), key=lambda p: abs(p - expected))
+            got = worst((power_of(shape, T, r, damping_ratio) for r in ratios), expected)
             where = f"{shape}, {loss(T)}, {'damper' if damping_ratio else 'no damper'}"
             name = f"{where}: power of α in the deviation, worst of {len(ratios)} ω_0/ω"
             why = "nothing dissipates; α = 0.001 … 0.01, the next power adds a few α"
@@ -249,14 +233,13 @@ def _power_checks(effort: str) -> Checks:
                 why = "α = 1e-5 … 1e-4 is far below α_x, where α^2 takes over: up to 1 % in slope"
             yield Check(name, got, expected, 0.01, why)
     twice = [alpha_x(s, 0.0, r, DAMPING / 8) / alpha_x(s, 0.0, r, DAMPING / 16) for s in CURVED for r in (1.5, 2.5)]
-    worst = max(twice, key=lambda value: abs(value - 2))
     why = "first order comes from the damping alone; the next order of a damping of 0.25 % adds up to a few per cent"
-    yield Check(f"elastic: α_x at twice the damping, over α_x, worst of {len(twice)}", worst, 2, 0.05, why)
+    yield Check(f"elastic: α_x at twice the damping, over α_x, worst of {len(twice)}", worst(twice, 2), 2, 0.05, why)
     for T in (0.0, 1.0):
         C = [deviation(s, 1e-5, T, 2.0) / 1e-5 * POWERS[s] for s in CURVED]
         why = "C/n, one C for all; α = 1e-5 times a next order of up to 300"
         name = f"{loss(T)}, ω_0 = 2ω: n times deviation/α for α → 0, worst shape over the cone"
-        yield Check(name, max((c / C[0] for c in C), key=lambda c: abs(c - 1)), 1, 5e-3, why)
+        yield Check(name, worst((c / C[0] for c in C), 1), 1, 5e-3, why)
         half = deviation("cone", 1e-5, T, 2.0, DAMPING / 2) / 1e-5
         why = "the resonance is as high as the damper is light; the other harmonics, of order one, share C with it"
         name = f"cone, {loss(T)}, ω_0 = 2ω: deviation/α at half the damping, over that at {100 * DAMPING:g} %"
@@ -278,7 +261,7 @@ def _map_figure(fig, axes, known: list[Map], points: list[Point]) -> str:
         ax.axvline(1 / np.hypot(1, one.T), color="0.15", lw=1, ls=":")
         here = [p for p in points if (p.shape, p.T) == (one.shape, one.T)]
         if here:
-            ax.plot([p.alpha for p in here], [p.ratio for p in here], "o", ms=5, mfc="w", mec="0.15", clip_on=False)
+            ax.plot([p.alpha for p in here], [p.pull for p in here], "o", ms=5, mfc="w", mec="0.15", clip_on=False)
         ax.set(xscale="log", xlim=RANGE[0], ylim=RANGE[1], title=name)
         ax.grid(False)
         ax.set_xticks([0.01, 0.03, 0.1, 0.3, 1], ["0.01", "0.03", "0.1", "0.3", "1"])
@@ -318,7 +301,7 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
                 unit = mdr.critical_velocity(case) / case.unit_velocity
                 for shape, (colour, marker) in LOOKS.items():
                     ax.plot(alphas, [unit * (1 + deviation(shape, float(a), T, ratio)) for a in alphas], color=colour)
-                    here = [p for p in points if (p.shape, p.T, p.ratio) == (shape, T, ratio)]
+                    here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, ratio)]
                     ax.plot([p.alpha for p in here], [unit * (1 + p.deviation) for p in here], marker, color=colour)
                 ax.axhline(unit, color="0.2", lw=1, ls="--")
                 ax.axvline(1 / np.hypot(1, T), color="0.4", lw=0.8, ls=":")
@@ -345,8 +328,8 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
             ax.tick_params(labelbottom=True)
         fig.supxlabel(r"amplitude $\Delta u_z/u_{z0}$", fontsize=11)
         fig.supylabel("$v_c$ over Eq. (1)", fontsize=11)
-    shown = [p for p in points if p.ratio in ratios]
-    lost = [p for p in shown if p.shape == "flat punch" and p.lost]
+    shown = [p for p in points if p.pull in ratios]
+    lost = [p for p in shown if p.shape == "flat punch" and _lost(p)]
     far = max(lost, key=lambda p: abs(p.deviation))
     return Figure(
         "table",

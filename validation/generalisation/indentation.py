@@ -27,10 +27,10 @@ from mdr import laws
 from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
-from validation.figures import figure
+from validation.figures import figure, ticks
 from validation.generalisation import shapes as powers
-from validation.generalisation.shapes import PULLS, Point, measure
-from validation.measured import TOLERANCE
+from validation.generalisation.shapes import PULLS, measure
+from validation.measured import TOLERANCE, Point
 from validation.report import Check, Checks, Equation, Part
 from validation.words import counted, listed, number
 
@@ -51,15 +51,9 @@ def system(shape: str, u_z0: float, T: float, pull: str, du_z: float = AMPLITUDE
 def measured_sensitivity(shape: str, u_z0: float, T: float, pull: str) -> float:
     """n d ln v_c/d ln u_z0 of the full-slip value at a tiny amplitude, by central differences."""
     step, du_z = 1e-3, TINY * u_z0
-    up, down = (
-        np.log(mdr.full_slip_critical_velocity(system(shape, u_z0 * np.exp(s), T, pull, du_z))) for s in (step, -step)
-    )
+    cases = [system(shape, u_z0 * np.exp(shift), T, pull, du_z) for shift in (step, -step)]
+    up, down = (np.log(mdr.full_slip_critical_velocity(case)) for case in cases)
     return float(POWERS[shape] * (up - down) / (2 * step))
-
-
-def measured(shape: str, u_z0: float, T: float, pull: str) -> Point:
-    """Measure v_c of one contact."""
-    return measure(shape, AMPLITUDE / u_z0, T, pull, u_z0)
 
 
 def part(effort: str) -> Part:
@@ -70,14 +64,11 @@ def part(effort: str) -> Part:
     rigid_shapes = shapes[1:] if effort == "quick" else shapes
     knobs = [(s, u_z0, 1.0, "rigid pull") for s in rigid_shapes for u_z0 in rigid_depths]
     knobs += [(s, r * DEPTH, T, pull) for T, pull, depths in SWEEP[size] for s in shapes for r in depths]
-    points = [measured(*one) for one in progress(knobs, "indentation")]
+    points = [measure(s, AMPLITUDE / d, T, pull, d) for s, d, T, pull in progress(knobs, "indentation")]
     stiff = contact("cone", 0.1, 0.0, **PULLS["stiff spring"])
     heavy = contact("cone", 0.1, 0.0, **PULLS["soft spring"])
-    spans = {
-        shape: np.max(ratios) / np.min(ratios)
-        for shape in shapes
-        for ratios in [[p.over_rigid for p in points if (p.shape, p.pull, p.T) == (shape, "stiff spring", 0.0)]]
-    }
+    over = {s: [p.over_rigid for p in points if (p.shape, p.pull, p.T) == (s, "stiff spring", 0.0)] for s in shapes}
+    spans = {shape: max(ratios) / min(ratios) for shape, ratios in over.items()}
     return Part(
         name="indentation",
         title="Depth: what of v_c depends on it",
@@ -118,28 +109,24 @@ def _measured_checks(points: list[Point]) -> Checks:
     for shape, T, pull in dict.fromkeys((p.shape, p.T, p.pull) for p in points):
         here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
         ratios = np.array([p.over_rigid for p in here])
+        spread = np.ptp(ratios) / ratios.mean()
         name = f"{shape}, {pull}, {loss(T)}: spread of v_c over {len(here)} depths"
         if pull == "rigid pull" or shape == "flat punch":
             why = "its stiffness does not depend on depth" if shape == "flat punch" else "Eq. (1) holds no stiffness"
-            yield Check.at_most(name, float(np.ptp(ratios) / ratios.mean()), TOLERANCE, why)
+            yield Check.at_most(name, spread, TOLERANCE, why)
             continue
         expected = np.array([mdr.full_slip_critical_velocity(p.case) / p.case.unit_velocity for p in here])
         span = float(np.ptp(expected) / expected.mean())
         why = "full slip at each depth; bracket of the measurement at either end"
-        yield Check(name, float(np.ptp(ratios) / ratios.mean()), span, 2 * TOLERANCE, why)
-        least = float(np.ptp(ratios) / ratios.mean())
-        yield Check.at_least(f"{name}, measured", least, 10 * TOLERANCE, "v_c does depend on the depth")
+        yield Check(name, spread, span, 2 * TOLERANCE, why)
+        yield Check.at_least(f"{name}, measured", spread, 10 * TOLERANCE, "v_c does depend on the depth")
 
 
 def _slope_checks(effort: str) -> Checks:
     depths = (DEPTH,) if effort == "quick" else (0.3 * DEPTH, DEPTH, 5 * DEPTH)
     for pull in ("stiff spring", "soft spring"):
-        off = [
-            measured_sensitivity(s, d, T, pull) - laws.depth_sensitivity(system(s, d, T, pull))
-            for s in list(SHAPES)[1:]
-            for T in (0.0, 1.0)
-            for d in depths
-        ]
+        which = [(s, d, T, pull) for s in list(SHAPES)[1:] for T in (0.0, 1.0) for d in depths]
+        off = [measured_sensitivity(*one) - laws.depth_sensitivity(system(*one)) for one in which]
         name = f"{pull}: n d ln v_c/d ln u_z0 less S, worst of {len(off)} shapes, depths and materials"
         why = "differences of second order over 0.1 % of depth; C α at α = 1e-6; 1e-10 of v_c over 0.1 %, times n"
         yield Check(name, max(off, key=abs), 0.0, 2e-5, why)
@@ -185,9 +172,8 @@ def _depth_figure(fig, axes, points: list[Point], effort: str) -> str:
             ax.plot([p.u_z0 * 1e6 for p in here], [p.over_rigid for p in here], marker, color=colour, mec="white")
         ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
         ax.set(xscale="log", yscale="log", xlabel="mean depth $u_{z0}$ [µm]", title=title)
-        ax.set_xticks([2, 5, 10, 20, 50, 100, 200], ["2", "5", "10", "20", "50", "100", "200"])
-        ax.set_yticks([0.7, 1, 2, 5, 10], ["0.7", "1", "2", "5", "10"])
-        ax.minorticks_off()
+        ticks(ax.xaxis, [2, 5, 10, 20, 50, 100, 200])
+        ticks(ax.yaxis, [0.7, 1, 2, 5, 10])
     axes[0].annotate("rigid pull", (190, 1.0), (0, -11), textcoords="offset points", ha="right", fontsize=9)
     axes[0].set_ylabel("$v_c$ over Eq. (1)")
     axes[0].legend(loc="upper left")
