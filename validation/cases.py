@@ -9,6 +9,7 @@ contact stiffness at u_z0, omega_0² = k_x/m.
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -67,12 +68,17 @@ def widest_cell(case: mdr.SlidingContact, springs: mdr.SpringArray) -> float:
 
 def shape_label(shape: str) -> str:
     """The name of a shape as matplotlib sets it."""
-    return shape.replace("r^4", "$r^4$")
+    return shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$")
 
 
 def loss(T: float) -> str:
     """The material in words."""
     return "elastic" if T == 0 else f"ωτ = {T:g}"
+
+
+def loss_label(T: float) -> str:
+    """The material as matplotlib sets it."""
+    return loss(T).replace("ωτ", r"$\omega\tau$")
 
 
 def contact(
@@ -93,11 +99,22 @@ def contact(
     damping_ratio: c_x/(2 sqrt(k_x m)). u_z0 [m]: mean depth.
     """
     material = mdr.KelvinVoigt(E=E, nu=nu, tau=T / OMEGA) if T else mdr.Elastic(E=E, nu=nu)
-    oscillation = mdr.NormalOscillation(u_z0=u_z0, du_z=alpha * u_z0, omega=OMEGA)
-    pull: mdr.Pull = mdr.RigidPull()
-    if k_ratio is not None:
-        pull = body(SHAPES[shape], material, u_z0, k_ratio, omega_0_ratio, damping_ratio)
-    return mdr.SlidingContact(SHAPES[shape], material, mu_0, oscillation, pull)
+    motion = mdr.NormalOscillation(u_z0=u_z0, du_z=alpha * u_z0, omega=OMEGA)
+    groups = {"k_ratio": k_ratio, "omega_0_ratio": omega_0_ratio, "damping_ratio": damping_ratio}
+    return on(SHAPES[shape], material, motion, groups if k_ratio is not None else None, u_z0, mu_0)
+
+
+def on(
+    indenter: mdr.Indenter,
+    material: mdr.Material,
+    motion: mdr.Motion,
+    groups: dict[str, Any] | None = None,
+    u_z0: float = DEPTH,
+    mu_0: float = 0.5,
+) -> mdr.SlidingContact:
+    """Any indenter on any material in any motion, pulled rigidly or by a body of these groups at the depth u_z0."""
+    pull = body(indenter, material, u_z0, **groups) if groups else mdr.RigidPull()
+    return mdr.SlidingContact(indenter, material, mu_0, motion, pull)
 
 
 def shaken(

@@ -27,9 +27,10 @@ from mdr.closed_forms import coupling
 from mdr.half_space.friction import Settings
 from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
-from validation.figures import figure
+from validation.figures import figure, key, shape_keys
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
+from validation.measured import worst
 from validation.report import Check, Checks, Claim, Equation
 
 Column = Sequence[Row]  #: of one contact
@@ -65,8 +66,7 @@ class Groups:
     @classmethod
     def of(cls, point: Point) -> "Groups":
         """Of the contact of a point."""
-        case = point.case
-        material = case.material
+        case, material = point.case, point.case.material
         pull = material.dundurs_beta**2 / material.mindlin_ratio
         return cls(coupling.radial_rub(case), pull, 1 - mdr.static_cof(case) / point.mu_0)
 
@@ -142,7 +142,7 @@ def claim(effort: str) -> Claim:
     trials = tried(rest, constants)
     within = [trial for trial in trials if trial.groups.rub <= coupling.FARTHEST]
     beyond = [trial for trial in trials if trial.groups.rub > coupling.FARTHEST]
-    worst, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
+    most, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
     a, b, c = constants[None]
     return Claim(
         name="coupling_law",
@@ -158,13 +158,13 @@ def claim(effort: str) -> Claim:
         " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is"
         f" large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g}"
         f" λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)} with λ ≤"
-        f" {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * worst:.0f} %). Beyond,"
+        f" {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * most:.0f} %). Beyond,"
         f" {_beyond(beyond)}",
         verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
         sentence=f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
         f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms).",
         checks=(*_constant_checks(constants[None]), *_trial_checks(within, beyond), *_group_checks(effort == "quick")),
-        figures=(_collapse_figure(everything, constants[None]), _trial_figure(training, trials, constants)),
+        figures=(_collapse_figure(everything, constants[None]), _trial_figure(tried(training, constants), trials)),
         equations=(
             Equation(
                 "",
@@ -201,12 +201,9 @@ def _beyond(beyond: Sequence[Trial]) -> str:
 
 def _constant_checks(constants: Array) -> Checks:
     known = {"a": coupling.SHARE, "b": coupling.BEND, "c": coupling.PULL}
-    yield from (
-        Check(
-            f"constant {name} of the library over that fitted here", value / fit, 1, 0.01, "written with three digits"
-        )
-        for (name, value), fit in zip(known.items(), constants, strict=True)
-    )
+    for (constant, value), fit in zip(known.items(), constants, strict=True):
+        name = f"constant {constant} of the library over that fitted here"
+        yield Check(name, value / fit, 1, 0.01, "written with three digits")
 
 
 def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> Checks:
@@ -219,8 +216,7 @@ def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> Checks:
     }
     for kind, belongs in kinds.items():
         own = [trial for trial in within if belongs(trial.point)]
-        ratio = max((trial.ratio for trial in own), key=lambda ratio: abs(ratio - 1))
-        off = max((trial.off for trial in own), key=abs)
+        ratio, off = worst((trial.ratio for trial in own), 1), worst((trial.off for trial in own), 0)
         name = f"held out, {kind} ({len(own)}), λ ≤ {coupling.FARTHEST:g}"
         yield Check(f"{name}: worst law over 3D, greatest loss", ratio, 1, ALLOWED, "stated")
         yield Check(f"{name}: worst law − 3D at any velocity, over that", off, 0, 2 * ALLOWED, "stated")
@@ -252,20 +248,14 @@ def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array) -> 
     for column in own:
         point = column[0].point
         colour, marker = LOOKS[point.shape]
-        v = np.array([row.point.v for row in column])
-        loss = np.array([row.loss for row in column])
-        look = {"color": colour, "mfc": "w" if point.T else colour, "ms": 5}
-        groups = Groups.of(point)
-        left.plot(groups.lost, loss.max(), marker, **look)
-        right.plot(v, loss / groups.lost, "--" if point.T else "-", lw=1, color=colour)
+        lost, loss = Groups.of(point).lost, np.array([row.loss for row in column])
+        left.plot(lost, loss.max(), marker, color=colour, mfc="w" if point.T else colour, ms=5)
+        right.plot([row.point.v for row in column], loss / lost, "--" if point.T else "-", lw=1, color=colour)
     left.axline((0, 0), slope=first.loss(constants) / first.lost, color="0.6")
-    for shape, (colour, marker) in LOOKS.items():
-        left.plot([], [], marker, color=colour, ms=5, label=shape_label(shape))
-    left.plot([], [], "o", color="0.3", mfc="w", label=r"Kelvin, $\omega\tau$ = 0.3 to 3")
-    left.plot([], [], "-", color="0.6", label="the law")
+    kelvin = key(r"Kelvin, $\omega\tau$ = 0.3 to 3", color="0.3", marker="o", ls="", mfc="w")
+    left.legend(handles=[*shape_keys(ls="", ms=5), kelvin, key("the law", color="0.6")])
     left.set(xlim=(0, None), ylim=(0, None), xlabel="$L_0$", ylabel=r"greatest loss = (springs $-$ 3D)/$\mu_0$")
     right.set(xlim=(0, 2), xlabel="$v_0$ over Eq. (1)", ylabel="loss over $L_0$")
-    left.legend()
     return (
         f"What springs are too high by in {len(own)} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes,"
         " Δu_z/u_z0 from 0.1 to 1.5, elastic and Kelvin. Left: the greatest loss of each, over a decade, goes with L_0,"
@@ -274,14 +264,12 @@ def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array) -> 
 
 
 @figure("trials", size=(6.2, 4.6))
-def _trial_figure(
-    fig, ax, training: Sequence[Column], trials: Sequence[Trial], constants: dict[float | None, Array]
-) -> str:
+def _trial_figure(fig, ax, training: Iterable[Trial], trials: Iterable[Trial]) -> str:
     """Scatter of the law against the computed loss over three decades, along the diagonal."""
     ends = np.array([5e-4, 0.6])
     ax.fill_between(ends, ends * (1 - ALLOWED), ends * (1 + ALLOWED), color="0.92", label=f"± {100 * ALLOWED:.0f} %")
     ax.plot(ends, ends, color="0.6", lw=0.8)
-    for trial in tried(training, constants):
+    for trial in training:
         ax.loglog(trial.found, trial.said, "+", color="k", ms=7)
     for trial in trials:
         known = trial.groups.rub <= coupling.FARTHEST
@@ -291,8 +279,7 @@ def _trial_figure(
     for shape, (colour, _) in LOOKS.items():
         ax.loglog([], [], "o", color=colour, label=shape_label(shape))
     ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.FARTHEST:g}")
-    ax.set_xlabel(r"greatest loss in three dimensions, over $\mu_0$")
-    ax.set_ylabel(r"the law, over $\mu_0$")
+    ax.set(xlabel=r"greatest loss in three dimensions, over $\mu_0$", ylabel=r"the law, over $\mu_0$")
     ax.legend(loc="upper left")
     return (
         "The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"

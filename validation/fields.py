@@ -28,8 +28,8 @@ from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, shape_label
-from validation.figures import figure
+from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, contact, shape_label
+from validation.figures import circles, figure
 from validation.report import Check, Checks, Claim
 
 BODY = mdr.Elastic(E=E, nu=0.5)
@@ -58,6 +58,11 @@ class Row:
         self.f = np.clip(self.f + self.k * (u - self.u), -self.limit, self.limit)
         self.u = u
         return float(self.f.sum())
+
+    def traction(self, r: Array) -> Array:
+        """Traction [Pa] at radii r."""
+        q = self.f / (2 * RADIUS / self.f.size)
+        return from_line_load(np.concatenate([[0.0], self.x, [RADIUS]]), np.concatenate([q[:1], q, [0.0]]), r)
 
     @property
     def stick_radius(self) -> float:
@@ -121,9 +126,7 @@ def _mindlin_checks(n: int) -> Checks:
         row, c = Row("paraboloid", n), RADIUS * math.sqrt(1 - share)
         row.to(share * FULL)
         r, weight = disc(c)
-        x = np.concatenate([[0.0], row.x, [RADIUS]])
-        q = row.f / (2 * RADIUS / n)
-        tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
+        tau = row.traction(r)
         name = f"paraboloid pulled to {share:g} of full slip"
         why = f"a kink within a cell h = a/{n}: off by the root of h over a width h, which is h in the mean square"
         yield Check.at_most(f"{name}: traction of {n} springs, one by one", off(tau, mindlin(r, c), weight), 2 / n, why)
@@ -140,13 +143,9 @@ def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
 
     The oscillation is a thousandth of the depth, and small beside the pull.
     """
-    case = mdr.SlidingContact(
-        SHAPES["paraboloid"], BODY, MU_0, mdr.NormalOscillation(u_z0=DEPTH, du_z=1e-3 * DEPTH, omega=OMEGA)
-    )
-    v_0 = 0.5 * FULL * OMEGA / (2 * np.pi)
-    run: Any = mdr.slide(
-        case, v_0, n_springs=n_springs, steps_per_period=256, n_periods=1, start="rest", record=1, lump=False
-    )
+    case = contact("paraboloid", 1e-3, mu_0=MU_0)
+    knobs: Any = {"steps_per_period": 256, "n_periods": 1, "start": "rest", "record": 1, "lump": False}
+    run: Any = mdr.slide(case, 0.5 * FULL * OMEGA / (2 * np.pi), n_springs=n_springs, **knobs)
     d_c = float(run.u_z[-1]) - float(run.u_x[-1]) / (MU_0 * BODY.mindlin_ratio)
     c = float(SHAPES["paraboloid"].contact_radius(d_c))
     r, _ = disc(c)
@@ -156,8 +155,7 @@ def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
 def _run_checks(effort: str) -> Checks:
     n = 1024 if effort == "quick" else 2048
     found, r, c = run_fields(n)
-    core = n // 8  # springs of a run crowd at the edge of the contact
-    weight = disc(c)[1]
+    core, weight = n // 8, disc(c)[1]  # springs of a run crowd at the edge of the contact
     why = f"a/{core} is the spacing of the springs inside; the edge slips to and fro with the oscillation"
     name = f"sliding run of {n} springs: stick radius over a"
     yield Check(name, found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why)
@@ -171,35 +169,34 @@ def _run_checks(effort: str) -> Checks:
 def _sum_checks() -> Checks:
     for shape, indenter in SHAPES.items():
         pulled = partial_slip(indenter, BODY, MU_0, DEPTH, FULL * np.array(SHARES))
-        worst = 0.0
+        worst = []
         for i, c in enumerate(np.asarray(pulled.stick_radius)):
             r, weight = disc(float(c))
             found = surface_fields(pulled, r, i=i)
-            worst = max(worst, abs(float(np.sum(weight * found.pressure)) / pulled.F_z - 1))
-            worst = max(worst, abs(float(np.sum(weight * found.traction)) / float(pulled.F_x[i]) - 1))
+            worst.append(abs(np.sum(weight * found.pressure) / pulled.F_z - 1))
+            worst.append(abs(np.sum(weight * found.traction) / pulled.F_x[i] - 1))
         why = "Gauss quadrature with nodes that crowd at tip, edge and stick radius"
-        yield Check.at_most(f"{shape}: p and traction over the disc against F_N and F_x", worst, 1e-6, why)
+        yield Check.at_most(f"{shape}: p and traction over the disc against F_N and F_x", max(worst), 1e-6, why)
         run = indent(indenter, BODY, [0, 1], [0, DEPTH], record=True)
         r, weight = disc()
-        found = surface_fields(run, r)
-        p = np.asarray(indenter.pressure(r, DEPTH, BODY.E_star))
+        apart = off(surface_fields(run, r).pressure, np.asarray(indenter.pressure(r, DEPTH, BODY.E_star)), weight)
         why = "straight lines between 3000 knots"
-        yield Check.at_most(f"{shape}: p of the springs, mean square", off(found.pressure, p, weight), 1e-4, why)
+        yield Check.at_most(f"{shape}: p of the springs, mean square", apart, 1e-4, why)
 
 
 def _loop_checks(n: int) -> Checks:
     w = np.linspace(0, 1, 41)
     for shape in SHAPES:
-        worst = 0.0
+        worst = []
         for share in (0.3, 0.8, 1.3):
             row, U = Row(shape, n), share * FULL
             first = np.array([row.to(u) for u in U * w])
             back = np.array([row.to(u) for u in U - 2 * U * w])
             again = np.array([row.to(u) for u in -U + 2 * U * w])
             turns = np.concatenate([back[0] - back, again - again[0]])
-            worst = max(worst, float(np.max(np.abs(turns - np.tile(2 * first, 2)))) / (MU_0 * row.limit.sum()))
+            worst.append(np.max(np.abs(turns - np.tile(2 * first, 2))) / (MU_0 * row.limit.sum()))
         why = f"sums of {n} springs that were never told the rule, over mu_0 F_N"
-        yield Check.at_most(f"{shape}: Masing's rule, twice the force for twice the way", worst, 1e-10, why)
+        yield Check.at_most(f"{shape}: Masing's rule, twice the force for twice the way", max(worst), 1e-10, why)
     for share in SHARES[:3]:
         loop = tangential_loop(SHAPES["paraboloid"], BODY, MU_0, DEPTH, share * FULL)
         F_N, theta = float(loop.F_z), 1 - share
@@ -233,18 +230,15 @@ def _surface_checks() -> Checks:
 def _traction_figure(fig, axes) -> str:
     """Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii."""
     left, right = axes
-    r = RADIUS * np.linspace(0, 1.0, 601)[:-1]
-    some = RADIUS * np.linspace(0.02, 0.98, 17)
+    r, some = RADIUS * np.linspace(0, 1.0, 601)[:-1], RADIUS * np.linspace(0.02, 0.98, 17)
     for share, colour in zip(SHARES, COLOURS, strict=False):
         row, c = Row("paraboloid", 1000), RADIUS * math.sqrt(1 - share)
         row.to(share * FULL)
-        q = row.f / (2 * RADIUS / 1000)
-        x = np.concatenate([[0.0], row.x, [RADIUS]])
-        tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
-        left.plot(r / RADIUS, tau / (MU_0 * P_0), color=colour, label=f"{share:g}")
-        left.plot(some / RADIUS, mindlin(some, c) / (MU_0 * P_0), "o", ms=4.5, mfc="white", mec=colour)
-    left.set(xlabel="radius $r/a$", ylabel=r"traction over $\mu_0 p_0$", title="paraboloid", xlim=(0, 1.02))
-    left.set_ylim(0, 1.05)
+        left.plot(r / RADIUS, row.traction(r) / (MU_0 * P_0), color=colour, label=f"{share:g}")
+        circles(left, some / RADIUS, mindlin(some, c) / (MU_0 * P_0), colour)
+    for ax in axes:
+        ax.set(xlabel="radius $r/a$", xlim=(0, 1.02))
+    left.set(ylabel=r"traction over $\mu_0 p_0$", title="paraboloid", ylim=(0, 1.05))
     left.legend(title=r"$u_x$ over full slip")
     for shape, indenter in SHAPES.items():
         pulled = partial_slip(indenter, BODY, MU_0, DEPTH, 0.5 * FULL)
@@ -254,10 +248,7 @@ def _traction_figure(fig, axes) -> str:
         c = float(pulled.stick_radius)
         if 0 < c < RADIUS:
             right.plot([c / RADIUS] * 2, [0, np.interp(c, r[1:], tau)], color=LOOKS[shape][0], lw=1, ls=":")
-    right.set(
-        xlabel="radius $r/a$", ylabel=r"traction over $\mu_0 F_N/\pi a^2$", title="half of full slip", xlim=(0, 1.02)
-    )
-    right.set_ylim(0, 2.2)
+    right.set(ylabel=r"traction over $\mu_0 F_N/\pi a^2$", title="half of full slip", ylim=(0, 2.2))
     right.legend()
     return (
         "Left: tractions under a paraboloid pulled sideways; lines from springs that stick and slip one by one, "
@@ -277,16 +268,14 @@ def _loop_figure(fig, axes) -> str:
         row = Row(shape, 1000)
         way = 0.8 * FULL * np.concatenate([[1.0], np.linspace(0.9, -0.9, 13), [-1.0], np.linspace(-0.9, 0.9, 13)])
         F = np.array([row.to(u) for u in way])
-        left.plot(way / FULL, F / (MU_0 * loop.F_z), "o", ms=4, mfc="white", mec=colour)
-        shares = np.geomspace(0.02, 1.5, 40)
-        W = [tangential_loop(indenter, BODY, MU_0, DEPTH, share * FULL, n=3).loss for share in shares]
-        unit = 4 * MU_0 * loop.F_z * FULL
-        shown = np.array(W) > 1e-9 * unit
-        right.loglog(shares[shown], np.array(W)[shown] / unit, color=colour, label=shape_label(shape))
+        circles(left, way / FULL, F / (MU_0 * loop.F_z), colour, ms=4)
+        shares, unit = np.geomspace(0.02, 1.5, 40), 4 * MU_0 * loop.F_z * FULL
+        lost = np.array([tangential_loop(indenter, BODY, MU_0, DEPTH, share * FULL, n=3).loss for share in shares])
+        shown = lost > 1e-9 * unit
+        right.loglog(shares[shown], lost[shown] / unit, color=colour, label=shape_label(shape))
     left.set(xlabel="displacement over full slip", ylabel=r"$F_x/\mu_0 F_N$", title="loops of 0.8 of full slip")
-    right.set(
-        xlabel="amplitude over full slip", ylabel=r"loss over $4\mu_0 F_N u_s$", title="loss in a loop", ylim=(1e-7, 1)
-    )
+    right.set(xlabel="amplitude over full slip", ylabel=r"loss over $4\mu_0 F_N u_s$", ylim=(1e-7, 1))
+    right.set_title("loss in a loop")
     right.axvline(1, color="0.6", lw=1, ls=":")
     fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return (

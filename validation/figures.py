@@ -1,6 +1,6 @@
 """One way to make the figure of a claim: panels in the style of the library, what is drawn on them, words for both."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
@@ -50,8 +50,7 @@ def shape_keys(**look: Any) -> list[Any]:
     return [key(shape_label(s), color=colour, marker=mark, **look) for s, (colour, mark) in LOOKS.items()]
 
 
-def ticks(axis: Any, places: Iterable[float]) -> None:
+def ticks(axis: Any, *places: float) -> None:
     """Mark these places of an axis, as numbers, and no others."""
-    places = list(places)
     axis.set_ticks(places, [f"{place:g}" for place in places])
     axis.axes.minorticks_off()

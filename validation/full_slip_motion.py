@@ -228,7 +228,7 @@ def _order_figure(fig, ax, motions: dict[Any, list[Motion]], steps: tuple[int, .
     n = np.array([steps[0], steps[-1]], dtype=float)
     ax.loglog(n, (2 * np.pi / n) ** 2 / 3, color="0.4", lw=1, ls="--", label="$h^2/3$")
     ax.set(xlabel="steps per period", ylabel="relative error")
-    ticks(ax.xaxis, steps)
+    ticks(ax.xaxis, *steps)
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return (
         "Error of the run against Eqs. (10), (13) and (14) in four systems: it falls by four when the step is"

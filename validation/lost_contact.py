@@ -11,6 +11,7 @@ Symbols: alpha = du_z/u_z0, T = omega tau, phi phase, omega_0² = k_x/m.
 """
 
 from functools import cache
+from itertools import product
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from mdr.normal.kelvin_edges import contact_edge
 from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import DAMPING, LOOKS, SHAPES, STIFFNESS, contact, driven, loss, shape_label
-from validation.figures import figure
+from validation.figures import figure, key
 from validation.measured import SHARP, Point, deviation, measured, worst
 from validation.report import Check, Checks, Claim, Equation
 from validation.words import counted, listed, percent, ranged
@@ -144,17 +145,11 @@ _EQUATIONS = (
 
 def _rigid_checks(points: list[Point]) -> Checks:
     why = "bracket of 2e-5 of the measurement and h²/6 = 6e-6 of the mean over a step"
-    yield from (
-        Check(
-            f"measured v_c over Eq. (1), worst of {len(here)} shapes: ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}",
-            worst((p.over_rigid for p in here), laws.late_return(1 / alpha, T)),
-            laws.late_return(1 / alpha, T),
-            SHARP * laws.late_return(1 / alpha, T),
-            why,
-        )
-        for alpha, T in dict.fromkeys((p.alpha, p.T) for p in points)
-        for here in [[p for p in points if (p.alpha, p.T) == (alpha, T)]]
-    )
+    for alpha, T in dict.fromkeys((p.alpha, p.T) for p in points):
+        here = [p.over_rigid for p in points if (p.alpha, p.T) == (alpha, T)]
+        law = laws.late_return(1 / alpha, T)
+        name = f"measured v_c over Eq. (1), worst of {len(here)} shapes: ωτ = {T:g}, Δu_z/u_z0 = {alpha:g}"
+        yield Check(name, worst(here, law), law, SHARP * law, why)
 
 
 def _limit_checks() -> Checks:
@@ -187,20 +182,20 @@ def _onset_checks() -> Checks:
 
 
 def _slow_checks() -> Checks:
-    for shape in SHAPES:
-        for alpha in (0.2, 1.0):
-            cases = {T: [driven(shape, alpha, T, ratio) for ratio in RATIOS] for T in (1e5, 1e6)}
-            off = {T: [mdr.full_slip_critical_velocity(case) / laws.blow(case) - 1 for case in cases[T]] for T in cases}
-            # a blow is known by its impulse and its mean time; its mean square time is delta²/2
-            next_order = 0.5 * 0.5 * 4 * np.pi * (1 + 1 / alpha) / 1e5 * max(RATIOS) ** 2
-            name = f"{shape}, α = {alpha:g}, ωτ = 100000: worst |full-slip value over (**) − 1| of {len(RATIOS)} ω_0/ω"
-            why = "the next order of a blow, (ω_0 δ/ω)²/4"
-            yield Check.at_most(name, max(map(abs, off[1e5])), next_order, why)
-            powers = [float(-np.log10(b / a)) for a, b in zip(off[1e5], off[1e6], strict=True)]
-            name = f"{shape}, α = {alpha:g}: power of 1/ωτ in that, worst of {len(RATIOS)} ω_0/ω"
-            why = "(**) leaves out 1/ωτ; the next term, (ωτ)^{−1/2} of it, at ωτ = 100 000"
-            yield Check(name, worst(powers, 1), 1.0, 0.05, why)
-    light = [laws.blow(one) / laws.half_a_blow(one) for r in RATIOS for one in [_light("paraboloid", r)]]
+    for shape, alpha in product(SHAPES, (0.2, 1.0)):
+        cases = {T: [driven(shape, alpha, T, ratio) for ratio in RATIOS] for T in (1e5, 1e6)}
+        off = {T: [mdr.full_slip_critical_velocity(case) / laws.blow(case) - 1 for case in cases[T]] for T in cases}
+        # a blow is known by its impulse and its mean time; its mean square time is delta²/2
+        next_order = 0.5 * 0.5 * 4 * np.pi * (1 + 1 / alpha) / 1e5 * max(RATIOS) ** 2
+        name = f"{shape}, α = {alpha:g}, ωτ = 100000: worst |full-slip value over (**) − 1| of {len(RATIOS)} ω_0/ω"
+        why = "the next order of a blow, (ω_0 δ/ω)²/4"
+        yield Check.at_most(name, max(map(abs, off[1e5])), next_order, why)
+        powers = [float(-np.log10(b / a)) for a, b in zip(off[1e5], off[1e6], strict=True)]
+        name = f"{shape}, α = {alpha:g}: power of 1/ωτ in that, worst of {len(RATIOS)} ω_0/ω"
+        why = "(**) leaves out 1/ωτ; the next term, (ωτ)^{−1/2} of it, at ωτ = 100 000"
+        yield Check(name, worst(powers, 1), 1.0, 0.05, why)
+    undamped = [driven("paraboloid", 1.0, 1e10, ratio, 0.0) for ratio in RATIOS]
+    light = [laws.blow(case) / laws.half_a_blow(case) for case in undamped]
     name = "(**) over π μ_0 F_N(u_z0 + Δu_z)/(mω) without damper, ωτ = 1e10, worst of three ω_0/ω"
     why = "what is left of the (ωτ)^{−1/2} term"
     yield Check(name, worst(light, 1), 1.0, 5e-5, why)
@@ -210,10 +205,6 @@ def _slow_checks() -> Checks:
         name = f"cone, ωτ = 1e8, free oscillation at {n}ω: full-slip value over π μ_0 F_N(u_z0 + Δu_z)/(mω)"
         why = "2/[1 − exp(−2πnζ)], blows that add up; (ωτ)^{−1/2} of it"
         yield Check(name, mdr.full_slip_critical_velocity(case) / laws.half_a_blow(case), add_up, 1e-3 * add_up, why)
-
-
-def _light(shape: str, ratio: float) -> mdr.SlidingContact:
-    return contact(shape, 1.0, 1e10, k_ratio=STIFFNESS, omega_0_ratio=ratio)
 
 
 def _body_checks(points: list[Point]) -> Checks:
@@ -240,9 +231,8 @@ def _rigid_figure(fig, axes, points: list[Point]) -> str:
     colours = dict(zip(TIMES, (COLOURS[6], *COLOURS), strict=False))
     alphas, times = np.geomspace(0.01, 2, 160), np.geomspace(0.1, 300, 200)
     for T, colour in colours.items():
-        ax.plot(
-            alphas, [laws.late_return(1 / alpha, T) for alpha in alphas], color=colour, label=rf"$\omega\tau={T:g}$"
-        )
+        law = [laws.late_return(1 / alpha, T) for alpha in alphas]
+        ax.plot(alphas, law, color=colour, label=rf"$\omega\tau={T:g}$")
     for p in points:
         size = 5 + 2 * list(SHAPES).index(p.shape)
         ax.plot(p.alpha, p.over_rigid, LOOKS[p.shape][1], mfc="none", mec=colours[p.T], ms=size)
@@ -281,9 +271,8 @@ def _onset_figure(fig, axes, effort: str) -> str:
             ax.plot(law, [abs(laws.onset(lost_punch(e, T, ratio))) for e in law], color=colour, lw=1.1)
             label = rf"$\omega_0$ = {ratio:g} $\omega$"
             ax.plot(eps[seen], values[seen], mark, color=colour, mfc="white", label=label)
-        ax.set(xscale="log", yscale="log", ylim=(1e-11, 5), xlabel=r"$\varepsilon$")
-        power = r"elastic: $\varepsilon^{3/2}$" if T == 0 else r"$\omega\tau$ = 1: $\varepsilon^2$"
-        ax.set_title(power)
+        title = r"elastic: $\varepsilon^{3/2}$" if T == 0 else r"$\omega\tau$ = 1: $\varepsilon^2$"
+        ax.set(xscale="log", yscale="log", ylim=(1e-11, 5), xlabel=r"$\varepsilon$", title=title)
     axes[0].set_ylabel("|full-slip value over Eq. (15) − 1|")
     axes[0].legend(loc="upper left")
     return (
@@ -298,8 +287,6 @@ def _slow_figure(fig, axes, points: list[Point], effort: str) -> str:
     """Critical velocity over relaxation time for three natural frequencies: Eq. (15) rises without end, the full-slip
     value levels off.
     """
-    from matplotlib.lines import Line2D
-
     times, shapes = np.geomspace(0.3, 1e4, 24 if effort == "quick" else 60), ("flat punch", "cone")
     for ax, ratio in zip(axes, RATIOS, strict=True):
         cases = {shape: [driven(shape, 1.0, float(T), ratio) for T in times] for shape in shapes}
@@ -318,15 +305,10 @@ def _slow_figure(fig, axes, points: list[Point], effort: str) -> str:
         ax.set(xscale="log", yscale="log", xlabel=r"$\omega\tau$", title=rf"$\omega_0$ = {ratio:g} $\omega$")
         ax.set_ylim(0.05, 30)
     axes[0].set_ylabel(r"$v_c$ over $\pi\mu_0 F_N(u_{z0}+\Delta u_z)/(m\omega)$")
-    handles = [Line2D([], [], color=LOOKS[shape][0], label=shape) for shape in shapes]
-    handles += [
-        Line2D([], [], color=LOOKS[shape][0], marker=LOOKS[shape][1], ls="", label=f"{shape}, measured")
-        for shape in dict.fromkeys(p.shape for p in points if p.alpha == 1.0)
-    ]
-    handles += [
-        Line2D([], [], color="0.2", ls="--", lw=1, label="Eq. (15)"),
-        Line2D([], [], color="0.4", ls="-.", lw=1, label="law (**)"),
-    ]
+    handles = [key(shape, color=LOOKS[shape][0]) for shape in shapes]
+    for shape in dict.fromkeys(p.shape for p in points if p.alpha == 1.0):
+        handles.append(key(f"{shape}, measured", color=LOOKS[shape][0], marker=LOOKS[shape][1], ls=""))
+    handles += [key("Eq. (15)", color="0.2", ls="--", lw=1), key("law (**)", color="0.4", ls="-.", lw=1)]
     fig.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8.5)
     return (
         "A slow material that loses contact, α = 1, under mass and spring: full-slip v_c (full lines) and what was "

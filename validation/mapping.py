@@ -302,7 +302,7 @@ def _catalogue_figure(fig, axes, sunk: dict[str, Array]) -> str:
         for peak in r[1:-1][~shown[1:-1] & (p[1:-1] >= p[:-2]) & (p[1:-1] >= p[2:])]:
             ax.plot(peak, TALLEST, "^", color=COLOURS[0], ms=6)
         ax.axhline(0.0, color="0.4", lw=0.8)
-        ax.set_title(shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$"), fontsize="medium")
+        ax.set_title(shape_label(shape), fontsize="medium")
         if ax in axes[-1]:
             ax.set_xlabel("$r/a$")
     left = axes[0, 0]
@@ -332,7 +332,7 @@ def _error_figure(fig, ax, orders: dict[str, tuple[Array, Array]], counts: tuple
     ax.loglog(n, 1.6 * orders["cone"][0][0] * (n[0] / n) ** 2, color="0.4", lw=1, ls="--", label="second order")
     ax.plot([], [], "o", color="0.3", ms=4, label="at $u_{z0}$ and $u_{z0}\\pm\\Delta u_z$")
     ax.set(xlabel="number of springs", ylabel=r"error of $F_N$ over $2E^{*}a\,u_{z0}$", ylim=(1e-17, 1e-2))
-    ticks(ax.xaxis, counts)
+    ticks(ax.xaxis, *counts)
     ax.legend(loc="center right", bbox_to_anchor=(1.0, 0.4))
     return (
         "Force of the spring array at Δu_z/u_z0 = 0.3. Hollow: the greatest error in between falls by four"

@@ -21,12 +21,10 @@ import numpy as np
 
 import mdr
 from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
-from validation.figures import figure
-from validation.measured import TOLERANCE
+from validation.figures import figure, ticks
+from validation.measured import TOLERANCE, Point, measured
 from validation.report import Check, Checks, Claim
 from validation.words import number, span
-
-Point = tuple[mdr.SlidingContact, mdr.MeasuredVelocity]
 
 SMALL = 0.003  #: alpha of the first map
 ZETA, STIFFNESS = 0.02, 2.0  #: damping of the body, k_x over k_xc
@@ -44,7 +42,8 @@ def claim(effort: str) -> Claim:
     of_v_c = over_frequency(*((25, 13) if quick else (121, 61)))
     n_v, n_alpha = (14, 8) if quick else (40, 30)
     rigid, body = over_velocity(RIGID, 4 * n_v, 2 * n_alpha), over_velocity(LIGHT, n_v, n_alpha)
-    points = [measured(*point) for point in (POINTS[1::2] if quick else POINTS)]
+    places = [place(ratio * OMEGA, loss / OMEGA) for ratio, loss in (POINTS[1::2] if quick else POINTS)]
+    points = [measured(case, "") for case in places]
     halves = [half_of(shape, T, quick) for shape in SHAPES for T in (LOSSES[::3] if quick else LOSSES)]
     furthest = [half.reach for half in halves]
     low, high = (float(f(of_v_c["v_c"] / of_v_c["eq_1"])) for f in (np.min, np.max))
@@ -116,7 +115,6 @@ class Half:
     T: float
     at_rest: float  #: alpha that halves the static friction
     reach: float  #: greatest v_0/v_c at which some alpha halves it
-    best: float  #: that alpha
 
 
 def half_of(shape: str, T: float, coarse: bool) -> Half:
@@ -131,19 +129,14 @@ def half_of(shape: str, T: float, coarse: bool) -> Half:
     axes = {"alpha": np.geomspace(0.02, 20, n_alpha), "v_0/v_c": np.linspace(0, 0.6, n_v)}
     study = mdr.sweep(contact(shape, 0.1, T), axes)
     v, cof = study.axes["v_0/v_c"], study["cof"] / RIGID.mu_0
-    reaches = [float(np.interp(0.5, row, v)) if row[0] < 0.5 else 0.0 for row in cof]
-    best = int(np.argmax(reaches))
-    return Half(shape, T, float(brentq(excess, 1e-3, 2)), reaches[best], float(study.axes["alpha"][best]))
+    reach = max(float(np.interp(0.5, row, v)) if row[0] < 0.5 else 0.0 for row in cof)
+    return Half(shape, T, float(brentq(excess, 1e-3, 2)), reach)
 
 
-def measured(ratio: float, loss: float) -> Point:
-    """A point of the first map with its critical velocity from runs."""
-    case = replace(
-        BODY,
-        material=replace(BODY.material, tau=loss / OMEGA),
-        oscillation=replace(BODY.oscillation, omega=ratio * OMEGA),
-    )
-    return case, mdr.measure_critical_velocity(case)
+def place(omega: float, tau: float) -> mdr.SlidingContact:
+    """The body of the first map at a place of it."""
+    material, oscillation = replace(BODY.material, tau=tau), replace(BODY.oscillation, omega=omega)
+    return replace(BODY, material=material, oscillation=oscillation)
 
 
 # --- checks ---
@@ -152,21 +145,17 @@ def measured(ratio: float, loss: float) -> Point:
 def _checks_of_v_c(study: mdr.Study, points: list[Point]) -> Checks:
     why = "a study computes what the function does"
     tau, omega = study.axes["material.tau"], study.axes["oscillation.omega"]
-    off = 0.0
-    for i, j in ((0, 0), (tau.size // 2, omega.size // 2), (-1, -1)):
-        oscillation = replace(BODY.oscillation, omega=omega[j])
-        case = replace(BODY, material=replace(BODY.material, tau=tau[i]), oscillation=oscillation)
-        off = max(off, abs(study["v_c"][i, j] / mdr.critical_velocity(case) - 1))
+    some = ((0, 0), (tau.size // 2, omega.size // 2), (-1, -1))
+    off = [abs(study["v_c"][i, j] / mdr.critical_velocity(place(omega[j], tau[i])) - 1) for i, j in some]
     name = "v_c in the study against critical_velocity(), two corners and the middle, worst"
-    yield Check.at_most(name, off, 1e-13, why)
-    for case, found in points:
-        where = f"ω/ω_0 = {case.oscillation.omega / OMEGA:g}, ω_0 τ = {case.material.tau * OMEGA:g}"
-        got = np.nan if found.v_c is None else found.v_c / mdr.full_slip_critical_velocity(case)
+    yield Check.at_most(name, max(off), 1e-13, why)
+    for p in points:
+        where = f"ω/ω_0 = {p.case.oscillation.omega / OMEGA:g}, ω_0 τ = {p.case.material.tau * OMEGA:g}"
+        got = p.v_c / mdr.full_slip_critical_velocity(p.case)
         why = "half the bracket of the measurement, and its step to second order"
         yield Check(f"measured v_c over that of full slip: {where}", got, 1.0, TOLERANCE, why)
-    high = study.frame.shape[1] - 1
     why = f"the body moves by (ω_0/ω)² of what a spring would, and its viscous part by T/(k_x/k_x,c) of that: {1e-2:g}"
-    got = study["v_c"][0, high] / study["eq_1"][0, high]
+    got = study["v_c"][0, -1] / study["eq_1"][0, -1]
     yield Check("v_c over Eq. (1) at ω = 10 ω_0, nearly elastic", got, 1.0, 1e-2, why)
 
 
@@ -176,43 +165,28 @@ def _checks_of_cof(study: mdr.Study, what: str) -> Checks:
     v = study.axes["v_0/v_c"] * study["v_c"] / study["full_slip_v_c"]  # over the full-slip v_c
     above, below = v >= 1, v <= 0.95
     excess = (1 - cof / mu_0 - 2 * error / mu_0)[above].max()
-    why = "twice the bound on its own error, by steps of 1/256 of a period"
     deficit = ((1 - cof / mu_0) / np.maximum(error / mu_0, 1e-12))[below].min()
     fall = (-np.diff(cof, axis=1) / mu_0 - (error[:, 1:] + error[:, :-1]) / mu_0).max()
     bad = int(np.count_nonzero(study.status))
-    full = f"{what}: lost friction above the full-slip v_c, less twice its error, greatest"
-    reduced = f"{what}: lost friction up to 0.95 of the full-slip v_c, over its error, least"
-    rising = f"{what}: fall of μ/μ_0 from one velocity to the next, less both errors, greatest"
-    yield Check.at_most(full, excess, 0.0, why)
-    yield Check.at_least(reduced, deficit, 3.0, "a deficit of three errors is there")
-    yield Check.at_most(rising, fall, 0.0, "friction never falls with velocity")
+    name = f"{what}: lost friction above the full-slip v_c, less twice its error, greatest"
+    yield Check.at_most(name, excess, 0.0, "twice the bound on its own error, by steps of 1/256 of a period")
+    name = f"{what}: lost friction up to 0.95 of the full-slip v_c, over its error, least"
+    yield Check.at_least(name, deficit, 3.0, "a deficit of three errors is there")
+    name = f"{what}: fall of μ/μ_0 from one velocity to the next, less both errors, greatest"
+    yield Check.at_most(name, fall, 0.0, "friction never falls with velocity")
     yield Check(f"{what}: points that failed or did not settle", bad, 0.0, 0.0, "all are to be computed")
 
 
-def _checks_of_half(halves: list[Half]) -> list[Check]:
-    checks = [
-        Check(
-            f"amplitude over depth that halves the friction of a flat punch at rest: ωτ = {half.T:g}",
-            half.at_rest,
-            0.5 / np.hypot(1, half.T),
-            1e-11,
-            "Eq. (7), and the root to 1e-12",
-        )
-        for half in halves
-        if half.shape == "flat punch"
-    ]
-    reaches = {f"{half.shape}, ωτ = {half.T:g}": half.reach for half in halves}
+def _checks_of_half(halves: list[Half]) -> Checks:
+    for half in halves:
+        if half.shape == "flat punch":
+            name = f"amplitude over depth that halves the friction of a flat punch at rest: ωτ = {half.T:g}"
+            yield Check(name, half.at_rest, 0.5 / np.hypot(1, half.T), 1e-11, "Eq. (7), and the root to 1e-12")
     why = "a quarter to a third: read off many contacts, no law behind it"
-    for name, where in (
-        ("least", min(reaches, key=reaches.__getitem__)),
-        ("greatest", max(reaches, key=reaches.__getitem__)),
-    ):
-        checks.append(
-            Check.between(
-                f"{name} v_0/v_c up to which friction can be halved: {where}", reaches[where], 0.25, 0.35, why
-            )
-        )
-    return checks
+    for which, of in (("least", min), ("greatest", max)):
+        half = of(halves, key=lambda one: one.reach)
+        name = f"{which} v_0/v_c up to which friction can be halved: {half.shape}, ωτ = {half.T:g}"
+        yield Check.between(name, half.reach, 0.25, 0.35, why)
 
 
 # --- figures ---
@@ -222,22 +196,15 @@ def _checks_of_half(halves: list[Half]) -> list[Check]:
 def _figure_of_v_c(fig, ax, study: mdr.Study, points: list[Point]) -> str:
     """Map of the critical velocity over frequency and relaxation time with a ridge and a valley."""
     tau, omega = study.axes["material.tau"] * OMEGA, study.axes["oscillation.omega"] / OMEGA
-    values = study["v_c"] / study["eq_1"]
-    levels = (0.03, 0.1, 0.3, 0.9, 1.1, 3, 10, 20)
-    from matplotlib.colors import LogNorm
-
-    mesh = ax.pcolormesh(omega, tau, values, norm=LogNorm(), cmap="viridis", rasterized=True, shading="nearest")
+    values, levels = study["v_c"] / study["eq_1"], (0.03, 0.1, 0.3, 0.9, 1.1, 3, 10, 20)
+    mesh = ax.pcolormesh(omega, tau, values, norm="log", cmap="viridis", rasterized=True, shading="nearest")
     lines = ax.contour(omega, tau, values, levels=levels, colors="white", linewidths=1)
     ax.clabel(lines, fmt="%g", fontsize=9)
-    places = [(case.oscillation.omega / OMEGA, case.material.tau * OMEGA) for case, _ in points]
+    places = [(p.case.oscillation.omega / OMEGA, p.case.material.tau * OMEGA) for p in points]
     ax.plot(*np.transpose(places), "o", mfc="none", mec="w", ms=7, mew=1.6)
-    ax.set(
-        xscale="log", yscale="log", xlabel=r"frequency $\omega/\omega_0$", ylabel=r"relaxation time $\omega_0\tau$",
-        xlim=(omega[0], omega[-1]), ylim=(tau[0], tau[-1]),
-    )  # fmt: skip
-    bar = fig.colorbar(mesh, ax=ax, pad=0.02)
-    bar.set_label("$v_c$ over Eq. (1)")
-    bar.outline.set_visible(False)
+    ax.set(xscale="log", yscale="log", xlim=(omega[0], omega[-1]), ylim=(tau[0], tau[-1]))
+    ax.set(xlabel=r"frequency $\omega/\omega_0$", ylabel=r"relaxation time $\omega_0\tau$")
+    fig.colorbar(mesh, ax=ax, pad=0.02, label="$v_c$ over Eq. (1)").outline.set_visible(False)
     return (
         f"Eq. (15) over Eq. (1) for a body on a paraboloid, k_x = {STIFFNESS:g} k_x,c, {100 * ZETA:g} % of critical"
         " damping. The ridge at ω = ω_0 is the body on its spring; the valley at ω = 1.22 ω_0 is the body on spring"
@@ -251,10 +218,9 @@ def _figure_of_v_c(fig, ax, study: mdr.Study, points: list[Point]) -> str:
 def _figure_of_cof(fig, axes, rigid: mdr.Study, body: mdr.Study) -> str:
     """Two maps of friction over velocity and amplitude with the line on which it becomes full."""
     for ax, study, title in zip(axes, (rigid, body), ("rigid pull", "body on a spring"), strict=True):
-        study.plot_map("cof", "v_0/v_c", ax, levels=RIGID.mu_0 * np.array([0.25, 0.5, 0.75, 0.9]),
-                 limits=(0, RIGID.mu_0), colorbar=ax is axes[-1])  # fmt: skip
-        alpha = study.axes["alpha"]
-        ax.plot((study["full_slip_v_c"] / study["v_c"])[:, 0], alpha, color="#D55E00", lw=2)
+        levels = RIGID.mu_0 * np.array([0.25, 0.5, 0.75, 0.9])
+        study.plot_map("cof", "v_0/v_c", ax, levels=levels, limits=(0, RIGID.mu_0), colorbar=ax is axes[-1])
+        ax.plot((study["full_slip_v_c"] / study["v_c"])[:, 0], study.axes["alpha"], color="#D55E00", lw=2)
         ax.axhline(1 / np.hypot(1, 0.3), color="w", lw=1, ls=":")
         ax.set_title(title)
     axes[1].set_ylabel("")
@@ -283,8 +249,7 @@ def _figure_of_half(fig, axes, halves: list[Half]) -> str:
         ax.set_xticks([0.03, 0.1, 1, 10], ["0", "0.1", "1", "10"])
     rest.set(yscale="log", ylabel=r"amplitude $\alpha$ that halves static friction")
     motion.set(ylim=(0, 0.4), ylabel="greatest $v_0/v_c$ with half the friction")
-    rest.set_yticks([0.03, 0.1, 0.3, 0.5], ["0.03", "0.1", "0.3", "0.5"])
-    rest.minorticks_off()
+    ticks(rest.yaxis, 0.03, 0.1, 0.3, 0.5)
     rest.legend()
     return (
         "Rigid pull. Left: the amplitude, over the depth, that halves friction at rest; dashpots lower it as they"

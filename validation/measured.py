@@ -68,6 +68,11 @@ def measured(case: mdr.SlidingContact, where: str, *told: Any) -> Point:
     return Point(case, mdr.measure_critical_velocity(case), where, *told)
 
 
+def lost(case: mdr.SlidingContact, v_0: float, **knobs: Any) -> float:
+    """1 - |mu|/mu_0 by a run."""
+    return 1 - abs(mdr.slide(case, v_0, **knobs).cof) / case.mu_0
+
+
 def deviation(case: mdr.SlidingContact) -> float:
     """Full-slip value over Eq. (15), less 1."""
     return mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1

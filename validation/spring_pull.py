@@ -16,13 +16,14 @@ at s = 2.
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 import mdr
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import contact
+from validation.cases import contact, loss_label
 from validation.figures import figure
 from validation.report import Check, Checks, Claim
 from validation.words import listed, ranged
@@ -30,33 +31,12 @@ from validation.words import listed, ranged
 ALPHA = 0.1
 DAMPING = 0.05  # c_x/(2 sqrt(k_x m))
 ZERO = 2.0  # s where m omega² = k_x + k_xc
+BELOW, ABOVE = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95), (2.05, 2.1, 2.3, 2.7, 3.5, 4.5, 6.0)  # s: pole, zero
+BETWEEN = (1.05, 1.1, 1.2, 1.4, 1.6, 1.8, 1.9, 1.95)
 SWEEP = {
     "quick": (0.5, 0.95, 1.95),
     "full": (0.0, 0.5, 0.9, 1.1, 1.4, 1.9, 2.1, 4.0),
-    "long": (
-        0.0,
-        0.2,
-        0.4,
-        0.6,
-        0.8,
-        0.9,
-        0.95,
-        1.05,
-        1.1,
-        1.2,
-        1.4,
-        1.6,
-        1.8,
-        1.9,
-        1.95,
-        2.05,
-        2.1,
-        2.3,
-        2.7,
-        3.5,
-        4.5,
-        6.0,
-    ),
+    "long": (*BELOW, *BETWEEN, *ABOVE),
 }
 MATERIALS = {"quick": (0.0, 1.0), "full": (0.0, 0.3, 1.0), "long": (0.0, 0.3, 1.0)}  # T
 PLATEAU = (0.1, 0.17, 0.3, 0.55, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0)  # v_0 over Eq. (1) on the pole
@@ -93,10 +73,8 @@ def measure(s: float, T: float, damping_ratio: float = DAMPING) -> Point:
     found = mdr.measure_critical_velocity(case).v_c
     expected = mdr.critical_velocity(case) / case.unit_velocity
     assert isinstance(case.pull, mdr.SpringPull)
-    body = (
-        abs(case.k_zc * (1 + 1j * T) * complex(case.pull.receptance(case.oscillation.omega)))
-        / case.material.mindlin_ratio
-    )
+    swing = abs(case.k_zc * (1 + 1j * T) * complex(case.pull.receptance(case.oscillation.omega)))
+    body = swing / case.material.mindlin_ratio
     got = None if found is None else found / case.unit_velocity
     return Point(s, T, got, expected, BRACKET + STEP * (1 + body) / expected)
 
@@ -143,21 +121,15 @@ def claim(effort: str) -> Claim:
 
 
 def _sweep_checks(points: list[Point]) -> Checks:
-    why = (
-        "over its tolerance: bracket 2e-5, and h² = (2π/1024)² of the velocities of foot and body, which nearly "
-        "cancel at the zero; greatest difference"
-    )
-    for T in dict.fromkeys(point.T for point in points):
-        for name, low, high in (
-            ("below the pole", 0, 1),
-            ("between pole and zero", 1, ZERO),
-            ("above the zero", ZERO, np.inf),
-        ):
-            group = [p for p in points if p.T == T and low <= p.s < high]
-            if group:
-                share = max(abs(p.deviation) / p.tolerance for p in group)
-                told = f"{why} {max(abs(p.deviation) for p in group):.1e} of v_c"
-                yield Check.at_most(f"ωτ = {T:g}, {name}: worst |measured/Eq. (15) − 1|", share, 1.0, told)
+    why = "over its tolerance: bracket 2e-5, and h² = (2π/1024)² of the velocities of foot and body, which nearly"
+    why += " cancel at the zero; greatest difference"
+    sides = {"below the pole": (0, 1), "between pole and zero": (1, ZERO), "above the zero": (ZERO, np.inf)}
+    for T, (name, (low, high)) in product(dict.fromkeys(point.T for point in points), sides.items()):
+        group = [p for p in points if p.T == T and low <= p.s < high]
+        if group:
+            share = max(abs(p.deviation) / p.tolerance for p in group)
+            told = f"{why} {max(abs(p.deviation) for p in group):.1e} of v_c"
+            yield Check.at_most(f"ωτ = {T:g}, {name}: worst |measured/Eq. (15) − 1|", share, 1.0, told)
 
 
 def _undamped_checks(effort: str) -> Checks:
@@ -171,10 +143,8 @@ def _undamped_checks(effort: str) -> Checks:
     case = punch(ZERO, 0.0, 0.0)
     run = mdr.slide(case, 0.01 * case.unit_velocity)
     name = "undamped, elastic, at the zero: 1 − cof/mu_0 at 0.01 of Eq. (1)"
-    why = (
-        "Eq. (2) gives v_c = 0, so not even a crawl lowers friction (by more than the error of the run); static "
-        "cof/mu_0 is 0.9"
-    )
+    why = "Eq. (2) gives v_c = 0, so not even a crawl lowers friction (by more than the error of the run);"
+    why += " static cof/mu_0 is 0.9"
     yield Check.at_most(name, 1 - run.cof / run.mu_0, run.cof_error / run.mu_0, why)
 
 
@@ -190,10 +160,8 @@ def _pole_checks(plateaus: dict[float, Array], swings: dict[float, list[mdr.Slid
     for T, cof in plateaus.items():
         far = 2 * cof[-1] - cof[-2]
         name = f"undamped pole, ωτ = {T:g}: cof/mu_0 carried on to v_0 → ∞"
-        why = (
-            "halfway between static COF and mu_0; from 64 and 256 times Eq. (1) by the power −1/2 of v_0, "
-            "the next power leaves α/64 at most"
-        )
+        why = "halfway between static COF and mu_0; from 64 and 256 times Eq. (1) by the power −1/2 of v_0,"
+        why += " the next power leaves α/64 at most"
         yield Check(name, far, half_way(T), ALPHA / PLATEAU[-2], why)
         name = f"undamped pole, ωτ = {T:g}: cof/mu_0 at 256 times Eq. (1)"
         yield Check.at_most(name, cof[-1], half_way(T), "the plateau is approached from below: mu_0 is never reached")
@@ -214,18 +182,8 @@ def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]) ->
             curve = np.array([mdr.critical_velocity(case) / case.unit_velocity for case in cases])
             ax.plot(s, np.where(np.isfinite(curve), curve, np.nan), color=colour, **look)
         here = [p for p in points if p.T == T and p.measured is not None]
-        name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
-        ax.plot(
-            [p.s for p in here],
-            [p.measured or np.nan for p in here],
-            "o",
-            color=colour,
-            mec="white",
-            mew=0.6,
-            ms=7,
-            label=name,
-            zorder=3,
-        )
+        look = {"color": colour, "mec": "white", "mew": 0.6, "ms": 7, "zorder": 3}
+        ax.plot([p.s for p in here], [p.measured for p in here], "o", label=loss_label(T), **look)
     ax.set(yscale="log", xlim=(-0.1, 6.6), ylim=(0.02, 60), xlabel=r"$m\omega^2/k_x$", ylabel=r"$v_c$ over Eq. (1)")
     for place, name in ((1.0, "pole\n$m\\omega^2 = k_x$"), (ZERO, "zero\n$m\\omega^2 = k_x + k_{xc}$")):
         ax.axvline(place, color="0.6", lw=0.8, ls=":", zorder=0)
@@ -244,20 +202,11 @@ def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]) ->
 def _pole_figure(fig, ax, plateaus: dict[float, Array]) -> str:
     """COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole."""
     for (T, cof), colour in zip(plateaus.items(), COLOURS, strict=False):
-        name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
         ax.axhline(half_way(T), color=colour, lw=0.9, ls="--", zorder=0)
-        ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {name}")
-    off = punch(0.5, 0.0)
-    ratios = np.geomspace(0.1, 6.0, 40)
-    away = [mdr.slide(off, ratio * off.unit_velocity) for ratio in ratios]
-    ax.plot(
-        ratios,
-        [run.cof / run.mu_0 for run in away],
-        "-",
-        color="0.45",
-        lw=1.0,
-        label=r"off the pole, $m\omega^2 = k_x/2$",
-    )
+        ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {loss_label(T)}")
+    off, ratios = punch(0.5, 0.0), np.geomspace(0.1, 6.0, 40)
+    cof = [mdr.slide(off, ratio * off.unit_velocity).cof / off.mu_0 for ratio in ratios]
+    ax.plot(ratios, cof, "-", color="0.45", lw=1.0, label=r"off the pole, $m\omega^2 = k_x/2$")
     ax.axhline(1.0, color="0.75", lw=0.8, zorder=0)
     ax.set(xscale="log", xlabel=r"$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$", ylim=(None, 1.008))
     ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))

@@ -10,16 +10,17 @@ Symbols: alpha = du_z/u_z0, T = omega tau.
 """
 
 from functools import cache
+from itertools import product
 
 import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import style
 from mdr.tools.progress import progress
-from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, body, depth_of
-from validation.measured import TOLERANCE, Point, slope_at_zero
-from validation.report import Check, Checks, Equation, Figure, Part
+from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, depth_of, on, shape_label
+from validation.figures import figure
+from validation.measured import TOLERANCE, Point, measured, slope_at_zero
+from validation.report import Check, Checks, Equation, Part
 from validation.words import counted
 
 NU = 0.5
@@ -34,9 +35,9 @@ MATERIALS: dict[str, mdr.Material] = {
 
 def contact(shape: str, material: str, alpha: float, pulled: bool) -> mdr.SlidingContact:
     """A shape of the catalogue at its own depth, pulled rigidly or by a body of the same groups."""
-    indenter, made, depth = ALL[shape], MATERIALS[material], mean_depth(shape)
-    pull = body(indenter, made, depth, **BODY) if pulled else mdr.RigidPull()
-    return mdr.SlidingContact(indenter, made, 0.5, mdr.NormalOscillation(depth, alpha * depth, OMEGA), pull)
+    depth = mean_depth(shape)
+    motion = mdr.NormalOscillation(depth, alpha * depth, OMEGA)
+    return on(ALL[shape], MATERIALS[material], motion, BODY if pulled else None, depth)
 
 
 def mean_depth(shape: str) -> float:
@@ -106,10 +107,8 @@ def _measured_checks(points: list[Point]) -> Checks:
 
 @cache
 def _measured(shape: str, material: str, pulled: bool) -> Point:
-    case = contact(shape, material, 0.1, pulled)
-    return Point(
-        case, mdr.measure_critical_velocity(case), f"{shape}, {material}, {'body' if pulled else 'rigid pull'}"
-    )
+    where = f"{shape}, {material}, {'body' if pulled else 'rigid pull'}"
+    return measured(contact(shape, material, 0.1, pulled), where)
 
 
 # --- first order in the amplitude ---
@@ -122,12 +121,11 @@ def limit(shape: str, material: str, alpha: float) -> float:
 
 
 def _order_checks(quick: bool) -> Checks:
-    for material in ("elastic",) if quick else ("elastic", "ωτ = 1"):
-        for shape in ALL:
-            expected = laws.first_order(contact(shape, material, 0.1, True)) * slope(shape)
-            why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
-            name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
-            yield Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why)
+    for material, shape in product(("elastic",) if quick else ("elastic", "ωτ = 1"), ALL):
+        expected = laws.first_order(contact(shape, material, 0.1, True)) * slope(shape)
+        why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
+        name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
+        yield Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why)
     shapes = ("cone", "capped cone") if quick else [s for s in ALL if slope(s) > 0.02]
     first = limit("paraboloid", "standard solid", 0.01) / slope("paraboloid")
     for shape in shapes:
@@ -140,35 +138,23 @@ def _order_checks(quick: bool) -> Checks:
 # --- figure ---
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(8.4, 4.4))
-        slopes = np.array([slope(shape) for shape in ALL])
-        for material, colour in zip(list(MATERIALS)[: 1 if quick else 3], ("C0", "C1", "C2"), strict=False):
-            alpha = 0.01 if material == "standard solid" else 1e-3
-            C = np.array([limit(shape, material, alpha) for shape in ALL])
-            ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
-            ax.plot(slopes, C, "o", ms=5, mfc="white", color=colour, label=material)
-        ax.set(
-            xlabel=r"$s = d\ln k_{zc}/d\ln d$ at the mean depth", ylabel=r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$"
-        )
-        ax.legend(loc="lower left")
-        rows = [f"{abs(slope(shape)):.2f}  {_set(shape)}" for shape in sorted(ALL, key=slope)]
-        ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
-    return Figure(
-        "slopes",
+@figure("slopes", size=(8.4, 4.4))
+def _figure(fig, ax, quick: bool) -> str:
+    """Points of all shapes on a straight line through zero, one line for each material."""
+    slopes = np.array([slope(shape) for shape in ALL])
+    for material, colour in zip(list(MATERIALS)[: 1 if quick else 3], ("C0", "C1", "C2"), strict=False):
+        alpha = 0.01 if material == "standard solid" else 1e-3
+        C = np.array([limit(shape, material, alpha) for shape in ALL])
+        ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
+        ax.plot(slopes, C, "o", ms=5, mfc="white", color=colour, label=material)
+    ax.set_xlabel(r"$s = d\ln k_{zc}/d\ln d$ at the mean depth")
+    ax.set_ylabel(r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$")
+    ax.legend(loc="lower left")
+    rows = [f"{abs(slope(shape)):.2f}  {shape_label(shape)}" for shape in sorted(ALL, key=slope)]
+    ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
+    return (
         f"{len(ALL)} shapes under the same body{', elastic' if quick else ''}: how fast v_c leaves Eq. (15) with"
         " amplitude, over the exponent with which the stiffness of the contact changes about its mean depth."
         f" {'They' if quick else 'All shapes of one material'} lie on one straight line through zero: at small"
-        " amplitude v_c depends on the shape through this exponent alone.",
-        fig,
-        f"Points of {len(ALL)} shapes on {'a straight line' if quick else 'straight lines'} through zero"
-        f"{'' if quick else ', one for each material'}.",
+        " amplitude v_c depends on the shape through this exponent alone."
     )
-
-
-def _set(shape: str) -> str:
-    """A shape's name as matplotlib sets it."""
-    return shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$")

@@ -23,11 +23,10 @@ from functools import cache
 import numpy as np
 
 import mdr
-from mdr.plots import style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
-from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, shape_label
-from validation.figures import figure
+from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, loss_label, shape_label
+from validation.figures import circles, figure, key, shape_keys, ticks
 from validation.measured import TOLERANCE, Point, measured, power, worst
 from validation.measured import deviation as deviation_of
 from validation.report import Check, Checks, Figure, Part
@@ -84,9 +83,9 @@ def grid(effort: str) -> list[tuple[str, float, float, float]]:
         return list(FEW)
     if effort == "long":
         return [*RIDGE, *((s, a, T, r) for s in SHAPES for T in (0.0, 1.0) for r in RATIOS for a in ALPHAS[1:])]
-    elastic = [  # a Latin square: every shape at every alpha and every omega_0, every alpha at more than one omega_0
-        (s, ALPHAS[(3 * j + 2 * i) % len(ALPHAS)], 0.0, r) for i, s in enumerate(SHAPES) for j, r in enumerate(RATIOS)
-    ]
+    # a Latin square: every shape at every alpha and every omega_0, every alpha at more than one omega_0
+    square = [(s, (3 * j + 2 * i) % len(ALPHAS), r) for i, s in enumerate(SHAPES) for j, r in enumerate(RATIOS)]
+    elastic = [(s, ALPHAS[k], 0.0, r) for s, k, r in square]
     return [*elastic, *((s, a, 1.0, r) for s, a, r in KELVIN), *RIDGE]
 
 
@@ -121,16 +120,22 @@ def maps(effort: str) -> list[Map]:
     """The maps of the curved shapes, closer where the body resonates with a harmonic."""
     alphas = np.geomspace(*RANGE[0], 8 if effort == "quick" else 24)
     near = (0.0,) if effort == "quick" else (-0.15, -0.06, 0.0, 0.06, 0.15)
-    whole = [n + shift for n in range(1, 6) for shift in near]
-    ratios = np.unique(
-        np.r_[whole, ZERO + np.array(near) / 2, np.linspace(*RANGE[1], 7 if effort == "quick" else 15)].round(6)
-    )
+    whole, even = [n + shift for n in range(1, 6) for shift in near], 7 if effort == "quick" else 15
+    ratios = np.unique(np.r_[whole, ZERO + np.array(near) / 2, np.linspace(*RANGE[1], even)].round(6))
     ratios = ratios[np.r_[True, np.diff(ratios) > 0.02]]
     out = []
     for shape, T in progress([(s, T) for T in (0.0, 1.0) for s in CURVED], "finite_amplitude, maps"):
         values = [[deviation(shape, float(a), T, float(r)) for a in alphas] for r in ratios]
         out.append(Map(shape, T, alphas, ratios, np.array(values)))
     return out
+
+
+def _farthest(known: list[Map]) -> str:
+    """The greatest deviation of all, and where it is."""
+    far = max(known, key=lambda m: abs(m.values).max())
+    i, j = np.unravel_index(np.argmax(abs(far.values)), far.values.shape)
+    where = f"{far.name}, α = {far.alphas[j]:.2g}, ω_0 = {far.ratios[i]:.2g} ω"
+    return f"{100 * far.values[i, j]:+.0f} % ({where})"
 
 
 def _edges(centres: Array) -> Array:
@@ -152,21 +157,14 @@ def alpha_x(shape: str, T: float, ratio: float, damping_ratio: float = DAMPING) 
     return float(abs(C_1 / C_2))
 
 
-def reach_on_resonance(bound: float, T: float) -> float:
-    """Alpha at which |deviation| of the cone passes so much at omega_0 = 2 omega, where it is C alpha."""
-    return bound / abs(deviation("cone", 1e-5, T, 2.0) / 1e-5)
-
-
 def part(effort: str) -> Part:
     """Map the deviation, measure the table, fit the powers."""
     points = [measure(*knobs) for knobs in progress(grid(effort), "finite_amplitude, measured")]
     known = maps(effort)
-    far = max(known, key=lambda m: abs(m.values).max())
     far_point, lost = max(points, key=lambda p: abs(p.deviation)), [p for p in points if _lost(p)]
-    row, column = np.unravel_index(np.argmax(abs(far.values)), far.values.shape)
     reach = {T: min(m.reach(0.01) for m in known if m.T == T) for T in (0.0, 1.0)}
     crossing = {r: alpha_x("cone", 0.0, r) for r in (1.5, 2.5)}
-    resonant = {T: reach_on_resonance(0.01, T) for T in (0.0, 1.0)}
+    resonant = {T: 0.01 / abs(deviation("cone", 1e-5, T, 2.0) / 1e-5) for T in (0.0, 1.0)}  # where it is C alpha
     return Part(
         name="finite_amplitude",
         title="Amplitude: up to and beyond the loss of contact",
@@ -177,12 +175,12 @@ def part(effort: str) -> Part:
         f" (α > 1 elastic, α > {1 / np.sqrt(2):.2f} for ωτ = 1).",
         measured="Within 1 % of Eq. (15), as a share of the map: "
         + "; ".join(f"{m.name}: {100 * m.share_within(0.01):.0f} %" for m in known)
-        + f". Farthest off: {100 * far.values[row, column]:+.0f} % ({far.name}, α = {far.alphas[column]:.2g}, ω_0 = "
-        f"{far.ratios[row]:.2g} ω); measured: {100 * far_point.deviation:+.0f} % ({far_point.where}). The full-slip "
-        f"value with all harmonics lies in the bracket of every measurement, with contact kept or lost, and within "
-        f"{max(abs(p.miss) for p in points):.1e} of the measured one. For small α the error is of first order where "
-        "anything dissipates, of second where nothing does. With the damper alone, elastic cone, second order takes "
-        "over at α = " + "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items()) + ", in proportion"
+        + f". Farthest off: {_farthest(known)}; measured: {100 * far_point.deviation:+.0f} % ({far_point.where}). The"
+        " full-slip value with all harmonics lies in the bracket of every measurement, with contact kept or lost, and"
+        f" within {max(abs(p.miss) for p in points):.1e} of the measured one. For small α the error is of first order"
+        " where anything dissipates, of second where nothing does. With the damper alone, elastic cone, second order"
+        " takes over at α ="
+        " " + "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items()) + ", in proportion"
         " to a light damping. At ω_0 = 2ω it is the other way round: the second harmonic, itself of first order in α,"
         f" drives the body on its resonance, and with this damper 1 % is passed at α = {resonant[0.0]:.2g} (elastic)"
         f" and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. The relative error is large too beside"
@@ -255,90 +253,74 @@ def _map_figure(fig, axes, known: list[Map], points: list[Point]) -> str:
 
     norm = BoundaryNorm(BANDS, 256, extend="max")
     for ax, one in zip(axes.flat, known, strict=True):
-        name = one.name.replace("r^4", "$r^4$").replace("ωτ", r"$\omega\tau$")
         corners = np.exp(_edges(np.log(one.alphas))), _edges(one.ratios)
         mesh = ax.pcolormesh(*corners, 100 * abs(one.values), norm=norm, cmap="YlGnBu", rasterized=True)
         ax.axvline(1 / np.hypot(1, one.T), color="0.15", lw=1, ls=":")
         here = [p for p in points if (p.shape, p.T) == (one.shape, one.T)]
         if here:
-            ax.plot([p.alpha for p in here], [p.pull for p in here], "o", ms=5, mfc="w", mec="0.15", clip_on=False)
-        ax.set(xscale="log", xlim=RANGE[0], ylim=RANGE[1], title=name)
+            circles(ax, [p.alpha for p in here], [p.pull for p in here], "0.15", ms=5, clip_on=False)
+        ax.set(xscale="log", xlim=RANGE[0], ylim=RANGE[1], title=f"{shape_label(one.shape)}, {loss_label(one.T)}")
         ax.grid(False)
-        ax.set_xticks([0.01, 0.03, 0.1, 0.3, 1], ["0.01", "0.03", "0.1", "0.3", "1"])
-        ax.minorticks_off()
+        ticks(ax.xaxis, 0.01, 0.03, 0.1, 0.3, 1)
     for ax in axes[1]:
         ax.set_xlabel(r"amplitude $\Delta u_z/u_{z0}$")
     for ax in axes[:, 0]:
         ax.set_ylabel(r"$\omega_0/\omega$")
-    bar = fig.colorbar(mesh, ax=axes, ticks=BANDS, aspect=35, pad=0.02)
-    bar.set_label("$v_c$ off Eq. (15) by [%]")
-    far = max(known, key=lambda m: abs(m.values).max())
-    row, column = np.unravel_index(np.argmax(abs(far.values)), far.values.shape)
+    fig.colorbar(mesh, ax=axes, ticks=BANDS, aspect=35, pad=0.02, label="$v_c$ off Eq. (15) by [%]")
     by_T = {T: np.mean([m.share_within(0.01) for m in known if m.T == T]) for T in (0.0, 1.0)}
     return (
         "How far the full-slip v_c with all harmonics is from Eq. (15), up or down, over amplitude and natural"
         f" frequency of the body. Palest: less than 1 %, which is {100 * by_T[0.0]:.0f} % of the elastic maps and"
         f" {100 * by_T[1.0]:.0f} % of the viscoelastic ones. Most is off right of the dotted line, where the whole"
         " contact is lost in every period, and at ω_0 = 2ω, where the second harmonic of the force drives the body."
-        f" Greatest: {100 * far.values[row, column]:+.0f} % ({far.name}, α = {far.alphas[column]:.2g}, ω_0 ="
-        f" {far.ratios[row]:.2g} ω). Circles: where v_c was measured."
+        f" Greatest: {_farthest(known)}. Circles: where v_c was measured."
     )
 
 
 def _table_figure(points: list[Point], effort: str) -> Figure:
-    import matplotlib.pyplot as plt
-    from matplotlib.lines import Line2D
+    rows = 2 if effort == "quick" else 4
+    return figure("table", rows, 4, size=(9.6, 2.15 * rows), sharex=True)(_table)(points)
 
-    n_low, n_high = (4, 5) if effort == "quick" else (14, 20)
-    ratios, rows = ((0.6, 2.5, 3.5), 1) if effort == "quick" else (RATIOS, 2)  # rows for each material
+
+def _table(fig, axes, points: list[Point]) -> str:
+    """Panels of critical velocity over amplitude, one for each natural frequency, elastic above and viscoelastic below:
+    all shapes start on the dashed line of Eq. (15); the punch leaves it at the dotted line.
+    """
+    n_low, n_high = (14, 20) if len(axes) > 2 else (4, 5)
+    ratios, rows = (RATIOS, 2) if len(axes) > 2 else ((0.6, 2.5, 3.5), 1)  # rows for each material
     alphas = np.r_[np.geomspace(RANGE[0][0], 0.5, n_low), np.linspace(0.55, RANGE[0][1], n_high)]
-    with style():
-        fig, axes = plt.subplots(2 * rows, 4, sharex=True, figsize=(9.6, 4.3 * rows))
-        for k, T in enumerate((0.0, 1.0)):
-            panels = axes[rows * k : rows * (k + 1)].flat
-            for ax, ratio in zip(panels, ratios, strict=False):
-                case = driven("cone", 0.1, T, ratio)
-                unit = mdr.critical_velocity(case) / case.unit_velocity
-                for shape, (colour, marker) in LOOKS.items():
-                    ax.plot(alphas, [unit * (1 + deviation(shape, float(a), T, ratio)) for a in alphas], color=colour)
-                    here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, ratio)]
-                    ax.plot([p.alpha for p in here], [unit * (1 + p.deviation) for p in here], marker, color=colour)
-                ax.axhline(unit, color="0.2", lw=1, ls="--")
-                ax.axvline(1 / np.hypot(1, T), color="0.4", lw=0.8, ls=":")
-                low, high = ax.get_ylim()
-                least = 0.02 * unit  # half width, so that a line within 1 % of Eq. (15) looks like one
-                ax.set(xscale="log", xlim=(0.008, 2), ylim=(min(low, unit - least), max(high, unit + least)))
-                ax.set_xticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
-                ax.minorticks_off()
-                material = loss(T).replace("ωτ", r"$\omega\tau$")
-                ax.set_title(rf"{material}, $\omega_0$ = {ratio:g} $\omega$", fontsize=9)
-                ax.tick_params(labelsize=8)
-        for ax in (axes[rows - 1, 3], axes[-1, 3]):
-            ax.axis("off")
-        handles = [
-            Line2D([], [], color=colour, marker=marker, label=shape_label(shape))
-            for shape, (colour, marker) in LOOKS.items()
-        ]
-        handles += [
-            Line2D([], [], color="0.2", ls="--", lw=1, label="Eq. (15)"),
-            Line2D([], [], color="0.4", ls=":", lw=0.8, label="contact lost"),
-        ]
-        axes[rows - 1, 3].legend(handles=handles, loc="center")
-        for ax in axes[::rows, 3] if rows > 1 else ():
-            ax.tick_params(labelbottom=True)
-        fig.supxlabel(r"amplitude $\Delta u_z/u_{z0}$", fontsize=11)
-        fig.supylabel("$v_c$ over Eq. (1)", fontsize=11)
+    for k, T in enumerate((0.0, 1.0)):
+        panels = axes[rows * k : rows * (k + 1)].flat
+        for ax, ratio in zip(panels, ratios, strict=False):
+            case = driven("cone", 0.1, T, ratio)
+            unit = mdr.critical_velocity(case) / case.unit_velocity
+            for shape, (colour, marker) in LOOKS.items():
+                ax.plot(alphas, [unit * (1 + deviation(shape, float(a), T, ratio)) for a in alphas], color=colour)
+                here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, ratio)]
+                ax.plot([p.alpha for p in here], [unit * (1 + p.deviation) for p in here], marker, color=colour)
+            ax.axhline(unit, color="0.2", lw=1, ls="--")
+            ax.axvline(1 / np.hypot(1, T), color="0.4", lw=0.8, ls=":")
+            low, high = ax.get_ylim()
+            least = 0.02 * unit  # half width, so that a line within 1 % of Eq. (15) looks like one
+            ax.set(xscale="log", xlim=(0.008, 2), ylim=(min(low, unit - least), max(high, unit + least)))
+            ticks(ax.xaxis, 0.01, 0.1, 1)
+            ax.set_title(rf"{loss_label(T)}, $\omega_0$ = {ratio:g} $\omega$", fontsize=9)
+            ax.tick_params(labelsize=8)
+    for ax in (axes[rows - 1, 3], axes[-1, 3]):
+        ax.axis("off")
+    others = [key("Eq. (15)", color="0.2", ls="--", lw=1), key("contact lost", color="0.4", ls=":", lw=0.8)]
+    axes[rows - 1, 3].legend(handles=[*shape_keys(), *others], loc="center")
+    for ax in axes[::rows, 3] if rows > 1 else ():
+        ax.tick_params(labelbottom=True)
+    fig.supxlabel(r"amplitude $\Delta u_z/u_{z0}$", fontsize=11)
+    fig.supylabel("$v_c$ over Eq. (1)", fontsize=11)
     shown = [p for p in points if p.pull in ratios]
     lost = [p for p in shown if p.shape == "flat punch" and _lost(p)]
     far = max(lost, key=lambda p: abs(p.deviation))
-    return Figure(
-        "table",
+    return (
         f"The critical velocity over shape, natural frequency and amplitude: Eq. (15) (dashed, one value for all "
         f"shapes and amplitudes), full slip with all harmonics (lines) and {len(shown)} measured values (symbols), "
         f"which lie on the lines to {max(abs(p.miss) for p in shown):.1e}. The flat punch follows Eq. (15) up to the "
         f"dotted line, where it loses contact, and then leaves it: "
-        f"{100 * far.deviation:+.0f} % measured at α = {far.alpha:g}, ωτ = {far.T:g}, ω_0 = {far.ratio:g} ω.",
-        fig,
-        "Panels of critical velocity over amplitude, one for each natural frequency, elastic above and "
-        "viscoelastic below: all shapes start on the dashed line of Eq. (15); the punch leaves it at the dotted line.",
+        f"{100 * far.deviation:+.0f} % measured at α = {far.alpha:g}, ωτ = {far.T:g}, ω_0 = {far.pull:g} ω."
     )

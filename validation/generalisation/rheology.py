@@ -16,8 +16,9 @@ Symbols: E_inf, E_1, tau_1 long-time modulus, modulus and relaxation time of the
 of the Kelvin branch, alpha = du_z/u_z0, v_hat = v_0 over Eq. (1).
 """
 
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -25,9 +26,9 @@ import numpy as np
 import mdr
 from mdr.closed_forms import paper
 from mdr.tools.progress import progress
-from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, body, shape_label
+from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, on, shape_label
 from validation.figures import figure
-from validation.measured import TOLERANCE, Point, deviation
+from validation.measured import TOLERANCE, Point, deviation, lost, measured
 from validation.report import Check, Checks, Equation, Part
 from validation.words import counted, listed
 
@@ -44,12 +45,9 @@ MATERIALS: dict[str, mdr.Material] = {
 SEED = 20
 
 
-def contact(
-    shape: str, material: mdr.Material, alpha: float, groups: dict[str, float] | None = None, u_z0: float = DEPTH
-) -> mdr.SlidingContact:
+def contact(shape: str, material: mdr.Material, alpha: float, groups: Any = None) -> mdr.SlidingContact:
     """A shape on a material, pulled rigidly or by a body whose groups refer to the long-time stiffness."""
-    pull = body(SHAPES[shape], material, u_z0, **groups) if groups else mdr.RigidPull()
-    return mdr.SlidingContact(SHAPES[shape], material, 0.5, mdr.NormalOscillation(u_z0, alpha * u_z0, OMEGA), pull)
+    return on(SHAPES[shape], material, mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA), groups)
 
 
 def part(effort: str) -> Part:
@@ -61,9 +59,7 @@ def part(effort: str) -> Part:
     sides = [_sides(index) for index in progress(range(n), "rheology")]
     pairs = [(shape, name) for shape in shapes for name in chosen if shape == "flat punch" or "power" not in name]
     points = [_measured(*pair) for pair in progress(pairs, "rheology, measured")]
-    checks = [*_side_checks(sides), *_measured_checks(points), *_motion_checks(chosen)]
-    checks += [*_limit_checks(), *([] if quick else _amplitude_checks())]
-    figures = (_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),)))
+    checks = [*_side_checks(sides), *_measured_checks(points), *_motion_checks(chosen), *_limit_checks()]
     return Part(
         name="rheology",
         title="Rheology: any linear material",
@@ -79,8 +75,8 @@ def part(effort: str) -> Part:
         " the static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one.",
         sentence="Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is"
         " Eq. (15) for a Kelvin material.",
-        checks=tuple(checks),
-        figures=figures,
+        checks=(*checks, *(() if quick else _amplitude_checks())),
+        figures=(_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),))),
         equations=(
             Equation(
                 "",
@@ -96,17 +92,9 @@ def part(effort: str) -> Part:
 # --- stick on one side of v_c, none on the other ---
 
 
-@dataclass(frozen=True)
-class Sides:
-    """Runs a little below and above the formula, on a random material."""
-
-    words: str
-    below: mdr.SlidingRun
-    above: mdr.SlidingRun
-
-
 @cache
-def _sides(index: int) -> Sides:
+def _sides(index: int) -> list[mdr.SlidingRun]:
+    """Runs a little below and above the formula, on a random material."""
     rng = np.random.default_rng((SEED, index))
     n_arms = int(rng.integers(1, 5))
     arms = tuple((E * 10 ** rng.uniform(-1, 1), 10 ** rng.uniform(-2, 2) / OMEGA) for _ in range(n_arms))
@@ -116,17 +104,15 @@ def _sides(index: int) -> Sides:
     alpha = 0.5 * E / (abs(complex(material.dynamic_modulus(OMEGA))) * (1 - NU**2))  # half of what would lose contact
     case = contact("flat punch", material, alpha, groups if index % 5 else None)
     v_c = mdr.critical_velocity(case)
-    runs = [mdr.slide(case, share * v_c, n_springs=32, steps_per_period=1024) for share in (0.98, 1.02)]
-    return Sides(f"{n_arms} arms, ωτ = {T:.2g}", *runs)
+    return [mdr.slide(case, share * v_c, n_springs=32, steps_per_period=1024) for share in (0.98, 1.02)]
 
 
-def _side_checks(sides: list[Sides]) -> Checks:
+def _side_checks(sides: list[list[mdr.SlidingRun]]) -> Checks:
     why = "at 0.98 v_c a few per cent of the period still stick; above v_c slip never stops"
-    settled = sum(s.below.settled and s.above.settled for s in sides)
-    least = min(s.below.stick_share for s in sides)
-    most = max(s.above.stick_share for s in sides)
-    slip = min(s.above.least_slip / s.above.v_0 for s in sides)
-    full = max(abs(1 - s.above.cof / s.above.mu_0) for s in sides)
+    settled = sum(below.settled and above.settled for below, above in sides)
+    least, most = min(below.stick_share for below, _ in sides), max(above.stick_share for _, above in sides)
+    slip = min(above.least_slip / above.v_0 for _, above in sides)
+    full = max(abs(1 - above.cof / above.mu_0) for _, above in sides)
     yield Check("random materials whose runs settle", settled, len(sides), 0, "all of them")
     yield Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why)
     yield Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why)
@@ -149,8 +135,7 @@ def _measured_checks(points: list[Point]) -> Checks:
 
 @cache
 def _measured(shape: str, name: str) -> Point:
-    case = contact(shape, MATERIALS[name], 0.01, BODY)
-    return Point(case, mdr.measure_critical_velocity(case), f"{shape}, {name}")
+    return measured(contact(shape, MATERIALS[name], 0.01, BODY), f"{shape}, {name}")
 
 
 # --- motion in full slip ---
@@ -160,10 +145,7 @@ def _motion_checks(chosen: dict[str, mdr.Material]) -> Checks:
     """The marched motion of the body, and its force, against the harmonic that they must be."""
     for name, material in chosen.items():
         case = contact("flat punch", material, 0.05, BODY)
-        run = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
-        assert run.t is not None
-        assert run.u_x is not None
-        assert run.F_z is not None
+        run: Any = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
         turn = np.exp(1j * OMEGA * run.t)
         F_1 = complex(case.dynamic_stiffness(OMEGA)) * case.cycle.du_z
         y_1 = -case.mu_0 * F_1 * complex(case.pull.receptance(OMEGA))
@@ -184,12 +166,8 @@ def _limit_checks() -> Checks:
     kelvin = mdr.KelvinVoigt(E, NU, T / OMEGA)
     fast = mdr.StandardLinearSolid(E, E * T / 1e-4, 1e-4 / OMEGA, NU)
     slow = mdr.StandardLinearSolid(E, RATIO * E, 1e5 / OMEGA, NU)
-    one, two = (
-        1 - mdr.slide(c, v_hat * c.unit_velocity).cof / c.mu_0
-        for c in (contact("paraboloid", m, 0.2) for m in (fast, kelvin))
-    )
-    punch = contact("flat punch", slow, 0.1)
-    deficit = 1 - mdr.slide(punch, v_hat * punch.unit_velocity).cof / punch.mu_0
+    cases = contact("paraboloid", fast, 0.2), contact("paraboloid", kelvin, 0.2), contact("flat punch", slow, 0.1)
+    one, two, deficit = (lost(case, v_hat * case.unit_velocity) for case in cases)
     name = "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to"
     yield Check(name, one / two, 1.0, 1e-3, "what the force of the arm lags, 1e-4, and the error of the runs")
     name = "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)"
@@ -199,13 +177,12 @@ def _limit_checks() -> Checks:
 
 def _amplitude_checks() -> Checks:
     """With small amplitude the closed form is approached in proportion to it, as for a Kelvin material."""
-    for name in ("standard solid, ωτ_1 = 0.5", "three arms and a dashpot"):
-        for shape in ("cone", "paraboloid"):
-            cases = [contact(shape, MATERIALS[name], alpha, BODY) for alpha in (0.005, 0.01)]
-            one, two = map(deviation, cases)
-            why = "the next power of α, 1 %, with a factor of some units"
-            yield Check(f"power of α in full slip over closed form − 1: {shape}, {name}",
-                                float(np.log2(two / one)), 1.0, 0.06, why)  # fmt: skip
+    for name, shape in product(("standard solid, ωτ_1 = 0.5", "three arms and a dashpot"), ("cone", "paraboloid")):
+        one, two = (deviation(contact(shape, MATERIALS[name], alpha, BODY)) for alpha in (0.005, 0.01))
+        why = "the next power of α, 1 %, with a factor of some units"
+        yield Check(
+            f"power of α in full slip over closed form − 1: {shape}, {name}", np.log2(two / one), 1.0, 0.06, why
+        )
 
 
 # --- figures ---
@@ -224,16 +201,12 @@ def _figure_of_curves(fig, axes) -> str:
             cof = [mdr.slide(case, v * case.unit_velocity, n_springs=96, steps_per_period=512).cof for v in v_hat]
             curve = np.array([mdr.static_cof(case), *cof]) / case.mu_0
             ax.plot([0, *v_hat], curve, "-o", ms=3, color=colour, label=rf"$\omega\tau_1={time:g}$")
-        for modulus, ls, label in ((E, "--", "$E_\\infty$ alone"), (E * (1 + RATIO), ":", "glassy")):
-            case = contact(shape, mdr.Elastic(modulus, NU), 0.15)
-            known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
-            if label == "glassy":  # stiff against the oscillation, soft under the mean load
-                known_cof = 1 - (1 + RATIO) * (1 - known.cof / case.mu_0)
-                if shape != "flat punch":
-                    continue
-            else:
-                known_cof = known.cof / case.mu_0
-            ax.plot(known.v_0 / case.unit_velocity, known_cof, ls, color="0.4", lw=1, label=label)
+        case = contact(shape, mdr.Elastic(E, NU), 0.15)
+        known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
+        v, cof = known.v_0 / case.unit_velocity, known.cof / case.mu_0
+        ax.plot(v, cof, "--", color="0.4", lw=1, label="$E_\\infty$ alone")
+        if shape == "flat punch":  # stiff against the oscillation, soft under the mean load
+            ax.plot(v, 1 - (1 + RATIO) * (1 - cof), ":", color="0.4", lw=1, label="glassy")
         ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
     axes[0].set_ylabel(r"$\mu/\mu_0$")
     axes[0].legend(loc="lower right")
@@ -259,18 +232,13 @@ def _figure_of_velocities(fig, axes, quick: bool) -> str:
         ):
             cases = [contact("flat punch", material, 0.01, groups) for material in materials]
             ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
-        for material, ls, label in (
-            (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
-            (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
-        ):
+        for stiffer, ls, label in ((1, "--", "$E_\\infty$ alone"), (1 + RATIO, ":", "glassy")):
             soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, groups)
-            case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
+            case = replace(soft, material=mdr.Elastic(stiffer * E, NU))
             ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
-        for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
-            if groups is BODY and not quick:
-                found = _measured("flat punch", name)
-                label = "measured from runs" if name.endswith("5") and "0.5" in name else None
-                ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)
+        for time, label in ((0.5, "measured from runs"), (5, None)) if groups is BODY and not quick else ():
+            found = _measured("flat punch", f"standard solid, ωτ_1 = {time:g}")
+            ax.plot(time, found.over_rigid, "o", color="C0", mfc="white", label=label)
         ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
     axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
     axes[0].legend(loc="upper left")

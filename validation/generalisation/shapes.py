@@ -233,7 +233,7 @@ def _glance(fig, axes, points: list[Point], effort: str) -> str:
             values = [1 + p.deviation for p in here]
             ax.plot([p.alpha * beside for p in here], values, marker, color=colour, **hollow)
         ax.set(xscale="log", xlim=(0.009, 0.9), xlabel=r"amplitude $\Delta u_z/u_{z0}$", title=title)
-        ticks(ax.xaxis, [0.01, 0.03, 0.1, 0.3])
+        ticks(ax.xaxis, 0.01, 0.03, 0.1, 0.3)
     axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
     fig.legend(handles=shape_keys(**hollow), loc="outside lower center", ncols=4)
     return (
@@ -290,8 +290,7 @@ def _map_figure(fig, ax, ratios: Array, losses: Array, C: Array) -> str:
     ax.contour(ratios, losses, reach, (1e-3, 1e-2, 1e-1), colors="white", linewidths=0.8)
     ax.set(yscale="log", xlabel=r"$\omega_0/\omega$", ylabel=r"$\omega\tau$")
     ax.grid(False)
-    bar = fig.colorbar(mesh, ax=ax, extend="both")
-    bar.set_label("amplitude at which Eq. (15) is off by 1 %, cone")
+    fig.colorbar(mesh, ax=ax, extend="both", label="amplitude at which Eq. (15) is off by 1 %, cone")
     row, column = np.unravel_index(np.argmin(reach), reach.shape)
     return (
         "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone"
