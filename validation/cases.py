@@ -49,6 +49,7 @@ LOOKS = dict(zip(SHAPES, zip(COLOURS, "sv^o", strict=False), strict=False))  #: 
 POWERS = dict(zip(SHAPES, (math.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n, of which k_zc ~ d^(1/n)
 
 BODY = {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05}  #: groups of a body whose omega_0 is above omega
+SWUNG: dict[str, float] = BODY | {"omega_0_ratio": 1.3}  #: omega_1 = 1.7 omega: 64 steps of a period resolve it
 STIFFNESS, DAMPING = 1.5, 0.02  #: k_x/k_xc at u_z0 and damping ratio of `driven`
 
 

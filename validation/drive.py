@@ -12,6 +12,8 @@ Symbols: alpha = du_z/u_z0, chi = du_x/(mu_0 kappa u_z0), r = v_0/(omega du_x).
 """
 
 import math
+from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -64,10 +66,8 @@ def _stiff_checks() -> Checks:
         law = laws.elliptic_drive(alpha)
         cases = [shaken("flat punch", alpha, chi, QUARTER) for chi in sizes]
         pushes = [-mdr.blocked_cof(case) / case.mu_0 - law.blocked for case in cases]
-        frees = [
-            mdr.no_load_velocity(case) / (OMEGA * chi * _reach(case)) - law.free
-            for case, chi in zip(cases, sizes, strict=True)
-        ]
+        units = [OMEGA * chi * _reach(case) for case, chi in zip(cases, sizes, strict=True)]
+        frees = [mdr.no_load_velocity(case) / unit - law.free for case, unit in zip(cases, units, strict=True)]
         why = "springs yield by μ_0 κ u_z0 (1 + Δu_z/u_z0) at most, over the amplitude"
         where = f"Δu_z/u_z0 = {alpha:g}, Δu_x = {sizes[1]:g} μ_0 κ u_z0"
         yield Check(f"blocked push over μ_0 F_N, less (2/π) α: {where}", pushes[1], 0.0, 2 / sizes[1], why)
@@ -88,16 +88,15 @@ def _reach(case: mdr.SlidingContact) -> float:
 
 
 def _curve_checks(quick: bool) -> Checks:
-    for shape in SHAPES if not quick else ("flat punch", "paraboloid"):
-        for body in ({}, BODY):
-            case = shaken(shape, ALPHA, 5.0, QUARTER, **body)
-            free = mdr.no_load_velocity(case)
-            at = mdr.slide(case, free).cof / case.mu_0
-            rising = float(np.min(np.diff(mdr.cof_curve(case, np.linspace(0, 1.0, 7) * free).cof)) / case.mu_0)
-            where = f"{shape}, {'body' if body else 'rigid pull'}, Δu_x = 5 μ_0 κ u_z0"
-            yield Check(f"COF/μ_0 at the velocity without load: {where}", at, 0.0, 2e-5, RUN)
-            name = f"least rise of COF/μ_0 from held to free, in seven velocities: {where}"
-            yield Check.at_least(name, rising, 1e-3, "a sixth of the blocked friction is some per cent")
+    for shape, body in product(SHAPES if not quick else ("flat punch", "paraboloid"), ({}, BODY)):
+        case = shaken(shape, ALPHA, 5.0, QUARTER, **body)
+        free = mdr.no_load_velocity(case)
+        where = f"{shape}, {'body' if body else 'rigid pull'}, Δu_x = 5 μ_0 κ u_z0"
+        at = mdr.slide(case, free).cof / case.mu_0
+        yield Check(f"COF/μ_0 at the velocity without load: {where}", at, 0.0, 2e-5, RUN)
+        rising = np.min(np.diff(mdr.cof_curve(case, np.linspace(0, 1.0, 7) * free).cof)) / case.mu_0
+        name = f"least rise of COF/μ_0 from held to free, in seven velocities: {where}"
+        yield Check.at_least(name, rising, 1e-3, "a sixth of the blocked friction is some per cent")
 
 
 def _energy_checks() -> Checks:
@@ -105,22 +104,21 @@ def _energy_checks() -> Checks:
         case = shaken("flat punch", ALPHA, chi, QUARTER)
         account = mdr.slide(case, 0.5 * mdr.no_load_velocity(case), accuracy=1e-6).energy_balance
         name = f"residual of the account of energy, over what is lost, half-way to no load: Δu_x = {chi:g} μ_0 κ u_z0"
-        got = account.relative
-        yield Check(name, got, 0.0, 2e-4, "second order in a step of 1/1000 of a period, over the share that drives")
-        out = -account.pull_work / (account.normal_work + account.shake_work)
+        why = "second order in a step of 1/1000 of a period, over the share that drives"
+        yield Check(name, account.relative, 0.0, 2e-4, why)
         name = f"efficiency there: Δu_x = {chi:g} μ_0 κ u_z0"
-        yield Check.between(name, out, 0.02, 0.5, "a drive, and not a good one: slip takes most")
+        yield Check.between(name, _efficiency(account), 0.02, 0.5, "a drive, and not a good one: slip takes most")
 
 
 def _best(chi: float) -> float:
     """Greatest efficiency between held and free."""
     case = shaken("flat punch", ALPHA, chi, QUARTER)
     free = mdr.no_load_velocity(case)
-    return max(_efficiency(case, share * free) for share in np.linspace(0.3, 0.8, 6))
+    return max(_efficiency(mdr.slide(case, share * free).energy_balance) for share in np.linspace(0.3, 0.8, 6))
 
 
-def _efficiency(case: mdr.SlidingContact, v_0: float) -> float:
-    account = mdr.slide(case, v_0).energy_balance
+def _efficiency(account: Any) -> float:
+    """Power out over that of the drives."""
     return -account.pull_work / (account.normal_work + account.shake_work)
 
 
@@ -128,12 +126,10 @@ def _side_checks() -> Checks:
     """Which way it drives, and when not."""
     one, other = (mdr.blocked_cof(shaken("paraboloid", ALPHA, 5.0, phi)) / 0.5 for phi in (QUARTER, -QUARTER))
     yield Check("push at rest with the phase turned, added to that before, over μ_0 F_N", one + other, 0.0, 2e-5, RUN)
-    for phi in (0.0, math.pi):
-        name = (
-            f"COF/μ_0 at rest times the root of Δu_x/(μ_0 κ u_z0) = 120, way in phase {phi / math.pi:g} π: flat punch"
-        )
+    for phi, way in ((0.0, 1), (math.pi, -1)):
+        name = f"COF/μ_0 at rest times the root of Δu_x/(μ_0 κ u_z0) = 120, way in phase {phi / math.pi:g} π:"
+        name += " flat punch"
         push = mdr.blocked_cof(shaken("flat punch", ALPHA, 120.0, phi)) / 0.5
-        way = 1 if phi == 0 else -1
         known = way * 4 / (3 * math.pi) * ((1 + ALPHA) ** 1.5 - (1 - ALPHA) ** 1.5)
         why = "springs turn over while the way turns back, which takes a time like the root; the next order is 1/120"
         yield Check(name, push * math.sqrt(120), known, 1 / 120, why)
@@ -153,9 +149,9 @@ def _figure(fig, axes, quick: bool) -> str:
     for chi, colour in zip((1.0, 3.0, 30.0), COLOURS, strict=False):
         case = shaken("flat punch", ALPHA, chi, QUARTER)
         curves.plot(*with_band(case, r, OMEGA * chi * _reach(case)), color=colour, label=rf"$\chi = {chi:g}$")
-        free = mdr.no_load_velocity(case)
-        v = np.linspace(0, 1, 9 if quick else 17) * free
-        well.plot(v / (OMEGA * chi * _reach(case)), [_efficiency(case, one) if one else 0.0 for one in v], color=colour)
+        v = np.linspace(0, 1, 9 if quick else 17) * mdr.no_load_velocity(case)
+        out = [_efficiency(mdr.slide(case, one).energy_balance) if one else 0.0 for one in v]
+        well.plot(v / (OMEGA * chi * _reach(case)), out, color=colour)
     curves.plot(0, -law.blocked, "k*", ms=9, label="stiff contact")
     curves.plot(law.free, 0, "k*", ms=9)
     curves.axhline(0, color="0.75", lw=0.8)
@@ -167,12 +163,8 @@ def _figure(fig, axes, quick: bool) -> str:
         push = [max(-mdr.holding_band(case).high, 0.0) / case.mu_0 for case in cases]
         ends.plot(chis, push, marker, ls="-", lw=1, color=colour, label=shape_label(shape))
     ends.axhline(law.blocked, color="k", lw=1, ls=":")
-    ends.set(
-        xscale="log",
-        xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$",
-        ylabel=r"push at rest over $\mu_0F_N$",
-        title="held",
-    )
+    ends.set(xscale="log", xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", title="held")
+    ends.set_ylabel(r"push at rest over $\mu_0F_N$")
     ends.legend()
     return (
         f"Elastic contacts, Δu_z/u_z0 = {ALPHA:g}, shaken along the slide a quarter of a period ahead of the depth, χ ="

@@ -23,7 +23,7 @@ from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import contact
+from validation.cases import contact, shape_label
 from validation.figures import figure
 from validation.report import Check, Checks, Claim, Equation
 
@@ -152,14 +152,10 @@ def _static_checks() -> Checks:
     for shape, mean in (("cone", lambda a: 1 + a**2 / 2), ("paraboloid", _mean_of_hertz)):
         alpha, power = 0.5, 2.0 if shape == "cone" else 1.5
         case = contact(shape, alpha)
-        why = (
-            "F_N is a power of the depth; the least one lies on an instant, the mean of a smooth periodic"
-            " function is exact to rounding"
-        )
-        name = (
-            f"static COF, elastic {shape}, Δu_z/u_z0 = 0.5: (1 − 0.5)^{power:g} over the mean of (1 + 0.5"
-            f" cos)^{power:g}"
-        )
+        why = "F_N is a power of the depth; the least one lies on an instant, the mean of a smooth periodic function"
+        why += " is exact to rounding"
+        name = f"static COF, elastic {shape}, Δu_z/u_z0 = 0.5: (1 − 0.5)^{power:g} over the mean of"
+        name += f" (1 + 0.5 cos)^{power:g}"
         yield Check(name, mdr.static_cof(case), case.mu_0 * (1 - alpha) ** power / mean(alpha), 1e-12, why)
 
 
@@ -177,15 +173,12 @@ def _approach_checks(a: Approach) -> Checks:
     The next term of the rise is smaller by v^(1/2) for elastic and v^(1/3) for Kelvin contacts, the share of a period
     spent slipping; contacts that are lost forget, and their next term is smaller by v.
     """
-    elastic = "ωτ = 0," in a.name
-    gap = 0.5 if elastic else (1 / 3 if a.power < 1 else 1.0)
+    gap = 0.5 if "ωτ = 0," in a.name else (1 / 3 if a.power < 1 else 1.0)
     v_2, v_1 = a.v[-2:]
     power = np.log(np.abs(a.rise[-2] / a.rise[-1])) / np.log(v_2 / v_1)
     noise = float(np.sum(a.error[-2:] / np.abs(a.rise[-2:])))
-    why = (
-        "the next term is smaller by v to the 1/2 (elastic), 1/3 (Kelvin) or 1 (lost), with a factor of order"
-        " one; and the error of the runs"
-    )
+    why = "the next term is smaller by v to the 1/2 (elastic), 1/3 (Kelvin) or 1 (lost), with a factor of order one;"
+    why += " and the error of the runs"
     bend = gap * np.sqrt(v_1 * v_2) ** gap + noise / np.log(v_2 / v_1)
     grow = (v_2 / v_1) ** gap
     limit = (grow * a.ratio[-1] - a.ratio[-2]) / (grow - 1)
@@ -206,9 +199,7 @@ def _figure(fig, ax, approaches: list[Approach]) -> str:
         v = np.geomspace(a.v[-1], a.v[0])
         ax.loglog(v, a.factor * v**a.power, color=colour, lw=1, ls="-" if a.power == 1 else "--")
         shape, T, alpha = a.name.split(", ")
-        label = (
-            f"{shape.replace('r^4', '$r^4$')}, $\\omega\\tau={T[5:]}$, $\\Delta u_z/u_{{z0}}={alpha.split('= ')[1]}$"
-        )
+        label = f"{shape_label(shape)}, $\\omega\\tau={T[5:]}$, $\\Delta u_z/u_{{z0}}={alpha.split('= ')[1]}$"
         ax.loglog(a.v, a.rise, marker, mfc="white", color=colour, ms=5.5, label=label)
     ax.plot([], [], color="0.3", lw=1, label="law of power 1")
     ax.plot([], [], color="0.3", lw=1, ls="--", label="law of power 2/3")
