@@ -13,6 +13,7 @@ Symbols: beta Dundurs' constant, kappa = E*/G*, lambda = 2 |beta|/(pi mu_0 kappa
 """
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions, last_period
 from mdr.plots import COLOURS
 from validation.cases import contact
-from validation.figures import figure
+from validation.figures import figure, outer_labels
 from validation.half_space import pictures, tables
 from validation.half_space.tables import Point, Row
 from validation.report import Check, Checks, Claim, Figure
@@ -112,12 +113,10 @@ def _equal_checks(quick: bool) -> Checks:
     for shape in SHAPES:
         case = contact(shape, ALPHA, mu_0=0.3, nu=NEARLY)
         settings = Settings(17 if quick else 31, 24 if quick else 50, cycles=2)
-        both = [
-            in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), replace(settings, coupled=on)).cof
-            for on in (True, False)
-        ]
+        v_0 = 0.4 * mdr.critical_velocity(case)
+        one, two = (in_three_dimensions(case, v_0, replace(settings, coupled=on)).cof for on in (True, False))
         name = f"{shape}, ν = 0.4999999: COF coupled over uncoupled"
-        yield Check(name, both[0] / both[1], 1, 1e-5, "forces to 1e-6 a step")
+        yield Check(name, one / two, 1, 1e-5, "forces to 1e-6 a step")
     pair = Point("paraboloid", 0.5, 0.3, ALPHA, 0.0, 0.6, nu_2=0.0)  # beta < 0
     turned = replace(pair, nu=0.0, nu_2=0.5)
     one, two = (tables.loss(point, Settings(cells=17, steps=24, cycles=3)) for point in (pair, turned))
@@ -152,24 +151,19 @@ def _again_checks(rows: list[Row], quick: bool) -> Checks:
 @figure("cof", 2, 3, size=(10.2, 6.4), sharex=True, sharey=True)
 def _curve_figure(fig, panels, rows: list[Row]) -> str:
     """Six panels of friction against velocity: four Poisson's ratios below the dashed springs."""
-    for line, shape in zip(panels, SHAPES, strict=True):
-        for ax, mu_0 in zip(line, FRICTIONS, strict=True):
-            for nu, colour in zip(RATIOS, COLOURS, strict=False):
-                own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
-                v, cof = [r.point.v for r in own], [r.cof for r in own]
-                ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
-                end = 1 + _rub_of(nu, mu_0)
-                if end < 0.98 * FASTEST_SHOWN:
-                    ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
-            ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")
-            ax.set_title(rf"{shape}, $\mu_0 = {mu_0:g}$")
-            ax.set_xlim(0, FASTEST_SHOWN)
-            ax.axvline(1, color="0.8", lw=0.8, zorder=0)
-    for ax in panels[1]:
-        ax.set_xlabel("$v_0$ over Eq. (1)")
+    for ax, (shape, mu_0) in zip(panels.flat, product(SHAPES, FRICTIONS), strict=True):
+        for nu, colour in zip(RATIOS, COLOURS, strict=False):
+            own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
+            v, cof = [r.point.v for r in own], [r.cof for r in own]
+            ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
+            end = 1 + _rub_of(nu, mu_0)
+            if end < 0.98 * FASTEST_SHOWN:
+                ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
+        ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")
+        ax.set(title=rf"{shape}, $\mu_0 = {mu_0:g}$", xlim=(0, FASTEST_SHOWN))
+        ax.axvline(1, color="0.8", lw=0.8, zorder=0)
     panels[0, 0].set_ylim(None, 1.065)
-    for ax in panels[:, 0]:
-        ax.set_ylabel(r"$\mu/\mu_0$")
+    outer_labels(panels, "$v_0$ over Eq. (1)", r"$\mu/\mu_0$")
     panels[0, 2].legend(loc="lower right")
     return (
         "Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"

@@ -29,6 +29,7 @@ large (0.2 to 1.6 times (**) in the tables).
 Symbols: kappa = E*/G*, beta Dundurs' constant, alpha = du_z/u_z0, v_c Eq. (1). Elastic, rigid pull.
 """
 
+from itertools import product
 from math import log
 
 import numpy as np
@@ -211,21 +212,19 @@ def _place_checks(found: LastPeriod) -> Checks:
     what = f"{ABOVE:g} v_c, greatest stick"
     name = f"{what}: when, in periods after the least depth"
     yield Check.between(name, phase, 0.15, 0.35, "the depth grows, at least at 0.8 of its fastest")
-    yield Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge")
-    yield Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric")
+    yield Check.at_most(f"{what}: mean place along the pull, over a", along, -0.5, "the trailing edge")
+    yield Check(f"{what}: mean place across the pull, over a", across, 0, 1e-6, "the contact is symmetric")
 
 
 def _tail_checks(quick: bool) -> Checks:
     known = ((0.3, 0.1, 0.3),) if quick else ((0.3, 0.1, 0.3), (0.0, 0.1, 0.3), (0.3, 0.3, 0.3), (0.3, 0.3, 0.1))
-    for shape, mean in MEANS.items():
-        for nu, mu_0, alpha in known:
-            v, case = FAST / alpha, _case((shape, nu, mu_0, alpha))
-            settings = Settings(17 if quick else 31, 32, cycles=1)
-            cof = in_three_dimensions(case, v * mdr.critical_velocity(case), settings).cof
-            scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
-            name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
-            why = "(v_c/α v_0)² and α² of it, and cells"
-            yield Check(name, scaled / mean, 1, 0.08 if quick else 0.05, why)
+    settings = Settings(17 if quick else 31, 32, cycles=1)
+    for (shape, mean), (nu, mu_0, alpha) in product(MEANS.items(), known):
+        v, case = FAST / alpha, _case((shape, nu, mu_0, alpha))
+        cof = in_three_dimensions(case, v * mdr.critical_velocity(case), settings).cof
+        scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
+        name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
+        yield Check(name, scaled / mean, 1, 0.08 if quick else 0.05, "(v_c/α v_0)² and α² of it, and cells")
 
 
 # --- figures ---
@@ -245,18 +244,17 @@ def _end_figure(fig, ax, ends: dict[Known, float], cells: int) -> str:
     for shape in dict.fromkeys(known[0] for known in ends):
         ax.plot([], [], LOOKS[shape][1], color=LOOKS[shape][0], mfc="w", label=shape_label(shape))
     ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
-    ax.set_xlabel(r"$1 + \lambda$")
-    ax.set_ylabel("velocity at which stick ends, over Eq. (1)")
+    ax.set(xlabel=r"$1 + \lambda$", ylabel="velocity at which stick ends, over Eq. (1)")
     ax.legend()
-    return (
+    told = (
         "The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
         " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end)."
-        + (
-            " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
-            if len(ends) > 2
-            else ""
-        )
     )
+    if len(ends) > 2:
+        told += (
+            " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
+        )
+    return told
 
 
 def _map_figure(found: LastPeriod) -> Figure:

@@ -50,6 +50,14 @@ def shape_keys(**look: Any) -> list[Any]:
     return [key(shape_label(s), color=colour, marker=mark, **look) for s, (colour, mark) in LOOKS.items()]
 
 
+def outer_labels(panels: Any, x: str, y: str) -> None:
+    """Label the lowest row and the first column of an array of panels."""
+    for ax in panels[-1]:
+        ax.set_xlabel(x)
+    for ax in panels[:, 0]:
+        ax.set_ylabel(y)
+
+
 def ticks(axis: Any, *places: float) -> None:
     """Mark these places of an axis, as numbers, and no others."""
     axis.set_ticks(places, [f"{place:g}" for place in places])

@@ -9,6 +9,7 @@ Symbols: alpha = du_z/u_z0, v = v_0/v_c, <F_N> mean normal force.
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label
 from validation.figures import figure
+from validation.measured import power, worst
 from validation.report import Check, Checks, Claim, Equation
 
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
@@ -71,17 +73,15 @@ def claim(effort: str) -> Claim:
         equations=(
             Equation(
                 "ψ",
-                r"\psi(\hat{v}) = \frac{1}{2\pi} \left[ \sin \varphi_2 - \sin \varphi_1 - (\varphi_2 - \varphi_1)"
-                r" \cos \varphi_1"
-                r" - \frac{\hat{v}}{2} (\varphi_2 - \varphi_1)^2 \right]",
+                r"\psi(\hat{v}) = \frac{1}{2\pi} \left[ \sin \varphi_2 - \sin \varphi_1 - (\varphi_2 - \varphi_1) \cos"
+                r" \varphi_1 - \frac{\hat{v}}{2} (\varphi_2 - \varphi_1)^2 \right]",
                 "Lost by a single spring, v̂ = v_0/v_c. It sticks from φ_1 = π + arcsin v̂ until cos φ_2 = cos φ_1 + v̂"
                 " (φ_2 − φ_1).",
             ),
             Equation(
                 "",
-                r"\left( 1 - \frac{\mu}{\mu_0} \right) \frac{\langle F_N \rangle}{k_{z,c} \Delta u_z} ="
-                r" \psi(\hat{v}) \left[ 1 +"
-                r" C(\hat{v}) \frac{\alpha}{n} \right]",
+                r"\left( 1 - \frac{\mu}{\mu_0} \right) \frac{\langle F_N \rangle}{k_{z,c} \Delta u_z} = \psi(\hat{v})"
+                r" \left[ 1 + C(\hat{v}) \frac{\alpha}{n} \right]",
                 "The first two orders of any shape f ~ <i>r</i>^n; C is −1/4 at rest and 0 at v_c"
                 " (<code>mdr.laws.edge_band</code>).",
             ),
@@ -113,18 +113,14 @@ def left_over(shape: str, alpha: float, law: OneCurve, *, corrected: bool) -> Ar
 
 def order(shape: str, law: OneCurve, *, corrected: bool) -> float:
     """Power of alpha with which the largest left-over grows, fitted over ALPHAS."""
-    largest = [np.max(np.abs(left_over(shape, alpha, law, corrected=corrected))) for alpha in ALPHAS]
-    return float(np.polynomial.polynomial.polyfit(np.log(ALPHAS), np.log(largest), 1)[1])
+    return power(ALPHAS, [np.max(np.abs(left_over(shape, a, law, corrected=corrected))) for a in ALPHAS])
 
 
 def spreads(law: OneCurve) -> tuple[float, float, float]:
     """At alpha = SHOWN, the largest: spread of 1 - mu/mu_0; left-over; left-over of the corrected curve."""
+    left = [[left_over(shape, SHOWN, law, corrected=which) for shape in SHAPES] for which in (False, True)]
     raw = np.max(np.ptp([lost(shape, SHOWN, law.v) for shape in SHAPES], axis=0))
-    before, after = (
-        np.max(np.abs([left_over(shape, SHOWN, law, corrected=corrected) for shape in SHAPES]))
-        for corrected in (False, True)
-    )
-    return float(raw), float(before), float(after)
+    return float(raw), float(np.max(np.abs(left[0]))), float(np.max(np.abs(left[1])))
 
 
 # --- checks ---
@@ -133,33 +129,31 @@ def spreads(law: OneCurve) -> tuple[float, float, float]:
 def _exact_checks(law: OneCurve, n_v: int) -> Checks:
     """Punch and cone, by the closed form and by runs."""
     run_at = one_curve(np.linspace(0.02, 0.98, n_v))
-    for shape in ("flat punch", "cone"):
-        for alpha in (0.03, 0.5, 0.98):
-            share, case = unit(shape, alpha), contact(shape, alpha)
-            off = share * np.max(np.abs(left_over(shape, alpha, law, corrected=True)))
-            what = f"1 − (k_zc Δu_z/⟨F_N⟩) ψ (1 + C Δu_z/(n u_z0)), worst: elastic {shape}, Δu_z/u_z0 = {alpha:g}"
-            why = "what the closed form promises for an elastic contact"
-            yield Check.at_most(f"COF/μ_0 in closed form against {what}", off, 1e-10, why)
-            runs = np.array([mdr.slide(case, v * mdr.critical_velocity(case)).cof for v in run_at.v])
-            off = np.max(np.abs(runs / case.mu_0 - 1 + share * run_at.of(shape, alpha)))
-            why = "what a run promises when it chooses step and springs itself"
-            yield Check.at_most(f"COF/μ_0 of slide() against {what}", off, 1e-5, why)
+    for shape, alpha in product(("flat punch", "cone"), (0.03, 0.5, 0.98)):
+        share, case = unit(shape, alpha), contact(shape, alpha)
+        off = share * np.max(np.abs(left_over(shape, alpha, law, corrected=True)))
+        what = f"1 − (k_zc Δu_z/⟨F_N⟩) ψ (1 + C Δu_z/(n u_z0)), worst: elastic {shape}, Δu_z/u_z0 = {alpha:g}"
+        why = "what the closed form promises for an elastic contact"
+        yield Check.at_most(f"COF/μ_0 in closed form against {what}", off, 1e-10, why)
+        runs = np.array([mdr.slide(case, v * mdr.critical_velocity(case)).cof for v in run_at.v])
+        off = np.max(np.abs(runs / case.mu_0 - 1 + share * run_at.of(shape, alpha)))
+        why = "what a run promises when it chooses step and springs itself"
+        yield Check.at_most(f"COF/μ_0 of slide() against {what}", off, 1e-5, why)
 
 
 def _first_order_checks() -> Checks:
     """C from two small amplitudes, for every shape that has such a term."""
     near, far = 1e-3, 2e-3
     law = one_curve(np.array([0.1, 0.3, 0.7]))
-    slopes = [
-        [POWERS[shape] * left_over(shape, alpha, law, corrected=False) / (alpha * law.psi) for alpha in (near, far)]
-        for shape in ("cone", "paraboloid", "r^4")
-    ]
-    found = np.array([2 * at_near - at_far for at_near, at_far in slopes])  # (n_shapes, n_v)
+
+    def slope(shape: str, alpha: float) -> Array:
+        return POWERS[shape] * left_over(shape, alpha, law, corrected=False) / (alpha * law.psi)
+
+    found = np.array([2 * slope(shape, near) - slope(shape, far) for shape in ("cone", "paraboloid", "r^4")])
     for i, v in enumerate(law.v):
-        worst = max(found[:, i], key=lambda value, C=law.C[i]: abs(value - C))
         name = f"first-order term C of the lost friction, worst of cone, paraboloid and r^4: v_0/v_c = {v:g}"
         why = "two amplitudes extrapolated leave their product, the next order, with a factor of order one"
-        yield Check(name, worst, law.C[i], near * far, why)
+        yield Check(name, worst(found[:, i], law.C[i]), law.C[i], near * far, why)
     why = "at rest the lag of a spring is its mean compression: 3/4 of that of the core; C rises from it like v_0/2"
     yield Check("C at v_0/v_c = 1e-9", laws.edge_band(1e-9), -0.25, 1e-8, why)
 
@@ -168,21 +162,16 @@ def _order_checks(law: OneCurve, orders: dict[str, float]) -> Checks:
     """The power of alpha before and after the correction."""
     why = f"the next order is smaller by Δu_z/u_z0, at most {ALPHAS[-1]:g}, with a factor of order one"
     name = "power of Δu_z/u_z0 by which the scaled curve differs from"
-    before = [
-        Check(f"{name} ψ: {shape}", order(shape, law, corrected=False), 1.0, ALPHAS[-1], why)
-        for shape in ("cone", *orders)
-    ]
-    after = [
-        Check(f"{name} ψ (1 + C Δu_z/(n u_z0)): {shape}", got, 2.0, ALPHAS[-1], why) for shape, got in orders.items()
-    ]
+    for shape in ("cone", *orders):
+        yield Check(f"{name} ψ: {shape}", order(shape, law, corrected=False), 1.0, ALPHAS[-1], why)
+    for shape, got in orders.items():
+        yield Check(f"{name} ψ (1 + C Δu_z/(n u_z0)): {shape}", got, 2.0, ALPHAS[-1], why)
     alpha = ALPHAS[0]
     second = {shape: left_over(shape, alpha, law, corrected=True)[0] for shape in orders}
     n_2, n_4 = (1 / POWERS[shape] * (1 / POWERS[shape] - 1) for shape in ("paraboloid", "r^4"))
     name = f"what is left of r^4 over that of the paraboloid near rest, Δu_z/u_z0 = {alpha:g}, as (1/n)(1/n − 1)"
-    why = "the next order is smaller by Δu_z/u_z0"
-    yield from before
-    yield from after
-    yield Check(name, second["r^4"] / second["paraboloid"], n_4 / n_2, alpha, why)
+    got = second["r^4"] / second["paraboloid"]
+    yield Check(name, got, n_4 / n_2, alpha, "the next order is smaller by Δu_z/u_z0")
 
 
 # --- figure ---
@@ -196,9 +185,8 @@ def _figure(fig, axes, law: OneCurve) -> str:
     curves, scaled, left = axes
     v = law.v
     for shape, colour in zip(SHAPES, COLOURS, strict=False):
-        label = shape_label(shape)
         raw = lost(shape, SHOWN, v)
-        curves.plot(v, raw, color=colour, label=label)
+        curves.plot(v, raw, color=colour, label=shape_label(shape))
         scaled.plot(v, raw / unit(shape, SHOWN), color=colour)
         left.plot(v, left_over(shape, SHOWN, law, corrected=False), color=colour, lw=1, ls="--")
         left.plot(v, left_over(shape, SHOWN, law, corrected=True), color=colour)

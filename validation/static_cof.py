@@ -100,15 +100,13 @@ def claim(effort: str) -> Claim:
             Equation(
                 "elastic",
                 r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{2 \hat{v}}{\pi} \frac{\Delta u_z}{\langle F_N \rangle}"
-                r" \int_0^{\pi} \varphi"
-                r" k_{z,c}(u_{z0} + \Delta u_z \cos \varphi) d\varphi",
+                r" \int_0^{\pi} \varphi k_{z,c}(u_{z0} + \Delta u_z \cos \varphi) d\varphi",
                 "The law of the rise, v̂ = v_0/v_c.",
             ),
             Equation(
                 "Kelvin",
-                r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{R^{1/3}}{2} (3\pi \omega\tau \hat{v})^{2/3} k_{z,c}(u_{z0} -"
-                r" R \Delta u_z)"
-                r" \frac{\Delta u_z}{\langle F_N \rangle}, \quad R = \sqrt{1 + (\omega\tau)^2}",
+                r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{R^{1/3}}{2} (3\pi \omega\tau \hat{v})^{2/3} k_{z,c}(u_{z0} - R"
+                r" \Delta u_z) \frac{\Delta u_z}{\langle F_N \rangle}, \quad R = \sqrt{1 + (\omega\tau)^2}",
                 "The same where the core stays pressed. For a punch that is lost, see"
                 " <code>mdr.laws.rise_of_lost_punch</code>.",
             ),

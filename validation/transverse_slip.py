@@ -141,8 +141,7 @@ def _figure(fig, ax, found: list[Losses]) -> str:
         ):
             look = {"marker": mark, "ls": "" if few else line, "mfc": colour if of == "coupled" else "w"}
             ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
-    ax.set_xlabel("$v_0$ over Eq. (1)")
-    ax.set_ylabel(r"(springs $-$ 3D)/$\mu_0$")
+    ax.set(xlabel="$v_0$ over Eq. (1)", ylabel=r"(springs $-$ 3D)/$\mu_0$")
     ax.legend()
     return (
         _FEW

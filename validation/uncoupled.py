@@ -95,9 +95,7 @@ def _figure(fig, panels, rows: list[Row]) -> str:
             v = [row.point.v for row in own]
             ax.plot(v, [row.springs for row in own], "-", color=colour, label=shape_label(shape))
             ax.plot(v, [row.cof for row in own], marker, color=colour, mfc="w", ms=7)
-        ax.set_title(f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}")
-        ax.set_xlabel("$v_0/v_c$")
-        ax.set_xlim(0, 0.9)
+        ax.set(title=f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}", xlabel="$v_0/v_c$", xlim=(0, 0.9))
     panels[0].set_ylabel(r"$\mu/\mu_0$")
     panels[0].legend()
     return (

@@ -80,14 +80,8 @@ class System:
     @property
     def case(self) -> mdr.SlidingContact:
         """The contact."""
-        return contact(
-            self.shape,
-            self.alpha,
-            self.T,
-            k_ratio=self.k_ratio,
-            omega_0_ratio=self.ratio,
-            damping_ratio=self.damping_ratio,
-        )
+        groups = {"k_ratio": self.k_ratio, "omega_0_ratio": self.ratio, "damping_ratio": self.damping_ratio}
+        return contact(self.shape, self.alpha, self.T, **groups)
 
     @property
     def v_0(self) -> float:
@@ -197,12 +191,6 @@ class Ends:
         pairs = combinations(self.settled, 2)
         return max((abs(a.mean - b.mean) - a.spread - b.spread for a, b in pairs), default=-np.inf)
 
-    @property
-    def difference(self) -> float:
-        """Largest difference of two settled COFs over mu_0."""
-        means = [s.mean for s in self.settled]
-        return float(np.ptp(means)) if means else 0.0
-
 
 @cache
 def ends(system: System) -> Ends:
@@ -235,15 +223,15 @@ def swept(n_periods: int | None) -> tuple[Array, Array, NDArray[np.bool_]]:
         march.state = state or march.state
         if n_periods is None:
             orbit = march.wait(MOST)
-            runs.append(orbit.settling)
-            state = orbit.state
+            settling, state = orbit.settling, orbit.state
         else:
             march.advance(n_periods)
-            runs.append(replace(march.assess(), mean=float(march.periods.cof[n_periods // 2 :].mean())))
+            settling = replace(march.assess(), mean=float(march.periods.cof[n_periods // 2 :].mean()))
             state = march.state
-    means, spreads, settled = (np.array([getattr(r, k) for r in runs]) for k in ("mean", "spread", "settled"))
-    back = [np.stack([values[: len(SWEEP)], values[len(SWEEP) :][::-1]]) for values in (means, spreads, settled)]
-    return back[0], back[1], back[2]
+        runs.append(settling)
+    n, found = len(SWEEP), (np.array([getattr(r, k) for r in runs]) for k in ("mean", "spread", "settled"))
+    means, spreads, settled = (np.stack([values[:n], values[n:][::-1]]) for values in found)
+    return means, spreads, settled
 
 
 def claim(effort: str) -> Claim:
@@ -251,9 +239,8 @@ def claim(effort: str) -> Claim:
     found = [ends(system) for system in progress(drawn(SYSTEMS[effort]), "uniqueness")]
     curves = _curves(effort)
     n_runs, n_settled = sum(len(e.settlings) for e in found), sum(len(e.settled) for e in found)
-    open_ends = sum(len(e.settled) < len(STARTS) for e in found)
-    others = f"; the rest, {open_ends} of the undamped systems, still changed, said so, and is not compared"
-    others = others if open_ends else ""
+    rest = sum(len(e.settled) < len(STARTS) for e in found)
+    others = f"; the rest, {rest} of the undamped systems, still changed, said so, and is not compared" if rest else ""
     short, waited = swept(SHORT), swept(None)
     loop = float(np.abs(short[0][0] - short[0][1]).max())
     return Claim(
@@ -265,15 +252,16 @@ def claim(effort: str) -> Claim:
         " one in five within 1e-2 of 1, 2 or 3, k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from"
         f" {len(STARTS)} states each: full slip, rest and {STARTS.count('random')} random ones; {len(curves)} of them"
         f" over {len(FASTER)} velocities, and {RIGID[effort]} rigid pulls in closed form.",
-        measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this "
-        "alone it follows that two motions of one contact never move apart, that the mean friction at a higher "
-        "velocity is never less, and that the COF is unique (of an undamped elastic body: except where the curve "
-        "jumps): no hysteresis, no coexisting states, for any shape, amplitude, relaxation time and body, on a "
-        f"resonance too. Of {n_runs} runs {n_settled} settled, and those of one system agree to "
-        f"{max(e.difference for e in found):.1e}, each pair within its own spreads{others}. The motion is not unique: "
-        "in full slip an undamped body keeps its free oscillation for ever, with the same friction. Sweeping the "
-        f"velocity up and down with {SHORT} periods at each step shows a loop of {loop:.2f} μ_0, made of transients "
-        f"that no run calls settled; waiting closes it to {np.abs(waited[0][0] - waited[0][1]).max():.1e}.",
+        measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this"
+        " alone it follows that two motions of one contact never move apart, that the mean friction at a higher"
+        " velocity is never less, and that the COF is unique (of an undamped elastic body: except where the curve"
+        " jumps): no hysteresis, no coexisting states, for any shape, amplitude, relaxation time and body, on a"
+        f" resonance too. Of {n_runs} runs {n_settled} settled, and those of one system agree to"
+        f" {max(np.ptp([s.mean for s in e.settled] or [0.0]) for e in found):.1e}, each pair within its own"
+        f" spreads{others}. The motion is not unique: in full slip an undamped body keeps its free oscillation for"
+        f" ever, with the same friction. Sweeping the velocity up and down with {SHORT} periods at each step shows a"
+        f" loop of {loop:.2f} μ_0, made of transients that no run calls settled; waiting closes it to"
+        f" {np.abs(waited[0][0] - waited[0][1]).max():.1e}.",
         verdict="holds",
         sentence="Under a given normal motion, with constant μ_0, one velocity has one COF (except where the curve"
         " of an undamped elastic body jumps), which never falls with velocity; so there is one v_c.",
@@ -282,10 +270,9 @@ def claim(effort: str) -> Claim:
         equations=(
             Equation(
                 "D",
-                r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta"
-                r" \dot{e}^2, \quad D ="
-                r" \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta e^2"
-                r" \right]",
+                r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta \dot{e}^2,"
+                r" \quad D = \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta"
+                r" e^2 \right]",
                 "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull P,"
                 " the body u and the extensions e of the springs. With δv = 0 it never grows.",
             ),
@@ -294,12 +281,11 @@ def claim(effort: str) -> Claim:
 
 
 def _distance_checks(found: list[Ends]) -> Checks:
-    systems = [e.system for e in found]
-    worst = max(systems, key=growth)
+    fastest = max(growth(e.system) for e in found)
     why = "the scheme is of second order: h² of the exchange between speed and position, per period"
-    name = f"largest growth of the distance of two motions over a period, {len(systems)} systems"
-    yield Check.at_most(name, growth(worst), 4 * np.pi * (2 * np.pi / STEPS) ** 2, why)
-    once, half = (float(np.ptp(D) / D[0]) for D in (swinging(STEPS), swinging(STEPS // 2)))
+    name = f"largest growth of the distance of two motions over a period, {len(found)} systems"
+    yield Check.at_most(name, fastest, 4 * np.pi * (2 * np.pi / STEPS) ** 2, why)
+    once, half = (np.ptp(D) / D[0] for D in (swinging(STEPS), swinging(STEPS // 2)))
     name = f"undamped body in full slip: change of the distance in {PERIODS} periods, over it"
     yield Check.at_most(name, once, 4 * (2 * np.pi / STEPS) ** 2, "no force sees them differ; h² of velocity")
     name = "the same at half the steps, over that"
@@ -334,11 +320,8 @@ def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
 
 
 def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> Checks:
-    falls = [
-        (a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0
-        for _, runs in curves
-        for a, b in combinations([run for run in runs if run.settled], 2)
-    ]
+    pairs = [pair for _, runs in curves for pair in combinations([run for run in runs if run.settled], 2)]
+    falls = [(a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0 for a, b in pairs]
     n_settled = sum(run.settled for _, runs in curves for run in runs)
     damped = [run.settled for system, runs in curves if system.damping_ratio for run in runs]
     name = f"largest fall of COF/μ_0 with velocity, less both errors, {n_settled} runs of {len(curves)} systems"
@@ -348,11 +331,11 @@ def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str
         T = float((0.0, 0.03 * 1000 ** rng.uniform())[int(rng.integers(2))])
         case = contact(names[int(rng.integers(4))], float(0.02 * 250 ** rng.uniform()), T)
         cof = average_friction(case, v_hat * mdr.critical_velocity(case)).cof / case.mu_0
-        drops.append(float(np.max(-np.diff(cof))))
-    why = "accuracy of the closed form"
+        drops.append(np.max(-np.diff(cof)))
     yield Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding")
     yield Check(f"settled of the {len(damped)} runs with a damper", sum(damped), len(damped), 0, "transients die out")
-    yield Check.at_most(f"largest fall in {len(drops)} closed-form curves of rigid pulls", max(drops), 1e-8, why)
+    name = f"largest fall in {len(drops)} closed-form curves of rigid pulls"
+    yield Check.at_most(name, max(drops), 1e-8, "accuracy of the closed form")
 
 
 def _sweep_checks() -> Checks:

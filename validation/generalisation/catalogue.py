@@ -147,8 +147,7 @@ def _figure(fig, ax, quick: bool) -> str:
         C = np.array([limit(shape, material, alpha) for shape in ALL])
         ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
         ax.plot(slopes, C, "o", ms=5, mfc="white", color=colour, label=material)
-    ax.set_xlabel(r"$s = d\ln k_{zc}/d\ln d$ at the mean depth")
-    ax.set_ylabel(r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$")
+    ax.set(xlabel=r"$s = d\ln k_{zc}/d\ln d$ at the mean depth", ylabel=r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$")
     ax.legend(loc="lower left")
     rows = [f"{abs(slope(shape)):.2f}  {shape_label(shape)}" for shape in sorted(ALL, key=slope)]
     ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)

@@ -26,7 +26,7 @@ import mdr
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, loss, loss_label, shape_label
-from validation.figures import circles, figure, key, shape_keys, ticks
+from validation.figures import circles, figure, key, outer_labels, shape_keys, ticks
 from validation.measured import TOLERANCE, Point, measured, power, worst
 from validation.measured import deviation as deviation_of
 from validation.report import Check, Checks, Figure, Part
@@ -262,10 +262,7 @@ def _map_figure(fig, axes, known: list[Map], points: list[Point]) -> str:
         ax.set(xscale="log", xlim=RANGE[0], ylim=RANGE[1], title=f"{shape_label(one.shape)}, {loss_label(one.T)}")
         ax.grid(False)
         ticks(ax.xaxis, 0.01, 0.03, 0.1, 0.3, 1)
-    for ax in axes[1]:
-        ax.set_xlabel(r"amplitude $\Delta u_z/u_{z0}$")
-    for ax in axes[:, 0]:
-        ax.set_ylabel(r"$\omega_0/\omega$")
+    outer_labels(axes, r"amplitude $\Delta u_z/u_{z0}$", r"$\omega_0/\omega$")
     fig.colorbar(mesh, ax=axes, ticks=BANDS, aspect=35, pad=0.02, label="$v_c$ off Eq. (15) by [%]")
     by_T = {T: np.mean([m.share_within(0.01) for m in known if m.T == T]) for T in (0.0, 1.0)}
     return (

@@ -96,9 +96,8 @@ def part(effort: str) -> Part:
         equations=(
             Equation(
                 "",
-                r"\frac{d \ln v_c}{d \ln u_{z0}} = \frac{S}{n}, \quad S = \text{Re } \frac{-z k_{x,c}}{q - z"
-                r" k_{x,c}}, \quad"
-                r" z = 1 + i\omega\tau, \quad q = m\omega^2 - k_x - i c_x \omega",
+                r"\frac{d \ln v_c}{d \ln u_{z0}} = \frac{S}{n}, \quad S = \text{Re } \frac{-z k_{x,c}}{q - z k_{x,c}},"
+                r" \quad z = 1 + i\omega\tau, \quad q = m\omega^2 - k_x - i c_x \omega",
                 "By how much v_c changes with the depth, from Eq. (15) (<code>mdr.laws.depth_sensitivity</code>).",
             ),
         ),

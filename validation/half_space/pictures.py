@@ -49,9 +49,7 @@ def maps(found: LastPeriod, moments: Sequence[int], titles: Sequence[str]) -> Fi
             _arrows(ax, x, y, step.slip, kind == 1)
             ax.set_title(title)
             ax.set_aspect("equal")
-            ax.set_xlabel(r"$x/a$ (pull $\rightarrow$)")
-            ax.set_xlim(-1.1, 1.1)
-            ax.set_ylim(-1.1, 1.1)
+            ax.set(xlabel=r"$x/a$ (pull $\rightarrow$)", xlim=(-1.1, 1.1), ylim=(-1.1, 1.1))
         panels[0].set_ylabel("$y/a$")
     return fig
 
