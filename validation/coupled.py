@@ -25,7 +25,7 @@ from validation.cases import contact
 from validation.figures import figure, outer_labels
 from validation.half_space import pictures, tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Checks, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import span
 
 SHAPES = ("paraboloid", "flat punch")
@@ -41,10 +41,9 @@ def claim(effort: str) -> Claim:
     """Read the table, compute some of it again, and look into the contact."""
     quick = effort == "quick"
     if effort == "long":
-        columns = [_column(shape, nu, mu_0) for mu_0 in FRICTIONS for nu in RATIOS for shape in SHAPES]
-        tables.write(
-            "coupled", tables.compute(columns, tables.SETTINGS), tables.SETTINGS, "elastic, rigid pull, coupled"
-        )
+        contacts = [(shape, nu, mu_0, ALPHA, 0.0) for mu_0 in FRICTIONS for nu in RATIOS for shape in SHAPES]
+        computed = tables.compute([[Point(*one, v) for v in VELOCITIES] for one in contacts], tables.SETTINGS)
+        tables.write("coupled", computed, tables.SETTINGS, "elastic, rigid pull, coupled")
     rows = tables.read("coupled")
     most = max(rows, key=lambda row: row.loss)
     return Claim(
@@ -81,25 +80,16 @@ def _measured(rows: list[Row]) -> str:
 
 def _where(rows: list[Row], most: float) -> str:
     """Velocities of the greatest losses for lambda below a value."""
-    within = [row for row in rows if radial_rub(row.point.case) < most]
-    contacts = {(r.point.shape, r.point.nu, r.point.mu_0) for r in within}
-    tops = [
-        max((r for r in within if (r.point.shape, r.point.nu, r.point.mu_0) == one), key=lambda row: row.loss).point.v
-        for one in contacts
-    ]
-    return f"{span(tops)} v_c"
+    within = tables.columns_of(row for row in rows if radial_rub(row.point.case) < most)
+    return f"{span(max(column, key=lambda row: row.loss).point.v for column in within)} v_c"
 
 
 def _percent(rows: list[Row], nu: float, mu_0: float) -> str:
     """The greatest loss of either shape, and the error of that."""
-    own = [[r for r in rows if (r.point.shape, r.point.nu, r.point.mu_0) == (shape, nu, mu_0)] for shape in SHAPES]
+    own = tables.columns_of(row for row in rows if (row.point.nu, row.point.mu_0) == (nu, mu_0))
     most = sorted((max(column, key=lambda row: row.loss) for column in own), key=lambda row: row.loss)
     low, high = (f"{100 * row.loss:.2g}" for row in most)
     return f"{low} to {high} % (each ± {100 * max(row.error for row in most):.1g} %)"
-
-
-def _column(shape: str, nu: float, mu_0: float) -> list[Point]:
-    return [Point(shape, nu, mu_0, ALPHA, 0.0, v) for v in VELOCITIES]
 
 
 def _rub_of(nu: float, mu_0: float) -> float:
@@ -173,16 +163,15 @@ def _curve_figure(fig, panels, rows: list[Row]) -> str:
     )
 
 
-def _map_figure(cells: int, steps: int) -> Figure:
-    """Stick and slip at four instants."""
+@figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
+def _map_figure(fig, panels, cells: int, steps: int) -> str:
+    """Four maps of the contact over a period with regions of stick and arrows of slip."""
     case = contact("paraboloid", ALPHA, mu_0=0.3, nu=0.3)
-    found = last_period(case, SHOWN * mdr.critical_velocity(case), Settings(cells, steps, cycles=2))
-    return Figure(
-        name="map",
-        caption=f"The contact of a paraboloid from above at {SHOWN:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {ALPHA:g}). Dark:"
+    settings = Settings(cells, steps, cycles=2)
+    pictures.period(panels, last_period(case, SHOWN * mdr.critical_velocity(case), settings))
+    return (
+        f"The contact of a paraboloid from above at {SHOWN:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {ALPHA:g}). Dark:"
         " stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. While the"
         " depth grows (first and second) what sticks is a region shifted to the trailing edge, and around it the"
-        " indenter slips outward, over a surface that is drawn to the middle; on retreat all slips, along the pull.",
-        drawing=pictures.period(found),
-        alt="Four maps of the contact over a period with regions of stick and arrows of slip.",
+        " indenter slips outward, over a surface that is drawn to the middle; on retreat all slips, along the pull."
     )

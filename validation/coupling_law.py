@@ -15,7 +15,6 @@ The held-out table (validation/half_space/tables/coupling_held_out.csv) is compu
 `python -m validation --long --only coupling_law`.
 """
 
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -29,11 +28,9 @@ from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
 from validation.figures import figure, key, shape_keys
 from validation.half_space import tables
-from validation.half_space.tables import Point, Row
+from validation.half_space.tables import Column, Point, columns_of
 from validation.measured import worst
 from validation.report import Check, Checks, Claim, Equation
-
-Column = Sequence[Row]  #: of one contact
 
 VELOCITIES = (3.0, 2.0, 1.5, 1.2, 1.0, 0.9, 0.8, 0.6, 0.4, 0.2)
 FITTED = (0.2, 0.4, 0.6, 0.8, 0.9, 1.0)  # v_0/v_c
@@ -74,15 +71,6 @@ class Groups:
         """(*) with these a, b, c."""
         a, b, c = constants
         return float(self.lost * (a * self.rub**2 / (b + self.rub) + c * self.pull))
-
-
-def columns_of(rows: Iterable[Row]) -> list[Column]:
-    """The rows of each contact together."""
-    found = defaultdict(list)
-    for row in rows:
-        p = row.point
-        found[p.shape, p.nu, p.mu_0, p.alpha, p.T, p.nu_2].append(row)
-    return list(found.values())
 
 
 def at(column: Column, v: float | None) -> float:

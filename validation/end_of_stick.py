@@ -42,7 +42,7 @@ from validation.figures import figure
 from validation.half_space import pictures, tables
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
-from validation.report import Check, Checks, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation
 from validation.words import counted, percent, ranged, span
 
 Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
@@ -67,6 +67,22 @@ ABOVE = 1.2  # v_0/v_c of the map
 FAST = 6.0  # alpha v_0/v_c at which (**) is asked for
 
 
+_EQUATIONS = (
+    Equation(
+        "(*)",
+        r"v_s \approx \left( \mu_0 \kappa + \frac{2 |\beta|}{\pi} \right) \Delta u_z \omega"
+        r" = v_c (1 + \lambda), \quad \lambda = \frac{2 |\beta|}{\pi \mu_0 \kappa}",
+        "End of stick, to lowest order in μ_0 and λ; the line in the figure below.",
+    ),
+    Equation(
+        "(**)",
+        r"1 - \frac{\mu}{\mu_0} \to \frac{\lambda^2 M}{8} \left( \frac{v_c}{v_0} \right)^2, \quad"
+        r" M = \frac{1}{F_z} \int R^2 p \, dA, \quad R = \frac{a - \sqrt{a^2 - r^2}}{r}",
+        "Loss far above it, <i>R</i> the radial velocity of the surface over that at the edge.",
+    ),
+)
+
+
 def claim(effort: str) -> Claim:
     """Search the end of stick, set it beside the linear problem, and go far beyond."""
     quick = effort == "quick"
@@ -88,20 +104,7 @@ def claim(effort: str) -> Claim:
         " 0; above, radial slip turns friction aside, and there is no velocity at which it is full.",
         checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
         figures=(_end_figure(ends, cells), _map_figure(seen)),
-        equations=(
-            Equation(
-                "(*)",
-                r"v_s \approx \left( \mu_0 \kappa + \frac{2 |\beta|}{\pi} \right) \Delta u_z \omega"
-                r" = v_c (1 + \lambda), \quad \lambda = \frac{2 |\beta|}{\pi \mu_0 \kappa}",
-                "End of stick, to lowest order in μ_0 and λ; the line in the figure below.",
-            ),
-            Equation(
-                "(**)",
-                r"1 - \frac{\mu}{\mu_0} \to \frac{\lambda^2 M}{8} \left( \frac{v_c}{v_0} \right)^2, \quad"
-                r" M = \frac{1}{F_z} \int R^2 p \, dA, \quad R = \frac{a - \sqrt{a^2 - r^2}}{r}",
-                "Loss far above it, <i>R</i> the radial velocity of the surface over that at the edge.",
-            ),
-        ),
+        equations=_EQUATIONS,
     )
 
 
@@ -251,20 +254,18 @@ def _end_figure(fig, ax, ends: dict[Known, float], cells: int) -> str:
         " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end)."
     )
     if len(ends) > 2:
-        told += (
-            " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
-        )
+        told += " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem"
+        told += " ends."
     return told
 
 
-def _map_figure(found: LastPeriod) -> Figure:
-    """Stick and slip at four instants."""
-    return Figure(
-        name="map",
-        caption=f"The contact of a paraboloid from above at {ABOVE:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3)."
+@figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
+def _map_figure(fig, panels, found: LastPeriod) -> str:
+    """Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip."""
+    pictures.period(panels, found)
+    return (
+        f"The contact of a paraboloid from above at {ABOVE:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3)."
         " Dark: stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. A"
         " crescent at the trailing edge sticks as the depth grows fastest (first): there the surface, drawn to the"
-        " middle, keeps up with the pull. No spring sticks at this velocity.",
-        drawing=pictures.period(found),
-        alt="Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip.",
+        " middle, keeps up with the pull. No spring sticks at this velocity."
     )

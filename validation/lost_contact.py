@@ -28,13 +28,10 @@ from validation.words import counted, listed, percent, ranged
 
 RATIOS = (0.6, 1.5, 2.5)  # omega_0/omega
 TIMES = (0.0, 1.0, 10.0, 30.0, 100.0)  # of the curves under a rigid pull
+LATE = ((0.04, 100.0), (0.1, 100.0), (0.5, 100.0), (1.5, 100.0), (0.3, 30.0), (1.5, 10.0))  # alpha, T
 RIGID = {  # alpha, T, shape
     "quick": ((1.0, 100.0, "cone"),),
-    "full": tuple(
-        (alpha, T, shape)
-        for alpha, T in ((0.04, 100.0), (0.1, 100.0), (0.5, 100.0), (1.5, 100.0), (0.3, 30.0), (1.5, 10.0))
-        for shape in ("flat punch", "paraboloid")
-    ),
+    "full": tuple((alpha, T, shape) for alpha, T in LATE for shape in ("flat punch", "paraboloid")),
 }
 BODY = {  # shape, alpha, T, omega_0/omega
     "quick": (("flat punch", 1.0, 30.0, 0.6),),

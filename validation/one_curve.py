@@ -42,6 +42,24 @@ class OneCurve:
         return np.asarray(self.psi * (1 + self.C * alpha / POWERS[shape]))
 
 
+_EQUATIONS = (
+    Equation(
+        "ψ",
+        r"\psi(\hat{v}) = \frac{1}{2\pi} \left[ \sin \varphi_2 - \sin \varphi_1 - (\varphi_2 - \varphi_1) \cos"
+        r" \varphi_1 - \frac{\hat{v}}{2} (\varphi_2 - \varphi_1)^2 \right]",
+        "Lost by a single spring, v̂ = v_0/v_c. It sticks from φ_1 = π + arcsin v̂ until cos φ_2 = cos φ_1 + v̂"
+        " (φ_2 − φ_1).",
+    ),
+    Equation(
+        "",
+        r"\left( 1 - \frac{\mu}{\mu_0} \right) \frac{\langle F_N \rangle}{k_{z,c} \Delta u_z} = \psi(\hat{v})"
+        r" \left[ 1 + C(\hat{v}) \frac{\alpha}{n} \right]",
+        "The first two orders of any shape f ~ <i>r</i>^n; C is −1/4 at rest and 0 at v_c"
+        " (<code>mdr.laws.edge_band</code>).",
+    ),
+)
+
+
 def claim(effort: str) -> Claim:
     """Scale the curves of four shapes on one, and count the order of what is left."""
     quick = effort == "quick"
@@ -70,22 +88,7 @@ def claim(effort: str) -> Claim:
         " u_z0).",
         checks=(*_exact_checks(law, 6 if quick else 25), *_first_order_checks(), *_order_checks(law, orders)),
         figures=(_figure(law),),
-        equations=(
-            Equation(
-                "ψ",
-                r"\psi(\hat{v}) = \frac{1}{2\pi} \left[ \sin \varphi_2 - \sin \varphi_1 - (\varphi_2 - \varphi_1) \cos"
-                r" \varphi_1 - \frac{\hat{v}}{2} (\varphi_2 - \varphi_1)^2 \right]",
-                "Lost by a single spring, v̂ = v_0/v_c. It sticks from φ_1 = π + arcsin v̂ until cos φ_2 = cos φ_1 + v̂"
-                " (φ_2 − φ_1).",
-            ),
-            Equation(
-                "",
-                r"\left( 1 - \frac{\mu}{\mu_0} \right) \frac{\langle F_N \rangle}{k_{z,c} \Delta u_z} = \psi(\hat{v})"
-                r" \left[ 1 + C(\hat{v}) \frac{\alpha}{n} \right]",
-                "The first two orders of any shape f ~ <i>r</i>^n; C is −1/4 at rest and 0 at v_c"
-                " (<code>mdr.laws.edge_band</code>).",
-            ),
-        ),
+        equations=_EQUATIONS,
     )
 
 

@@ -63,6 +63,26 @@ class Approach:
         return np.asarray(self.rise / (self.factor * self.v**self.power))
 
 
+_EQUATIONS = (
+    Equation(
+        "", r"\mu(v_0 \to 0) = \mu_0 \frac{\min F_N}{\langle F_N \rangle}", "Eq. (7) for any shape and normal force."
+    ),
+    Equation(
+        "elastic",
+        r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{2 \hat{v}}{\pi} \frac{\Delta u_z}{\langle F_N \rangle}"
+        r" \int_0^{\pi} \varphi k_{z,c}(u_{z0} + \Delta u_z \cos \varphi) d\varphi",
+        "The law of the rise, v̂ = v_0/v_c.",
+    ),
+    Equation(
+        "Kelvin",
+        r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{R^{1/3}}{2} (3\pi \omega\tau \hat{v})^{2/3} k_{z,c}(u_{z0} - R"
+        r" \Delta u_z) \frac{\Delta u_z}{\langle F_N \rangle}, \quad R = \sqrt{1 + (\omega\tau)^2}",
+        "The same where the core stays pressed. For a punch that is lost, see"
+        " <code>mdr.laws.rise_of_lost_punch</code>.",
+    ),
+)
+
+
 def claim(effort: str) -> Claim:
     """Static limit in closed form, and runs at falling velocity that tend to it."""
     quick = effort == "quick"
@@ -91,26 +111,7 @@ def claim(effort: str) -> Claim:
         " it like v_0, a Kelvin contact that stays pressed like v_0^{2/3}.",
         checks=tuple(checks),
         figures=(_figure(approaches),),
-        equations=(
-            Equation(
-                "",
-                r"\mu(v_0 \to 0) = \mu_0 \frac{\min F_N}{\langle F_N \rangle}",
-                "Eq. (7) for any shape and normal force.",
-            ),
-            Equation(
-                "elastic",
-                r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{2 \hat{v}}{\pi} \frac{\Delta u_z}{\langle F_N \rangle}"
-                r" \int_0^{\pi} \varphi k_{z,c}(u_{z0} + \Delta u_z \cos \varphi) d\varphi",
-                "The law of the rise, v̂ = v_0/v_c.",
-            ),
-            Equation(
-                "Kelvin",
-                r"\frac{\mu - \mu(0)}{\mu_0} \to \frac{R^{1/3}}{2} (3\pi \omega\tau \hat{v})^{2/3} k_{z,c}(u_{z0} - R"
-                r" \Delta u_z) \frac{\Delta u_z}{\langle F_N \rangle}, \quad R = \sqrt{1 + (\omega\tau)^2}",
-                "The same where the core stays pressed. For a punch that is lost, see"
-                " <code>mdr.laws.rise_of_lost_punch</code>.",
-            ),
-        ),
+        equations=_EQUATIONS,
     )
 
 

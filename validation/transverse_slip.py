@@ -64,16 +64,10 @@ def losses(nu: float, v: float, settings: Settings) -> Losses:
 
 def errors(settings: Settings) -> dict[str, float]:
     """By how much half of the steps and half of the cells change the loss and its parts, together; at one point."""
-    here, slow, wide = (
-        losses(0.3, CHECKED, one)
-        for one in (
-            settings,
-            replace(settings, steps=settings.steps // 2),
-            replace(settings, cells=(settings.cells + 1) // 2),
-        )
-    )
+    coarser = replace(settings, steps=settings.steps // 2), replace(settings, cells=(settings.cells + 1) // 2)
+    here, *others = (losses(0.3, CHECKED, one) for one in (settings, *coarser))
     names = ("coupled", "by_coupling", "by_itself")
-    return {name: sum(abs(getattr(here, name) - getattr(other, name)) for other in (slow, wide)) for name in names}
+    return {name: sum(abs(getattr(here, name) - getattr(other, name)) for other in others) for name in names}
 
 
 def claim(effort: str) -> Claim:
@@ -121,12 +115,6 @@ def _checks(found: list[Losses]) -> Checks:
     yield Check.between("greatest such share", max(below), 0.2, 0.8, of_two)
 
 
-_FEW = (
-    "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three dimensions."
-    " Squares: with tractions and slip along the pull only, less below and nothing above. Crosses: without coupling."
-)
-
-
 @figure("loss", size=(6.4, 4.0))
 def _figure(fig, ax, found: list[Losses]) -> str:
     """Curves of the loss of friction against velocity, full above dashed, dotted at zero."""
@@ -143,10 +131,14 @@ def _figure(fig, ax, found: list[Losses]) -> str:
             ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
     ax.set(xlabel="$v_0$ over Eq. (1)", ylabel=r"(springs $-$ 3D)/$\mu_0$")
     ax.legend()
+    if few:
+        return (
+            "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three"
+            " dimensions. Squares: with tractions and slip along the pull only, less below and nothing above. Crosses:"
+            " without coupling."
+        )
     return (
-        _FEW
-        if few
-        else "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
+        "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
         " only, which stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by"
         " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing."
     )

@@ -154,17 +154,11 @@ def drawn(n: int) -> list[System]:
     names, systems = tuple(SHAPES), []
     for i in range(n):
         log = rng.uniform(size=4)
-        systems.append(
-            System(
-                shape=names[int(rng.integers(4))],
-                alpha=float(0.05 * 30 ** log[0]),
-                T=float((0.0, 0.1 * 30 ** log[1])[int(rng.integers(2))]),
-                ratio=_beside(i, near) if i % 5 == 4 else float(0.4 * 6 ** rng.uniform()),
-                k_ratio=float(0.3 * 10 ** log[2]),
-                damping_ratio=0.0 if i % 3 == 0 else float(0.005 * 20 ** log[3]),
-                v_hat=float(rng.uniform(0.1, 1.2)),
-            )
-        )
+        shape, alpha = names[int(rng.integers(4))], float(0.05 * 30 ** log[0])
+        T = float((0.0, 0.1 * 30 ** log[1])[int(rng.integers(2))])
+        ratio = _beside(i, near) if i % 5 == 4 else float(0.4 * 6 ** rng.uniform())
+        k_ratio, damping_ratio = float(0.3 * 10 ** log[2]), 0.0 if i % 3 == 0 else float(0.005 * 20 ** log[3])
+        systems.append(System(shape, alpha, T, ratio, k_ratio, damping_ratio, float(rng.uniform(0.1, 1.2))))
     return systems
 
 
@@ -234,6 +228,15 @@ def swept(n_periods: int | None) -> tuple[Array, Array, NDArray[np.bool_]]:
     return means, spreads, settled
 
 
+_EQUATION = Equation(
+    "D",
+    r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta \dot{e}^2, \quad D ="
+    r" \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta e^2 \right]",
+    "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull P,"
+    " the body u and the extensions e of the springs. With δv = 0 it never grows.",
+)
+
+
 def claim(effort: str) -> Claim:
     """Follow motions of random systems from several starts, and friction over velocity."""
     found = [ends(system) for system in progress(drawn(SYSTEMS[effort]), "uniqueness")]
@@ -267,16 +270,7 @@ def claim(effort: str) -> Claim:
         " of an undamped elastic body jumps), which never falls with velocity; so there is one v_c.",
         checks=(*_distance_checks(found), *_end_checks(found), *_curve_checks(curves, effort), *_sweep_checks()),
         figures=(_distance_figure(), _sweep_figure()),
-        equations=(
-            Equation(
-                "D",
-                r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta \dot{e}^2,"
-                r" \quad D = \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta"
-                r" e^2 \right]",
-                "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull P,"
-                " the body u and the extensions e of the springs. With δv = 0 it never grows.",
-            ),
-        ),
+        equations=(_EQUATION,),
     )
 
 

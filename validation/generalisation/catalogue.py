@@ -53,6 +53,14 @@ def slope(shape: str) -> float:
     return laws.stiffness_exponent(ALL[shape], mean_depth(shape))
 
 
+_EQUATION = Equation(
+    "",
+    r"\frac{v_c}{v_c^{(15)}} - 1 \to C \alpha s, \quad s = \frac{d \ln k_{z,c}}{d \ln d}",
+    "As α → 0; C knows the material and the body, s the shape (<code>mdr.laws.first_order</code>,"
+    " <code>stiffness_exponent</code>).",
+)
+
+
 def part(effort: str) -> Part:
     """Every shape: measured, and by the first order of its deviation."""
     quick = effort == "quick"
@@ -74,14 +82,7 @@ def part(effort: str) -> Part:
         " know the shape.",
         checks=(*_measured_checks(points), *_order_checks(quick)),
         figures=(_figure(quick),),
-        equations=(
-            Equation(
-                "",
-                r"\frac{v_c}{v_c^{(15)}} - 1 \to C \alpha s, \quad s = \frac{d \ln k_{z,c}}{d \ln d}",
-                "As α → 0; C knows the material and the body, s the shape (<code>mdr.laws.first_order</code>,"
-                " <code>stiffness_exponent</code>).",
-            ),
-        ),
+        equations=(_EQUATION,),
     )
 
 

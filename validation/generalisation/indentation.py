@@ -56,6 +56,14 @@ def measured_sensitivity(shape: str, u_z0: float, T: float, pull: str) -> float:
     return float(POWERS[shape] * (up - down) / (2 * step))
 
 
+_EQUATION = Equation(
+    "",
+    r"\frac{d \ln v_c}{d \ln u_{z0}} = \frac{S}{n}, \quad S = \text{Re } \frac{-z k_{x,c}}{q - z k_{x,c}},"
+    r" \quad z = 1 + i\omega\tau, \quad q = m\omega^2 - k_x - i c_x \omega",
+    "By how much v_c changes with the depth, from Eq. (15) (<code>mdr.laws.depth_sensitivity</code>).",
+)
+
+
 def part(effort: str) -> Part:
     """Measure v_c over the depth, and set its slope beside the derivative of Eq. (15)."""
     size = "quick" if effort == "quick" else "full"
@@ -93,14 +101,7 @@ def part(effort: str) -> Part:
         "much as the stiffness k_x,c(u_z0) in Eq. (15) does, so to use Eq. (15) one has to know the depth.",
         checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
         figures=(_depth_figure(points, effort), _slope_figure()),
-        equations=(
-            Equation(
-                "",
-                r"\frac{d \ln v_c}{d \ln u_{z0}} = \frac{S}{n}, \quad S = \text{Re } \frac{-z k_{x,c}}{q - z k_{x,c}},"
-                r" \quad z = 1 + i\omega\tau, \quad q = m\omega^2 - k_x - i c_x \omega",
-                "By how much v_c changes with the depth, from Eq. (15) (<code>mdr.laws.depth_sensitivity</code>).",
-            ),
-        ),
+        equations=(_EQUATION,),
     )
 
 
