@@ -92,10 +92,6 @@ def _percent(rows: list[Row], nu: float, mu_0: float) -> str:
     return f"{low} to {high} % (each ± {100 * max(row.error for row in most):.1g} %)"
 
 
-def _rub_of(nu: float, mu_0: float) -> float:
-    return radial_rub(contact("paraboloid", ALPHA, mu_0=mu_0, nu=nu))
-
-
 # --- checks ---
 
 
@@ -146,7 +142,7 @@ def _curve_figure(fig, panels, rows: list[Row]) -> str:
             own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
             v, cof = [r.point.v for r in own], [r.cof for r in own]
             ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
-            end = 1 + _rub_of(nu, mu_0)
+            end = 1 + radial_rub(own[0].point.case)
             if end < 0.98 * FASTEST_SHOWN:
                 ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
         ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")

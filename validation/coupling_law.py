@@ -132,6 +132,7 @@ def claim(effort: str) -> Claim:
     beyond = [trial for trial in trials if trial.groups.rub > coupling.FARTHEST]
     most, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
     a, b, c = constants[None]
+    errors = [row.error for column in rest for row in column]
     return Claim(
         name="coupling_law",
         title="The loss by coupling depends on two groups of β, and on what the springs lose at rest",
@@ -139,9 +140,8 @@ def claim(effort: str) -> Claim:
         range=f"fitted to {len(training)} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried"
         f" on {len(rest)} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like"
         f" modulus, μ_0 from 0.05 to 0.6, λ from {min(t.groups.rub for t in trials):.2f} to"
-        f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to"
-        f" {max(row.error for column in rest for row in column):.2f} μ_0 at the largest λ, and {_typical(rest):.0e} in"
-        " the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)",
+        f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to {max(errors):.2f} μ_0 at the largest λ,"
+        f" and {np.median(errors):.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)",
         measured="Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
         " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is"
         f" large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g}"
@@ -168,10 +168,6 @@ def claim(effort: str) -> Claim:
 def _is_training(point: Point) -> bool:
     plain = point.shape == "paraboloid" and point.alpha == 0.3 and not point.T and point.nu_2 is None
     return plain and coupling.radial_rub(point.case) <= FARTHEST_FIT
-
-
-def _typical(columns: Iterable[Column]) -> float:
-    return float(np.median([row.error for column in columns for row in column]))
 
 
 def _beyond(beyond: Sequence[Trial]) -> str:

@@ -109,7 +109,9 @@ def claim(effort: str) -> Claim:
 
 
 def _measured(ends: dict[Known, float], cells: int) -> str:
-    by_mu = {mu_0: [_share(k, v) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})}
+    by_mu = {
+        mu_0: [(v - 1) / _rub(k) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})
+    }
     listed = "; ".join(f"{span(one, 3)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
     finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
     return (
@@ -125,11 +127,6 @@ def _measured(ends: dict[Known, float], cells: int) -> str:
         f" Before, it is {_before(0.1, 'flat punch'):.2f} of that at 2 v_c for a punch at Δu_z/u_z0 = 0.1, where"
         f" friction has not the way to turn, and {_before(0.9, 'paraboloid'):.2f} times it for a paraboloid at 0.9."
     )
-
-
-def _share(known: Known, ratio: float) -> float:
-    """(v_s/v_c - 1)/lambda."""
-    return (ratio - 1) / _rub(known)
 
 
 def _over_estimate(known: Known, ratio: float) -> float:

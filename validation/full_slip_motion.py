@@ -58,26 +58,17 @@ def claim(effort: str) -> Claim:
     """Compare march and closed form, step by step of refinement."""
     steps = (64, 128, 256, 512) if effort == "quick" else (64, 128, 256, 512, 1024, 2048, 4096)
     motions = {punch: [follow(punch, n) for n in steps] for punch in PUNCHES}
-    checks = []
-    for punch, refined in motions.items():
-        checks += _motion_checks(_name(punch), refined, steps)
-    checks += [_from_rest(), *_force_checks(effort)]
+    checks = [c for punch, refined in motions.items() for c in _motion_checks(_name(punch), refined, steps)]
     return Claim(
         name="full_slip_motion",
         title="Above the critical velocity the body moves as Eqs. (10) to (14) say",
-        quote=(
-            "Under the assumption that the immediate contact point is always in the sliding state … Eq. (8) …"
-            " can be easily solved with respect to u_x, Eq. (10); … u_x − u_{x,c} = mu_0 (k_{z,c}/k_{x,c})"
-            " (u_{z,0} + Δu_z cos ωt), Eq. (12). From Eqs. (10) and (12) we can first determine u_{x,c}, Eq."
-            " (13), and finally its velocity, Eq. (14). (Section 2.2.2)"
-        )
-        .replace("{", "")
-        .replace("}", ""),
-        range=(
-            "a flat punch that keeps contact at twice v_c, ωτ from 0 to 3, k_x/k_xc from 0.5 to 3, driven"
-            " above and below its natural frequency and without mass, 64 to "
-            + f"{steps[-1]} steps a period; the force of a paraboloid, elastic and at ωτ = 1."
-        ),
+        quote="Under the assumption that the immediate contact point is always in the sliding state … Eq. (8) … can be"
+        " easily solved with respect to u_x, Eq. (10); … u_x − u_x,c = mu_0 (k_z,c/k_x,c) (u_z,0 + Δu_z cos ωt), Eq."
+        " (12). From Eqs. (10) and (12) we can first determine u_x,c, Eq. (13), and finally its velocity, Eq. (14)."
+        " (Section 2.2.2)",
+        range="a flat punch that keeps contact at twice v_c, ωτ from 0 to 3, k_x/k_xc from 0.5 to 3, driven above and"
+        f" below its natural frequency and without mass, 64 to {steps[-1]} steps a period; the force of a paraboloid,"
+        " elastic and at ωτ = 1.",
         measured="Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree with the"
         " closed forms; what differs falls with the square of the step. Slip never stops and its least velocity is v_0"
         " − v_c. With a system damper a body that starts from rest ends in the same motion, with k_x + iω c_x in the"
@@ -85,8 +76,8 @@ def claim(effort: str) -> Claim:
         " solution: the elastic one with the square of the number of springs, the viscous one up to the dashpot of the"
         " single spring that touches.",
         verdict="holds",
-        sentence=("In full slip one element describes the whole punch: offset, amplitude, phase and slip velocity."),
-        checks=tuple(checks),
+        sentence="In full slip one element describes the whole punch: offset, amplitude, phase and slip velocity.",
+        checks=(*checks, _from_rest(), *_force_checks(effort)),
         figures=(_motion_figure(), _order_figure(motions, steps)),
     )
 

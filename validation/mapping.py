@@ -13,6 +13,7 @@ alpha = du_z/u_z0.
 """
 
 import math
+from collections.abc import Iterable
 from itertools import pairwise, product
 from typing import Any
 
@@ -40,8 +41,8 @@ def claim(effort: str) -> Claim:
     counts = (32, 64, 128, 256, 512) if effort == "quick" else (32, 64, 128, 256, 512, 1024, 2048)
     orders = {shape: _errors(shape, 0.3, counts) for shape in SHAPES if shape != "flat punch"}
     sunk = {shape: _sunk(indenter, depth_of(indenter)) for shape, indenter in CATALOGUE.items()}
-    checks = [*_shape_checks(), *_profile_checks(), *_catalogue_checks(sunk), *_sum_checks(amplitudes)]
-    checks += [*_catalogue_sum_checks(), *_order_checks(orders, counts)]
+    checks = (*_shape_checks(sunk), *_profile_checks(), *_sum_checks(amplitudes), *_catalogue_sum_checks())
+    checks += tuple(_order_checks(orders, counts))
     formulas = [check for check in checks if "as a function" not in check.name]
     return Claim(
         name="mapping",
@@ -62,12 +63,12 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="The springs carry the force, stiffness and pressure of the three-dimensional contact: to rounding"
         " where both sides are formulas, to the accuracy of the quadrature where one is an integral.",
-        checks=tuple(checks),
+        checks=checks,
         figures=(_pressure_figure(), _catalogue_figure(sunk), _error_figure(orders, counts)),
     )
 
 
-def _greatest(checks: list[Check], name: str) -> float:
+def _greatest(checks: Iterable[Check], name: str) -> float:
     """Largest value among the checks of that name."""
     return max(float(check.got) for check in checks if name in check.name and check.got is not None)
 
@@ -137,16 +138,13 @@ def _off_textbook(indenter: mdr.Indenter, shape: str, depths: Array) -> float:
     return max(float(np.max(np.abs(np.asarray(one) / np.asarray(other) - 1))) for one, other in pairs)
 
 
-def _shape_checks() -> Checks:
+def _shape_checks(sunk: dict[str, Array]) -> Checks:
+    """Set the shapes beside the textbook, and put them and the whole catalogue on the half-space."""
     for shape, indenter in SHAPES.items():
         off = _off_textbook(indenter, shape, DEPTH * np.array([1e-6, 1e-3, 0.1, 1.0, 2.0]))
         why = "closed forms on both sides: rounding, a hundred times larger next to the rim"
         yield Check.at_most(f"{shape}: a, F_N, k_zc, p against the textbook", off, ROUNDING, why)
         yield from _half_space_checks(shape, indenter, DEPTH, _sunk(indenter, DEPTH))
-
-
-def _catalogue_checks(sunk: dict[str, Array]) -> Checks:
-    """Put every shape of the catalogue on the half-space."""
     for shape, indenter in CATALOGUE.items():
         yield from _half_space_checks(shape, indenter, depth_of(indenter), sunk[shape])
 

@@ -32,6 +32,7 @@ BODY = contact("paraboloid", SMALL, 0.1, k_ratio=STIFFNESS, omega_0_ratio=1.0, d
 RIGID = contact("paraboloid", SMALL, 0.3)
 LIGHT = contact("paraboloid", SMALL, 0.3, k_ratio=1.0, omega_0_ratio=1.9, damping_ratio=0.1)
 KNOBS = {"n_springs": 96, "steps_per_period": 256}  #: of the marched map
+EQ_1 = mdr.Quantity("eq_1", "m/s", lambda case: case.unit_velocity, "Eq. (1)")
 LOSSES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0)  #: T of the control by half
 POINTS = ((0.3, 0.03), (1.0, 0.03), (1.22, 0.02), (1.22, 1.0), (2.0, 0.1), (4.0, 10.0))  #: omega/omega_0, omega_0 tau
 
@@ -47,6 +48,7 @@ def claim(effort: str) -> Claim:
     halves = [half_of(shape, T, quick) for shape in SHAPES for T in (LOSSES[::3] if quick else LOSSES)]
     furthest = [half.reach for half in halves]
     low, high = (float(f(of_v_c["v_c"] / of_v_c["eq_1"])) for f in (np.min, np.max))
+    checks = (*_checks_of_cof(rigid, "rigid pull"), *_checks_of_cof(body, "body"))
     least = float(np.nanmin(body["full_slip_v_c"] / body["v_c"]))
     return Claim(
         name="maps",
@@ -67,12 +69,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="On the maps of a paraboloid friction is reduced at all points below 0.95 of the full-slip v_c and"
         " full at all points above it. This v_c is Eq. (15) under a rigid pull, or at small amplitude.",
-        checks=(
-            *_checks_of_v_c(of_v_c, points),
-            *_checks_of_cof(rigid, "rigid pull"),
-            *_checks_of_cof(body, "body"),
-            *_checks_of_half(halves),
-        ),
+        checks=(*_checks_of_v_c(of_v_c, points), *checks, *_checks_of_half(halves)),
         figures=(_figure_of_v_c(of_v_c, points), _figure_of_cof(rigid, body), _figure_of_half(halves)),
     )
 
@@ -80,19 +77,10 @@ def claim(effort: str) -> Claim:
 # --- studies ---
 
 
-def eq_1(case: mdr.SlidingContact) -> float:
-    """Eq. (1) [m/s], the critical velocity under a rigid pull."""
-    return case.unit_velocity
-
-
 def over_frequency(n_omega: int, n_tau: int) -> mdr.Study:
     """v_c over omega/omega_0 from 0.1 to 10 and omega_0 tau from 0.01 to 100."""
-    omega_0 = OMEGA  # by construction of BODY
-    axes = {
-        "material.tau": np.geomspace(0.01, 100, n_tau) / omega_0,
-        "oscillation.omega": np.geomspace(0.1, 10, n_omega) * omega_0,
-    }
-    return mdr.sweep(BODY, axes, quantities=("v_c", mdr.Quantity("eq_1", "m/s", eq_1, "Eq. (1)")))
+    taus, omegas = np.geomspace(0.01, 100, n_tau) / OMEGA, np.geomspace(0.1, 10, n_omega) * OMEGA  # BODY: its omega_0
+    return mdr.sweep(BODY, {"material.tau": taus, "oscillation.omega": omegas}, quantities=("v_c", EQ_1))
 
 
 def over_velocity(case: mdr.SlidingContact, n_v: int, n_alpha: int) -> mdr.Study:

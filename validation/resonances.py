@@ -86,7 +86,7 @@ def claim(effort: str) -> Claim:
     ends = {knobs: _end(*knobs, 0.0) for knobs in progress([*driven, *idle], "resonances")}
     damped = {knobs: _end(*knobs, 0.01) for knobs in known if knobs[2] <= 3}
     speeds = FAST[1:2] if effort == "quick" else FAST
-    checks = [*_end_checks(driven, idle, ends), *_damped_checks(damped), *_plateau_checks(driven, speeds)]
+    checks = [*_end_checks(driven, idle, ends, damped), *_plateau_checks(driven, speeds)]
     far = max(damped.items(), key=lambda item: abs(item[1][0] or np.nan))
     growing = [f"{_name(knobs)} at {v} v_c" for knobs in driven for v in speeds if np.isnan(reduction(*knobs, v)[0])]
     unseen = "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: |F_n|/F_0 = {share(s, T, n):.1e}" for s, T, n in faint)
@@ -127,16 +127,16 @@ def _name(knobs: tuple[str, float, int]) -> str:
     return f"{shape}, {loss(T)}, ω_0 = {n}ω"
 
 
-def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | None, float, str]:
-    """Measured v_c over Eq. (15) or None, over the full-slip value, and its kind."""
+def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | None, float]:
+    """Measured v_c over Eq. (15) or None, and over the full-slip value."""
     case = system(shape, T, n, damping_ratio)
     found = mdr.measure_critical_velocity(case)
     if found.v_c is None:
-        return None, np.nan, found.kind
-    return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case), found.kind
+        return None, np.nan
+    return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case)
 
 
-def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> Checks:
+def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any], damped: dict[Any, Any]) -> Checks:
     found = sum(ends[knobs][0] is not None for knobs in driven)
     why = "the harmonic drives the body up to stick at any velocity"
     yield Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)
@@ -149,11 +149,8 @@ def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> Che
     locked = sum((ends[knobs][0] or 1.0) < 0.99 for knobs in idle)
     name = f"of {len(idle)} undriven resonances those with full friction below Eq. (15)"
     yield Check(name, locked, len(idle), 0, "law of lock-in")
-
-
-def _damped_checks(damped: dict[Any, Any]) -> Checks:
-    why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
     name = f"v_c over the full-slip value, damper of 1 %, worst of {len(damped)} resonances"
+    why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
     yield Check(name, worst((end[1] for end in damped.values()), 1), 1.0, TOLERANCE, why)
 
 

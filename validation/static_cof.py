@@ -85,11 +85,9 @@ _EQUATIONS = (
 
 def claim(effort: str) -> Claim:
     """Static limit in closed form, and runs at falling velocity that tend to it."""
-    quick = effort == "quick"
-    v = np.logspace(-1, -4, 4 if quick else 7) if effort != "long" else np.logspace(-1, -5, 13)
-    chosen = QUICK if quick else FULL
+    v = {"quick": np.logspace(-1, -4, 4), "full": np.logspace(-1, -4, 7), "long": np.logspace(-1, -5, 13)}[effort]
+    chosen = QUICK if effort == "quick" else FULL
     approaches = [approach(*which, v) for which in chosen]
-    checks = [*_static_checks(), *(check for a in approaches for check in _approach_checks(a))]
     return Claim(
         name="static_cof",
         title="At vanishing velocity friction is μ_0 times the least normal force",
@@ -109,7 +107,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="Under a rigid pull friction starts from μ_0 times the least normal force; an elastic contact leaves"
         " it like v_0, a Kelvin contact that stays pressed like v_0^{2/3}.",
-        checks=tuple(checks),
+        checks=(*_static_checks(), *(check for a in approaches for check in _approach_checks(a))),
         figures=(_figure(approaches),),
         equations=_EQUATIONS,
     )

@@ -26,7 +26,7 @@ import mdr
 from mdr import laws
 from mdr.plots import COLOURS
 from mdr.tools.progress import progress
-from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, loss_label, shape_label
 from validation.figures import figure, ticks
 from validation.generalisation import shapes as powers
 from validation.generalisation.shapes import PULLS, measure
@@ -68,9 +68,8 @@ def part(effort: str) -> Part:
     """Measure v_c over the depth, and set its slope beside the derivative of Eq. (15)."""
     size = "quick" if effort == "quick" else "full"
     shapes = ("flat punch", "cone") if effort == "quick" else tuple(SHAPES)
-    rigid_depths = (SHALLOW, 500 * SHALLOW)
     rigid_shapes = shapes[1:] if effort == "quick" else shapes
-    knobs = [(s, u_z0, 1.0, "rigid pull") for s in rigid_shapes for u_z0 in rigid_depths]
+    knobs = [(s, u_z0, 1.0, "rigid pull") for s in rigid_shapes for u_z0 in (SHALLOW, 500 * SHALLOW)]
     knobs += [(s, r * DEPTH, T, pull) for T, pull, depths in SWEEP[size] for s in shapes for r in depths]
     points = [measure(s, AMPLITUDE / d, T, pull, d) for s, d, T, pull in progress(knobs, "indentation")]
     stiff = contact("cone", 0.1, 0.0, **PULLS["stiff spring"])
@@ -136,12 +135,18 @@ def _minimum_checks() -> Checks:
     from scipy.optimize import minimize_scalar
 
     T = 1.0
+
+    def over_depth(log_depth: float, shape: str) -> float:
+        """Full-slip value over u_z0, and so over Eq. (1) but for a factor, at one tiny alpha."""
+        u_z0 = float(np.exp(log_depth))
+        return mdr.full_slip_critical_velocity(system(shape, u_z0, T, "soft spring", TINY * u_z0)) / u_z0
+
     for shape in list(SHAPES)[1:]:
         case = system(shape, DEPTH, T, "soft spring")
         k, least = laws.least_over_depth(case)
         depth = DEPTH * (k / case.k_xc) ** POWERS[shape]
         bracket = (np.log(0.7 * depth), np.log(depth), np.log(1.4 * depth))
-        found = minimize_scalar(lambda x, shape=shape: _over_depth(shape, float(np.exp(x)), T), bracket=bracket)
+        found = minimize_scalar(over_depth, bracket=bracket, args=(shape,))
         unit = system(shape, 1.0, T, "soft spring", TINY).unit_velocity
         name = f"{shape}, heavy body, ωτ = {T:g}: least v_c over Eq. (1), over |Im(q/z)| |z|/|q|"
         yield Check(name, float(found.fun) / unit / least, 1.0, 1e-5, "C α at α = 1e-6")
@@ -150,20 +155,13 @@ def _minimum_checks() -> Checks:
         yield Check(name, at, 1.0, 1e-3, "a minimum is found to the root of what its value is known to")
 
 
-def _over_depth(shape: str, u_z0: float, T: float) -> float:
-    """Full-slip value over u_z0, and so over Eq. (1) but for a factor, at one tiny alpha."""
-    return mdr.full_slip_critical_velocity(system(shape, u_z0, T, "soft spring", TINY * u_z0)) / u_z0
-
-
 @figure("depth", 1, 2, size=(9.6, 4.2), sharey=True)
 def _depth_figure(fig, axes, points: list[Point], effort: str) -> str:
     """Critical velocity over depth: constant for the flat punch, rising for curved shapes on the left, with a minimum
     on the right.
     """
     ratios = np.geomspace(0.1, 10, 60)
-    panels = [(0.0, "stiff spring", r"elastic, $\omega_0$ = 1.7 $\omega$")]
-    panels.append((1.0, "soft spring", r"$\omega\tau$ = 1, $\omega_0$ = 0.6 $\omega$"))
-    for ax, (T, pull, title) in zip(axes, panels, strict=True):
+    for ax, T, pull in zip(axes, (0.0, 1.0), ("stiff spring", "soft spring"), strict=True):
         for shape, (colour, marker) in LOOKS.items():
             cases = [system(shape, float(r * DEPTH), T, pull) for r in ratios]
             curve = [mdr.critical_velocity(case) / case.unit_velocity for case in cases]
@@ -171,7 +169,8 @@ def _depth_figure(fig, axes, points: list[Point], effort: str) -> str:
             here = [p for p in points if (p.shape, p.T, p.pull) == (shape, T, pull)]
             ax.plot([p.u_z0 * 1e6 for p in here], [p.over_rigid for p in here], marker, color=colour, mec="white")
         ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
-        ax.set(xscale="log", yscale="log", xlabel="mean depth $u_{z0}$ [µm]", title=title)
+        ax.set(xscale="log", yscale="log", xlabel="mean depth $u_{z0}$ [µm]")
+        ax.set_title(rf"{loss_label(T)}, $\omega_0$ = {PULLS[pull]['omega_0_ratio']:g} $\omega$")
         ticks(ax.xaxis, 2, 5, 10, 20, 50, 100, 200)
         ticks(ax.yaxis, 0.7, 1, 2, 5, 10)
     axes[0].annotate("rigid pull", (190, 1.0), (0, -11), textcoords="offset points", ha="right", fontsize=9)

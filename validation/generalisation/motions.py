@@ -43,12 +43,8 @@ MATERIALS: dict[str, mdr.Material] = {
     "standard solid": mdr.StandardLinearSolid(E, 2 * E, 0.7 / OMEGA, NU),
 }
 SMALL, GREAT = 1e-3, 0.6
-EQUIVALENT = (
-    ("cone", "elastic"),
-    ("paraboloid", "ωτ = 1"),
-    ("paraboloid", "standard solid"),
-    ("flat punch", "standard solid"),
-)
+EQUIVALENT = [("cone", "elastic"), ("paraboloid", "ωτ = 1")]
+EQUIVALENT += [("paraboloid", "standard solid"), ("flat punch", "standard solid")]
 SQUARE = tuple(4 / np.pi / n if n % 2 else 0.0 for n in range(1, 10))  # a square wave of amplitude 1, five terms
 PERIODIC = {
     "two frequencies": mdr.PeriodicMotion(OMEGA, DEPTH, cos=(0.15 * DEPTH, 0.0, 0.05 * DEPTH)),
@@ -70,6 +66,13 @@ def load(shape: str, material: str, eps: float, mass_ratio: float = 0.0) -> mdr.
     return mdr.LoadOscillation(F_z0, eps * F_z0, OMEGA, mass_ratio * k_zc / OMEGA**2)
 
 
+_ALL = (
+    f"oscillating load of {SMALL:g} and {GREAT:g} of the mean without mass, and of 0.3 with mass in z, four shapes,"
+    " elastic, Kelvin and standard solid, rigid pull and body; periodic depths of three to nine harmonics, square-like"
+    " tapping among them"
+)  #: the contacts of a full report in words
+
+
 def part(effort: str) -> Part:
     """Drives other than Eq. (3), from runs alone."""
     quick = effort == "quick"
@@ -79,16 +82,7 @@ def part(effort: str) -> Part:
         title="Drive: an oscillating load, a periodic depth",
         quote="[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact"
         " geometries and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3).",
-        range=(
-            f"{len(points)} contacts measured from runs: "
-            + (
-                "; ".join(p.where for p in points) + "."
-                if quick
-                else f"oscillating load of {SMALL:g} and {GREAT:g} of the mean without mass, and of 0.3 with mass in z,"
-                " four shapes, elastic, Kelvin and standard solid, rigid pull and body; periodic depths of three to"
-                " nine harmonics, square-like tapping among them."
-            )
-        ),
+        range=f"{len(points)} contacts measured from runs: {'; '.join(p.where for p in points) if quick else _ALL}.",
         measured="Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this"
         " is a closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter"
         " even under a rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and what"

@@ -25,7 +25,7 @@ import mdr
 from mdr import laws
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
-from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
+from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, loss_label, shape_label
 from validation.figures import figure, key, shape_keys, ticks
 from validation.measured import TOLERANCE, Point, measured, power, slope_at_zero, worst
 from validation.measured import deviation as deviation_of
@@ -215,14 +215,11 @@ def _glance(fig, axes, points: list[Point], effort: str) -> str:
     away from one for curved shapes under a spring pull, the cone rising again at large amplitude.
     """
     hollow = {"mfc": "none", "mew": 1.6, "ms": 7}
-    panels = (
-        ("rigid pull", None, "rigid pull"),
-        ("spring pull, elastic", 0.0, "stiff spring"),
-        (r"spring pull, $\omega\tau$ = 1", 1.0, "stiff spring"),
-    )
     alphas = np.geomspace(0.01, 0.7, 30 if effort == "quick" else 80)
     rigid, springs = ([p for p in points if (p.pull == "rigid pull") is side] for side in (True, False))
-    for ax, (title, T, pull) in zip(axes, panels, strict=True):
+    for ax, T in zip(axes, (None, 0.0, 1.0), strict=True):
+        pull = "rigid pull" if T is None else "stiff spring"
+        title = pull if T is None else f"spring pull, {loss_label(T)}"
         ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
         for shape, (colour, marker) in LOOKS.items():
             if T is not None:
@@ -250,19 +247,16 @@ def _glance(fig, axes, points: list[Point], effort: str) -> str:
 def _powers(fig, ax, effort: str) -> str:
     """Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two."""
     alphas = np.r_[np.geomspace(1e-3, 0.1, 9), np.linspace(0.11, 0.6, 20 if effort == "quick" else 50)]
-    kinds = (
-        ("elastic, undamped", 0.0, False, ":"),
-        ("elastic, damper", 0.0, True, "--"),
-        (r"$\omega\tau$ = 1, damper", 1.0, True, "-"),
-    )
+    kinds = ((0.0, False, ":"), (0.0, True, "--"), (1.0, True, "-"))
     for shape in list(SHAPES)[1:]:
-        for _, T, damped, line in kinds:
+        for T, damped, line in kinds:
             values = np.array([abs(deviation(shape, float(a), T, "stiff spring", damped)) for a in alphas])
             ax.plot(alphas, np.where(values > LEAST, values, np.nan), line, color=LOOKS[shape][0])
     ax.set(xscale="log", yscale="log", ylim=(LEAST, 1))
     ax.set(xlabel=r"amplitude $\alpha = \Delta u_z/u_{z0}$", ylabel="|full-slip value over Eq. (15) − 1|")
     handles = [key(shape_label(shape), color=LOOKS[shape][0]) for shape in list(SHAPES)[1:]]
-    handles += [key(name, color="0.3", ls=line) for name, _, _, line in kinds]
+    for T, damped, line in kinds:
+        handles.append(key(f"{loss_label(T)}, {'damper' if damped else 'undamped'}", color="0.3", ls=line))
     ax.legend(handles=handles, loc="lower right", ncols=2)
     return (
         "How fast Eq. (15) becomes exact under a spring pull (ω_0 = 1.7 ω): with α^2 where nothing dissipates "
