@@ -87,29 +87,25 @@ def contact(
     alpha: float,
     T: float = 0.0,
     *,
-    k_ratio: float | None = None,
-    omega_0_ratio: float = 0.0,
-    damping_ratio: float = 0.0,
     u_z0: float = DEPTH,
     mu_0: float = 0.5,
     nu: float = 0.5,
+    **groups: float,
 ) -> mdr.SlidingContact:
-    """One of the SHAPES on an elastic (T = 0) or Kelvin rubber, pulled rigidly or through a spring.
+    """One of the SHAPES on an elastic (T = 0) or Kelvin rubber, pulled rigidly, or through a spring of these groups.
 
-    k_ratio: k_x/k_xc at u_z0; None is a rigid pull. omega_0_ratio: omega_0/omega; 0 is a body without mass.
-    damping_ratio: c_x/(2 sqrt(k_x m)). u_z0 [m]: mean depth.
+    k_ratio: k_x/k_xc at u_z0. omega_0_ratio: omega_0/omega; 0 is a body without mass. damping_ratio:
+    c_x/(2 sqrt(k_x m)). u_z0 [m]: mean depth.
     """
     material = mdr.KelvinVoigt(E=E, nu=nu, tau=T / OMEGA) if T else mdr.Elastic(E=E, nu=nu)
-    motion = mdr.NormalOscillation(u_z0=u_z0, du_z=alpha * u_z0, omega=OMEGA)
-    groups = {"k_ratio": k_ratio, "omega_0_ratio": omega_0_ratio, "damping_ratio": damping_ratio}
-    return on(SHAPES[shape], material, motion, groups if k_ratio is not None else None, u_z0, mu_0)
+    return any_contact(SHAPES[shape], material, mdr.NormalOscillation(u_z0, alpha * u_z0, OMEGA), groups, u_z0, mu_0)
 
 
-def on(
+def any_contact(
     indenter: mdr.Indenter,
     material: mdr.Material,
     motion: mdr.Motion,
-    groups: dict[str, Any] | None = None,
+    groups: Any = None,
     u_z0: float = DEPTH,
     mu_0: float = 0.5,
 ) -> mdr.SlidingContact:

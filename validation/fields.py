@@ -99,7 +99,7 @@ def off(got: Array, expected: Array, weight: Array) -> float:
 def claim(effort: str) -> Claim:
     """Set tractions, loops and sums beside the textbook."""
     n = N_SPRINGS[effort]
-    checks = [*_mindlin_checks(n), *_run_checks(effort), *_sum_checks(), *_loop_checks(n), *_surface_checks()]
+    checks = (*_mindlin_checks(n), *_run_checks(effort), *_sum_checks(), *_loop_checks(n), *_surface_checks())
     return Claim(
         name="fields",
         title="The springs give the tractions of the three-dimensional contact",
@@ -113,7 +113,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="Pressure, traction, stick radius, surface displacement and the loss of a loop follow from "
         "the springs as contact mechanics has them.",
-        checks=tuple(checks),
+        checks=checks,
         figures=(_traction_figure(), _loop_figure()),
     )
 

@@ -122,7 +122,7 @@ def claim(effort: str) -> Claim:
     """Set creep, relaxation, press and release beside the half-space."""
     every = product(POWERS, ("Kelvin", "standard solid"), PRESSES[effort])
     presses = {one: pressed(*one) for one in every}
-    checks = [*_creep_checks(effort), *_relaxation_checks(), *_press_checks(presses)]
+    checks = (*_creep_checks(effort), *_relaxation_checks(), *_press_checks(presses))
     worst = max(float(c.got or 0) for c in checks if "force" in c.name and "press" in c.name)
     left = [100 * float(ting.u(ting.end)) / DEPTH for _, ting in presses.values()]
     times = sorted({T for _, _, T in presses})
@@ -139,7 +139,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="Releasing each spring where its own force vanishes reproduces Lee and Radok's growing and Ting's "
         "retreating contact: loads, contact radii and the end of contact.",
-        checks=tuple(checks),
+        checks=checks,
         figures=(_press_figure(), _creep_figure()),
     )
 

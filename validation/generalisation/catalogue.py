@@ -17,7 +17,7 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.tools.progress import progress
-from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, depth_of, on, shape_label
+from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, any_contact, depth_of, shape_label
 from validation.figures import figure
 from validation.measured import TOLERANCE, Point, measured, slope_at_zero
 from validation.report import Check, Checks, Equation, Part
@@ -37,7 +37,7 @@ def contact(shape: str, material: str, alpha: float, pulled: bool) -> mdr.Slidin
     """A shape of the catalogue at its own depth, pulled rigidly or by a body of the same groups."""
     depth = mean_depth(shape)
     motion = mdr.NormalOscillation(depth, alpha * depth, OMEGA)
-    return on(ALL[shape], MATERIALS[material], motion, BODY if pulled else None, depth)
+    return any_contact(ALL[shape], MATERIALS[material], motion, BODY if pulled else None, depth)
 
 
 def mean_depth(shape: str) -> float:

@@ -30,7 +30,7 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.tools.progress import progress
-from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, on, shape_label
+from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, any_contact, shape_label
 from validation.figures import figure
 from validation.measured import TOLERANCE, Point, lost, measured
 from validation.measured import deviation as deviation_of
@@ -56,7 +56,7 @@ PERIODIC = {
 
 def contact(shape: str, material: str, motion: mdr.Motion, groups: Any = None) -> mdr.SlidingContact:
     """A shape on a material under any drive, pulled rigidly or by a body."""
-    return on(SHAPES[shape], MATERIALS[material], motion, groups)
+    return any_contact(SHAPES[shape], MATERIALS[material], motion, groups)
 
 
 def load(shape: str, material: str, eps: float, mass_ratio: float = 0.0) -> mdr.LoadOscillation:

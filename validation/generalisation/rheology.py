@@ -26,7 +26,7 @@ import numpy as np
 import mdr
 from mdr.closed_forms import paper
 from mdr.tools.progress import progress
-from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, on, shape_label
+from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, any_contact, shape_label
 from validation.figures import figure
 from validation.measured import TOLERANCE, Point, deviation, lost, measured
 from validation.report import Check, Checks, Equation, Part
@@ -46,7 +46,7 @@ SEED = 20
 
 def contact(shape: str, material: mdr.Material, alpha: float, groups: Any = None) -> mdr.SlidingContact:
     """A shape on a material, pulled rigidly or by a body whose groups refer to the long-time stiffness."""
-    return on(SHAPES[shape], material, mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA), groups)
+    return any_contact(SHAPES[shape], material, mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA), groups)
 
 
 _EQUATION = Equation(

@@ -17,6 +17,7 @@ Symbols: alpha = du_z/u_z0, T = omega tau, n power of the shape (infinite for th
 
 from dataclasses import replace
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -168,45 +169,34 @@ def _measured_checks(points: list[Point]) -> Checks:
             name = f"{shape}, spring pull: largest |v_c/Eq. (15) − 1|"
             off = f"Eq. (15) is off by far more than the measurement ({large.where})"
             yield Check.at_least(name, abs(large.deviation), 10 * TOLERANCE, off)
-    odd = [p for p in points if p.found.kind != "end of stick"]
-    name = f"measurements of {len(points)} whose signs disagree"
-    yield Check(name, len(odd), 0, 0, "end of stick, least slip velocity and COF name one velocity")
+    odd = sum(p.found.kind != "end of stick" for p in points)
+    why = "end of stick, least slip velocity and COF name one velocity"
+    yield Check(f"measurements of {len(points)} whose signs disagree", odd, 0, 0, why)
 
 
 def _power_checks() -> Checks:
-    for shape in list(SHAPES)[1:]:
-        for T, pull, damped, expected in (
-            (0.0, "stiff spring", False, 2),
-            (0.0, "stiff spring", True, 1),
-            (1.0, "stiff spring", True, 1),
-            (1.0, "soft spring", True, 1),
-        ):
-            if damped:
-                got, limit = constant(shape, T, pull), laws.first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
-                name = f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0"
-                why = "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out"
-                yield Check(name, got, limit, 2e-3 * abs(limit), why)
-            name = f"{shape}, {_called(T, pull, damped)}: power of α in the deviation"
-            why = "the next power adds up to 5 α, and alphas end at 0.002"
-            why += "" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"
-            values = [abs(deviation(shape, float(alpha), T, pull, damped)) for alpha in SMALL]
-            yield Check(name, power(SMALL, values), expected, 0.02, why)
+    kinds = ((0.0, "stiff spring", False), (0.0, "stiff spring", True), (1.0, "stiff spring", True))
+    for shape, (T, pull, damped) in product(list(SHAPES)[1:], (*kinds, (1.0, "soft spring", True))):
+        where = f"{shape}, {loss(T)}, {pull}{'' if damped else ' undamped'}"
+        if damped:
+            limit = laws.first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
+            why = "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out"
+            yield Check(f"{where}: deviation/α for α → 0", constant(shape, T, pull), limit, 2e-3 * abs(limit), why)
+        why = "the next power adds up to 5 α, and alphas end at 0.002"
+        why += "" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"
+        values = [abs(deviation(shape, float(alpha), T, pull, damped)) for alpha in SMALL]
+        yield Check(f"{where}: power of α in the deviation", power(SMALL, values), 1 if damped else 2, 0.02, why)
 
 
 def _map_checks() -> Checks:
     rng, ratios = np.random.default_rng(15), []
-    for shape in ("cone", "paraboloid", "r^4"):
-        for _ in range(6):
-            ratio, T = float(rng.uniform(*SPAN)), float(LOSSES[0] * (LOSSES[1] / LOSSES[0]) ** rng.uniform())
-            got = slope_at_zero(*(mapped(ratio, T, alpha, shape) for alpha in (2e-5, 4e-5)))
-            ratios.append(got * POWERS[shape] / laws.first_order(mapped(ratio, T)))
+    for shape, _ in product(("cone", "paraboloid", "r^4"), range(6)):
+        ratio, T = float(rng.uniform(*SPAN)), float(LOSSES[0] * (LOSSES[1] / LOSSES[0]) ** rng.uniform())
+        got = slope_at_zero(*(mapped(ratio, T, alpha, shape) for alpha in (2e-5, 4e-5)))
+        ratios.append(got * POWERS[shape] / laws.first_order(mapped(ratio, T)))
     name = f"n times deviation/α for α → 0 over C of the map, worst of {len(ratios)} random places and shapes"
     why = "1e-10 of v_c in the full-slip value over C α; powers beyond the next"
     yield Check(name, worst(ratios, 1.0), 1.0, 2e-3, why)
-
-
-def _called(T: float, pull: str, damped: bool) -> str:
-    return f"{loss(T)}, {pull}{'' if damped else ' undamped'}"
 
 
 @figure("glance", 1, 3, size=(9.6, 4.6), sharey=True)
