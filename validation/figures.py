@@ -12,10 +12,10 @@ from validation.report import Figure
 def figure(
     name: str, rows: int = 1, columns: int = 1, size: tuple[float, float] | None = None, **panels: Any
 ) -> Callable[[Callable[..., str]], Callable[..., Figure]]:
-    """Decorates draw(fig, axes, ...), which draws on axes as `plt.subplots` gives them and returns the caption.
+    """Decorator of a function draw(fig, axes, ...) that draws on axes of `plt.subplots` and returns the caption.
 
-    Its docstring says what there is to see, for those who cannot see it. The decorated function takes the further
-    arguments alone, and returns the Figure.
+    The docstring of draw says what there is to see, for those who cannot see it. The decorated function takes the
+    further arguments alone, and returns the Figure.
     """
 
     def decorated(draw: Callable[..., str]) -> Callable[..., Figure]:

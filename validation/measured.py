@@ -15,11 +15,16 @@ SHARP = 3e-5  #: under a rigid pull: the bracket on either side, and h²/6 by wh
 
 
 @dataclass(frozen=True)
-class Measured:
+class Point:
     """One contact and its measured critical velocity; ratios are NaN where none was found."""
 
     case: mdr.SlidingContact
     found: mdr.MeasuredVelocity
+    where: str  #: the contact in words
+    shape: str = ""  #: this and the next are what points are told by where a claim varies them
+    alpha: float = np.nan
+    T: float = np.nan  #: omega tau
+    pull: Any = None  #: the name of the pull, or omega_0/omega of the body
 
     @property
     def u_z0(self) -> float:
@@ -50,17 +55,6 @@ class Measured:
     def in_bracket(self) -> bool:
         """Whether the full-slip value lies in the bracket of this very measurement."""
         return self.found.contains(mdr.full_slip_critical_velocity(self.case))
-
-
-@dataclass(frozen=True)
-class Point(Measured):
-    """One contact in words, and what it is told by where a claim varies shape, amplitude, T = omega tau and pull."""
-
-    where: str
-    shape: str = ""
-    alpha: float = np.nan
-    T: float = np.nan
-    pull: Any = None  #: the name of the pull, or omega_0/omega of the body
 
 
 def measured(case: mdr.SlidingContact, where: str, *told: Any) -> Point:
