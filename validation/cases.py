@@ -9,6 +9,7 @@ contact stiffness at u_z0, omega_0² = k_x/m.
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -48,6 +49,7 @@ LOOKS = dict(zip(SHAPES, zip(COLOURS, "sv^o", strict=False), strict=False))  #: 
 POWERS = dict(zip(SHAPES, (math.inf, 1.0, 2.0, 4.0), strict=True))  #: n of f ~ r^n, of which k_zc ~ d^(1/n)
 
 BODY = {"k_ratio": 1.5, "omega_0_ratio": 1.7, "damping_ratio": 0.05}  #: groups of a body whose omega_0 is above omega
+SWUNG: dict[str, float] = BODY | {"omega_0_ratio": 1.3}  #: omega_1 = 1.7 omega: 64 steps of a period resolve it
 STIFFNESS, DAMPING = 1.5, 0.02  #: k_x/k_xc at u_z0 and damping ratio of `driven`
 
 
@@ -58,9 +60,16 @@ def depth_of(indenter: mdr.Indenter) -> float:
     return float(indenter.profile_1d(RADIUS))
 
 
+def widest_cell(case: mdr.SlidingContact, springs: mdr.SpringArray) -> float:
+    """Greatest dk dg/8 [N] of the springs that come and go, dg the rise of g over half of a cell: error of a force."""
+    half, profile = springs.width / 4, case.indenter.profile_1d
+    rise = np.asarray(profile(springs.x + half)) - np.asarray(profile(springs.x - half))
+    return float(np.max((springs.dk_z * rise / 8)[np.arange(springs.x.size) >= springs.n_core]))
+
+
 def shape_label(shape: str) -> str:
     """The name of a shape as matplotlib sets it."""
-    return shape.replace("r^4", "$r^4$")
+    return shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$")
 
 
 def loss(T: float) -> str:
@@ -68,29 +77,41 @@ def loss(T: float) -> str:
     return "elastic" if T == 0 else f"ωτ = {T:g}"
 
 
+def loss_label(T: float) -> str:
+    """The material as matplotlib sets it."""
+    return loss(T).replace("ωτ", r"$\omega\tau$")
+
+
 def contact(
     shape: str,
     alpha: float,
     T: float = 0.0,
     *,
-    k_ratio: float | None = None,
-    omega_0_ratio: float = 0.0,
-    damping_ratio: float = 0.0,
     u_z0: float = DEPTH,
     mu_0: float = 0.5,
     nu: float = 0.5,
+    **groups: float,
 ) -> mdr.SlidingContact:
-    """One of the SHAPES on an elastic (T = 0) or Kelvin rubber, pulled rigidly or through a spring.
+    """One of the SHAPES on an elastic (T = 0) or Kelvin rubber, pulled rigidly, or through a spring of these groups.
 
-    k_ratio: k_x/k_xc at u_z0; None is a rigid pull. omega_0_ratio: omega_0/omega; 0 is a body without mass.
-    damping_ratio: c_x/(2 sqrt(k_x m)). u_z0 [m]: mean depth.
+    k_ratio: k_x/k_xc at u_z0. omega_0_ratio: omega_0/omega; 0 is a body without mass. damping_ratio:
+    c_x/(2 sqrt(k_x m)). u_z0 [m]: mean depth.
     """
     material = mdr.KelvinVoigt(E=E, nu=nu, tau=T / OMEGA) if T else mdr.Elastic(E=E, nu=nu)
-    oscillation = mdr.NormalOscillation(u_z0=u_z0, du_z=alpha * u_z0, omega=OMEGA)
-    pull: mdr.Pull = mdr.RigidPull()
-    if k_ratio is not None:
-        pull = body(SHAPES[shape], material, u_z0, k_ratio, omega_0_ratio, damping_ratio)
-    return mdr.SlidingContact(SHAPES[shape], material, mu_0, oscillation, pull)
+    return any_contact(SHAPES[shape], material, mdr.NormalOscillation(u_z0, alpha * u_z0, OMEGA), groups, u_z0, mu_0)
+
+
+def any_contact(
+    indenter: mdr.Indenter,
+    material: mdr.Material,
+    motion: mdr.Motion,
+    groups: Any = None,
+    u_z0: float = DEPTH,
+    mu_0: float = 0.5,
+) -> mdr.SlidingContact:
+    """Any indenter on any material in any motion, pulled rigidly or by a body of these groups at the depth u_z0."""
+    pull = body(indenter, material, u_z0, **groups) if groups else mdr.RigidPull()
+    return mdr.SlidingContact(indenter, material, mu_0, motion, pull)
 
 
 def shaken(

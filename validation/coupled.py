@@ -13,17 +13,19 @@ Symbols: beta Dundurs' constant, kappa = E*/G*, lambda = 2 |beta|/(pi mu_0 kappa
 """
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions, last_period
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import contact
+from validation.figures import figure, outer_labels
 from validation.half_space import pictures, tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import span
 
 SHAPES = ("paraboloid", "flat punch")
@@ -39,34 +41,26 @@ def claim(effort: str) -> Claim:
     """Read the table, compute some of it again, and look into the contact."""
     quick = effort == "quick"
     if effort == "long":
-        columns = [_column(shape, nu, mu_0) for mu_0 in FRICTIONS for nu in RATIOS for shape in SHAPES]
-        tables.write(
-            "coupled", tables.compute(columns, tables.SETTINGS), tables.SETTINGS, "elastic, rigid pull, coupled"
-        )
+        contacts = [(shape, nu, mu_0, ALPHA, 0.0) for mu_0 in FRICTIONS for nu in RATIOS for shape in SHAPES]
+        computed = tables.compute([[Point(*one, v) for v in VELOCITIES] for one in contacts], tables.SETTINGS)
+        tables.write("coupled", computed, tables.SETTINGS, "elastic, rigid pull, coupled")
     rows = tables.read("coupled")
     most = max(rows, key=lambda row: row.loss)
     return Claim(
         name="coupled",
         title="Springs give the friction of a compressible body",
-        quote=(
-            "In the limit of a very stiff system spring … Eq. (1) … thus appears to be valid independently of the"
-            " viscoelastic properties of the medium. … the obtained result in Eq. (15) is valid not only for the simple"
-            " considered model …, but also for quite general contacts. (Section 2.2.2)"
-        ),
-        range=(
-            f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
-            f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
-            f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.SETTINGS.cells}² cells and"
-            f" {tables.SETTINGS.steps} steps, errors beside each"
-            " (validation/half_space/tables/coupled.csv)"
-        ),
+        quote="In the limit of a very stiff system spring … Eq. (1) … thus appears to be valid independently of the"
+        " viscoelastic properties of the medium. … the obtained result in Eq. (15) is valid not only for the simple"
+        " considered model …, but also for quite general contacts. (Section 2.2.2)",
+        range=f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
+        f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
+        f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.SETTINGS.cells}² cells and {tables.SETTINGS.steps}"
+        " steps, errors beside each (validation/half_space/tables/coupled.csv)",
         measured=_measured(rows),
         verdict="holds if Dundurs' β is zero: an incompressible body (ν = 0.5), or two bodies of the same material",
-        sentence=(
-            "With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that of"
-            f" the springs by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and up to"
-            f" {100 * most.loss:.0f} % in the table."
-        ),
+        sentence="With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that"
+        f" of the springs by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and up to {100 * most.loss:.0f} % in"
+        " the table.",
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
         figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),
     )
@@ -76,149 +70,104 @@ def _measured(rows: list[Row]) -> str:
     return (
         "Dundurs' β couples the two: where it vanishes, coupled and uncoupled runs agree. Where it does not, the"
         " contact grows and shrinks with the surface rubbing radially under it, at up to λ = 2|β|/(π μ_0 κ) times the"
-        " velocity of Eq. (1), and friction is lower than that of the springs. At most, by"
-        f" {_percent(rows, 0.45, 0.3)} of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and"
-        f" {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 = 0.3; paraboloid and punch). The loss is greatest at"
-        f" {_where(rows, 1.2)} for λ up to 1.2; for the largest λ it goes on growing down to {min(VELOCITIES):g}"
-        " v_c, the lowest velocity that was tried. A core that is shifted to the trailing edge sticks, and what slips"
-        " around it slips outward as the contact grows."
+        f" velocity of Eq. (1), and friction is lower than that of the springs. At most, by {_percent(rows, 0.45, 0.3)}"
+        f" of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 ="
+        f" 0.3; paraboloid and punch). The loss is greatest at {_where(rows, 1.2)} for λ up to 1.2; for the largest λ"
+        f" it goes on growing down to {min(VELOCITIES):g} v_c, the lowest velocity that was tried. A core that is"
+        " shifted to the trailing edge sticks, and what slips around it slips outward as the contact grows."
     )
 
 
 def _where(rows: list[Row], most: float) -> str:
     """Velocities of the greatest losses for lambda below a value."""
-    within = [row for row in rows if radial_rub(row.point.case) < most]
-    contacts = {(r.point.shape, r.point.nu, r.point.mu_0) for r in within}
-    tops = [
-        max((r for r in within if (r.point.shape, r.point.nu, r.point.mu_0) == one), key=lambda row: row.loss).point.v
-        for one in contacts
-    ]
-    return f"{span(tops)} v_c"
+    within = tables.columns_of(row for row in rows if radial_rub(row.point.case) < most)
+    return f"{span(max(column, key=lambda row: row.loss).point.v for column in within)} v_c"
 
 
 def _percent(rows: list[Row], nu: float, mu_0: float) -> str:
     """The greatest loss of either shape, and the error of that."""
-    own = [[r for r in rows if (r.point.shape, r.point.nu, r.point.mu_0) == (shape, nu, mu_0)] for shape in SHAPES]
+    own = tables.columns_of(row for row in rows if (row.point.nu, row.point.mu_0) == (nu, mu_0))
     most = sorted((max(column, key=lambda row: row.loss) for column in own), key=lambda row: row.loss)
     low, high = (f"{100 * row.loss:.2g}" for row in most)
     return f"{low} to {high} % (each ± {100 * max(row.error for row in most):.1g} %)"
 
 
-def _column(shape: str, nu: float, mu_0: float) -> list[Point]:
-    return [Point(shape, nu, mu_0, ALPHA, 0.0, v) for v in VELOCITIES]
-
-
-def _rub_of(nu: float, mu_0: float) -> float:
-    return radial_rub(contact("paraboloid", ALPHA, mu_0=mu_0, nu=nu))
-
-
 # --- checks ---
 
 
-def _equal_checks(quick: bool) -> list[Check]:
-    checks = []
+def _equal_checks(quick: bool) -> Checks:
     for shape in SHAPES:
         case = contact(shape, ALPHA, mu_0=0.3, nu=NEARLY)
         settings = Settings(17 if quick else 31, 24 if quick else 50, cycles=2)
-        both = [
-            in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), replace(settings, coupled=on)).cof
-            for on in (True, False)
-        ]
-        checks.append(
-            Check(
-                f"{shape}, ν = 0.4999999: COF coupled over uncoupled",
-                both[0] / both[1],
-                1,
-                1e-5,
-                "forces to 1e-6 a step",
-            )
-        )
+        v_0 = 0.4 * mdr.critical_velocity(case)
+        one, two = (in_three_dimensions(case, v_0, replace(settings, coupled=on)).cof for on in (True, False))
+        name = f"{shape}, ν = 0.4999999: COF coupled over uncoupled"
+        yield Check(name, one / two, 1, 1e-5, "forces to 1e-6 a step")
     pair = Point("paraboloid", 0.5, 0.3, ALPHA, 0.0, 0.6, nu_2=0.0)  # beta < 0
     turned = replace(pair, nu=0.0, nu_2=0.5)
     one, two = (tables.loss(point, Settings(cells=17, steps=24, cycles=3)) for point in (pair, turned))
-    checks.append(
-        Check("two bodies, β → −β: loss over that of +β", one / two, 1, 1e-3, "of the solver, over a loss of 2 %")
-    )
-    return checks
+    yield Check("two bodies, β → −β: loss over that of +β", one / two, 1, 1e-3, "of the solver, over a loss of 2 %")
 
 
-def _table_checks(rows: list[Row]) -> list[Check]:
+def _table_checks(rows: list[Row]) -> Checks:
     most, least = max(row.error for row in rows), min(row.loss + row.error for row in rows)
-    checks = [
-        Check.at_most("greatest error of a point of the table, over μ_0", most, 0.02, "of a loss of up to a half"),
-        Check.at_least("least loss with its error, over μ_0", least, 0, "coupling never raises friction"),
-    ]
+    yield Check.at_most("greatest error of a point of the table, over μ_0", most, 0.02, "of a loss of up to a half")
+    yield Check.at_least("least loss with its error, over μ_0", least, 0, "coupling never raises friction")
     for shape in SHAPES:
         own = [row for row in rows if row.point.shape == shape and row.point.v == 0.8 and row.point.mu_0 < 0.5]
         losses = np.array([row.loss for row in sorted(own, key=lambda row: radial_rub(row.point.case))])
         name = f"{shape}, 0.8 v_c: least growth of the loss from one λ to the next of {len(own)}"
-        checks.append(Check.at_least(name, float(np.diff(losses).min()), 0, "λ puts them in order"))
-    return checks
+        yield Check.at_least(name, float(np.diff(losses).min()), 0, "λ puts them in order")
 
 
-def _again_checks(rows: list[Row], quick: bool) -> list[Check]:
+def _again_checks(rows: list[Row], quick: bool) -> Checks:
     """Points computed now on a coarser grid."""
     known = {row.point: row for row in rows}
     settings = Settings(17 if quick else 21, 24 if quick else 32, cycles=4, settled=1e-3)
-    checks = []
     for shape in SHAPES[:1] if quick else SHAPES:
         for new in tables.column([Point(shape, 0.3, 0.3, ALPHA, 0.0, v) for v in (1.2, 0.6)], settings):
             old = known[new.point]
             name = f"{shape}, ν = μ_0 = 0.3, {new.point.v:g} v_c: loss computed again"
-            checks.append(Check(name, new.loss, old.loss, new.error + old.error, "errors of both"))
-    return checks
+            yield Check(name, new.loss, old.loss, new.error + old.error, "errors of both")
 
 
 # --- figures ---
 
 
-def _curve_figure(rows: list[Row]) -> Figure:
-    """Friction over velocity, in three dimensions and of springs."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, panels = plt.subplots(2, 3, figsize=(10.2, 6.4), sharex=True, sharey=True)
-        for line, shape in zip(panels, SHAPES, strict=True):
-            for ax, mu_0 in zip(line, FRICTIONS, strict=True):
-                for nu, colour in zip(RATIOS, COLOURS, strict=False):
-                    own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
-                    v, cof = [r.point.v for r in own], [r.cof for r in own]
-                    ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
-                    end = 1 + _rub_of(nu, mu_0)
-                    if end < 0.98 * FASTEST_SHOWN:
-                        ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
-                ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")
-                ax.set_title(rf"{shape}, $\mu_0 = {mu_0:g}$")
-                ax.set_xlim(0, FASTEST_SHOWN)
-                ax.axvline(1, color="0.8", lw=0.8, zorder=0)
-        for ax in panels[1]:
-            ax.set_xlabel("$v_0$ over Eq. (1)")
-        panels[0, 0].set_ylim(None, 1.065)
-        for ax in panels[:, 0]:
-            ax.set_ylabel(r"$\mu/\mu_0$")
-        panels[0, 2].legend(loc="lower right")
-    return Figure(
-        name="cof",
-        caption="Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"
+@figure("cof", 2, 3, size=(10.2, 6.4), sharex=True, sharey=True)
+def _curve_figure(fig, panels, rows: list[Row]) -> str:
+    """Six panels of friction against velocity: four Poisson's ratios below the dashed springs."""
+    for ax, (shape, mu_0) in zip(panels.flat, product(SHAPES, FRICTIONS), strict=True):
+        for nu, colour in zip(RATIOS, COLOURS, strict=False):
+            own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
+            v, cof = [r.point.v for r in own], [r.cof for r in own]
+            ax.plot(v, cof, "o-", ms=3.5, lw=1, color=colour, label=rf"$\nu = {nu:g}$")
+            end = 1 + radial_rub(own[0].point.case)
+            if end < 0.98 * FASTEST_SHOWN:
+                ax.plot([end, end], [1.015, 1.05], color=colour, lw=2)
+        ax.plot(v, [r.springs for r in own], "k--", lw=1.2, label="springs")
+        ax.set(title=rf"{shape}, $\mu_0 = {mu_0:g}$", xlim=(0, FASTEST_SHOWN))
+        ax.axvline(1, color="0.8", lw=0.8, zorder=0)
+    panels[0, 0].set_ylim(None, 1.065)
+    outer_labels(panels, "$v_0$ over Eq. (1)", r"$\mu/\mu_0$")
+    panels[0, 2].legend(loc="lower right")
+    return (
+        "Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"
         " know Poisson's ratio. The more compressible the body and the smaller μ_0, the lower; ν = 0.5 is the dashed"
-        " line itself. Ticks above the curves: (1 + λ) v_c, about where stick ends, where this is"
-        f" below {FASTEST_SHOWN:g} v_c. Friction is not full there, nor"
-        " beyond.",
-        drawing=fig,
-        alt="Six panels of friction against velocity: four Poisson's ratios below the dashed springs.",
+        " line itself. Ticks above the curves: (1 + λ) v_c, about where stick ends, where this is below"
+        f" {FASTEST_SHOWN:g} v_c. Friction is not full there, nor beyond."
     )
 
 
-def _map_figure(cells: int, steps: int) -> Figure:
-    """Stick and slip at four instants."""
+@figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
+def _map_figure(fig, panels, cells: int, steps: int) -> str:
+    """Four maps of the contact over a period with regions of stick and arrows of slip."""
     case = contact("paraboloid", ALPHA, mu_0=0.3, nu=0.3)
-    found = last_period(case, SHOWN * mdr.critical_velocity(case), Settings(cells, steps, cycles=2))
-    return Figure(
-        name="map",
-        caption=f"The contact of a paraboloid from above at {SHOWN:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {ALPHA:g}). Dark:"
+    settings = Settings(cells, steps, cycles=2)
+    pictures.period(panels, last_period(case, SHOWN * mdr.critical_velocity(case), settings))
+    return (
+        f"The contact of a paraboloid from above at {SHOWN:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {ALPHA:g}). Dark:"
         " stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. While the"
         " depth grows (first and second) what sticks is a region shifted to the trailing edge, and around it the"
-        " indenter slips outward, over a surface that is drawn to the middle; on retreat all slips, along the pull.",
-        drawing=pictures.period(found),
-        alt="Four maps of the contact over a period with regions of stick and arrows of slip.",
+        " indenter slips outward, over a surface that is drawn to the middle; on retreat all slips, along the pull."
     )

@@ -15,7 +15,6 @@ The held-out table (validation/half_space/tables/coupling_held_out.csv) is compu
 `python -m validation --long --only coupling_law`.
 """
 
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -25,14 +24,13 @@ from scipy.optimize import curve_fit
 import mdr
 from mdr.closed_forms import coupling
 from mdr.half_space.friction import Settings
-from mdr.plots import style
 from mdr.tools.arrays import Array
 from validation.cases import LOOKS, shape_label
+from validation.figures import figure, key, shape_keys
 from validation.half_space import tables
-from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Equation, Figure
-
-Column = Sequence[Row]  #: of one contact
+from validation.half_space.tables import Column, Point, columns_of
+from validation.measured import worst
+from validation.report import Check, Checks, Claim, Equation
 
 VELOCITIES = (3.0, 2.0, 1.5, 1.2, 1.0, 0.9, 0.8, 0.6, 0.4, 0.2)
 FITTED = (0.2, 0.4, 0.6, 0.8, 0.9, 1.0)  # v_0/v_c
@@ -65,8 +63,7 @@ class Groups:
     @classmethod
     def of(cls, point: Point) -> "Groups":
         """Of the contact of a point."""
-        case = point.case
-        material = case.material
+        case, material = point.case, point.case.material
         pull = material.dundurs_beta**2 / material.mindlin_ratio
         return cls(coupling.radial_rub(case), pull, 1 - mdr.static_cof(case) / point.mu_0)
 
@@ -74,15 +71,6 @@ class Groups:
         """(*) with these a, b, c."""
         a, b, c = constants
         return float(self.lost * (a * self.rub**2 / (b + self.rub) + c * self.pull))
-
-
-def columns_of(rows: Iterable[Row]) -> list[Column]:
-    """The rows of each contact together."""
-    found = defaultdict(list)
-    for row in rows:
-        p = row.point
-        found[p.shape, p.nu, p.mu_0, p.alpha, p.T, p.nu_2].append(row)
-    return list(found.values())
 
 
 def at(column: Column, v: float | None) -> float:
@@ -142,39 +130,29 @@ def claim(effort: str) -> Claim:
     trials = tried(rest, constants)
     within = [trial for trial in trials if trial.groups.rub <= coupling.FARTHEST]
     beyond = [trial for trial in trials if trial.groups.rub > coupling.FARTHEST]
-    worst, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
+    most, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
     a, b, c = constants[None]
+    errors = [row.error for column in rest for row in column]
     return Claim(
         name="coupling_law",
         title="The loss by coupling depends on two groups of β, and on what the springs lose at rest",
         quote="",
-        range=(
-            f"fitted to {len(training)} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried on"
-            f" {len(rest)} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like"
-            f" modulus, μ_0 from 0.05 to 0.6, λ from {min(t.groups.rub for t in trials):.2f} to"
-            f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to"
-            f" {max(row.error for column in rest for row in column):.2f} μ_0 at the largest λ, and"
-            f" {_typical(rest):.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)"
-        ),
-        measured=(
-            "Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
-            " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0"
-            " is large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0)"
-            f" [{a:.3g} λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)}"
-            f" with λ ≤ {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * worst:.0f} %)."
-            f" Beyond, {_beyond(beyond)}"
-        ),
+        range=f"fitted to {len(training)} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried"
+        f" on {len(rest)} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like"
+        f" modulus, μ_0 from 0.05 to 0.6, λ from {min(t.groups.rub for t in trials):.2f} to"
+        f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to {max(errors):.2f} μ_0 at the largest λ,"
+        f" and {np.median(errors):.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)",
+        measured="Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
+        " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is"
+        f" large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g}"
+        f" λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)} with λ ≤"
+        f" {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * most:.0f} %). Beyond,"
+        f" {_beyond(beyond)}",
         verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
-        sentence=(
-            f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
-            f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms)."
-        ),
-        checks=(
-            *_constant_checks(constants[None]),
-            *_trial_checks(within, beyond),
-            *_group_checks(effort == "quick"),
-        ),
-        figures=(_collapse_figure(everything, constants[None]), _trial_figure(training, trials, constants)),
+        sentence=f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
+        f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms).",
+        checks=(*_constant_checks(constants[None]), *_trial_checks(within, beyond), *_group_checks(effort == "quick")),
+        figures=(_collapse_figure(everything, constants[None]), _trial_figure(tried(training, constants), trials)),
         equations=(
             Equation(
                 "",
@@ -192,35 +170,27 @@ def _is_training(point: Point) -> bool:
     return plain and coupling.radial_rub(point.case) <= FARTHEST_FIT
 
 
-def _typical(columns: Iterable[Column]) -> float:
-    return float(np.median([row.error for column in columns for row in column]))
-
-
 def _beyond(beyond: Sequence[Trial]) -> str:
     flat = [trial for trial in beyond if trial.point.shape == "flat punch"]
     curved = [trial for trial in beyond if trial.point.shape != "flat punch"]
     return (
-        f"up to λ = {max(t.groups.rub for t in curved):.1f}, curved shapes still do"
-        f" ({min(t.ratio for t in curved):.2f} to {max(t.ratio for t in curved):.2f} of the loss found), but a punch"
-        f" loses more, most at the lowest velocity tried: the law gives {min(t.ratio for t in flat):.2f} to"
-        f" {max(t.ratio for t in flat):.2f} of it."
+        f"up to λ = {max(t.groups.rub for t in curved):.1f}, curved shapes still do ({min(t.ratio for t in curved):.2f}"
+        f" to {max(t.ratio for t in curved):.2f} of the loss found), but a punch loses more, most at the lowest"
+        f" velocity tried: the law gives {min(t.ratio for t in flat):.2f} to {max(t.ratio for t in flat):.2f} of it."
     )
 
 
 # --- checks ---
 
 
-def _constant_checks(constants: Array) -> list[Check]:
+def _constant_checks(constants: Array) -> Checks:
     known = {"a": coupling.SHARE, "b": coupling.BEND, "c": coupling.PULL}
-    return [
-        Check(
-            f"constant {name} of the library over that fitted here", value / fit, 1, 0.01, "written with three digits"
-        )
-        for (name, value), fit in zip(known.items(), constants, strict=True)
-    ]
+    for (constant, value), fit in zip(known.items(), constants, strict=True):
+        name = f"constant {constant} of the library over that fitted here"
+        yield Check(name, value / fit, 1, 0.01, "written with three digits")
 
 
-def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> list[Check]:
+def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> Checks:
     kinds = {
         "flat punch": lambda p: p.shape == "flat punch" and p.alpha == 0.3 and not p.T,
         "other amplitudes": lambda p: p.alpha != 0.3,
@@ -228,20 +198,17 @@ def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> list[Chec
         "Kelvin": lambda p: p.T > 0,
         "two bodies": lambda p: p.nu_2 is not None,
     }
-    checks = []
     for kind, belongs in kinds.items():
         own = [trial for trial in within if belongs(trial.point)]
-        ratio = max((trial.ratio for trial in own), key=lambda ratio: abs(ratio - 1))
-        off = max((trial.off for trial in own), key=abs)
+        ratio, off = worst((trial.ratio for trial in own), 1), worst((trial.off for trial in own), 0)
         name = f"held out, {kind} ({len(own)}), λ ≤ {coupling.FARTHEST:g}"
-        checks.append(Check(f"{name}: worst law over 3D, greatest loss", ratio, 1, ALLOWED, "stated"))
-        checks.append(Check(f"{name}: worst law − 3D at any velocity, over that", off, 0, 2 * ALLOWED, "stated"))
+        yield Check(f"{name}: worst law over 3D, greatest loss", ratio, 1, ALLOWED, "stated")
+        yield Check(f"{name}: worst law − 3D at any velocity, over that", off, 0, 2 * ALLOWED, "stated")
     most = max(trial.ratio for trial in beyond if trial.point.shape == "flat punch")
-    checks.append(Check.at_most("flat punch beyond: greatest law over 3D", most, 0.75, "the law ends"))
-    return checks
+    yield Check.at_most("flat punch beyond: greatest law over 3D", most, 0.75, "the law ends")
 
 
-def _group_checks(quick: bool) -> list[Check]:
+def _group_checks(quick: bool) -> Checks:
     """One lambda by three Poisson's ratios and frictions, whose beta mu_0 is small."""
     losses = []
     for nu in (0.3, 0.45) if quick else (0.2, 0.3, 0.45):
@@ -250,76 +217,56 @@ def _group_checks(quick: bool) -> list[Check]:
         settings = Settings(17 if quick else 25, 24 if quick else 40, cycles=4, settled=1e-3)
         losses.append(tables.loss(point, settings))
     name = "λ = 1 by several ν and μ_0, 0.8 v_c: least loss over greatest"
-    return [Check(name, min(losses) / max(losses), 1, 0.08, "β²/κ differs, by up to 0.1")]
+    yield Check(name, min(losses) / max(losses), 1, 0.08, "β²/κ differs, by up to 0.1")
 
 
 # --- figures ---
 
 
-def _collapse_figure(columns: Sequence[Column], constants: Array) -> Figure:
-    """Losses at nu = mu_0 = 0.3, the greatest and over L_0."""
-    import matplotlib.pyplot as plt
-
+@figure("collapse", 1, 2, size=(9.8, 4.0))
+def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array) -> str:
+    """Left: points on a line through zero. Right: curves of loss against velocity nearly on one."""
+    left, right = axes
     own = [column for column in columns if (column[0].point.nu, column[0].point.mu_0) == (0.3, 0.3)]
     first = Groups.of(own[0][0].point)
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.8, 4.0))
-        for column in own:
-            point = column[0].point
-            colour, marker = LOOKS[point.shape]
-            v = np.array([row.point.v for row in column])
-            loss = np.array([row.loss for row in column])
-            look = {"color": colour, "mfc": "w" if point.T else colour, "ms": 5}
-            groups = Groups.of(point)
-            left.plot(groups.lost, loss.max(), marker, **look)
-            right.plot(v, loss / groups.lost, "--" if point.T else "-", lw=1, color=colour)
-        left.axline((0, 0), slope=first.loss(constants) / first.lost, color="0.6")
-        for shape, (colour, marker) in LOOKS.items():
-            left.plot([], [], marker, color=colour, ms=5, label=shape_label(shape))
-        left.plot([], [], "o", color="0.3", mfc="w", label=r"Kelvin, $\omega\tau$ = 0.3 to 3")
-        left.plot([], [], "-", color="0.6", label="the law")
-        left.set(xlim=(0, None), ylim=(0, None), xlabel="$L_0$", ylabel=r"greatest loss = (springs $-$ 3D)/$\mu_0$")
-        right.set(xlim=(0, 2), xlabel="$v_0$ over Eq. (1)", ylabel="loss over $L_0$")
-        left.legend()
-    return Figure(
-        name="collapse",
-        caption=f"What springs are too high by in {len(own)} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes,"
+    for column in own:
+        point = column[0].point
+        colour, marker = LOOKS[point.shape]
+        lost, loss = Groups.of(point).lost, np.array([row.loss for row in column])
+        left.plot(lost, loss.max(), marker, color=colour, mfc="w" if point.T else colour, ms=5)
+        right.plot([row.point.v for row in column], loss / lost, "--" if point.T else "-", lw=1, color=colour)
+    left.axline((0, 0), slope=first.loss(constants) / first.lost, color="0.6")
+    kelvin = key(r"Kelvin, $\omega\tau$ = 0.3 to 3", color="0.3", marker="o", ls="", mfc="w")
+    left.legend(handles=[*shape_keys(ls="", ms=5), kelvin, key("the law", color="0.6")])
+    left.set(xlim=(0, None), ylim=(0, None), xlabel="$L_0$", ylabel=r"greatest loss = (springs $-$ 3D)/$\mu_0$")
+    right.set(xlim=(0, 2), xlabel="$v_0$ over Eq. (1)", ylabel="loss over $L_0$")
+    return (
+        f"What springs are too high by in {len(own)} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes,"
         " Δu_z/u_z0 from 0.1 to 1.5, elastic and Kelvin. Left: the greatest loss of each, over a decade, goes with L_0,"
-        " what the springs lose at rest. Right: over L_0 the curves of all velocities fall together (Kelvin dashed).",
-        drawing=fig,
-        alt="Left: points on a line through zero. Right: curves of loss against velocity nearly on one.",
+        " what the springs lose at rest. Right: over L_0 the curves of all velocities fall together (Kelvin dashed)."
     )
 
 
-def _trial_figure(training: Sequence[Column], trials: Sequence[Trial], constants: dict[float | None, Array]) -> Figure:
-    """The law against three dimensions."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.2, 4.6))
-        ends = np.array([5e-4, 0.6])
-        ax.fill_between(
-            ends, ends * (1 - ALLOWED), ends * (1 + ALLOWED), color="0.92", label=f"± {100 * ALLOWED:.0f} %"
-        )
-        ax.plot(ends, ends, color="0.6", lw=0.8)
-        for trial in tried(training, constants):
-            ax.loglog(trial.found, trial.said, "+", color="k", ms=7)
-        for trial in trials:
-            known = trial.groups.rub <= coupling.FARTHEST
-            colour = LOOKS[trial.point.shape][0]
-            ax.loglog(trial.found, trial.said, "o", color=colour, mfc=colour if known else "w", ms=5)
-        ax.loglog([], [], "k+", label="fitted")
-        for shape, (colour, _) in LOOKS.items():
-            ax.loglog([], [], "o", color=colour, label=shape_label(shape))
-        ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.FARTHEST:g}")
-        ax.set_xlabel(r"greatest loss in three dimensions, over $\mu_0$")
-        ax.set_ylabel(r"the law, over $\mu_0$")
-        ax.legend(loc="upper left")
-    return Figure(
-        name="trials",
-        caption="The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"
+@figure("trials", size=(6.2, 4.6))
+def _trial_figure(fig, ax, training: Iterable[Trial], trials: Iterable[Trial]) -> str:
+    """Scatter of the law against the computed loss over three decades, along the diagonal."""
+    ends = np.array([5e-4, 0.6])
+    ax.fill_between(ends, ends * (1 - ALLOWED), ends * (1 + ALLOWED), color="0.92", label=f"± {100 * ALLOWED:.0f} %")
+    ax.plot(ends, ends, color="0.6", lw=0.8)
+    for trial in training:
+        ax.loglog(trial.found, trial.said, "+", color="k", ms=7)
+    for trial in trials:
+        known = trial.groups.rub <= coupling.FARTHEST
+        colour = LOOKS[trial.point.shape][0]
+        ax.loglog(trial.found, trial.said, "o", color=colour, mfc=colour if known else "w", ms=5)
+    ax.loglog([], [], "k+", label="fitted")
+    for shape, (colour, _) in LOOKS.items():
+        ax.loglog([], [], "o", color=colour, label=shape_label(shape))
+    ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.FARTHEST:g}")
+    ax.set(xlabel=r"greatest loss in three dimensions, over $\mu_0$", ylabel=r"the law, over $\mu_0$")
+    ax.legend(loc="upper left")
+    return (
+        "The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"
         f" beyond λ = {coupling.FARTHEST:g}). Within the grey band it is good to {100 * ALLOWED:.0f} %; below it hang"
-        " flat punches at large λ, which lose more than it says.",
-        drawing=fig,
-        alt="Scatter of the law against the computed loss over three decades, along the diagonal.",
+        " flat punches at large λ, which lose more than it says."
     )

@@ -29,6 +29,7 @@ large (0.2 to 1.6 times (**) in the tables).
 Symbols: kappa = E*/G*, beta Dundurs' constant, alpha = du_z/u_z0, v_c Eq. (1). Elastic, rigid pull.
 """
 
+from itertools import product
 from math import log
 
 import numpy as np
@@ -36,12 +37,12 @@ import numpy as np
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import LastPeriod, Settings, contact_of, in_three_dimensions, last_period, path, stuck
-from mdr.plots import style
 from validation.cases import LOOKS, contact, shape_label
+from validation.figures import figure
 from validation.half_space import pictures, tables
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
-from validation.report import Check, Claim, Equation, Figure
+from validation.report import Check, Checks, Claim, Equation
 from validation.words import counted, percent, ranged, span
 
 Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
@@ -66,6 +67,22 @@ ABOVE = 1.2  # v_0/v_c of the map
 FAST = 6.0  # alpha v_0/v_c at which (**) is asked for
 
 
+_EQUATIONS = (
+    Equation(
+        "(*)",
+        r"v_s \approx \left( \mu_0 \kappa + \frac{2 |\beta|}{\pi} \right) \Delta u_z \omega"
+        r" = v_c (1 + \lambda), \quad \lambda = \frac{2 |\beta|}{\pi \mu_0 \kappa}",
+        "End of stick, to lowest order in μ_0 and λ; the line in the figure below.",
+    ),
+    Equation(
+        "(**)",
+        r"1 - \frac{\mu}{\mu_0} \to \frac{\lambda^2 M}{8} \left( \frac{v_c}{v_0} \right)^2, \quad"
+        r" M = \frac{1}{F_z} \int R^2 p \, dA, \quad R = \frac{a - \sqrt{a^2 - r^2}}{r}",
+        "Loss far above it, <i>R</i> the radial velocity of the surface over that at the edge.",
+    ),
+)
+
+
 def claim(effort: str) -> Claim:
     """Search the end of stick, set it beside the linear problem, and go far beyond."""
     quick = effort == "quick"
@@ -75,44 +92,26 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="end_of_stick",
         title="On a compressible body stick ends at Eq. (1), and friction is full above it",
-        quote=(
-            "Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
-            " some critical velocity. (Section 3)"
-        ),
-        range=(
-            f"{counted(len(ends), 'elastic contact')} under a rigid pull, ν {ranged(k[1] for k in ends)}, μ_0"
-            f" {ranged(k[2] for k in ends)}, Δu_z/u_z0 {ranged(k[3] for k in ends)}, on {cells}² cells and"
-            f" {STEPS} steps; stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α"
-        ),
+        quote="Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
+        " some critical velocity. (Section 3)",
+        range=f"{counted(len(ends), 'elastic contact')} under a rigid pull, ν {ranged(k[1] for k in ends)}, μ_0"
+        f" {ranged(k[2] for k in ends)}, Δu_z/u_z0 {ranged(k[3] for k in ends)}, on {cells}² cells and {STEPS} steps;"
+        f" stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α",
         measured=_measured(ends, cells),
         verdict="holds if β = 0",
-        sentence=(
-            "Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to"
-            f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %), last at the trailing edge if"
-            " β > 0; above, radial slip turns"
-            " friction aside, and there is no velocity at which it is full."
-        ),
+        sentence="Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to"
+        f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %), last at the trailing edge if β >"
+        " 0; above, radial slip turns friction aside, and there is no velocity at which it is full.",
         checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
         figures=(_end_figure(ends, cells), _map_figure(seen)),
-        equations=(
-            Equation(
-                "(*)",
-                r"v_s \approx \left( \mu_0 \kappa + \frac{2 |\beta|}{\pi} \right) \Delta u_z \omega"
-                r" = v_c (1 + \lambda), \quad \lambda = \frac{2 |\beta|}{\pi \mu_0 \kappa}",
-                "End of stick, to lowest order in μ_0 and λ; the line in the figure below.",
-            ),
-            Equation(
-                "(**)",
-                r"1 - \frac{\mu}{\mu_0} \to \frac{\lambda^2 M}{8} \left( \frac{v_c}{v_0} \right)^2, \quad"
-                r" M = \frac{1}{F_z} \int R^2 p \, dA, \quad R = \frac{a - \sqrt{a^2 - r^2}}{r}",
-                "Loss far above it, <i>R</i> the radial velocity of the surface over that at the edge.",
-            ),
-        ),
+        equations=_EQUATIONS,
     )
 
 
 def _measured(ends: dict[Known, float], cells: int) -> str:
-    by_mu = {mu_0: [_share(k, v) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})}
+    by_mu = {
+        mu_0: [(v - 1) / _rub(k) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})
+    }
     listed = "; ".join(f"{span(one, 3)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
     finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
     return (
@@ -128,11 +127,6 @@ def _measured(ends: dict[Known, float], cells: int) -> str:
         f" Before, it is {_before(0.1, 'flat punch'):.2f} of that at 2 v_c for a punch at Δu_z/u_z0 = 0.1, where"
         f" friction has not the way to turn, and {_before(0.9, 'paraboloid'):.2f} times it for a paraboloid at 0.9."
     )
-
-
-def _share(known: Known, ratio: float) -> float:
-    """(v_s/v_c - 1)/lambda."""
-    return (ratio - 1) / _rub(known)
 
 
 def _over_estimate(known: Known, ratio: float) -> float:
@@ -185,35 +179,30 @@ def _before(alpha: float, shape: str) -> float:
 # --- checks ---
 
 
-def _end_checks(ends: dict[Known, float], cells: int) -> list[Check]:
-    checks = []
+def _end_checks(ends: dict[Known, float], cells: int) -> Checks:
     for known, ratio in ends.items():
         shape, nu, mu_0, alpha = known
         name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, Δu_z/u_z0 = {alpha:g}"
         why = "an estimate for small μ_0 on cells of this size"
-        checks.append(Check(f"{name}: end of stick over v_c(1 + λ)", _over_estimate(known, ratio), 1, 0.12, why))
+        yield Check(f"{name}: end of stick over v_c(1 + λ)", _over_estimate(known, ratio), 1, 0.12, why)
         if shape == "flat punch":
             turned, fixed = (fastest(cells, nu, mu_0, turned) for turned in (True, False))
             low, high = turned - 0.08 * _rub(known), fixed + FOUND * _rub(known)
             why = f"friction free to turn, {turned:.4g}, less λ² of a slip that is not small, to fixed, {fixed:.4g}"
-            checks.append(Check.between(f"{name}: end of stick over v_c by the linear problem", ratio, low, high, why))
-    return checks
+            yield Check.between(f"{name}: end of stick over v_c by the linear problem", ratio, low, high, why)
 
 
-def _table_checks() -> list[Check]:
+def _table_checks() -> Checks:
     rows = [row for name in ("coupled", "coupling_held_out") for row in tables.read(name)]
     beyond = [row.stick for row in rows if row.point.v > 1 + 1.6 * radial_rub(row.point.case)]
     below = [row.stick for row in rows if row.point.v < 1 + 0.4 * radial_rub(row.point.case)]
     what = "share that sticks in the tables"
-    return [
-        Check.at_most(
-            f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c", max(beyond), 0, "beyond all ends"
-        ),
-        Check.at_least(f"least {what}, {len(below)} points below (1 + 0.4 λ) v_c", min(below), 1e-3, "below all ends"),
-    ]
+    name = f"greatest {what}, {len(beyond)} points above (1 + 1.6 λ) v_c"
+    yield Check.at_most(name, max(beyond), 0, "beyond all ends")
+    yield Check.at_least(f"least {what}, {len(below)} points below (1 + 0.4 λ) v_c", min(below), 1e-3, "below all ends")
 
 
-def _place_checks(found: LastPeriod) -> list[Check]:
+def _place_checks(found: LastPeriod) -> Checks:
     """Above Eq. (1): what sticks does so at the trailing edge, while the depth grows fastest."""
     shares = found.stick
     i = int(np.nanargmax(shares))
@@ -221,79 +210,59 @@ def _place_checks(found: LastPeriod) -> list[Check]:
     sticks = stuck(found.contact, found.steps[i])
     phase, along, across = (i + 1) / shares.size, np.mean(x[sticks]), np.mean(y[sticks])
     what = f"{ABOVE:g} v_c, greatest stick"
-    return [
-        Check.between(
-            f"{what}: when, in periods after the least depth",
-            phase,
-            0.15,
-            0.35,
-            "the depth grows, at least at 0.8 of its fastest",
-        ),
-        Check.at_most(f"{what}: mean place along the pull, over a", float(along), -0.5, "the trailing edge"),
-        Check(f"{what}: mean place across the pull, over a", float(across), 0, 1e-6, "the contact is symmetric"),
-    ]
+    name = f"{what}: when, in periods after the least depth"
+    yield Check.between(name, phase, 0.15, 0.35, "the depth grows, at least at 0.8 of its fastest")
+    yield Check.at_most(f"{what}: mean place along the pull, over a", along, -0.5, "the trailing edge")
+    yield Check(f"{what}: mean place across the pull, over a", across, 0, 1e-6, "the contact is symmetric")
 
 
-def _tail_checks(quick: bool) -> list[Check]:
-    checks = []
+def _tail_checks(quick: bool) -> Checks:
     known = ((0.3, 0.1, 0.3),) if quick else ((0.3, 0.1, 0.3), (0.0, 0.1, 0.3), (0.3, 0.3, 0.3), (0.3, 0.3, 0.1))
-    for shape, mean in MEANS.items():
-        for nu, mu_0, alpha in known:
-            v, case = FAST / alpha, _case((shape, nu, mu_0, alpha))
-            settings = Settings(17 if quick else 31, 32, cycles=1)
-            cof = in_three_dimensions(case, v * mdr.critical_velocity(case), settings).cof
-            scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
-            name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
-            why = "(v_c/α v_0)² and α² of it, and cells"
-            checks.append(Check(name, scaled / mean, 1, 0.08 if quick else 0.05, why))
-    return checks
+    settings = Settings(17 if quick else 31, 32, cycles=1)
+    for (shape, mean), (nu, mu_0, alpha) in product(MEANS.items(), known):
+        v, case = FAST / alpha, _case((shape, nu, mu_0, alpha))
+        cof = in_three_dimensions(case, v * mdr.critical_velocity(case), settings).cof
+        scaled = 8 * v**2 * (1 - cof / mu_0) / radial_rub(case) ** 2
+        name = f"{shape}, ν = {nu:g}, μ_0 = {mu_0:g}, {v:g} v_c = {FAST:g} v_c/α: 8 (1 − μ/μ_0)(v_0/v_c)²/λ² over M"
+        yield Check(name, scaled / mean, 1, 0.08 if quick else 0.05, "(v_c/α v_0)² and α² of it, and cells")
 
 
 # --- figures ---
 
 
-def _end_figure(ends: dict[Known, float], cells: int) -> Figure:
-    """Where stick ends against the estimate."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.2, 4.4))
-        line = np.array([1.0, 2.7])
-        ax.plot(line, line, "-", color="0.6", lw=0.9, label=r"$(1 + \lambda) v_c$")
-        for known, ratio in ends.items():
-            colour, marker = LOOKS[known[0]]
-            if known[0] == "flat punch":
-                limits = [fastest(cells, known[1], known[2], turned) for turned in (True, False)]
-                ax.plot([1 + _rub(known)] * 2, limits, "-", color=colour, lw=6, alpha=0.3)
-            ax.plot(1 + _rub(known), ratio, marker, color=colour, mfc="w", ms=7)
-        for shape in dict.fromkeys(known[0] for known in ends):
-            ax.plot([], [], LOOKS[shape][1], color=LOOKS[shape][0], mfc="w", label=shape_label(shape))
-        ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
-        ax.set_xlabel(r"$1 + \lambda$")
-        ax.set_ylabel("velocity at which stick ends, over Eq. (1)")
-        ax.legend()
-    return Figure(
-        name="ends",
-        caption="The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
+@figure("ends", size=(6.2, 4.4))
+def _end_figure(fig, ax, ends: dict[Known, float], cells: int) -> str:
+    """Scatter of the end of stick against one plus lambda, along the diagonal."""
+    line = np.array([1.0, 2.7])
+    ax.plot(line, line, "-", color="0.6", lw=0.9, label=r"$(1 + \lambda) v_c$")
+    for known, ratio in ends.items():
+        colour, marker = LOOKS[known[0]]
+        if known[0] == "flat punch":
+            limits = [fastest(cells, known[1], known[2], turned) for turned in (True, False)]
+            ax.plot([1 + _rub(known)] * 2, limits, "-", color=colour, lw=6, alpha=0.3)
+        ax.plot(1 + _rub(known), ratio, marker, color=colour, mfc="w", ms=7)
+    for shape in dict.fromkeys(known[0] for known in ends):
+        ax.plot([], [], LOOKS[shape][1], color=LOOKS[shape][0], mfc="w", label=shape_label(shape))
+    ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
+    ax.set(xlabel=r"$1 + \lambda$", ylabel="velocity at which stick ends, over Eq. (1)")
+    ax.legend()
+    told = (
+        "The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
         " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end)."
-        + (
-            " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
-            if len(ends) > 2
-            else ""
-        ),
-        drawing=fig,
-        alt="Scatter of the end of stick against one plus lambda, along the diagonal.",
     )
+    if len(ends) > 2:
+        told += " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem"
+        told += " ends."
+    return told
 
 
-def _map_figure(found: LastPeriod) -> Figure:
-    """Stick and slip at four instants."""
-    return Figure(
-        name="map",
-        caption=f"The contact of a paraboloid from above at {ABOVE:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3)."
+@figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
+def _map_figure(fig, panels, found: LastPeriod) -> str:
+    """Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip."""
+    pictures.period(panels, found)
+    return (
+        f"The contact of a paraboloid from above at {ABOVE:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3)."
         " Dark: stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. A"
         " crescent at the trailing edge sticks as the depth grows fastest (first): there the surface, drawn to the"
-        " middle, keeps up with the pull. No spring sticks at this velocity.",
-        drawing=pictures.period(found),
-        alt="Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip.",
+        " middle, keeps up with the pull. No spring sticks at this velocity."
     )

@@ -13,32 +13,30 @@ Symbols: n steps per period, h = 2 pi/n, T = omega tau, alpha = du_z/u_z0, relat
 """
 
 from dataclasses import dataclass
+from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import contact, loss
-from validation.report import Check, Claim, Figure
+from validation.cases import SWUNG, contact, loss
+from validation.figures import figure, ticks
+from validation.measured import power
+from validation.report import Check, Checks, Claim
 from validation.words import span
 
-LEVELS = tuple(
-    round(64 * 16 ** (i / 10)) for i in range(11)
-)  # a factor of 16, without common factors, so that kinks fall anywhere
+# a factor of 16, without common factors, so that kinks fall anywhere
+LEVELS = tuple(round(64 * 16 ** (i / 10)) for i in range(11))
 SHARES = {
     "quick": (0.25, 0.45, 0.65, 0.85),
     "full": tuple(np.linspace(0.2, 0.9, 10)),
     "long": tuple(np.linspace(0.2, 0.9, 24)),
 }
-SPRING: dict[str, Any] = {
-    "k_ratio": 1.5,
-    "omega_0_ratio": 1.3,
-    "damping_ratio": 0.05,
-}  # omega_1 = 1.7 omega: 64 steps resolve it
-PULLS: dict[str, dict[str, Any]] = {"rigid pull": {}, "spring pull": SPRING}
+PULLS: dict[str, dict[str, Any]] = {"rigid pull": {}, "spring pull": SWUNG}
 PERIODS = 24
 STEP = (2 * np.pi / LEVELS[-1]) ** 2  # h² at the finest level
 
@@ -48,14 +46,13 @@ class Balance:
     """The energies of one case under refinement."""
 
     name: str
-    kind: str  #: shape, and whether contact is kept
     residual: Array  #: (n_levels,) relative, root mean square over velocities
     example: mdr.SlidingRun  #: at the finest level and half of v_c
 
     @property
     def order(self) -> float:
-        """Slope of the least-squares line, sign reversed."""
-        return -float(np.polyfit(np.log(LEVELS), np.log(self.residual), 1)[0])
+        """With which the residual falls."""
+        return -power(LEVELS, self.residual)
 
 
 def balance(shape: str, alpha: float, T: float, pull: str, shares: tuple[float, ...]) -> Balance:
@@ -68,8 +65,7 @@ def balance(shape: str, alpha: float, T: float, pull: str, shares: tuple[float, 
 
     residual = [np.sqrt(np.mean([run(share, n).energy_balance.relative ** 2 for share in shares])) for n in LEVELS]
     kept = "contact kept" if case.keeps_contact else "contact lost"
-    material = loss(T)
-    return Balance(f"{shape}, {kept}, {material}, {pull}", f"{shape}, {kept}", np.array(residual), run(0.5, LEVELS[-1]))
+    return Balance(f"{shape}, {kept}, {loss(T)}, {pull}", np.array(residual), run(0.5, LEVELS[-1]))
 
 
 def in_full_slip(case: mdr.SlidingContact, v_0: float) -> dict[str, float]:
@@ -77,8 +73,7 @@ def in_full_slip(case: mdr.SlidingContact, v_0: float) -> dict[str, float]:
     motion = full_slip(case)
     period, mu_0, kappa = case.oscillation.period, case.mu_0, case.material.mindlin_ratio
     F_n = normal_force_harmonics(case)
-    n = np.arange(F_n.size)
-    omega_n = n * case.oscillation.omega
+    omega_n = np.arange(F_n.size) * case.oscillation.omega
     y_n = -mu_0 * F_n * np.asarray(case.pull.receptance(omega_n))
     y_dot = np.fft.irfft(1j * omega_n * y_n, motion.t.size) * motion.t.size
     c_x = case.pull.c_x if isinstance(case.pull, mdr.SpringPull) else 0.0
@@ -96,125 +91,91 @@ def claim(effort: str) -> Claim:
     grid = [("flat punch", 0.3), ("paraboloid", 0.3), ("paraboloid", 1.5)]
     if effort == "quick":
         grid = grid[1:]
-    balances = [
-        balance(shape, alpha, T, pull, SHARES[effort]) for shape, alpha in grid for pull in PULLS for T in (0.0, 1.0)
-    ]
-    checks = []
-    for b in balances:
-        checks += [
-            Check.at_least(
-                f"{b.name}: order of the residual in the step",
-                b.order,
-                1.9,
-                "slope of the least-squares line over a factor of 16; the scheme is of second order",
-            ),
-            Check.at_most(
-                f"{b.name}: relative residual at {LEVELS[-1]} steps", float(b.residual[-1]), STEP, "h², h = 2π/1024"
-            ),
-        ]
-    checks += _full_slip_checks(effort)
+    which = [(shape, alpha, T, pull) for shape, alpha in grid for pull in PULLS for T in (0.0, 1.0)]
+    balances = [balance(*one, SHARES[effort]) for one in which]
     orders = [b.order for b in balances]
     finest = max(float(b.residual[-1]) for b in balances)
     return Claim(
         name="energy",
         title="Energy is conserved",
         quote="",
-        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept (but for the edge of a "
-        f"curved shape) "
-        f"and lost, elastic and ωτ = "
-        f"1, rigid pull and spring "
-        f"pull with a damper, {len(SHARES[effort])} velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full "
-        f"slip at 1.5 v_c",
-        measured=f"The residual of the balance falls with the power {span(orders)} of the "
-        f"step and is at most {finest:.1e} of "
-        f"the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
+        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept (but for the edge of a curved"
+        f" shape) and lost, elastic and ωτ = 1, rigid pull and spring pull with a damper, {len(SHARES[effort])}"
+        f" velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full slip at 1.5 v_c",
+        measured=f"The residual of the balance falls with the power {span(orders)} of the step and is at most"
+        f" {finest:.1e} of the losses at {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
         verdict="holds",
         sentence="What the pull and the normal drive supply is found again as friction, viscous and damper loss, "
         "each from its own definition.",
-        checks=tuple(checks),
+        checks=(*_balance_checks(balances), *_full_slip_checks(effort)),
         figures=(_figure(balances),),
     )
 
 
-def _full_slip_checks(effort: str) -> list[Check]:
-    checks = []
+def _balance_checks(balances: list[Balance]) -> Checks:
+    why = "slope of the least-squares line over a factor of 16; the scheme is of second order"
+    for b in balances:
+        yield Check.at_least(f"{b.name}: order of the residual in the step", b.order, 1.9, why)
+        name = f"{b.name}: relative residual at {LEVELS[-1]} steps"
+        yield Check.at_most(name, b.residual[-1], STEP, "h², h = 2π/1024")
+
+
+def _full_slip_checks(effort: str) -> Checks:
     why = "h², h = 2π/1024: each term is a sum over the steps of the period"
     shapes = ("flat punch", "paraboloid") if effort != "quick" else ("flat punch",)
-    for shape in shapes:
-        for T in (0.0, 1.0):
-            case = contact(shape, 0.3, T, **SPRING)
-            run = mdr.slide(
-                case, 1.5 * mdr.full_slip_critical_velocity(case), n_springs=256, steps_per_period=1024, n_periods=8
-            )
-            for term, expected in in_full_slip(case, run.v_0).items():
-                if expected > 1e-9 * run.energy_balance.pull_work:
-                    got = getattr(run.energy_balance, term) / expected
-                    # the damper belongs to the body, whose response to the force is resolved with its own oscillation
-                    checks.append(
-                        Check(
-                            f"full slip, {shape}, ωτ = {T:g}: {term.replace('_', ' ')} over its integral",
-                            got,
-                            1.0,
-                            (4 if term == "damper_loss" else 1) * STEP,
-                            why + ("; twice for a square, twice for the body" if term == "damper_loss" else ""),
-                        )
-                    )
-    case = contact("flat punch", 0.3, 1.0, **SPRING)
-    run = mdr.slide(
-        case, 1.5 * mdr.full_slip_critical_velocity(case), n_springs=256, steps_per_period=1024, n_periods=8
-    )
+    for shape, T in product(shapes, (0.0, 1.0)):
+        case, run = _slipping(shape, T)
+        for term, expected in in_full_slip(case, run.v_0).items():
+            if expected > 1e-9 * run.energy_balance.pull_work:
+                name = f"full slip, {shape}, ωτ = {T:g}: {term.replace('_', ' ')} over its integral"
+                # the damper belongs to the body, whose response to the force is resolved with its own oscillation
+                times, more = (4, "; twice for a square, twice for the body") if term == "damper_loss" else (1, "")
+                yield Check(name, getattr(run.energy_balance, term) / expected, 1.0, times * STEP, why + more)
+    case, run = _slipping("flat punch", 1.0)
     omega, du_z, kappa = case.oscillation.omega, case.oscillation.du_z, case.material.mindlin_ratio
     viscous = np.pi * case.gamma_zc * omega * du_z**2 * (1 + case.mu_0**2 * kappa)
-    checks.append(
-        Check(
-            "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)",
-            run.energy_balance.viscous_loss / viscous,
-            1.0,
-            STEP,
-            why,
-        )
-    )
-    return checks
+    name = "full slip, flat punch, ωτ = 1: viscous loss over π γ_zc ω Δu_z² (1 + mu_0² κ)"
+    yield Check(name, run.energy_balance.viscous_loss / viscous, 1.0, STEP, why)
 
 
-def _figure(balances: list[Balance]) -> Figure:
-    import matplotlib.pyplot as plt
+@cache
+def _slipping(shape: str, T: float) -> tuple[mdr.SlidingContact, mdr.SlidingRun]:
+    """A contact and its run in full slip."""
+    case = contact(shape, 0.3, T, **SWUNG)
+    v_0 = 1.5 * mdr.full_slip_critical_velocity(case)
+    return case, mdr.slide(case, v_0, n_springs=256, steps_per_period=1024, n_periods=8)
 
-    with style():
-        fig, (bars, ax) = plt.subplots(1, 2, figsize=(9.8, 4.2), width_ratios=(1.2, 1))
-        _draw_bars(bars, [b for b in balances if b.name.startswith("paraboloid") and "ωτ = 1" in b.name])
-        n = np.array(LEVELS, dtype=float)
-        for b in balances:
-            colour, elastic = COLOURS["spring" in b.name], "elastic" in b.name
-            ax.plot(n, b.residual, "-" if elastic else "--", color=colour, lw=1.1)
-        top = 3 * max(float(b.residual[0]) for b in balances)
-        ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.4, label="second order")
-        for colour, pull in zip(COLOURS, PULLS, strict=False):
-            ax.plot([], [], color=colour, label=pull)
-        ax.plot([], [], "--", color="0.3", label=r"$\omega\tau$ = 1, else elastic")
-        ax.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="missing, over the losses")
-        ax.set_xticks([64, 128, 256, 512, 1024], ["64", "128", "256", "512", "1024"])
-        ax.minorticks_off()
-        ax.legend(loc="lower left")
-    return Figure(
-        "balance",
+
+@figure("balance", 1, 2, size=(9.8, 4.2), width_ratios=(1.2, 1))
+def _figure(fig, axes, balances: list[Balance]) -> str:
+    """Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of the
+    steps.
+    """
+    bars, ax = axes
+    _draw_bars(bars, [b for b in balances if b.name.startswith("paraboloid") and "ωτ = 1" in b.name])
+    n = np.array(LEVELS, dtype=float)
+    for b in balances:
+        colour, elastic = COLOURS["spring" in b.name], "elastic" in b.name
+        ax.plot(n, b.residual, "-" if elastic else "--", color=colour, lw=1.1)
+    top = 3 * max(float(b.residual[0]) for b in balances)
+    ax.plot(n, top * (n[0] / n) ** 2, color="0.6", ls=":", lw=1.4, label="second order")
+    for colour, pull in zip(COLOURS, PULLS, strict=False):
+        ax.plot([], [], color=colour, label=pull)
+    ax.plot([], [], "--", color="0.3", label=r"$\omega\tau$ = 1, else elastic")
+    ax.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="missing, over the losses")
+    ticks(ax.xaxis, 64, 128, 256, 512, 1024)
+    ax.legend(loc="lower left")
+    return (
         "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at "
         "half of v_c, paraboloid, ωτ = 1; the bars end together. Right: what is missing, for all "
-        f"{len(balances)} contacts, falls with the second power of the step.",
-        fig,
-        "Stacked bars of energies supplied and lost, of equal length, and residuals falling with the second power of "
-        "the steps.",
+        f"{len(balances)} contacts, falls with the second power of the step."
     )
 
 
 def _draw_bars(ax: Any, balances: list[Balance]) -> None:
     """Supply above and losses below, as shares of the supply."""
     supplies = (("pull", "pull_work", COLOURS[0]), ("normal drive", "normal_work", COLOURS[4]))
-    losses = (
-        ("friction", "friction_loss", COLOURS[1]),
-        ("viscous", "viscous_loss", COLOURS[3]),
-        ("damper", "damper_loss", COLOURS[6]),
-    )
+    losses = [(name, f"{name}_loss", COLOURS[i]) for name, i in (("friction", 1), ("viscous", 3), ("damper", 6))]
     place = np.arange(len(balances), dtype=float)[::-1]
     runs = [b.example.energy_balance for b in balances]
     total = np.array([run.pull_work + run.normal_work for run in runs])

@@ -26,10 +26,11 @@ import mdr
 from mdr.friction.surface_fields import SurfaceFields, from_line_load, surface_fields
 from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, shape_label
-from validation.report import Check, Claim, Figure
+from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, contact, shape_label
+from validation.figures import circles, figure
+from validation.report import Check, Checks, Claim
 
 BODY = mdr.Elastic(E=E, nu=0.5)
 MU_0 = 0.5
@@ -57,6 +58,11 @@ class Row:
         self.f = np.clip(self.f + self.k * (u - self.u), -self.limit, self.limit)
         self.u = u
         return float(self.f.sum())
+
+    def traction(self, r: Array) -> Array:
+        """Traction [Pa] at radii r."""
+        q = self.f / (2 * RADIUS / self.f.size)
+        return from_line_load(np.concatenate([[0.0], self.x, [RADIUS]]), np.concatenate([q[:1], q, [0.0]]), r)
 
     @property
     def stick_radius(self) -> float:
@@ -93,7 +99,7 @@ def off(got: Array, expected: Array, weight: Array) -> float:
 def claim(effort: str) -> Claim:
     """Set tractions, loops and sums beside the textbook."""
     n = N_SPRINGS[effort]
-    checks = [*_mindlin_checks(n), *_run_checks(effort), *_sum_checks(), *_loop_checks(n), *_surface_checks()]
+    checks = (*_mindlin_checks(n), *_run_checks(effort), *_sum_checks(), *_loop_checks(n), *_surface_checks())
     return Claim(
         name="fields",
         title="The springs give the tractions of the three-dimensional contact",
@@ -107,7 +113,7 @@ def claim(effort: str) -> Claim:
         verdict="holds",
         sentence="Pressure, traction, stick radius, surface displacement and the loss of a loop follow from "
         "the springs as contact mechanics has them.",
-        checks=tuple(checks),
+        checks=checks,
         figures=(_traction_figure(), _loop_figure()),
     )
 
@@ -115,29 +121,21 @@ def claim(effort: str) -> Claim:
 # --- checks ---
 
 
-def _mindlin_checks(n: int) -> list[Check]:
-    checks = []
+def _mindlin_checks(n: int) -> Checks:
     for share in SHARES[:3]:
         row, c = Row("paraboloid", n), RADIUS * math.sqrt(1 - share)
         row.to(share * FULL)
         r, weight = disc(c)
-        x = np.concatenate([[0.0], row.x, [RADIUS]])
-        q = row.f / (2 * RADIUS / n)
-        tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
+        tau = row.traction(r)
         name = f"paraboloid pulled to {share:g} of full slip"
         why = f"a kink within a cell h = a/{n}: off by the root of h over a width h, which is h in the mean square"
-        checks.append(
-            Check.at_most(f"{name}: traction of {n} springs, one by one", off(tau, mindlin(r, c), weight), 2 / n, why)
-        )
+        yield Check.at_most(f"{name}: traction of {n} springs, one by one", off(tau, mindlin(r, c), weight), 2 / n, why)
         why = "the first spring that slips stands within one spacing"
-        checks.append(Check(f"{name}: stick radius over a", row.stick_radius / RADIUS, c / RADIUS, 1 / n, why))
+        yield Check(f"{name}: stick radius over a", row.stick_radius / RADIUS, c / RADIUS, 1 / n, why)
         pulled = partial_slip(SHAPES["paraboloid"], BODY, MU_0, DEPTH, share * FULL)
         found = surface_fields(pulled, r)
         worst = float(np.max(np.abs(found.traction - mindlin(r, c)))) / (MU_0 * P_0)
-        checks.append(
-            Check.at_most(f"{name}: traction of partial_slip over mu_0 p_0", worst, 1e-12, "closed on both sides")
-        )
-    return checks
+        yield Check.at_most(f"{name}: traction of partial_slip over mu_0 p_0", worst, 1e-12, "closed on both sides")
 
 
 def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
@@ -145,79 +143,60 @@ def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
 
     The oscillation is a thousandth of the depth, and small beside the pull.
     """
-    case = mdr.SlidingContact(
-        SHAPES["paraboloid"], BODY, MU_0, mdr.NormalOscillation(u_z0=DEPTH, du_z=1e-3 * DEPTH, omega=OMEGA)
-    )
-    v_0 = 0.5 * FULL * OMEGA / (2 * np.pi)
-    run: Any = mdr.slide(
-        case, v_0, n_springs=n_springs, steps_per_period=256, n_periods=1, start="rest", record=1, lump=False
-    )
+    case = contact("paraboloid", 1e-3, mu_0=MU_0)
+    knobs: Any = {"steps_per_period": 256, "n_periods": 1, "start": "rest", "record": 1, "lump": False}
+    run: Any = mdr.slide(case, 0.5 * FULL * OMEGA / (2 * np.pi), n_springs=n_springs, **knobs)
     d_c = float(run.u_z[-1]) - float(run.u_x[-1]) / (MU_0 * BODY.mindlin_ratio)
     c = float(SHAPES["paraboloid"].contact_radius(d_c))
     r, _ = disc(c)
     return surface_fields(run, r), r, c
 
 
-def _run_checks(effort: str) -> list[Check]:
+def _run_checks(effort: str) -> Checks:
     n = 1024 if effort == "quick" else 2048
     found, r, c = run_fields(n)
-    core = n // 8  # springs of a run crowd at the edge of the contact
-    weight = disc(c)[1]
+    core, weight = n // 8, disc(c)[1]  # springs of a run crowd at the edge of the contact
     why = f"a/{core} is the spacing of the springs inside; the edge slips to and fro with the oscillation"
-    return [
-        Check(
-            f"sliding run of {n} springs: stick radius over a", found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why
-        ),
-        Check.at_most(
-            f"sliding run of {n} springs: traction, mean square", off(found.traction, mindlin(r, c), weight), 5e-3, why
-        ),
-        Check(
-            f"sliding run of {n} springs: integral of traction over F_x",
-            float(np.sum(weight * found.traction)) / found.F_x,
-            1.0,
-            1e-3,
-            "quadrature over the kinks of straight lines, and an edge a thousandth further out",
-        ),
-    ]
+    name = f"sliding run of {n} springs: stick radius over a"
+    yield Check(name, found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why)
+    name = f"sliding run of {n} springs: traction, mean square"
+    yield Check.at_most(name, off(found.traction, mindlin(r, c), weight), 5e-3, why)
+    name = f"sliding run of {n} springs: integral of traction over F_x"
+    why = "quadrature over the kinks of straight lines, and an edge a thousandth further out"
+    yield Check(name, float(np.sum(weight * found.traction)) / found.F_x, 1.0, 1e-3, why)
 
 
-def _sum_checks() -> list[Check]:
-    checks = []
+def _sum_checks() -> Checks:
     for shape, indenter in SHAPES.items():
         pulled = partial_slip(indenter, BODY, MU_0, DEPTH, FULL * np.array(SHARES))
-        worst = 0.0
+        worst = []
         for i, c in enumerate(np.asarray(pulled.stick_radius)):
             r, weight = disc(float(c))
             found = surface_fields(pulled, r, i=i)
-            worst = max(worst, abs(float(np.sum(weight * found.pressure)) / pulled.F_z - 1))
-            worst = max(worst, abs(float(np.sum(weight * found.traction)) / float(pulled.F_x[i]) - 1))
+            worst.append(abs(np.sum(weight * found.pressure) / pulled.F_z - 1))
+            worst.append(abs(np.sum(weight * found.traction) / pulled.F_x[i] - 1))
         why = "Gauss quadrature with nodes that crowd at tip, edge and stick radius"
-        checks.append(Check.at_most(f"{shape}: p and traction over the disc against F_N and F_x", worst, 1e-6, why))
+        yield Check.at_most(f"{shape}: p and traction over the disc against F_N and F_x", max(worst), 1e-6, why)
         run = indent(indenter, BODY, [0, 1], [0, DEPTH], record=True)
         r, weight = disc()
-        found = surface_fields(run, r)
-        p = np.asarray(indenter.pressure(r, DEPTH, BODY.E_star))
+        apart = off(surface_fields(run, r).pressure, np.asarray(indenter.pressure(r, DEPTH, BODY.E_star)), weight)
         why = "straight lines between 3000 knots"
-        checks.append(
-            Check.at_most(f"{shape}: p of the springs, mean square", off(found.pressure, p, weight), 1e-4, why)
-        )
-    return checks
+        yield Check.at_most(f"{shape}: p of the springs, mean square", apart, 1e-4, why)
 
 
-def _loop_checks(n: int) -> list[Check]:
-    checks = []
+def _loop_checks(n: int) -> Checks:
     w = np.linspace(0, 1, 41)
     for shape in SHAPES:
-        worst = 0.0
+        worst = []
         for share in (0.3, 0.8, 1.3):
             row, U = Row(shape, n), share * FULL
             first = np.array([row.to(u) for u in U * w])
             back = np.array([row.to(u) for u in U - 2 * U * w])
             again = np.array([row.to(u) for u in -U + 2 * U * w])
             turns = np.concatenate([back[0] - back, again - again[0]])
-            worst = max(worst, float(np.max(np.abs(turns - np.tile(2 * first, 2)))) / (MU_0 * row.limit.sum()))
+            worst.append(np.max(np.abs(turns - np.tile(2 * first, 2))) / (MU_0 * row.limit.sum()))
         why = f"sums of {n} springs that were never told the rule, over mu_0 F_N"
-        checks.append(Check.at_most(f"{shape}: Masing's rule, twice the force for twice the way", worst, 1e-10, why))
+        yield Check.at_most(f"{shape}: Masing's rule, twice the force for twice the way", max(worst), 1e-10, why)
     for share in SHARES[:3]:
         loop = tangential_loop(SHAPES["paraboloid"], BODY, MU_0, DEPTH, share * FULL)
         F_N, theta = float(loop.F_z), 1 - share
@@ -225,105 +204,82 @@ def _loop_checks(n: int) -> list[Check]:
         loss = 18 / 5 * (MU_0 * F_N) ** 2 / (BODY.G_star * RADIUS)
         loss *= 1 - theta**2.5 - 5 * T / (6 * MU_0 * F_N) * (1 + theta)
         name = f"paraboloid, loop of {share:g} of full slip: loss over Mindlin and Deresiewicz"
-        checks.append(Check(name, loop.loss / loss, 1.0, 1e-9, "closed on both sides, up to one quadrature"))
+        yield Check(name, loop.loss / loss, 1.0, 1e-9, "closed on both sides, up to one quadrature")
         row, way = Row("paraboloid", n), share * FULL * np.cos(np.linspace(0, 2 * np.pi, 4001))
         row.to(way[0])
         F = np.array([row.to(u) for u in way])
         got = abs(float(np.sum(np.diff(way) * (F[1:] + F[:-1]) / 2))) / loss
         why = "trapezoids on 4000 steps, cells that slip as a whole"
-        checks.append(Check(f"{name}, {n} springs", got, 1.0, 1e-4, why))
-    return checks
+        yield Check(f"{name}, {n} springs", got, 1.0, 1e-4, why)
 
 
-def _surface_checks() -> list[Check]:
+def _surface_checks() -> Checks:
     r = RADIUS * np.linspace(1.001, 5, 60)
     ratio = r / RADIUS
     hertz = DEPTH / math.pi * ((2 - ratio**2) * np.arcsin(1 / ratio) + np.sqrt(ratio**2 - 1))
     run = indent(SHAPES["paraboloid"], BODY, [0, 1], [0, DEPTH], record=True)
     outside = float(np.max(np.abs(np.asarray(surface_fields(run, r).u_z) / hertz - 1)))
     why = "second order in 3000 knots"
-    return [Check.at_most("paraboloid: surface outside the contact against Hertz", outside, 1e-5, why)]
+    yield Check.at_most("paraboloid: surface outside the contact against Hertz", outside, 1e-5, why)
 
 
 # --- figures ---
 
 
-def _traction_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.3))
-        r = RADIUS * np.linspace(0, 1.0, 601)[:-1]
-        some = RADIUS * np.linspace(0.02, 0.98, 17)
-        for share, colour in zip(SHARES, COLOURS, strict=False):
-            row, c = Row("paraboloid", 1000), RADIUS * math.sqrt(1 - share)
-            row.to(share * FULL)
-            q = row.f / (2 * RADIUS / 1000)
-            x = np.concatenate([[0.0], row.x, [RADIUS]])
-            tau = from_line_load(x, np.concatenate([q[:1], q, [0.0]]), r)
-            left.plot(r / RADIUS, tau / (MU_0 * P_0), color=colour, label=f"{share:g}")
-            left.plot(some / RADIUS, mindlin(some, c) / (MU_0 * P_0), "o", ms=4.5, mfc="white", mec=colour)
-        left.set(xlabel="radius $r/a$", ylabel=r"traction over $\mu_0 p_0$", title="paraboloid", xlim=(0, 1.02))
-        left.set_ylim(0, 1.05)
-        left.legend(title=r"$u_x$ over full slip")
-        for shape, indenter in SHAPES.items():
-            pulled = partial_slip(indenter, BODY, MU_0, DEPTH, 0.5 * FULL)
-            mean = MU_0 * pulled.F_z / (math.pi * RADIUS**2)
-            tau = surface_fields(pulled, r[1:]).traction / mean
-            right.plot(r[1:] / RADIUS, tau, color=LOOKS[shape][0], label=shape_label(shape))
-            c = float(pulled.stick_radius)
-            if 0 < c < RADIUS:
-                right.plot([c / RADIUS] * 2, [0, np.interp(c, r[1:], tau)], color=LOOKS[shape][0], lw=1, ls=":")
-        right.set(
-            xlabel="radius $r/a$",
-            ylabel=r"traction over $\mu_0 F_N/\pi a^2$",
-            title="half of full slip",
-            xlim=(0, 1.02),
-        )
-        right.set_ylim(0, 2.2)
-        right.legend()
-    return Figure(
-        "traction",
+@figure("traction", 1, 2, size=(9.4, 4.3))
+def _traction_figure(fig, axes) -> str:
+    """Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii."""
+    left, right = axes
+    r, some = RADIUS * np.linspace(0, 1.0, 601)[:-1], RADIUS * np.linspace(0.02, 0.98, 17)
+    for share, colour in zip(SHARES, COLOURS, strict=False):
+        row, c = Row("paraboloid", 1000), RADIUS * math.sqrt(1 - share)
+        row.to(share * FULL)
+        left.plot(r / RADIUS, row.traction(r) / (MU_0 * P_0), color=colour, label=f"{share:g}")
+        circles(left, some / RADIUS, mindlin(some, c) / (MU_0 * P_0), colour)
+    for ax in axes:
+        ax.set(xlabel="radius $r/a$", xlim=(0, 1.02))
+    left.set(ylabel=r"traction over $\mu_0 p_0$", title="paraboloid", ylim=(0, 1.05))
+    left.legend(title=r"$u_x$ over full slip")
+    for shape, indenter in SHAPES.items():
+        pulled = partial_slip(indenter, BODY, MU_0, DEPTH, 0.5 * FULL)
+        mean = MU_0 * pulled.F_z / (math.pi * RADIUS**2)
+        tau = surface_fields(pulled, r[1:]).traction / mean
+        right.plot(r[1:] / RADIUS, tau, color=LOOKS[shape][0], label=shape_label(shape))
+        c = float(pulled.stick_radius)
+        if 0 < c < RADIUS:
+            right.plot([c / RADIUS] * 2, [0, np.interp(c, r[1:], tau)], color=LOOKS[shape][0], lw=1, ls=":")
+    right.set(ylabel=r"traction over $\mu_0 F_N/\pi a^2$", title="half of full slip", ylim=(0, 2.2))
+    right.legend()
+    return (
         "Left: tractions under a paraboloid pulled sideways; lines from springs that stick and slip one by one, "
         "circles Cattaneo and Mindlin. Right: the four shapes at half of full slip; within the dotted radius the "
-        "surface sticks, and the punch sticks as a whole.",
-        fig,
-        "Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii.",
+        "surface sticks, and the punch sticks as a whole."
     )
 
 
-def _loop_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.3))
-        for shape, indenter in SHAPES.items():
-            colour = LOOKS[shape][0]
-            loop = tangential_loop(indenter, BODY, MU_0, DEPTH, 0.8 * FULL)
-            left.plot(loop.u_x / FULL, loop.F_x / (MU_0 * loop.F_z), color=colour, label=shape_label(shape))
-            row = Row(shape, 1000)
-            way = 0.8 * FULL * np.concatenate([[1.0], np.linspace(0.9, -0.9, 13), [-1.0], np.linspace(-0.9, 0.9, 13)])
-            F = np.array([row.to(u) for u in way])
-            left.plot(way / FULL, F / (MU_0 * loop.F_z), "o", ms=4, mfc="white", mec=colour)
-            shares = np.geomspace(0.02, 1.5, 40)
-            W = [tangential_loop(indenter, BODY, MU_0, DEPTH, share * FULL, n=3).loss for share in shares]
-            unit = 4 * MU_0 * loop.F_z * FULL
-            shown = np.array(W) > 1e-9 * unit
-            right.loglog(shares[shown], np.array(W)[shown] / unit, color=colour, label=shape_label(shape))
-        left.set(xlabel="displacement over full slip", ylabel=r"$F_x/\mu_0 F_N$", title="loops of 0.8 of full slip")
-        right.set(
-            xlabel="amplitude over full slip",
-            ylabel=r"loss over $4\mu_0 F_N u_s$",
-            title="loss in a loop",
-            ylim=(1e-7, 1),
-        )
-        right.axvline(1, color="0.6", lw=1, ls=":")
-        fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return Figure(
-        "loops",
+@figure("loops", 1, 2, size=(9.4, 4.3))
+def _loop_figure(fig, axes) -> str:
+    """Hysteresis loops of four shapes, and loss against amplitude on logarithmic axes."""
+    left, right = axes
+    for shape, indenter in SHAPES.items():
+        colour = LOOKS[shape][0]
+        loop = tangential_loop(indenter, BODY, MU_0, DEPTH, 0.8 * FULL)
+        left.plot(loop.u_x / FULL, loop.F_x / (MU_0 * loop.F_z), color=colour, label=shape_label(shape))
+        row = Row(shape, 1000)
+        way = 0.8 * FULL * np.concatenate([[1.0], np.linspace(0.9, -0.9, 13), [-1.0], np.linspace(-0.9, 0.9, 13)])
+        F = np.array([row.to(u) for u in way])
+        circles(left, way / FULL, F / (MU_0 * loop.F_z), colour, ms=4)
+        shares, unit = np.geomspace(0.02, 1.5, 40), 4 * MU_0 * loop.F_z * FULL
+        lost = np.array([tangential_loop(indenter, BODY, MU_0, DEPTH, share * FULL, n=3).loss for share in shares])
+        shown = lost > 1e-9 * unit
+        right.loglog(shares[shown], lost[shown] / unit, color=colour, label=shape_label(shape))
+    left.set(xlabel="displacement over full slip", ylabel=r"$F_x/\mu_0 F_N$", title="loops of 0.8 of full slip")
+    right.set(xlabel="amplitude over full slip", ylabel=r"loss over $4\mu_0 F_N u_s$", ylim=(1e-7, 1))
+    right.set_title("loss in a loop")
+    right.axvline(1, color="0.6", lw=1, ls=":")
+    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return (
         "Left: to and fro at fixed depth; lines by Masing's rule, circles springs one by one. Right: its cost, "
         "below full slip (dotted, displacement u_s) the third power of the amplitude for the curved shapes, "
-        "while the punch, which sticks as a whole, loses nothing.",
-        fig,
-        "Hysteresis loops of four shapes, and loss against amplitude on logarithmic axes.",
+        "while the punch, which sticks as a whole, loses nothing."
     )

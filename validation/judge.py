@@ -12,19 +12,18 @@ Cerruti's influence coefficients, friction as a vector. It is asked first for
 * errors that fall with cells and steps as they should.
 """
 
-from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import contact
+from validation.figures import figure, ticks
 from validation.half_space import rings
 from validation.half_space.benchmarks import PartialSlip, cattaneo_mindlin, hertz, punch, spence
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim
 
 SHARES = (0.2, 0.5, 0.8)  #: of the way to full slip
 SPENCE = ((0.0, 0.3), (0.0, 0.6), (0.15, 0.3), (0.3, 0.3))  #: nu, mu_0
@@ -33,14 +32,8 @@ SPENCE = ((0.0, 0.3), (0.0, 0.6), (0.15, 0.3), (0.3, 0.3))  #: nu, mu_0
 def claim(effort: str) -> Claim:
     """Ask for what is known."""
     quick = effort == "quick"
-    slips = {nu: [cattaneo_mindlin(32 if quick else 64, nu, share) for share in SHARES] for nu in (0.0, 0.3, 0.5)}
-    stuck = SPENCE[::3] if quick else SPENCE
-    checks = (
-        *_normal_checks(quick),
-        *_slip_checks(slips, 32 if quick else 64),
-        *_spence_checks(stuck, quick),
-        *_order_checks(quick),
-    )
+    n = 32 if quick else 64
+    slips = {nu: [cattaneo_mindlin(n, nu, share) for share in SHARES] for nu in (0.0, 0.3, 0.5)}
     force = max(abs(one.force - one.closed_form) for one in slips[0.5])
     across = max(one.transverse for one in slips[0.5])
     gone = 1 - rings.stick_radius(0.5, 0.3) / rings.goodman(0.5, 0.3)
@@ -48,23 +41,18 @@ def claim(effort: str) -> Claim:
         name="judge",
         title="The reference solver in three dimensions agrees with known solutions",
         quote="",
-        range=(
-            "a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"
-            " friction, bonded, and pulled; grids of 16² to 64² cells"
-        ),
-        measured=(
-            "Forces, tractions and radii of stick are those of the closed forms. Where transverse slip, which"
-            " Cattaneo and Mindlin leave out, plays a part, it changes the force by"
-            f" {force:.1e} of μ_0 <i>F<sub>z</sub></i> at ν = 0.5, with tractions across the pull of up to"
-            f" {across:.2f} μ_0 p_0, less than ν/(4 − 2ν) = 0.17. Spence's radius of stick under a"
-            " normal load comes out as the axisymmetric equations have it. The closed form in"
-            " the textbooks for it leaves out that friction moves the"
-            f" surface down (Goodman); at ν = 0 and μ_0 = 0.3 that alone makes the radius {100 * gone:.0f} % smaller."
-        ),
+        range="a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"
+        " friction, bonded, and pulled; grids of 16² to 64² cells",
+        measured="Forces, tractions and radii of stick are those of the closed forms. Where transverse slip, which"
+        f" Cattaneo and Mindlin leave out, plays a part, it changes the force by {force:.1e} of μ_0"
+        f" <i>F<sub>z</sub></i> at ν = 0.5, with tractions across the pull of up to {across:.2f} μ_0 p_0, less than"
+        " ν/(4 − 2ν) = 0.17. Spence's radius of stick under a normal load comes out as the axisymmetric equations have"
+        " it. The closed form in the textbooks for it leaves out that friction moves the surface down (Goodman); at ν ="
+        f" 0 and μ_0 = 0.3 that alone makes the radius {100 * gone:.0f} % smaller.",
         verdict="holds",
         sentence="The reference solver meets Hertz, Cattaneo and Mindlin, the bonded punch and Spence within its"
         " stated errors.",
-        checks=checks,
+        checks=(*_normal_checks(quick), *_slip_checks(slips, n), *_spence_checks(quick), *_order_checks(quick)),
         figures=(_figure(quick),),
     )
 
@@ -72,64 +60,41 @@ def claim(effort: str) -> Claim:
 # --- checks ---
 
 
-def _normal_checks(quick: bool) -> list[Check]:
+def _normal_checks(quick: bool) -> Checks:
     n = 32 if quick else 64
-    checks = [Check(f"Hertz, force on {n}² cells, over 4/3 E* a d", hertz(n), 1, 5e-4 if quick else 1e-4, "O(h)")]
+    yield Check(f"Hertz, force on {n}² cells, over 4/3 E* a d", hertz(n), 1, 5e-4 if quick else 1e-4, "O(h)")
     if not quick:
-        falls = [abs(hertz(n) - 1) for n in (16, 64)]
-        order = float(np.log(falls[0] / falls[1]) / np.log(4))
-        checks.append(Check.at_least("Hertz, order in the cell size from 16² to 64²", order, 1.0, "a kinked edge"))
-        falls = [abs(punch(n, 0.0)[0] - 1) for n in (32, 64)]
-        order = float(np.log2(falls[0] / falls[1]))
-        checks.append(Check("flat punch, order in the cell size from 32² to 64²", order, 1, 0.2, "infinite pressure"))
+        first, last = (abs(hertz(n) - 1) for n in (16, 64))
+        order = np.log(first / last) / np.log(4)
+        yield Check.at_least("Hertz, order in the cell size from 16² to 64²", order, 1.0, "a kinked edge")
+        order = np.log2(abs((punch(32, 0.0)[0] - 1) / (punch(64, 0.0)[0] - 1)))
+        yield Check("flat punch, order in the cell size from 32² to 64²", order, 1, 0.2, "infinite pressure")
     for nu in (0.0,) if quick else (0.0, 0.3, 0.45):
-        smooth, bonded = (extrapolated(lambda n, i=i, nu=nu: punch(n, nu)[i]) for i in (0, 1))
+        smooth, bonded = (2 * fine - coarse for fine, coarse in zip(punch(64, nu), punch(32, nu), strict=True))
         known = np.log(3 - 4 * nu) * (1 - nu) / (1 - 2 * nu)
         why = "from 32² and 64² cells, in the first power of their size"
         if not nu:
-            checks.append(Check("flat punch, force over 2 E* a d", smooth, 1, 1e-3, why))
-        checks.append(
-            Check(f"flat punch, bonded over smooth, ν = {nu:g}, over Mossakovskii's", bonded / known, 1, 1e-3, why)
-        )
-    return checks
+            yield Check("flat punch, force over 2 E* a d", smooth, 1, 1e-3, why)
+        yield Check(f"flat punch, bonded over smooth, ν = {nu:g}, over Mossakovskii's", bonded / known, 1, 1e-3, why)
 
 
-def extrapolated(at: Callable[[int], float]) -> float:
-    """Of a value with an error of first order in the size of the cells."""
-    return 2 * at(64) - at(32)
-
-
-def _slip_checks(slips: dict[float, list[PartialSlip]], n: int) -> list[Check]:
-    checks = []
+def _slip_checks(slips: dict[float, list[PartialSlip]], n: int) -> Checks:
     for share, one in zip(SHARES, slips[0.0], strict=True):
         name = f"Cattaneo and Mindlin, ν = 0, {share:g} of full slip"
-        checks += [
-            Check(f"{name}: F_x/(μ_0 F_z)", one.force, one.closed_form, 6e-3 / n, "of the cells; 1e-3 asked"),
-            Check(f"{name}: stick radius over a", one.stick, np.sqrt(1 - share), 0.01, "areas in whole cells"),
-        ]
-        checks.append(
-            Check.at_most(f"{name}: traction, over μ_0 p_0", one.traction, 3 / n, "infinite slope within a cell")
-        )
+        yield Check(f"{name}: F_x/(μ_0 F_z)", one.force, one.closed_form, 6e-3 / n, "of the cells; 1e-3 asked")
+        yield Check(f"{name}: stick radius over a", one.stick, np.sqrt(1 - share), 0.01, "areas in whole cells")
+        yield Check.at_most(f"{name}: traction, over μ_0 p_0", one.traction, 3 / n, "infinite slope within a cell")
     for nu in (0.3, 0.5):
         most = max(abs(one.force - one.closed_form) for one in slips[nu])
-        checks.append(
-            Check.at_most(
-                f"transverse slip left out, ν = {nu:g}: ΔF_x/(μ_0 F_z)",
-                most,
-                0.1 * nu / (4 - 2 * nu),
-                "of second order",
-            )
-        )
+        name = f"transverse slip left out, ν = {nu:g}: ΔF_x/(μ_0 F_z)"
+        yield Check.at_most(name, most, 0.1 * nu / (4 - 2 * nu), "of second order")
         most = max(one.transverse for one in slips[nu])
-        checks.append(
-            Check.at_most(f"transverse slip left out, ν = {nu:g}: q_y/(μ_0 p_0)", most, nu / (4 - 2 * nu), "its order")
-        )
-    return checks
+        name = f"transverse slip left out, ν = {nu:g}: q_y/(μ_0 p_0)"
+        yield Check.at_most(name, most, nu / (4 - 2 * nu), "its order")
 
 
-def _spence_checks(cases: Any, quick: bool) -> list[Check]:
-    checks = []
-    for nu, mu_0 in cases:
+def _spence_checks(quick: bool) -> Checks:
+    for nu, mu_0 in SPENCE[::3] if quick else SPENCE:
         known = rings.stick_radius(_beta(nu), mu_0)
         got = {"flat punch": np.mean([spence(n, nu, mu_0) for n in ((32,) if quick else (48, 64))])}
         if not quick:
@@ -137,14 +102,12 @@ def _spence_checks(cases: Any, quick: bool) -> list[Check]:
         why = "areas in whole cells; 2 % asked"
         for shape, radius in got.items():
             name = f"Spence, {shape}, ν = {nu:g}, μ_0 = {mu_0:g}: stick radius over that of the equations"
-            checks.append(Check(name, float(radius) / known, 1, 0.02, why))
+            yield Check(name, float(radius) / known, 1, 0.02, why)
     for nu, mu_0 in SPENCE:
         beta = _beta(nu)
         name = f"the equations, u_z by friction left out, ν = {nu:g}, μ_0 = {mu_0:g}: over the closed form"
-        checks.append(
-            Check(name, rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0), 1, 1e-5, "100 nodes")
-        )
-    return checks
+        got = rings.stick_radius(beta, mu_0, coupled=False) / rings.goodman(beta, mu_0)
+        yield Check(name, got, 1, 1e-5, "100 nodes")
 
 
 def _beta(nu: float) -> float:
@@ -157,55 +120,44 @@ def _stepped(steps: int) -> float:
     return in_three_dimensions(case, 0.4 * mdr.critical_velocity(case), settings).cof / case.mu_0
 
 
-def _order_checks(quick: bool) -> list[Check]:
+def _order_checks(quick: bool) -> Checks:
     n = 20 if quick else 40
     first, second = (_stepped(m) - _stepped(2 * m) for m in (n, 2 * n))
     name = f"COF with coupling, change from {n} to {2 * n} steps over that from {2 * n} to {4 * n}"
-    return [Check.between(name, first / second, 1.5, 4.5, "implicit steps: 2 for the first order, 4 for the second")]
+    yield Check.between(name, first / second, 1.5, 4.5, "implicit steps: 2 for the first order, 4 for the second")
 
 
 # --- figure ---
 
 
-def _figure(quick: bool) -> Figure:
-    """Forces against cells, and the radius of stick against Poisson's ratio."""
-    import matplotlib.pyplot as plt
-
+@figure("trust", 1, 2, size=(9.6, 3.9))
+def _figure(fig, axes, quick: bool) -> str:
+    """Two panels: relative errors falling with the number of cells; stick radius against Poisson's ratio for three
+    coefficients of friction, circles on full lines.
+    """
+    left, right = axes
     cells = (16, 32) if quick else (16, 24, 32, 48, 64)
     nus = np.linspace(0, 0.49, 15)
     betas = [_beta(nu) for nu in nus]
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.9))
-        known = np.log(3)
-        left.loglog(cells, [abs(hertz(n) - 1) for n in cells], "o-", label="Hertz")
-        left.loglog(cells, [abs(punch(n, 0.0)[0] - 1) for n in cells], "s-", label="punch, smooth")
-        left.loglog(cells, [abs(punch(n, 0.0)[1] / known - 1) for n in cells], "^-", label="punch, bonded over smooth")
-        left.loglog(cells, 0.2 / np.array(cells), "k:", lw=1, label="first order")
-        left.set_xticks(cells, [str(n) for n in cells])
-        left.minorticks_off()
-        left.set_ylim(3e-5, 0.15)
-        left.set_xlabel("cells along a side")
-        left.set_ylabel("relative error of the force")
-        left.legend(loc="upper right", ncols=2)
-        for mu_0, colour in ((0.1, COLOURS[3]), (0.3, COLOURS[0]), (0.6, COLOURS[1])):
-            right.plot(nus, [rings.stick_radius(b, mu_0) for b in betas], color=colour, label=rf"$\mu_0 = {mu_0:g}$")
-            right.plot(nus, [rings.goodman(b, mu_0) for b in betas], "--", color=colour, lw=1)
-            some = (0.0, 0.3) if quick else (0.0, 0.1, 0.2, 0.3, 0.4)
-            right.plot(some, [spence(32 if quick else 64, nu, mu_0) for nu in some], "o", color=colour, mfc="w")
-        right.plot([], [], "k--", lw=1, label="Goodman's approximation")
-        right.plot([], [], "ko", mfc="w", label="three dimensions")
-        right.set_xlabel(r"Poisson's ratio $\nu$")
-        right.set_ylabel(r"stick radius over $a$")
-        right.set_ylim(0, 1.02)
-        right.legend(loc=(0.02, 0.13), fontsize=9)
-    return Figure(
-        name="trust",
-        caption="Left: forces of the reference solver approach the closed forms with the number of cells, at first"
-        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional"
-        " solver lie on"
-        " the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed) leaves"
-        " out that friction moves the surface down, and is too high where ν and μ_0 are small.",
-        drawing=fig,
-        alt="Two panels: relative errors falling with the number of cells; stick radius against Poisson's ratio for"
-        " three coefficients of friction, circles on full lines.",
+    left.loglog(cells, [abs(hertz(n) - 1) for n in cells], "o-", label="Hertz")
+    left.loglog(cells, [abs(punch(n, 0.0)[0] - 1) for n in cells], "s-", label="punch, smooth")
+    left.loglog(cells, [abs(punch(n, 0.0)[1] / np.log(3) - 1) for n in cells], "^-", label="punch, bonded over smooth")
+    left.loglog(cells, 0.2 / np.array(cells), "k:", lw=1, label="first order")
+    ticks(left.xaxis, *cells)
+    left.set(ylim=(3e-5, 0.15), xlabel="cells along a side", ylabel="relative error of the force")
+    left.legend(loc="upper right", ncols=2)
+    for mu_0, colour in ((0.1, COLOURS[3]), (0.3, COLOURS[0]), (0.6, COLOURS[1])):
+        right.plot(nus, [rings.stick_radius(b, mu_0) for b in betas], color=colour, label=rf"$\mu_0 = {mu_0:g}$")
+        right.plot(nus, [rings.goodman(b, mu_0) for b in betas], "--", color=colour, lw=1)
+        some = (0.0, 0.3) if quick else (0.0, 0.1, 0.2, 0.3, 0.4)
+        right.plot(some, [spence(32 if quick else 64, nu, mu_0) for nu in some], "o", color=colour, mfc="w")
+    right.plot([], [], "k--", lw=1, label="Goodman's approximation")
+    right.plot([], [], "ko", mfc="w", label="three dimensions")
+    right.set(xlabel=r"Poisson's ratio $\nu$", ylabel=r"stick radius over $a$", ylim=(0, 1.02))
+    right.legend(loc=(0.02, 0.13), fontsize=9)
+    return (
+        "Left: forces of the reference solver approach the closed forms with the number of cells, at first"
+        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver"
+        " lie on the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed)"
+        " leaves out that friction moves the surface down, and is too high where ν and μ_0 are small."
     )

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -14,11 +15,21 @@ SHARP = 3e-5  #: under a rigid pull: the bracket on either side, and h²/6 by wh
 
 
 @dataclass(frozen=True)
-class Measured:
+class Point:
     """One contact and its measured critical velocity; ratios are NaN where none was found."""
 
     case: mdr.SlidingContact
     found: mdr.MeasuredVelocity
+    where: str  #: the contact in words
+    shape: str = ""  #: this and the next are what points are told by where a claim varies them
+    alpha: float = np.nan
+    T: float = np.nan  #: omega tau
+    pull: Any = None  #: the name of the pull, or omega_0/omega of the body
+
+    @property
+    def u_z0(self) -> float:
+        """Mean depth [m]."""
+        return self.case.oscillation.u_z0
 
     @property
     def v_c(self) -> float:
@@ -46,11 +57,14 @@ class Measured:
         return self.found.contains(mdr.full_slip_critical_velocity(self.case))
 
 
-@dataclass(frozen=True)
-class Point(Measured):
-    """One contact, said in words."""
+def measured(case: mdr.SlidingContact, where: str, *told: Any) -> Point:
+    """Measure the critical velocity of a case from runs alone."""
+    return Point(case, mdr.measure_critical_velocity(case), where, *told)
 
-    where: str
+
+def lost(case: mdr.SlidingContact, v_0: float, **knobs: Any) -> float:
+    """1 - |mu|/mu_0 by a run."""
+    return 1 - abs(mdr.slide(case, v_0, **knobs).cof) / case.mu_0
 
 
 def deviation(case: mdr.SlidingContact) -> float:
@@ -72,6 +86,11 @@ def with_band(case: mdr.SlidingContact, r: Array, unit: float) -> tuple[Array, A
     moving, band = r[np.abs(r) > 1e-9], mdr.holding_band(case)
     cof, at = mdr.cof_curve(case, moving * unit).cof, int(np.searchsorted(moving, 0.0))
     return np.insert(moving, at, (0.0, 0.0)), np.insert(cof, at, (band.low, band.high)) / case.mu_0
+
+
+def power(x: Any, y: Any) -> float:
+    """Power of x with which y goes: slope of the least-squares line of the logarithms."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def worst(values: Iterable[float], expected: float) -> float:

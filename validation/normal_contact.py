@@ -15,15 +15,17 @@ Symbols: u depth, d its peak, P duration of the press, F force, J creep complian
 """
 
 import math
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr.normal.indentation import Indentation, indent
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
-from validation.report import Check, Claim, Figure
+from validation.figures import circles, figure, outer_labels
+from validation.report import Check, Checks, Claim
 from validation.words import listed, ranged, span
 
 P = 20e-3  #: duration of a press [s]
@@ -40,6 +42,7 @@ BODIES: dict[str, mdr.Material] = {
     "Prony, five decades": mdr.Prony(E_inf=E, arms=tuple((E, P * 10.0**k) for k in range(-3, 3)), nu=0.5),
     "Maxwell": mdr.StandardLinearSolid(E_inf=0, E_1=E, tau_1=P, nu=0.5),
 }
+KNOWN = ("flat punch", "cone", "paraboloid")  #: shapes whose creep has a closed form
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(80)
 
 
@@ -117,13 +120,9 @@ def pressed(shape: str, kind: str, T: float) -> tuple[Indentation, Ting]:
 
 def claim(effort: str) -> Claim:
     """Set creep, relaxation, press and release beside the half-space."""
-    presses = {
-        (shape, kind, T): pressed(shape, kind, T)
-        for shape in POWERS
-        for kind in ("Kelvin", "standard solid")
-        for T in PRESSES[effort]
-    }
-    checks = [*_creep_checks(effort), *_relaxation_checks(), *_press_checks(presses)]
+    every = product(POWERS, ("Kelvin", "standard solid"), PRESSES[effort])
+    presses = {one: pressed(*one) for one in every}
+    checks = (*_creep_checks(effort), *_relaxation_checks(), *_press_checks(presses))
     worst = max(float(c.got or 0) for c in checks if "force" in c.name and "press" in c.name)
     left = [100 * float(ting.u(ting.end)) / DEPTH for _, ting in presses.values()]
     times = sorted({T for _, _, T in presses})
@@ -134,14 +133,13 @@ def claim(effort: str) -> Claim:
         range=f"creep over ten decades of time and relaxation, flat punch, cone and paraboloid, {', '.join(BODIES)}; "
         f"press and release of cone and paraboloid on Kelvin body and standard solid, checked at relaxation times "
         f"{ranged(times).removeprefix('= ')} of the duration, and drawn at {listed(DRAWN)}",
-        measured=f"Creep agrees with the closed forms to rounding, and the springs carry the load under which it "
-        f"happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends, at these"
-        f" relaxation times, while "
-        f"the indenter is still {span(left, 2)} % of the peak depth below the old surface.",
+        measured="Creep agrees with the closed forms to rounding, and the springs carry the load under which it"
+        f" happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends, at these"
+        f" relaxation times, while the indenter is still {span(left, 2)} % of the peak depth below the old surface.",
         verdict="holds",
         sentence="Releasing each spring where its own force vanishes reproduces Lee and Radok's growing and Ting's "
         "retreating contact: loads, contact radii and the end of contact.",
-        checks=tuple(checks),
+        checks=checks,
         figures=(_press_figure(), _creep_figure()),
     )
 
@@ -159,128 +157,102 @@ def creep_depth(shape: str, FJ: Any) -> Any:
     return (0.75 * FJ / math.sqrt(indenter.R)) ** (2 / 3)
 
 
-def _creep_checks(effort: str) -> list[Check]:
-    checks = []
+def _creep_checks(effort: str) -> Checks:
     t = np.concatenate([[0.0], P * np.geomspace(1e-6, 1e4, 101)])
     fine = np.concatenate([[0.0], P * np.geomspace(1e-4, 1e3, 1000 if effort == "quick" else 4000)])
     for name, body in BODIES.items():
-        off = 0.0
-        for shape in ("flat punch", "cone", "paraboloid"):
+        off = []
+        for shape in KNOWN:
             run = indent(SHAPES[shape], body, t, F_z=np.full(t.size, LOAD))
             expected = creep_depth(shape, LOAD * np.asarray(body.creep_compliance(t)))[1:]
-            off = max(off, float(np.max(np.abs(run.u_z[1:] / expected - 1))))
+            off.append(np.max(np.abs(run.u_z[1:] / expected - 1)))
         why = "while the contact grows both are sums of exponentials"
-        checks.append(Check.at_most(f"{name}: depth under a step of load, greatest relative error", off, 1e-6, why))
+        yield Check.at_most(f"{name}: depth under a step of load, greatest relative error", max(off), 1e-6, why)
     body = BODIES["standard solid"]
-    for shape in ("flat punch", "cone", "paraboloid"):
+    for shape in KNOWN:
         run = indent(SHAPES[shape], body, fine, creep_depth(shape, LOAD * np.asarray(body.creep_compliance(fine))))
         why = "the depth is straight between samples, and six springs share the load that falls off at the edge"
-        off = float(np.max(np.abs(run.F_z / LOAD - 1)))
-        tolerance = 1e-4 if effort != "quick" else 1e-3
-        checks.append(Check.at_most(f"{shape}: force of the springs that creep, over the load", off, tolerance, why))
-    return checks
+        name, off = f"{shape}: force of the springs that creep, over the load", np.max(np.abs(run.F_z / LOAD - 1))
+        yield Check.at_most(name, off, 1e-4 if effort != "quick" else 1e-3, why)
 
 
-def _relaxation_checks() -> list[Check]:
-    checks = []
+def _relaxation_checks() -> Checks:
     t = P * np.concatenate([[0.0], np.geomspace(1e-6, 1e4, 101)])
     for name, body in BODIES.items():
-        off = 0.0
-        for shape in ("flat punch", "cone", "paraboloid"):
+        off = []
+        for shape in KNOWN:
             run = indent(SHAPES[shape], body, t, np.full(t.size, DEPTH))
             expected = float(SHAPES[shape].force(DEPTH, 1.0)) * np.asarray(body.relaxation_modulus(t))
-            off = max(off, float(np.max(np.abs(run.F_z - expected)) / expected[0]))
+            off.append(np.max(np.abs(run.F_z - expected)) / expected[0])
         why = "all springs touch at once: exponentials on both sides"
-        checks.append(Check.at_most(f"{name}: force after a step of depth, over its start", off, 1e-12, why))
-    return checks
+        yield Check.at_most(f"{name}: force after a step of depth, over its start", max(off), 1e-12, why)
 
 
-def _press_checks(presses: dict[tuple[str, str, float], tuple[Indentation, Ting]]) -> list[Check]:
-    checks = []
+def _press_checks(presses: dict[tuple[str, str, float], tuple[Indentation, Ting]]) -> Checks:
     some = np.arange(0, N_SAMPLES + 1, 50)
     for (shape, kind, T), (run, ting) in presses.items():
         F = np.array([ting.force(t) for t in run.t[some]])
         off = float(np.max(np.abs(run.F_z[some] - F)) / F.max())
         name = f"{shape} on {kind}, T = {T:.3g}: press and release"
         why = "512 springs, and a sine of 2000 straight pieces"
-        checks.append(Check.at_most(f"{name}, force over its peak", off, 1e-3, why))
+        yield Check.at_most(f"{name}, force over its peak", off, 1e-3, why)
         last = run.t[np.flatnonzero(run.contact_radius)[-1]]
-        checks.append(Check(f"{name}, end of contact over P", last / P, ting.end / P, 1e-3, "two samples of P/2000"))
-    return checks
+        yield Check(f"{name}, end of contact over P", last / P, ting.end / P, 1e-3, "two samples of P/2000")
 
 
 # --- figures ---
 
 
-def _press_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, axes = plt.subplots(2, 2, figsize=(9.4, 7.2), sharex=True, sharey=True)
-        for row, kind in zip(axes, ("Kelvin", "standard solid"), strict=True):
-            for ax, shape in zip(row, POWERS, strict=True):
-                scale = E_STAR * float(SHAPES[shape].force(DEPTH, 1.0))
-                for T, colour in zip(DRAWN, COLOURS, strict=False):
-                    run, ting = pressed(shape, kind, T)
-                    kept = np.arange(np.flatnonzero(run.contact_radius)[-1] + 2)
-                    ax.plot(run.u_z[kept] / DEPTH, run.F_z[kept] / scale, color=colour, label=f"{T:g}")
-                    some = np.linspace(0.02 * P, ting.end * 0.999, 23)
-                    F = np.array([ting.force(t) for t in some])
-                    ax.plot(ting.u(some) / DEPTH, F / scale, "o", ms=4.5, mfc="white", mec=colour)
-                    ax.plot(ting.u(ting.end) / DEPTH, 0, "x", color=colour, ms=7, mew=1.8, clip_on=False, zorder=4)
-                ax.set_title(f"{shape_label(shape)}, {kind}")
-                ax.set(xlim=(0, 1.02))
-            row[0].set_ylabel(r"force over elastic peak, $E_\infty$")
-        axes[0, 0].set_ylim(0, 10.5)
-        for ax in axes[1]:
-            ax.set_xlabel("depth $u/d$")
-        handles, labels = axes[0, 0].get_legend_handles_labels()
-        fig.legend(handles, [f"relaxation time {label} $P$" for label in labels], loc="outside lower center", ncols=3)
-    return Figure(
-        "press",
+@figure("press", 2, 2, size=(9.4, 7.2), sharex=True, sharey=True)
+def _press_figure(fig, axes) -> str:
+    """Force-depth loops of cone and paraboloid on Kelvin body and standard solid, lines of springs through Ting's
+    circles.
+    """
+    for ax, (kind, shape) in zip(axes.flat, product(("Kelvin", "standard solid"), POWERS), strict=True):
+        scale = E_STAR * float(SHAPES[shape].force(DEPTH, 1.0))
+        for T, colour in zip(DRAWN, COLOURS, strict=False):
+            run, ting = pressed(shape, kind, T)
+            kept = np.arange(np.flatnonzero(run.contact_radius)[-1] + 2)
+            label = f"relaxation time {T:g} $P$"
+            ax.plot(run.u_z[kept] / DEPTH, run.F_z[kept] / scale, color=colour, label=label)
+            some = np.linspace(0.02 * P, ting.end * 0.999, 23)
+            circles(ax, ting.u(some) / DEPTH, np.array([ting.force(t) for t in some]) / scale, colour)
+            ax.plot(ting.u(ting.end) / DEPTH, 0, "x", color=colour, ms=7, mew=1.8, clip_on=False, zorder=4)
+        ax.set(title=f"{shape_label(shape)}, {kind}", xlim=(0, 1.02))
+    outer_labels(axes, "depth $u/d$", r"force over elastic peak, $E_\infty$")
+    axes[0, 0].set_ylim(0, 10.5)
+    fig.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    return (
         "Half a sine of depth in the duration P, force over depth; every loop runs clockwise. Lines: springs, each"
-        " released where its "
-        "own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is lost while the "
-        "indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or, once they are "
-        "glassy throughout the press, close to the old surface again (standard solid).",
-        fig,
-        "Force-depth loops of cone and paraboloid on Kelvin body and standard solid, lines of springs through Ting's "
-        "circles.",
+        " released where its own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is"
+        " lost while the indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or,"
+        " once they are glassy throughout the press, close to the old surface again (standard solid)."
     )
 
 
-def _creep_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("creep", 1, 2, size=(9.4, 4.2))
+def _creep_figure(fig, axes) -> str:
+    """Creep curves over eight decades through circles, and the compression of the central spring under tapping."""
+    left, right = axes
     t = np.concatenate([[0.0], P * np.geomspace(1e-5, 1e3, 161)])
     some = P * np.geomspace(1.3e-5, 0.8e3, 17)
-    with style():
-        fig, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.2))
-        for (name, body), colour in zip(BODIES.items(), COLOURS, strict=False):
-            run = indent(SHAPES["paraboloid"], body, t, F_z=np.full(t.size, LOAD))
-            left.loglog(t[1:] / P, run.u_z[1:] * 1e6, color=colour, label=name)
-            J = np.asarray(body.creep_compliance(some))
-            left.loglog(some / P, creep_depth("paraboloid", LOAD * J) * 1e6, "o", ms=4.5, mfc="white", mec=colour)
-        left.set(xlabel="time $t/P$", ylabel="depth [µm]", title="creep of a paraboloid under 0.1 N")
-        body = BODIES["standard solid"]
-        t = P * np.linspace(0, 6, 1201)
-        u_z = DEPTH * np.sin(2 * np.pi * t / (2 * P))
-        run = indent(SHAPES["paraboloid"], body, t, u_z, record=True)
-        assert run.s is not None
-        right.plot(t / P, u_z / DEPTH, color="0.6", label="indenter")
-        right.plot(t / P, run.s[:, 0] / DEPTH, color=COLOURS[0], label="surface in the centre")
-        touching = run.F_z > 0
-        right.fill_between(t / P, -1.05, 1.05, where=list(touching), color=COLOURS[5], alpha=0.2, lw=0, label="contact")
-        right.set(xlabel="time $t/P$", ylabel="over peak depth", ylim=(-1.05, 1.05), title="standard solid, tapped")
-        handles = [*left.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
-        names = [*left.get_legend_handles_labels()[1], *right.get_legend_handles_labels()[1]]
-        fig.legend(handles, names, loc="outside lower center", ncols=4)
-    return Figure(
-        "creep",
-        "P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form"
-        " of Lee and Radok. Right: the "
-        "spring in the centre is left by the indenter while still compressed, relaxes, and is met again below the old "
-        "surface, a little deeper at every stroke.",
-        fig,
-        "Creep curves over eight decades through circles, and the compression of the central spring under tapping.",
+    for (name, body), colour in zip(BODIES.items(), COLOURS, strict=False):
+        run = indent(SHAPES["paraboloid"], body, t, F_z=np.full(t.size, LOAD))
+        left.loglog(t[1:] / P, run.u_z[1:] * 1e6, color=colour, label=name)
+        J = np.asarray(body.creep_compliance(some))
+        circles(left, some / P, creep_depth("paraboloid", LOAD * J) * 1e6, colour)
+    left.set(xlabel="time $t/P$", ylabel="depth [µm]", title="creep of a paraboloid under 0.1 N")
+    t = P * np.linspace(0, 6, 1201)
+    u_z = DEPTH * np.sin(2 * np.pi * t / (2 * P))
+    run: Any = indent(SHAPES["paraboloid"], BODIES["standard solid"], t, u_z, record=True)
+    right.plot(t / P, u_z / DEPTH, color="0.6", label="indenter")
+    right.plot(t / P, run.s[:, 0] / DEPTH, color=COLOURS[0], label="surface in the centre")
+    touching = run.F_z > 0
+    right.fill_between(t / P, -1.05, 1.05, where=list(touching), color=COLOURS[5], alpha=0.2, lw=0, label="contact")
+    right.set(xlabel="time $t/P$", ylabel="over peak depth", ylim=(-1.05, 1.05), title="standard solid, tapped")
+    fig.legend(loc="outside lower center", ncols=4)
+    return (
+        "P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form of"
+        " Lee and Radok. Right: the spring in the centre is left by the indenter while still compressed, relaxes, and"
+        " is met again below the old surface, a little deeper at every stroke."
     )

@@ -7,7 +7,7 @@ import io
 import json
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -83,6 +83,9 @@ class Check:
             "why": side + plain(self.why),
             "held": self.held,
         }
+
+
+Checks = Iterator[Check]  #: what a function of a claim yields
 
 
 @dataclass(frozen=True)

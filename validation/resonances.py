@@ -20,17 +20,19 @@ Symbols: F_n complex harmonics of the normal force in full slip, F_0 its mean; a
 """
 
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import contact, loss
-from validation.measured import TOLERANCE
-from validation.report import Check, Claim, Figure
+from validation.figures import figure, ticks
+from validation.measured import TOLERANCE, power, worst
+from validation.report import Check, Checks, Claim
 from validation.words import listed, percent
 
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
@@ -84,52 +86,38 @@ def claim(effort: str) -> Claim:
     ends = {knobs: _end(*knobs, 0.0) for knobs in progress([*driven, *idle], "resonances")}
     damped = {knobs: _end(*knobs, 0.01) for knobs in known if knobs[2] <= 3}
     speeds = FAST[1:2] if effort == "quick" else FAST
-    checks = [
-        *_end_checks(driven, idle, ends),
-        *_damped_checks(damped),
-        *_plateau_checks(driven, speeds),
-        *_pole_checks(driven),
-        *_order_checks(),
-    ]
-    worst = max(damped.items(), key=lambda item: abs(item[1][0] or np.nan))
+    checks = [*_end_checks(driven, idle, ends, damped), *_plateau_checks(driven, speeds)]
+    far = max(damped.items(), key=lambda item: abs(item[1][0] or np.nan))
     growing = [f"{_name(knobs)} at {v} v_c" for knobs in driven for v in speeds if np.isnan(reduction(*knobs, v)[0])]
     unseen = "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: |F_n|/F_0 = {share(s, T, n):.1e}" for s, T, n in faint)
     return Claim(
         name="resonances",
         title="Eq. (15) gives v_c also where the body resonates",
-        quote=(
-            "Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where v_c"
-            " becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
-            " plateau (which is less than μ_0) at fairly low sliding velocities and does not change thereafter."
-            " (Section 1, on Eq. (2))"
-        ),
-        range=(
-            f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c;"
-            f" ωτ = {listed(sorted({T for _, T, _ in known}))}; ω_0/ω = {listed(sorted({n for _, _, n in known}))};"
-            f" without damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15)."
-        ),
-        measured=(
-            "Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has more (a"
-            " paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is an"
-            " n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
-            " velocity, however high, the COF stays below 1 − |F_n|/F_0 of μ_0, to which it tends. "
-            + "There it is lower than μ_0 by "
-            + "; ".join(f"{percent(share(*knobs))} ({_name(knobs)})" for knobs in driven)
-            + ". This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
-            " With a damper of 1 % there is a critical velocity again, that of full slip with all"
-            f" harmonics; it is off Eq. (15) by up to {100 * ((worst[1][0] or np.nan) - 1):+.0f} % ({_name(worst[0])})."
-            + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
-            " drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on"
-            f" ({'; '.join(f'{_name(knobs)}: {ends[knobs][0] or np.nan:.4f}' for knobs in idle)})."
-            + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
-            + (f" Too faint to be told from the error of a run: {unseen}." if unseen else "")
-        ),
+        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where"
+        " v_c becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
+        " plateau (which is less than μ_0) at fairly low sliding velocities and does not change thereafter. (Section 1,"
+        " on Eq. (2))",
+        range=f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c; ωτ ="
+        f" {listed(sorted({T for _, T, _ in known}))}; ω_0/ω = {listed(sorted({n for _, _, n in known}))}; without"
+        f" damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15).",
+        measured="Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has"
+        " more (a paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is"
+        " an n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
+        " velocity, however high, the COF stays below 1 − |F_n|/F_0 of μ_0, to which it tends. "
+        + "There it is lower than μ_0 by "
+        + "; ".join(f"{percent(share(*knobs))} ({_name(knobs)})" for knobs in driven)
+        + ". This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
+        " With a damper of 1 % there is a critical velocity again, that of full slip with all"
+        f" harmonics; it is off Eq. (15) by up to {100 * ((far[1][0] or np.nan) - 1):+.0f} % ({_name(far[0])})."
+        + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
+        " drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on"
+        f" ({'; '.join(f'{_name(knobs)}: {ends[knobs][0] or np.nan:.4f}' for knobs in idle)})."
+        + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
+        + (f" Too faint to be told from the error of a run: {unseen}." if unseen else ""),
         verdict="fails when ω_0 is a whole multiple nω of ω, n ≥ 2",
-        sentence=(
-            "Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its force:"
-            " without damping friction stays reduced by |F_n|/F_0 or more at any velocity."
-        ),
-        checks=tuple(checks),
+        sentence="Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its"
+        " force: without damping friction stays reduced by |F_n|/F_0 or more at any velocity.",
+        checks=(*checks, *_pole_checks(driven), *_order_checks()),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
     )
 
@@ -139,73 +127,55 @@ def _name(knobs: tuple[str, float, int]) -> str:
     return f"{shape}, {loss(T)}, ω_0 = {n}ω"
 
 
-def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | None, float, str]:
-    """Measured v_c over Eq. (15) or None, over the full-slip value, and its kind."""
+def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | None, float]:
+    """Measured v_c over Eq. (15) or None, and over the full-slip value."""
     case = system(shape, T, n, damping_ratio)
     found = mdr.measure_critical_velocity(case)
     if found.v_c is None:
-        return None, np.nan, found.kind
-    return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case), found.kind
+        return None, np.nan
+    return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case)
 
 
-def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any]) -> list[Check]:
+def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any], damped: dict[Any, Any]) -> Checks:
     found = sum(ends[knobs][0] is not None for knobs in driven)
     why = "the harmonic drives the body up to stick at any velocity"
-    checks = [Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)]
+    yield Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)
     whole = sum(not np.isinf(mdr.full_slip_critical_velocity(system(*knobs))) for knobs in driven)
-    checks.append(Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why))
+    yield Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why)
     for knobs in idle:
         why = "law of lock-in; read off the COF, by a fit through three velocities"
         law = laws.lock_in(knobs[2])
-        checks.append(Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why))
+        yield Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why)
     locked = sum((ends[knobs][0] or 1.0) < 0.99 for knobs in idle)
     name = f"of {len(idle)} undriven resonances those with full friction below Eq. (15)"
-    checks.append(Check(name, locked, len(idle), 0, "law of lock-in"))
-    return checks
-
-
-def _damped_checks(damped: dict[Any, Any]) -> list[Check]:
-    worst = max(damped.values(), key=lambda end: abs(end[1] - 1))
-    why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
+    yield Check(name, locked, len(idle), 0, "law of lock-in")
     name = f"v_c over the full-slip value, damper of 1 %, worst of {len(damped)} resonances"
-    return [Check(name, worst[1], 1.0, TOLERANCE, why)]
+    why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
+    yield Check(name, worst((end[1] for end in damped.values()), 1), 1.0, TOLERANCE, why)
 
 
-def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> list[Check]:
-    checks = []
-    for knobs in driven:
-        for speed in speeds:
-            got, error = reduction(*knobs, speed)
-            law = share(*knobs)
-            if np.isnan(got):  # said in words
-                continue
-            # pulses of a width ~ v^(-1/4) exceed the law by its square, at most 0.3 at v = 1; error of the run
-            tolerance = 0.3 * speed**-0.5 + law + error / law
-            why = (
-                "law of short pulses; their width adds up to 0.3 (v/v_c)^(-1/2), their size |F_n|/F_0; error of the run"
-            )
-            checks.append(
-                Check(f"(1 − COF/μ_0) F_0/|F_n| at {speed} v_c: {_name(knobs)}", got / law, 1.0, tolerance, why)
-            )
+def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> Checks:
+    why = "law of short pulses; their width adds up to 0.3 (v/v_c)^(-1/2), their size |F_n|/F_0; error of the run"
+    for knobs, speed in product(driven, speeds):
+        (got, error), law = reduction(*knobs, speed), share(*knobs)
+        if np.isnan(got):  # said in words
+            continue
+        # pulses of a width ~ v^(-1/4) exceed the law by its square, at most 0.3 at v = 1; error of the run
+        tolerance = 0.3 * speed**-0.5 + law + error / law
+        yield Check(f"(1 − COF/μ_0) F_0/|F_n| at {speed} v_c: {_name(knobs)}", got / law, 1.0, tolerance, why)
     n_found = sum(not np.isnan(reduction(*knobs, v)[0]) for knobs in driven for v in speeds)
-    why = (
-        "a steady motion is solved for; the faintest harmonics drive too slowly at the highest speeds to be sure of it"
-    )
-    checks.append(
-        Check.at_least(
-            f"runs of {len(driven) * len(speeds)} that are steady", n_found, 0.8 * len(driven) * len(speeds), why
-        )
-    )
+    why = "a steady motion is solved for; the faintest harmonics drive too slowly at the highest speeds to be sure"
+    why += " of it"
+    name = f"runs of {len(driven) * len(speeds)} that are steady"
+    yield Check.at_least(name, n_found, 0.8 * len(driven) * len(speeds), why)
     fall = [(reduction("flat punch", 0.0, 1, v)[0] / share("flat punch", 0.0, 1) - 1) for v in (4, 16, 64)]
-    power = float(np.polyfit(np.log([4, 16, 64]), np.log(fall), 1)[0])
     why = "pulses of a width ~ v^(-1/4) exceed the law by the square of it; the next order is not small at v = 4"
-    checks.append(Check("power of the velocity with which the punch comes down to the law", power, -0.5, 0.1, why))
-    return checks
+    name = "power of the velocity with which the punch comes down to the law"
+    yield Check(name, power((4, 16, 64), fall), -0.5, 0.1, why)
 
 
-def _pole_checks(driven: list[Any]) -> list[Check]:
+def _pole_checks(driven: list[Any]) -> Checks:
     """The residue of v_c at the pole from full-slip values at a small detuning on both sides."""
-    checks = []
     for shape, T, n in driven:
         case = system(shape, T, n)
         residue = laws.resonance_residue(case, n)
@@ -213,100 +183,67 @@ def _pole_checks(driven: list[Any]) -> list[Check]:
         both = [mdr.full_slip_critical_velocity(system(shape, T, n * (1 + side * shift / n))) for side in (-1, 1)]
         name = f"v_c |ω_0/ω − n| m ω/(μ_0 |F_n|): {_name((shape, T, n))}"
         why = "the other harmonics add up to a few thousandths at that detuning"
-        checks.append(Check(name, float(np.mean(both)) * shift / residue, 1.0, 5e-3, why))
-    return checks
+        yield Check(name, float(np.mean(both)) * shift / residue, 1.0, 5e-3, why)
 
 
-def _order_checks() -> list[Check]:
+def _order_checks() -> Checks:
     """The power of alpha in |F_3|/F_0 of the paraboloid."""
-    alphas, checks = np.array([0.02, 0.03, 0.04]), []
-    for T, power in ((0.0, 3), (1.0, 2)):
+    alphas = np.array([0.02, 0.03, 0.04])
+    for T, expected in ((0.0, 3), (1.0, 2)):
         shares = [laws.harmonic_share(contact("paraboloid", float(alpha), T), 3) for alpha in alphas]
-        got = float(np.polyfit(np.log(alphas), np.log(shares), 1)[0])
         name = f"power of α in |F_3|/F_0: paraboloid, ωτ = {T:g}"
-        checks.append(Check(name, got, power, 0.1, "the next power of α is a few α of it"))
-    return checks
+        yield Check(name, power(alphas, shares), expected, 0.1, "the next power of α is a few α of it")
 
 
-def _plateau_figure(driven: list[Any], speeds: tuple[int, ...]) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("plateau", size=(7.2, 4.6))
+def _plateau_figure(fig, ax, driven: list[Any], speeds: tuple[int, ...]) -> str:
+    """Reduction of friction over the share of the driving harmonic, falling to one with the velocity."""
     shown = [knobs for knobs in driven if knobs[1] == 0.0]
     velocities = np.geomspace(1.5, max(speeds), 6 if len(speeds) == 1 else 14)
-    with style():
-        fig, ax = plt.subplots(figsize=(7.2, 4.6))
-        for knobs in shown:
-            shape, T, n = knobs
-            colour, _ = LOOKS[shape]
-            over = np.array([reduction(shape, T, n, float(v))[0] for v in velocities]) / share(*knobs)
-            name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$: $|F_n|/F_0$ = {percent(share(*knobs))}"
-            ax.plot(velocities, over, "os^vD"[n - 1], ms=6, mfc="w", color=colour, label=name)
-        ax.axhline(1.0, color="0.3", lw=1.0)
-        ax.set(
-            xscale="log",
-            xlim=(1.2, 1.25 * max(speeds)),
-            ylim=(0.98, None),
-            xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)",
-            ylabel=r"$(1 - \mu/\mu_0)$ over $|F_n|/F_0$",
-        )
-        ax.legend(loc="upper right")
-        ax.set_xticks([2, 5, 10, 20, 50, 100][: 4 if len(speeds) == 1 else 6])
-        ax.xaxis.set_major_formatter("{x:g}")
-        ax.minorticks_off()
-    return Figure(
-        "plateau",
+    for shape, T, n in shown:
+        law = share(shape, T, n)
+        over = np.array([reduction(shape, T, n, float(v))[0] for v in velocities]) / law
+        name = f"{shape}, $\\omega_0 = {n if n > 1 else ''}\\omega$: $|F_n|/F_0$ = {percent(law)}"
+        ax.plot(velocities, over, "os^vD"[n - 1], ms=6, mfc="w", color=LOOKS[shape][0], label=name)
+    ax.axhline(1.0, color="0.3", lw=1.0)
+    ax.set(xscale="log", xlim=(1.2, 1.25 * max(speeds)), ylim=(0.98, None))
+    ax.set(xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)", ylabel=r"$(1 - \mu/\mu_0)$ over $|F_n|/F_0$")
+    ax.legend(loc="upper right")
+    ticks(ax.xaxis, *(2, 5, 10, 20, 50, 100)[: 4 if len(speeds) == 1 else 6])
+    return (
         "Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs"
         " (symbols). It does not come back to μ_0: what is missing comes down to |F_n|/F_0, the share of the harmonic"
-        " of the normal force that drives the body, like v_0^{−1/2}, and never below it.",
-        fig,
-        "Reduction of friction over the share of the driving harmonic, falling to one with the velocity.",
+        " of the normal force that drives the body, like v_0^{−1/2}, and never below it."
     )
 
 
-def _window_figure(effort: str, damped: dict[Any, Any]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    near = [
-        n + side * s
-        for n in MULTIPLES
-        for side in (-1, 1)
-        for s in np.geomspace(1e-4, 0.45, 7 if effort == "quick" else 40)
-    ]
+@figure("window", 1, 2, size=(9.6, 4.2), sharey=True)
+def _window_figure(fig, axes, effort: str, damped: dict[Any, Any]) -> str:
+    """Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch."""
+    aside = np.geomspace(1e-4, 0.45, 7 if effort == "quick" else 40)
+    near = [n + side * s for n in MULTIPLES for side in (-1, 1) for s in aside]
     even = np.linspace(0.55, 5.5, 30 if effort == "quick" else 120)
     ratios = np.unique(np.array([r for r in [*near, *even] if r > 0.55]))
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(9.6, 4.2), sharey=True)
-        for ax, T in zip(axes, (0.0, 1.0), strict=True):
-            for shape, (colour, marker) in LOOKS.items():
-                for damping_ratio, line in ((0.0, "-"), (0.01, ":")):
-                    values = [_full_over_unit(shape, T, float(r), damping_ratio) for r in ratios]
-                    label = f"{shape}, {'no damper' if damping_ratio == 0 else 'damper 1 %'}"
-                    ax.plot(ratios, values, line, color=colour, lw=1.2, label=label)
-                here = [
-                    (n, end[0] * _eq_15_over_unit(s, t, n)) for (s, t, n), end in damped.items() if (s, t) == (shape, T)
-                ]
-                if here:
-                    ax.plot(*np.array(here).T, marker, color=colour, mec="white", mew=0.6, ms=7)
-            ax.set(yscale="log", ylim=(0.8, 60), xlim=(0.55, 5.5), xlabel=r"$\omega_0/\omega$")
-            ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau = {T:g}$")
-        axes[0].set_ylabel("full-slip $v_c$ over Eq. (1)")
-        fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return Figure(
-        "window",
+    for ax, T in zip(axes, (0.0, 1.0), strict=True):
+        for shape, (colour, marker) in LOOKS.items():
+            for damping_ratio, line in ((0.0, "-"), (0.01, ":")):
+                cases = [system(shape, T, float(r), damping_ratio) for r in ratios]
+                values = [mdr.full_slip_critical_velocity(case) / case.unit_velocity for case in cases]
+                label = f"{shape}, {'no damper' if damping_ratio == 0 else 'damper 1 %'}"
+                ax.plot(ratios, values, line, color=colour, lw=1.2, label=label)
+            here = [(n, end[0]) for (*one, n), end in damped.items() if one == [shape, T]]
+            if here:
+                cases = [system(shape, T, n, 0.01) for n, _ in here]
+                units = [mdr.critical_velocity(case) / case.unit_velocity for case in cases]
+                found = [end * unit for (_, end), unit in zip(here, units, strict=True)]
+                ax.plot([n for n, _ in here], found, marker, color=colour, mec="white", mew=0.6, ms=7)
+        ax.set(yscale="log", ylim=(0.8, 60), xlim=(0.55, 5.5), xlabel=r"$\omega_0/\omega$")
+        ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau = {T:g}$")
+    axes[0].set_ylabel("full-slip $v_c$ over Eq. (1)")
+    fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return (
         "Critical velocity in full slip over the natural frequency of the body. The punch has the one pole of Eq. (15);"
         " the paraboloid has one at every whole multiple, the narrower the higher, and wider where the material"
         " dissipates and the force is less sinusoidal. A damper of 1 % (dotted) leaves the first two. Symbols:"
-        f" measured, with damper{', elastic only' if effort == 'quick' else ''}.",
-        fig,
-        "Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch.",
+        f" measured, with damper{', elastic only' if effort == 'quick' else ''}."
     )
-
-
-def _full_over_unit(shape: str, T: float, ratio: float, damping_ratio: float) -> float:
-    case = system(shape, T, ratio, damping_ratio)
-    return mdr.full_slip_critical_velocity(case) / case.unit_velocity
-
-
-def _eq_15_over_unit(shape: str, T: float, n: int) -> float:
-    case = system(shape, T, n, 0.01)
-    return mdr.critical_velocity(case) / case.unit_velocity

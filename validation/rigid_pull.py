@@ -13,19 +13,21 @@ Symbols: alpha = du_z/u_z0, T = omega tau, phi phase, kappa = E*/G*.
 
 from collections.abc import Iterable
 from itertools import product
-from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr import laws
 from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
-from validation.measured import SHARP, worst
-from validation.report import Check, Claim, Equation, Figure
+from validation.figures import circles, figure
+from validation.measured import SHARP, Point, measured, worst
+from validation.report import Check, Checks, Claim, Equation
+from validation.words import listed
 
-Measured = dict[tuple[float, float], dict[str, tuple[float | None, float]]]  #: alpha, T: shape: runs, full slip
+Measured = dict[tuple[float, float], list[Point]]  #: by alpha and T
 
 #: alpha, T, shapes
 QUICK = (
@@ -34,16 +36,13 @@ QUICK = (
     (1.7, 1.0, ("cone",)),
     (0.5, 10.0, ("r^4",)),
 )
-FULL = tuple(
-    (alpha, T, tuple(SHAPES))
-    for T, alphas in (
-        (0.0, (0.03, 0.5, 0.9, 1.7)),
-        (1.0, (0.03, 0.5, 1.7)),
-        (10.0, (0.2, 0.5, 0.7, 1.0)),
-        (30.0, (0.03, 0.2, 0.5, 1.0, 1.7)),
-    )
-    for alpha in alphas
-)
+AMPLITUDES = {
+    0.0: (0.03, 0.5, 0.9, 1.7),
+    1.0: (0.03, 0.5, 1.7),
+    10.0: (0.2, 0.5, 0.7, 1.0),
+    30.0: (0.03, 0.2, 0.5, 1.0, 1.7),
+}
+FULL = tuple((alpha, T, tuple(SHAPES)) for T, alphas in AMPLITUDES.items() for alpha in alphas)
 TAPPING = -1 / 3  # u_z0/du_z of contacts that exist for less than half of the period
 
 
@@ -59,38 +58,28 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="rigid_pull",
         title="Under a rigid pull v_c depends neither on shape, depth nor rheology",
-        quote=(
-            "In the limit of a very stiff system spring, k_x → ∞, the critical velocity, Eq. (15), is reduced"
-            " to Eq. (1), which thus appears to be valid independently of the viscoelastic properties of the"
-            " medium. (Section 2.2.2)"
-        ),
-        range=(
-            f"{sum(len(shapes) for _, _, shapes in cases)} contacts of four shapes, Δu_z/u_z0 from {min(alphas):g} to"
-            f" {max(alphas):g} and tapping from above the surface, ωτ from {min(times):g} to {max(times):g}; v_c"
-            f" measured from runs alone. COF of {len(marched)} further runs against the closed form, which is then"
-            " followed to both ends of its curve."
-        ),
-        measured=(
-            "Eq. (1) is exact far beyond the limits it was derived under: not only for small amplitudes and"
-            " unbroken contact, but for every shape and amplitude, as long as the contact exists at the"
-            " instant when the depth grows fastest, a quarter of a period before the deepest point. Loss of"
-            " contact, Eq. (5), does no harm by itself. What ends Eq. (1) is a surface that comes back late:"
-            " a slow rubber does so for Δu_z/u_z0 above α_1 = min (e^{θ/ωτ} − 1)/|sin θ| over π < θ < 2π,"
-            f" that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in practice),"
-            f" {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(30.0):.3f} at ωτ = 30, tending to"
-            f" {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with φ_c the"
-            f" phase at which the centre touches again: {laws.late_return(1.0, 30.0):.2f} at ωτ = 30 and Δu_z = u_z0."
-            " It is still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of"
-            " the COF within their own bounds. An elastic contact"
-            " joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose lag outlives the stick, with"
-            " (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to μ_0 is not v_c. The other"
-            " end, at v_0 → 0, is shown with the static value."
-        ),
+        quote="In the limit of a very stiff system spring, k_x → ∞, the critical velocity, Eq. (15), is reduced to Eq."
+        " (1), which thus appears to be valid independently of the viscoelastic properties of the medium. (Section"
+        " 2.2.2)",
+        range=f"{sum(len(shapes) for _, _, shapes in cases)} contacts of four shapes, Δu_z/u_z0 from {min(alphas):g} to"
+        f" {max(alphas):g} and tapping from above the surface, ωτ from {min(times):g} to {max(times):g}; v_c measured"
+        f" from runs alone. COF of {len(marched)} further runs against the closed form, which is then followed to both"
+        " ends of its curve.",
+        measured="Eq. (1) is exact far beyond the limits it was derived under: not only for small amplitudes and"
+        " unbroken contact, but for every shape and amplitude, as long as the contact exists at the instant when the"
+        " depth grows fastest, a quarter of a period before the deepest point. Loss of contact, Eq. (5), does no harm"
+        " by itself. What ends Eq. (1) is a surface that comes back late: a slow rubber does so for Δu_z/u_z0 above α_1"
+        f" = min (e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in"
+        f" practice), {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(30.0):.3f} at ωτ = 30,"
+        f" tending to {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with"
+        f" φ_c the phase at which the centre touches again: {laws.late_return(1.0, 30.0):.2f} at ωτ = 30 and Δu_z ="
+        " u_z0. It is still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of"
+        " the COF within their own bounds. An elastic contact joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose"
+        " lag outlives the stick, with (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to"
+        " μ_0 is not v_c. The other end, at v_0 → 0, is shown with the static value.",
         verdict="holds if the contact is closed at the moment of fastest approach",
-        sentence=(
-            "One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
-            f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1)."
-        ),
+        sentence="One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
+        f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1).",
         checks=(*_velocity_checks(found, tapped), *_march_checks(marched), *_end_checks()),
         figures=(_curve_figure(), _end_figure()),
         equations=_EQUATIONS,
@@ -119,40 +108,28 @@ _EQUATIONS = (
 # --- checks of v_c ---
 
 
-def _measure(alpha: float, T: float, shapes: Iterable[str], **more: float) -> dict[str, tuple[float | None, float]]:
-    """Measured and full-slip v_c over Eq. (1)."""
-    found = {}
-    for shape in shapes:
-        case = contact(shape, alpha, T, **more)
-        v_1, v_c = mdr.critical_velocity(case), mdr.measure_critical_velocity(case).v_c
-        found[shape] = (None if v_c is None else v_c / v_1, mdr.full_slip_critical_velocity(case) / v_1)
-    return found
+def _measure(alpha: float, T: float, shapes: Iterable[str], **more: float) -> list[Point]:
+    return [measured(contact(shape, alpha, T, **more), shape) for shape in shapes]
 
 
-def _velocity_checks(found: Measured, tapped: dict[float, Any]) -> list[Check]:
-    checks = []
-    for (alpha, T), measured in found.items():
+def _velocity_checks(found: Measured, tapped: dict[float, list[Point]]) -> Checks:
+    for (alpha, T), points in found.items():
         name = f"ωτ = {T:g}, Δu_z/u_z0 = {alpha:g} ({_contact(alpha, T)})"
-        checks += _of_one(name, laws.late_return(1 / alpha, T), measured)
-    for T, measured in tapped.items():
-        checks += _of_one(f"ωτ = {T:g}, tapping with u_z0 = −Δu_z/3", laws.late_return(TAPPING, T), measured)
+        yield from _of_one(name, laws.late_return(1 / alpha, T), points)
+    for T, points in tapped.items():
+        yield from _of_one(f"ωτ = {T:g}, tapping with u_z0 = −Δu_z/3", laws.late_return(TAPPING, T), points)
     why = "touches where cos φ = 1/3, with nothing left to relax"
-    checks.append(
-        Check("that limit for an elastic tapping contact", laws.late_return(TAPPING, 0.0), np.sqrt(8) / 3, 1e-12, why)
-    )
-    return checks
+    yield Check("that limit for an elastic tapping contact", laws.late_return(TAPPING, 0.0), np.sqrt(8) / 3, 1e-12, why)
 
 
-def _of_one(name: str, expected: float, measured: dict[str, tuple[float | None, float]]) -> list[Check]:
+def _of_one(name: str, expected: float, points: list[Point]) -> Checks:
     """The worst of the shapes, for runs and for the full-slip condition."""
-    runs = worst([np.nan if run is None else run for run, _ in measured.values()], expected)
-    full = worst([full for _, full in measured.values()], expected)
-    whom = f"worst of {len(measured)} shapes" if len(measured) > 1 else next(iter(measured))
+    runs = worst([1 + p.deviation for p in points], expected)
+    full = worst([mdr.full_slip_critical_velocity(p.case) / mdr.critical_velocity(p.case) for p in points], expected)
+    whom = f"worst of {len(points)} shapes" if len(points) > 1 else points[0].where
     why = "bracket of 2e-5 of the measurement and h²/6 = 6e-6 of the mean over a step"
-    return [
-        Check(f"measured v_c over Eq. (1), {whom}: {name}", runs, expected, SHARP * expected, why),
-        Check(f"full-slip v_c over Eq. (1), {whom}: {name}", full, expected, 1e-8, "1, or a root against a root"),
-    ]
+    yield Check(f"measured v_c over Eq. (1), {whom}: {name}", runs, expected, SHARP * expected, why)
+    yield Check(f"full-slip v_c over Eq. (1), {whom}: {name}", full, expected, 1e-8, "1, or a root against a root")
 
 
 def _contact(alpha: float, T: float) -> str:
@@ -167,28 +144,25 @@ def _contact(alpha: float, T: float) -> str:
 def _marched(effort: str) -> list[tuple[mdr.SlidingContact, float]]:
     """Cases and v_0 over Eq. (1): shapes, amplitudes and relaxation times crossed, velocities in turn."""
     alphas, times, velocities = (0.03, 0.4, 0.9, 1.7), (0.0, 0.3, 1.0, 3.0), (0.05, 0.37, 0.81, 0.97)
-    crossed = [
-        (contact(shape, alphas[j], times[k]), velocities[(i + j + k) % 4])
-        for (i, shape), j, k in product(enumerate(SHAPES), range(4), range(4))
-    ]
+    every = product(enumerate(SHAPES), range(4), range(4))
+    crossed = [(contact(s, alphas[j], times[k]), velocities[(i + j + k) % 4]) for (i, s), j, k in every]
     tapping = [(contact("cone", 1 / TAPPING, T, u_z0=-1e-5), v) for T, v in ((0.0, 0.37), (1.0, 0.81))]
     back_late = [(contact("cone", 1.0, 30.0), 0.37), (contact("r^4", 1.0, 10.0), 0.81)]
     return crossed[:: 5 if effort == "quick" else 1] + tapping + back_late
 
 
-def _march_checks(marched: list[tuple[mdr.SlidingContact, float]]) -> list[Check]:
+def _march_checks(marched: list[tuple[mdr.SlidingContact, float]]) -> Checks:
     off, share = [], []
     for case, v in marched:
-        run = mdr.slide(case, v * mdr.critical_velocity(case))
-        miss = abs(run.cof - float(average_friction(case, v * mdr.critical_velocity(case)).cof))
+        v_0 = v * mdr.critical_velocity(case)
+        run = mdr.slide(case, v_0)
+        miss = abs(run.cof - float(average_friction(case, v_0).cof))
         off.append(miss / case.mu_0)
         share.append(miss / run.cof_error if run.settled else np.nan)
     whom = f"worst of {len(marched)} contacts of four shapes, kept, lost, tapping and back late"
     why = "what a run promises when it chooses step and springs itself"
-    return [
-        Check.at_most(f"COF/μ_0 of slide() less that of the closed form, {whom}", np.max(off), 1e-5, why),
-        Check.at_most(f"the same over the bound of the run, {whom}", np.max(share), 1.0, "a bound is one"),
-    ]
+    yield Check.at_most(f"COF/μ_0 of slide() less that of the closed form, {whom}", np.max(off), 1e-5, why)
+    yield Check.at_most(f"the same over the bound of the run, {whom}", np.max(share), 1.0, "a bound is one")
 
 
 def leading_term(x: Array, y: Array, step: float) -> Asymptote:
@@ -203,69 +177,58 @@ def _near_v_c(case: mdr.SlidingContact, short: Array) -> Array:
     return np.asarray(1 - average_friction(case, (1 - short) * mdr.critical_velocity(case)).cof / case.mu_0)
 
 
-def _end_checks() -> list[Check]:
+def _near_rest(case: mdr.SlidingContact, v: Array) -> Array:
+    """(cof - static)/mu_0 at v_0 = v v_c."""
+    cof = average_friction(case, v * mdr.critical_velocity(case)).cof
+    return np.asarray((cof - mdr.static_cof(case)) / case.mu_0)
+
+
+def _end_checks() -> Checks:
     """Both ends of the curve, fitted to the closed form, against their leading terms."""
-    checks = []
     short, v = np.geomspace(1e-4, 1e-3, 25), np.geomspace(1e-6, 1e-4, 25)
     for T, alphas in ((0.0, (0.3, 1.7)), (1.0, (0.3, 1.7))):
         cases = [contact(shape, alpha, T) for shape, alpha in product(SHAPES, alphas)]
         fits = [leading_term(short, _near_v_c(case, short), 1 / 2) for case in cases]
-        name = f"1 − μ/μ_0 in 1 − v_0/v_c near v_c, ωτ = {T:g}, Δu_z/u_z0 = {_and(alphas)}"
-        checks += _term_checks(name, fits, [near_critical(case) for case in cases])
+        name = f"1 − μ/μ_0 in 1 − v_0/v_c near v_c, ωτ = {T:g}, Δu_z/u_z0 = {listed(alphas)}"
+        yield from _term_checks(name, fits, [near_critical(case) for case in cases])
     for T, alphas, step in ((0.0, (0.3, 1.7), 1 / 2), (1.0, (0.1, 0.3), 1 / 3)):
         cases = [contact(shape, alpha, T) for shape, alpha in product(SHAPES, alphas)]
-        rises = [
-            (average_friction(case, v * mdr.critical_velocity(case)).cof - mdr.static_cof(case)) / case.mu_0
-            for case in cases
-        ]
-        fits = [leading_term(v, rise, step) for rise in rises]
-        name = f"(μ − static)/μ_0 in v_0/v_c near rest, ωτ = {T:g}, Δu_z/u_z0 = {_and(alphas)}"
-        checks += _term_checks(name, fits, [small_velocity(case) for case in cases])
-    return checks
+        fits = [leading_term(v, _near_rest(case, v), step) for case in cases]
+        name = f"(μ − static)/μ_0 in v_0/v_c near rest, ωτ = {T:g}, Δu_z/u_z0 = {listed(alphas)}"
+        yield from _term_checks(name, fits, [small_velocity(case) for case in cases])
 
 
-def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> list[Check]:
+def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> Checks:
     power, ratio = laws[0].power, [fit.coefficient / law.coefficient for fit, law in zip(fits, laws, strict=True)]
-    why = (
-        "the fit knows three terms beyond the leading one; the fourth, at most 5e-6 of it, moves the power by"
-        " 5e-7 and the coefficient by 1e-5, times its own factor of order one to ten"
-    )
+    why = "the fit knows three terms beyond the leading one; the fourth, at most 5e-6 of it, moves the power by 5e-7"
+    why += " and the coefficient by 1e-5, times its own factor of order one to ten"
     whom = f"worst of {len(fits)}"
-    return [
-        Check(f"power of {name}, {whom}", worst([fit.power for fit in fits], power), power, 5e-6, why),
-        Check(f"coefficient over the derived one of {name}, {whom}", worst(ratio, 1.0), 1.0, 1e-4, why),
-    ]
+    yield Check(f"power of {name}, {whom}", worst([fit.power for fit in fits], power), power, 5e-6, why)
+    yield Check(f"coefficient over the derived one of {name}, {whom}", worst(ratio, 1.0), 1.0, 1e-4, why)
 
 
 # --- figures ---
 
 
-def _curve_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
+@figure("curves", 1, 2, size=(9.4, 4.2), sharey=True)
+def _curve_figure(fig, axes) -> str:
+    """COF over mu_0 against v_0 over v_c for four shapes, elastic and Kelvin, all ending at v_c."""
     alpha, grid = 0.3, 1.2 * np.linspace(0, 1, 200) ** 2
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(9.4, 4.2), sharey=True)
-        for ax, T in zip(axes, (0.0, 1.0), strict=True):
-            for shape in SHAPES:
-                case = contact(shape, alpha, T)
-                curve = mdr.cof_curve(case, grid * mdr.critical_velocity(case))
-                ax.plot(curve.v_0 / curve.v_c, curve.cof / curve.mu_0, label=shape_label(shape))
-            ax.axvline(1.0, color="0.4", lw=1, ls=":", zorder=0)
-            ax.set_title(_material(T), y=1.05)
-            ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1.2))
-            ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
-        axes[0].set_ylabel(r"coefficient of friction $\mu/\mu_0$")
-        axes[0].legend(loc="lower center")
-    return Figure(
-        "curves",
+    for ax, T in zip(axes, (0.0, 1.0), strict=True):
+        for shape in SHAPES:
+            case = contact(shape, alpha, T)
+            curve = mdr.cof_curve(case, grid * mdr.critical_velocity(case))
+            ax.plot(curve.v_0 / curve.v_c, curve.cof / curve.mu_0, label=shape_label(shape))
+        ax.axvline(1.0, color="0.4", lw=1, ls=":", zorder=0)
+        ax.set_title(_material(T), y=1.05)
+        ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1.2))
+        ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
+    axes[0].set_ylabel(r"coefficient of friction $\mu/\mu_0$")
+    axes[0].legend(loc="lower center")
+    return (
         f"COF of the four shapes under a rigid pull, Δu_z/u_z0 = {alpha:g}. Each starts at its own static value and"
         " takes its own way, and all reach μ_0 at the velocity of Eq. (1). Viscosity lowers the static value"
-        " and bends the start upwards, but leaves v_c where it was.",
-        fig,
-        "COF over mu_0 against v_0 over v_c for four shapes, elastic and Kelvin, all ending at v_c.",
+        " and bends the start upwards, but leaves v_c where it was."
     )
 
 
@@ -283,41 +246,29 @@ def _reach(case: mdr.SlidingContact) -> float:
     return float(x[np.argmax(bad)])
 
 
-def _end_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
-
+@figure("near-critical", 1, 2, size=(9.4, 4.4), sharey=True)
+def _end_figure(fig, axes) -> str:
+    """Double logarithmic plot of one less COF over mu_0 against one less v_0 over v_c, slopes two and three halves."""
     alpha, x, threshold = 0.3, np.geomspace(1e-4, 0.99, 25), 1e-3
     cases = {(shape, T): contact(shape, alpha, T) for shape, T in product(SHAPES, (0.0, 1.0))}
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(9.4, 4.4), sharey=True)
-        for (shape, T), case in cases.items():
-            ax, law, colour = axes[int(T)], near_critical(case), COLOURS[list(SHAPES).index(shape)]
-            ax.loglog(x, law.coefficient * x**law.power, color=colour, lw=1.1)
-            ax.loglog(x, _near_v_c(case, x), "o", mfc="white", color=colour, ms=4.5, label=shape_label(shape))
-            power = "2" if T == 0 else "3/2"
-            ax.set(title=f"{_material(T)}: power {power}", xlabel="$1-v_0/v_c$")
-        for ax in axes:
-            ax.axhline(threshold, color="0.4", lw=1, ls=":", zorder=0)
-        axes[0].set_ylabel(r"$1-\mu/\mu_0$")
-        axes[0].legend(loc="lower right")
+    for (shape, T), case in cases.items():
+        ax, law, colour = axes[int(T)], near_critical(case), COLOURS[list(SHAPES).index(shape)]
+        ax.loglog(x, law.coefficient * x**law.power, color=colour, lw=1.1)
+        circles(ax, x, _near_v_c(case, x), colour, label=shape_label(shape))
+        ax.set(title=f"{_material(T)}: power {'3/2' if T else '2'}", xlabel="$1-v_0/v_c$")
+    for ax in axes:
+        ax.axhline(threshold, color="0.4", lw=1, ls=":", zorder=0)
+    axes[0].set_ylabel(r"$1-\mu/\mu_0$")
+    axes[0].legend(loc="lower right")
     low, high = (f([read_off(case, threshold) for case in cases.values()]) for f in (min, max))
     elastic, Kelvin = (min(_reach(case) for (_, at), case in cases.items() if at == T) for T in (0.0, 1.0))
-    return Figure(
-        "near-critical",
+    return (
         f"How friction joins μ_0, Δu_z/u_z0 = {alpha:g}: closed form (symbols) and leading terms, none of them fitted"
         " (lines). The shapes differ by a factor alone, their stiffness over their mean force. The elastic law is good"
         f" to a tenth down to {1 - elastic:.2f} v_c; that of the Kelvin contact, whose lag outlives the stick by the"
         f" time τ, down to {1 - Kelvin:.3f} v_c only, as below the stick is no longer short beside τ. So"
-        f" soft an end hides v_c: a thousandth below μ_0 (dotted) the velocity is only {low:.2f} to {high:.2f} v_c.",
-        fig,
-        "Double logarithmic plot of one less COF over mu_0 against one less v_0 over v_c, slopes two and three halves.",
+        f" soft an end hides v_c: a thousandth below μ_0 (dotted) the velocity is only {low:.2f} to {high:.2f} v_c."
     )
-
-
-def _and(values: tuple[float, ...]) -> str:
-    return " and ".join(f"{value:g}" for value in values)
 
 
 def _material(T: float) -> str:

@@ -17,11 +17,14 @@ import numpy as np
 
 import mdr
 from mdr import laws
+from mdr.closed_forms.paper import deficit
 from mdr.half_space.friction import Settings, in_three_dimensions
+from mdr.plots import COLOURS
 from validation.cases import LOOKS, SHAPES, shaken, shape_label
+from validation.figures import figure
 from validation.half_space.springs import of_springs
-from validation.measured import with_band
-from validation.report import Check, Claim, Figure
+from validation.measured import lost, with_band
+from validation.report import Check, Checks, Claim
 
 CHIS = (0.3, 1.0, 3.0, 30.0)  #: of the figure
 ALPHA_3D = 0.4  #: du_z/u_z0 of the contact that is computed in three dimensions
@@ -35,69 +38,45 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="shaken_curves",
         title="Small oscillations of any phase lower friction alike; under a great shake a contact slides as if rigid",
-        quote=(
-            "The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
-            " well-known phenomenon … (Section 1)"
-        ),
-        range=(
-            "Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of"
-            " μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation,"
-            f" {'two' if quick else 'four'} phases, both ways; and two"
-            " of them in three dimensions."
-        ),
-        measured=(
-            "As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x"
-            " e^{iφ}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a"
-            " flat punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0"
-            " leaves (2/π) arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the"
-            " amplitude. Between the two there is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At"
-            " rest a contact of constant depth holds μ_0 F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone"
-            " from Δu_x = μ_0 κ u_z0 on, for every shape. Over both directions of the pull friction never falls with"
-            " velocity. A half-space of ν = 0 in three dimensions, whose cells feel each other, has the friction of the"
-            " springs under a longitudinal oscillation as closely as under a normal one."
-        ),
+        quote="The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
+        " well-known phenomenon … (Section 1)",
+        range="Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of"
+        f" μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation, {'two' if quick else 'four'}"
+        " phases, both ways; and two of them in three dimensions.",
+        measured="As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x"
+        " e^{iφ}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a flat"
+        " punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0 leaves"
+        " (2/π) arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the amplitude. Between"
+        " the two there is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At rest a contact of"
+        " constant depth holds μ_0 F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone from Δu_x = μ_0 κ"
+        " u_z0 on, for every shape. Over both directions of the pull friction never falls with velocity. A half-space"
+        " of ν = 0 in three dimensions, whose cells feel each other, has the friction of the springs under a"
+        " longitudinal oscillation as closely as under a normal one.",
         verdict="holds",
-        sentence=(
-            "Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one; a"
-            " shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact."
-        ),
-        checks=(
-            *_small_checks(quick),
-            *_great_checks(),
-            *_band_checks(quick),
-            _order_check(),
-            *_half_space_checks(),
-        ),
+        sentence="Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one;"
+        " a shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact.",
+        checks=(*_small_checks(quick), *_great_checks(), *_band_checks(quick), _order_check(), *_half_space_checks()),
         figures=(_figure(quick),),
     )
 
 
-def lost(case: mdr.SlidingContact, v_0: float) -> float:
-    """1 - |mu|/mu_0 by a run."""
-    return 1 - abs(mdr.slide(case, v_0, accuracy=1e-7).cof) / case.mu_0
-
-
-def _small_checks(quick: bool) -> list[Check]:
-    checks = []
+def _small_checks(quick: bool) -> Checks:
     for phi, way in product((0.0, 0.7, math.pi / 2, math.pi) if not quick else (0.7, math.pi), (1, -1)):
-        worst = {}
+        worst = []
         for shape, size in (("flat punch", 0.1), *((one, SMALL) for one in SHAPES)):
             case = shaken(shape, size, 0.6 * size, phi)
-            v_c = mdr.critical_velocity(case, way)
-            off = [lost(case, way * v * v_c) / laws.lost_under_shake(case, way * v * v_c) - 1 for v in (0.15, 0.6)]
-            worst[shape, size] = max(off, key=abs)
+            velocities = [way * v * mdr.critical_velocity(case, way) for v in (0.15, 0.6)]
+            off = [lost(case, v_0, accuracy=1e-7) / laws.lost_under_shake(case, v_0) - 1 for v_0 in velocities]
+            worst.append(max(off, key=abs))
         where = f"phase {phi / math.pi:.3g} π, {'forward' if way == 1 else 'the other way'}"
-        exact = worst.pop(("flat punch", 0.1))
         name = f"lost friction over (k_xc A/(μ_0 F_N)) ψ, less 1: flat punch, Δu_z = 0.1 u_z0, {where}"
-        checks.append(Check(name, exact, 0.0, 1e-4, "1e-7 of μ_0 asked of a run, over a lost friction of 1e-3 or more"))
+        yield Check(name, worst[0], 0.0, 1e-4, "1e-7 of μ_0 asked of a run, over a lost friction of 1e-3 or more")
         name = f"the same, worst of four shapes, Δu_z = {SMALL:g} u_z0, {where}"
         why = "the next order is the amplitude over the depth, and 1e-7 asked of a run over a lost friction of 1e-4"
-        checks.append(Check(name, max(worst.values(), key=abs), 0.0, 5 * SMALL, why))
-    return checks
+        yield Check(name, max(worst[1:], key=abs), 0.0, 5 * SMALL, why)
 
 
-def _great_checks() -> list[Check]:
-    checks = []
+def _great_checks() -> Checks:
     sizes = (30.0, 120.0)
     for shape in SHAPES:
         off = []
@@ -105,17 +84,13 @@ def _great_checks() -> list[Check]:
             case = shaken(shape, 0.0, chi)
             off.append(mdr.slide(case, 0.5 * mdr.critical_velocity(case)).cof / case.mu_0 - laws.rigid_shake(0.5))
         name = f"COF/μ_0 less (2/π) arcsin r, r = 0.5, Δu_x = {sizes[1]:g} μ_0 κ u_z0: {shape}"
-        checks.append(
-            Check(name, off[1], 0.0, 1.0 / sizes[1], "springs yield by μ_0 κ u_z0 at most, over the amplitude")
-        )
-        power = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
+        yield Check(name, off[1], 0.0, 1.0 / sizes[1], "springs yield by μ_0 κ u_z0 at most, over the amplitude")
+        falls = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
         name = f"power of the amplitude with which that vanishes, from {sizes[0]:g} to {sizes[1]:g} μ_0 κ u_z0: {shape}"
-        checks.append(Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order"))
-    return checks
+        yield Check.at_most(name, falls, -0.9, "at least like one over the amplitude, to the next order")
 
 
-def _band_checks(quick: bool) -> list[Check]:
-    checks = []
+def _band_checks(quick: bool) -> Checks:
     for shape in SHAPES:
         off, sides = [], []
         for chi in (0.2, 0.7) if quick else (0.1, 0.3, 0.5, 0.7, 0.9):
@@ -125,101 +100,75 @@ def _band_checks(quick: bool) -> list[Check]:
             off.append(band.high / case.mu_0 - laws.held_under_shake(case.indenter, depth, chi * depth))
             sides.append((band.high + band.low) / case.mu_0)
         name = f"load held at rest over μ_0 F_N, less F_N(u_z0 − Δu_x/(μ_0 κ))/F_N(u_z0), worst: {shape}"
-        checks.append(Check(name, max(off, key=abs), 0.0, 1e-5, RUN))
-        checks.append(Check(f"its two ends added, worst: {shape}", max(sides, key=abs), 0.0, 2e-5, RUN))
+        yield Check(name, max(off, key=abs), 0.0, 1e-5, RUN)
+        yield Check(f"its two ends added, worst: {shape}", max(sides, key=abs), 0.0, 2e-5, RUN)
         gone = mdr.holding_band(shaken(shape, 0.0, 1.002))
         name = f"width of what is held over μ_0 F_N at Δu_x = 1.002 μ_0 κ u_z0: {shape}"
-        checks.append(Check.at_most(name, (gone.high - gone.low) / 0.5, 2e-5, RUN))
-    return checks
+        yield Check.at_most(name, (gone.high - gone.low) / 0.5, 2e-5, RUN)
 
 
 def _order_check() -> Check:
     """Friction never falls with velocity, both ways together."""
     falls = []
-    for shape, alpha, chi, phi in (
-        ("cone", 0.5, 1.5, 1.0),
-        ("paraboloid", 0.8, 0.8, 2.0),
-        ("flat punch", 1.3, 4.0, 4.0),
-    ):
-        case = shaken(shape, alpha, chi, phi)
-        curve = mdr.cof_curve(
-            case, np.linspace(-1.1, 1.1, 23) * max(mdr.critical_velocity(case, way) for way in (1, -1))
-        )
-        falls.append(float(np.max(-np.diff(curve.cof)) / case.mu_0))
+    for known in (("cone", 0.5, 1.5, 1.0), ("paraboloid", 0.8, 0.8, 2.0), ("flat punch", 1.3, 4.0, 4.0)):
+        case = shaken(*known)
+        fastest = max(mdr.critical_velocity(case, way) for way in (1, -1))
+        falls.append(np.max(-np.diff(mdr.cof_curve(case, np.linspace(-1.1, 1.1, 23) * fastest).cof)) / case.mu_0)
     name = "greatest fall of COF/μ_0 with velocity, from −1.1 to 1.1 of the greater v_c, three contacts"
     return Check.at_most(name, max(falls), 1e-5, f"none, to {RUN}")
 
 
-def _half_space_checks() -> list[Check]:
+def _half_space_checks() -> Checks:
     """The springs beside three dimensions without coupling, in the same steps."""
     settings = Settings(cells=40, steps=48, cycles=6, coupled=False, settled=1e-6)
-    checks = []
-    for alpha, chi in ((0.0, 1.0), (ALPHA_3D, 1.0)):
-        case = shaken("paraboloid", alpha, chi, 0.7)
+    for alpha in (0.0, ALPHA_3D):
+        case = shaken("paraboloid", alpha, 1.0, 0.7)
         case = replace(case, material=replace(case.material, nu=0.0))
         v_0 = 0.3 * mdr.critical_velocity(case)
         apart = (in_three_dimensions(case, v_0, settings).cof - of_springs(case, v_0, settings).cof) / case.mu_0
         pressed = f"Δu_z/u_z0 = {alpha:g}" if alpha else "constant depth"
-        name = (
-            f"COF/μ_0 in three dimensions less that of springs in the same steps: paraboloid, {pressed}, v_0 = 0.3 v_c"
-        )
-        checks.append(Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells"))
-    return checks
+        name = f"COF/μ_0 in three dimensions less that of springs in the same steps: paraboloid, {pressed},"
+        name += " v_0 = 0.3 v_c"
+        yield Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells")
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.closed_forms.paper import deficit
-    from mdr.plots import COLOURS, style
-
+@figure("shaken_curves", 1, 3, size=(13.2, 4.3))
+def _figure(fig, axes, quick: bool) -> str:
+    """Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude"""
+    curves, one, held = axes
     r = np.linspace(-1.2, 1.2, 25 if quick else 49)
     fine, v = np.linspace(-1.2, 1.2, 241), np.linspace(0.05, 0.95, 7 if quick else 13)
-    with style():
-        fig, (curves, one, held) = plt.subplots(1, 3, figsize=(13.2, 4.3))
-        for chi, colour in zip(CHIS, COLOURS, strict=False):
-            case = shaken("paraboloid", 0.0, chi)
-            curves.plot(*with_band(case, r, mdr.critical_velocity(case)), color=colour, label=rf"$\chi = {chi:g}$")
-        curves.plot(fine, [laws.rigid_shake(x) for x in fine], "k:", lw=1, label="rigid")
-        curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="paraboloid, longitudinal")
-        curves.legend(loc="upper left")
-        one.plot(v, [deficit(x) for x in v], "k", lw=1, label=r"$\psi$")
-        for (shape, (colour, marker)), phi in zip(LOOKS.items(), (0.7, math.pi / 2, math.pi, 5.0), strict=True):
-            for way, face in ((1, colour), (-1, "white")):
-                case = shaken(shape, 0.02, 0.015, phi)
-                v_c = mdr.critical_velocity(case, way)
-                unit = laws.lost_under_shake(case, way * 0.5 * v_c) / deficit(0.5)
-                name = f"{shape_label(shape)}, {phi / math.pi:.2g}$\\pi$" if way == 1 else None
-                points = [lost(case, way * x * v_c) / unit for x in v]
-                one.plot(v, points, marker, ls="", mfc=face, mec=colour, label=name)
-        one.set(
-            xlabel=r"$v_0/(\omega A)$",
-            ylabel=r"lost friction over $k_{xc}A/(\mu_0F_N)$",
-            title="small, any phase, both ways",
-        )
-        one.legend()
-        chi = np.linspace(0, 1.2, 121)
-        for shape, (colour, marker) in LOOKS.items():
-            law = [laws.held_under_shake(SHAPES[shape], 2e-5, 2e-5 * x) for x in chi]
-            at = np.arange(0.15, 1.2, 0.25)
-            held.plot(chi, law, color=colour, lw=1)
-            bands = [mdr.holding_band(shaken(shape, 0.0, x)).high / 0.5 for x in at]
-            held.plot(at, bands, marker, ls="", color=colour, label=shape_label(shape))
-        held.set(
-            xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$",
-            ylabel=r"load held at rest over $\mu_0F_N$",
-            title="at rest",
-        )
-        held.legend()
-    return Figure(
-        "shaken_curves",
+    for chi, colour in zip(CHIS, COLOURS, strict=False):
+        case = shaken("paraboloid", 0.0, chi)
+        curves.plot(*with_band(case, r, mdr.critical_velocity(case)), color=colour, label=rf"$\chi = {chi:g}$")
+    curves.plot(fine, [laws.rigid_shake(x) for x in fine], "k:", lw=1, label="rigid")
+    curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="paraboloid, longitudinal")
+    curves.legend(loc="upper left")
+    one.plot(v, [deficit(x) for x in v], "k", lw=1, label=r"$\psi$")
+    for (shape, (colour, marker)), phi in zip(LOOKS.items(), (0.7, math.pi / 2, math.pi, 5.0), strict=True):
+        for way, face in ((1, colour), (-1, "white")):
+            case = shaken(shape, 0.02, 0.015, phi)
+            v_c = mdr.critical_velocity(case, way)
+            unit = laws.lost_under_shake(case, way * 0.5 * v_c) / deficit(0.5)
+            name = f"{shape_label(shape)}, {phi / math.pi:.2g}$\\pi$" if way == 1 else None
+            points = [lost(case, way * x * v_c, accuracy=1e-7) / unit for x in v]
+            one.plot(v, points, marker, ls="", mfc=face, mec=colour, label=name)
+    one.set(xlabel=r"$v_0/(\omega A)$", ylabel=r"lost friction over $k_{xc}A/(\mu_0F_N)$")
+    one.set_title("small, any phase, both ways")
+    one.legend()
+    chi, at = np.linspace(0, 1.2, 121), np.arange(0.15, 1.2, 0.25)
+    for shape, (colour, marker) in LOOKS.items():
+        law = [laws.held_under_shake(SHAPES[shape], 2e-5, 2e-5 * x) for x in chi]
+        held.plot(chi, law, color=colour, lw=1)
+        bands = [mdr.holding_band(shaken(shape, 0.0, x)).high / 0.5 for x in at]
+        held.plot(at, bands, marker, ls="", color=colour, label=shape_label(shape))
+    held.set(xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", title="at rest")
+    held.set_ylabel(r"load held at rest over $\mu_0F_N$")
+    held.legend()
+    return (
         "Elastic contacts under a rigid pull. Left: friction of a paraboloid of constant depth that is shaken along its"
-        " way goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at"
-        " rest it holds all loads of the vertical part. Middle: small oscillations of four shapes, normal and"
-        " longitudinal together, each in another phase, filled forward"
-        " and"
-        " hollow the other way: all lose ψ. Right: what is held at rest, closed form (lines) and runs: nothing from χ ="
-        " 1 on.",
-        fig,
-        "Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude",
+        " way goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at rest"
+        " it holds all loads of the vertical part. Middle: small oscillations of four shapes, normal and longitudinal"
+        " together, each in another phase, filled forward and hollow the other way: all lose ψ. Right: what is held at"
+        " rest, closed form (lines) and runs: nothing from χ = 1 on."
     )

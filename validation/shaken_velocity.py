@@ -15,8 +15,9 @@ from itertools import product
 import numpy as np
 
 import mdr
-from validation.cases import BODY, LOOKS, OMEGA, SHAPES, shaken, shape_label
-from validation.report import Check, Claim, Figure
+from validation.cases import BODY, LOOKS, OMEGA, SHAPES, loss, shaken, shape_label
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 
 ALPHA, CHI = 0.4, 0.6  #: of the figure
 WAYS = {1: "forward", -1: "the other way"}
@@ -30,38 +31,25 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="shaken_velocity",
         title="Shaken along the slide too, v_c is that of depth and shake together, and differs by direction",
-        quote=(
-            "The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
-            " well-known phenomenon with many applications … and production of directed motion, as in ultrasonic motors"
-            " and linear actuators. (Section 1)"
-        ),
-        range=(
-            "Flat punch, cone, paraboloid and r^4, elastic, Kelvin (ωτ = 1) and with a Maxwell arm; normal oscillation"
-            f" of Δu_z/u_z0 up to {ALPHA:g}, or none, with a longitudinal one of Δu_x up to μ_0 κ u_z0 in any"
-            " phase, at the tool or at the pulling point; rigid pull and a body on a spring."
-        ),
-        measured=(
-            "A rigidly pulled contact has v_c = ω|μ_0 κ Δu_z ∓ Δu_x e^{iφ}|, upper sign forward, for any shape, depth"
-            " and material, as long as contact is kept, or closed at the moment of greatest slip velocity: the"
-            " difference of two pointers forward, their sum the other way. With a"
-            " body the first pointer is that of Eq. (15), μ_0 (κ + K_z H) Δu_z, and a shaken pulling point reaches the"
-            " indenter through spring, damper and mass. At finite amplitude a curved contact under a body leaves this"
-            " formula as it leaves Eq. (15), and the full-slip condition with all harmonics takes its place. A"
-            " longitudinal oscillation alone has v_c = ω Δu_x both ways, to the last digit of the measurement. In phase"
-            " with the depth and of the size μ_0 κ Δu_z it costs no friction forward at any velocity, and the other way"
-            " friction is reduced up to twice the velocity of Eq. (1)."
-        ),
+        quote="The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
+        " well-known phenomenon with many applications … and production of directed motion, as in ultrasonic motors and"
+        " linear actuators. (Section 1)",
+        range="Flat punch, cone, paraboloid and r^4, elastic, Kelvin (ωτ = 1) and with a Maxwell arm; normal"
+        f" oscillation of Δu_z/u_z0 up to {ALPHA:g}, or none, with a longitudinal one of Δu_x up to μ_0 κ u_z0 in any"
+        " phase, at the tool or at the pulling point; rigid pull and a body on a spring.",
+        measured="A rigidly pulled contact has v_c = ω|μ_0 κ Δu_z ∓ Δu_x e^{iφ}|, upper sign forward, for any shape,"
+        " depth and material, as long as contact is kept, or closed at the moment of greatest slip velocity: the"
+        " difference of two pointers forward, their sum the other way. With a body the first pointer is that of Eq."
+        " (15), μ_0 (κ + K_z H) Δu_z, and a shaken pulling point reaches the indenter through spring, damper and mass."
+        " At finite amplitude a curved contact under a body leaves this formula as it leaves Eq. (15), and the"
+        " full-slip condition with all harmonics takes its place. A longitudinal oscillation alone has v_c = ω Δu_x"
+        " both ways, to the last digit of the measurement. In phase with the depth and of the size μ_0 κ Δu_z it costs"
+        " no friction forward at any velocity, and the other way friction is reduced up to twice the velocity of Eq."
+        " (1).",
         verdict="holds",
-        sentence=(
-            "With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
-            " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way."
-        ),
-        checks=(
-            *_rigid_checks(phases),
-            *_body_checks(phases[1:3]),
-            *_alone_checks(quick),
-            *_in_phase_checks(),
-        ),
+        sentence="With contact at the greatest slip velocity, and a body where Eq. (15) holds, normal and longitudinal"
+        " oscillation have v_c = ω|μ_0 (κ + K_z H) Δu_z ∓ X|, minus forward, plus the other way.",
+        checks=(*_rigid_checks(phases), *_body_checks(phases[1:3]), *_alone_checks(quick), *_in_phase_checks()),
         figures=(_figure(quick),),
     )
 
@@ -80,54 +68,43 @@ def _measured(case: mdr.SlidingContact, way: int) -> float:
     return math.nan if found.v_c is None else found.v_c
 
 
-def _rigid_checks(phases: np.ndarray) -> list[Check]:
+def _rigid_checks(phases: np.ndarray) -> Checks:
     arm = mdr.StandardLinearSolid(E_inf=3e6, E_1=3e6, tau_1=1 / OMEGA, nu=0.5)
-    checks = []
-    for (shape, T), way in product((*((one, 0.0) for one in SHAPES), ("paraboloid", 1.0), ("cone", -1.0)), WAYS):
-        off = []
-        for phi in phases:
-            case = shaken(shape, ALPHA, CHI, phi, max(T, 0.0))
-            case = replace(case, material=arm) if T < 0 else case
-            off.append(_measured(case, way) / _pointers(case, way) - 1)
-        material = "elastic" if T == 0 else ("ωτ = 1" if T > 0 else "with an arm")
+    materials = {"elastic": None, "ωτ = 1": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1 / OMEGA), "with an arm": arm}
+    kinds = (*((one, "elastic") for one in SHAPES), ("paraboloid", "ωτ = 1"), ("cone", "with an arm"))
+    for (shape, material), way in product(kinds, WAYS):
+        cases = [shaken(shape, ALPHA, CHI, phi) for phi in phases]
+        cases = [replace(case, material=materials[material] or case.material) for case in cases]
+        off = [_measured(case, way) / _pointers(case, way) - 1 for case in cases]
         name = f"v_c measured over ω|μ_0 κ Δu_z ∓ Δu_x e^iφ|, less 1, worst phase: {shape}, {material}, {WAYS[way]}"
-        checks.append(Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET))
-    return checks
+        yield Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET)
 
 
-def _body_checks(phases: np.ndarray) -> list[Check]:
-    checks = []
-    for (shape, T, at), way in product(
-        (("flat punch", 1.0, "tool"), ("paraboloid", 0.0, "pull"), ("cone", 1.0, "pull")), WAYS
-    ):
-        off, from_formula = [], []
-        for phi in phases:
-            case = shaken(shape, ALPHA / 2, CHI, phi, T, at=at, **BODY)
-            full = mdr.full_slip_critical_velocity(case, way)
-            off.append(_measured(case, way) / full - 1)
-            from_formula.append(mdr.critical_velocity(case, way) / full - 1)
-        where = f"{shape}, {'elastic' if T == 0 else 'ωτ = 1'}, body, shaken at the {at}, {WAYS[way]}"
+def _body_checks(phases: np.ndarray) -> Checks:
+    kinds = (("flat punch", 1.0, "tool"), ("paraboloid", 0.0, "pull"), ("cone", 1.0, "pull"))
+    for (shape, T, at), way in product(kinds, WAYS):
+        cases = [shaken(shape, ALPHA / 2, CHI, phi, T, at=at, **BODY) for phi in phases]
+        off = [_measured(case, way) / mdr.full_slip_critical_velocity(case, way) - 1 for case in cases]
+        where = f"{shape}, {loss(T)}, body, shaken at the {at}, {WAYS[way]}"
         name = f"v_c measured over that of full slip with all harmonics, less 1, worst phase: {where}"
-        checks.append(Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET))
+        yield Check(name, max(off, key=abs), 0.0, 1e-4, BRACKET)
         if shape == "flat punch":
             name = f"the closed form over that of full slip, less 1, worst phase: {where}"
             why = "a punch that keeps contact has one harmonic, so that both are the same"
-            checks.append(Check(name, max(from_formula, key=abs), 0.0, 1e-7, why))
+            yield Check(name, max((_from_full_slip(case, way) for case in cases), key=abs), 0.0, 1e-7, why)
     # the amplitude at which the formula leaves full slip, as Eq. (15) does: in proportion to it
-    sizes = (0.02, 0.04)
-    errors = []
-    for alpha in sizes:
-        case = shaken("cone", alpha, alpha / 2, 0.9, 1.0, **BODY)
-        errors.append(mdr.critical_velocity(case) / mdr.full_slip_critical_velocity(case) - 1)
+    one, two = (_from_full_slip(shaken("cone", alpha, alpha / 2, 0.9, 1.0, **BODY), 1) for alpha in (0.02, 0.04))
     name = "power of the amplitude by which the closed form differs from full slip: cone under a body, shaken tool"
-    power = math.log(errors[1] / errors[0]) / math.log(sizes[1] / sizes[0])
-    checks.append(
-        Check(name, power, 1.0, sizes[1], "the next order is smaller by the amplitude, with a factor of order one")
-    )
-    return checks
+    why = "the next order is smaller by the amplitude, with a factor of order one"
+    yield Check(name, math.log2(two / one), 1.0, 0.04, why)
 
 
-def _alone_checks(quick: bool) -> list[Check]:
+def _from_full_slip(case: mdr.SlidingContact, way: int) -> float:
+    """The closed form over the full-slip value, less 1."""
+    return mdr.critical_velocity(case, way) / mdr.full_slip_critical_velocity(case, way) - 1
+
+
+def _alone_checks(quick: bool) -> Checks:
     """A longitudinal oscillation alone."""
     off = []
     for shape, T, depth in product(SHAPES, (0.0, 1.0), (5e-6, 80e-6)):
@@ -135,75 +112,59 @@ def _alone_checks(quick: bool) -> list[Check]:
             continue
         case = shaken(shape, 0.0, 1.0, 0.3, T, u_z0=depth)
         off.append(_measured(case, 1) / (OMEGA * case.shake.du_x) - 1)  # type: ignore[union-attr]
-    body = [
-        _measured(shaken("paraboloid", 0.0, 1.0, T=T, k_ratio=k, omega_0_ratio=ratio, damping_ratio=0.1), -1)
-        / _pointers(shaken("paraboloid", 0.0, 1.0), -1)
-        - 1
-        for T, k, ratio in ((0.0, 0.5, 0.6), (1.0, 3.0, 2.0))
-    ]
-    far = shaken("paraboloid", 0.0, 1.0, at="pull", k_ratio=0.5, omega_0_ratio=0.6, damping_ratio=0.1)
+    light: dict[str, float] = {"k_ratio": 0.5, "omega_0_ratio": 0.6, "damping_ratio": 0.1}
+    bodies = ((0.0, light), (1.0, light | {"k_ratio": 3.0, "omega_0_ratio": 2.0}))
+    cases = [shaken("paraboloid", 0.0, 1.0, T=T, **groups) for T, groups in bodies]
+    body = [_measured(case, -1) / _pointers(case, -1) - 1 for case in cases]
+    far = shaken("paraboloid", 0.0, 1.0, at="pull", **light)
     m, c_x, k_x = far.pull.coefficients
     passed = abs((k_x + 1j * OMEGA * c_x) / (k_x - m * OMEGA**2 + 1j * OMEGA * c_x))
     through = _measured(far, 1) / (passed * _pointers(far, 1)) - 1
     name = "v_c measured over ω Δu_x, less 1, worst"
-    return [
-        Check(
-            f"{name}: four shapes, two depths, elastic and ωτ = 1, rigid pull", max(off, key=abs), 0.0, 1e-4, BRACKET
-        ),
-        Check(f"{name}: two bodies, shaken at the tool", max(body, key=abs), 0.0, 1e-4, BRACKET),
-        Check("v_c measured over ω Δu_x |(k_x + iωc_x) H|, less 1: shaken at the pull", through, 0.0, 1e-4, BRACKET),
-    ]
+    got = max(off, key=abs)
+    yield Check(f"{name}: four shapes, two depths, elastic and ωτ = 1, rigid pull", got, 0.0, 1e-4, BRACKET)
+    yield Check(f"{name}: two bodies, shaken at the tool", max(body, key=abs), 0.0, 1e-4, BRACKET)
+    yield Check("v_c measured over ω Δu_x |(k_x + iωc_x) H|, less 1: shaken at the pull", through, 0.0, 1e-4, BRACKET)
 
 
-def _in_phase_checks() -> list[Check]:
+def _in_phase_checks() -> Checks:
     """A shake that goes with the depth, x = mu_0 kappa (u_z - u_z0)."""
-    checks = []
     for shape in ("flat punch", "paraboloid"):
         case = shaken(shape, ALPHA, ALPHA, 0.0)
         slow = mdr.slide(case, 1e-3 * case.unit_velocity)
         name = f"COF/μ_0 forward at a thousandth of Eq. (1), shaken in phase by μ_0 κ Δu_z: {shape}"
-        checks.append(Check(name, slow.cof / case.mu_0, 1.0, 1e-9, "every spring slips at the velocity of the pull"))
+        yield Check(name, slow.cof / case.mu_0, 1.0, 1e-9, "every spring slips at the velocity of the pull")
         back = _measured(case, -1) / case.unit_velocity
-        checks.append(Check(f"the same the other way: v_c over Eq. (1): {shape}", back, 2.0, 2e-4, BRACKET))
-    return checks
+        yield Check(f"the same the other way: v_c over Eq. (1): {shape}", back, 2.0, 2e-4, BRACKET)
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
-    from mdr.plots import style
-
+@figure("shaken_velocity", 1, 2, size=(11.0, 4.3), sharex=True)
+def _figure(fig, axes, quick: bool) -> str:
+    """Critical velocities over the phase of the shake, for both directions of the pull"""
+    both, body = axes
     phi = np.linspace(0, 2 * math.pi, 241)
     unit = shaken("flat punch", ALPHA, CHI).unit_velocity
-    with style():
-        fig, (both, body) = plt.subplots(1, 2, figsize=(11.0, 4.3), sharex=True)
-        for way, look in ((1, "-"), (-1, "--")):
-            cases = [shaken("flat punch", ALPHA, CHI, one) for one in phi]
-            both.plot(phi / math.pi, [_pointers(one, way) / unit for one in cases], f"k{look}", lw=1, label=WAYS[way])
-            cases = [shaken("flat punch", ALPHA, CHI, one, 1.0, **BODY) for one in phi]
-            body.plot(phi / math.pi, [mdr.critical_velocity(one, way) / unit for one in cases], f"k{look}", lw=1)
-        for (shape, (colour, marker)), shift in zip(LOOKS.items(), (0.0, 0.09, 0.18, 0.27), strict=True):
-            at = np.arange(0.1 + shift, 2, 0.5 if quick else 0.36)
-            for way in WAYS:
-                filled = {"mfc": colour if way == 1 else "white", "mec": colour}
-                name = shape_label(shape) if way == 1 else None
-                found = [_measured(shaken(shape, ALPHA, CHI, one * math.pi), way) / unit for one in at]
-                both.plot(at, found, marker, ls="", label=name, **filled)
-                if shape in ("flat punch", "cone"):
-                    found = [_measured(shaken(shape, ALPHA, CHI, one * math.pi, 1.0, **BODY), way) / unit for one in at]
-                    body.plot(at, found, marker, ls="", **filled)
-        both.set(title="rigid pull, elastic", ylabel=r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
-        body.set(title=r"body on a spring, $\omega\tau = 1$")
-        for ax in (both, body):
-            ax.set(xlabel=r"phase of the shake $\varphi_x/\pi$", ylim=(0, None))
-        fig.legend(loc="outside lower center", ncols=6)
-    return Figure(
-        "shaken_velocity",
-        f"Critical velocity against the phase between normal (Δu_z/u_z0 = {ALPHA:g}) and longitudinal oscillation"
-        f" (Δu_x = {CHI:g} μ_0 κ u_z0): closed form (lines) and measurements, filled forward, hollow the other way."
-        " Left,"
-        " all shapes lie on one curve each way: least forward in phase, where depth and shake go together. Right, with"
-        " a body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15).",
-        fig,
-        "Critical velocities over the phase of the shake, for both directions of the pull",
+    for way, look in ((1, "-"), (-1, "--")):
+        cases = [shaken("flat punch", ALPHA, CHI, one) for one in phi]
+        both.plot(phi / math.pi, [_pointers(one, way) / unit for one in cases], f"k{look}", lw=1, label=WAYS[way])
+        cases = [shaken("flat punch", ALPHA, CHI, one, 1.0, **BODY) for one in phi]
+        body.plot(phi / math.pi, [mdr.critical_velocity(one, way) / unit for one in cases], f"k{look}", lw=1)
+    for (shape, (colour, marker)), shift in zip(LOOKS.items(), (0.0, 0.09, 0.18, 0.27), strict=True):
+        at = np.arange(0.1 + shift, 2, 0.5 if quick else 0.36)
+        for way, (ax, T, groups) in product(WAYS, ((both, 0.0, {}), (body, 1.0, BODY))):
+            if not T or shape in ("flat punch", "cone"):
+                cases = [shaken(shape, ALPHA, CHI, one * math.pi, T, **groups) for one in at]
+                name = shape_label(shape) if way == 1 and not T else None
+                look = {"mfc": colour if way == 1 else "white", "mec": colour, "ls": "", "label": name}
+                ax.plot(at, [_measured(case, way) / unit for case in cases], marker, **look)
+    both.set(title="rigid pull, elastic", ylabel=r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
+    body.set(title=r"body on a spring, $\omega\tau = 1$")
+    for ax in axes:
+        ax.set(xlabel=r"phase of the shake $\varphi_x/\pi$", ylim=(0, None))
+    fig.legend(loc="outside lower center", ncols=6)
+    return (
+        f"Critical velocity against the phase between normal (Δu_z/u_z0 = {ALPHA:g}) and longitudinal oscillation (Δu_x"
+        f" = {CHI:g} μ_0 κ u_z0): closed form (lines) and measurements, filled forward, hollow the other way. Left, all"
+        " shapes lie on one curve each way: least forward in phase, where depth and shake go together. Right, with a"
+        " body: the flat punch stays on the formula, the cone leaves it at this amplitude, as it leaves Eq. (15)."
     )

@@ -16,46 +16,27 @@ at s = 2.
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 import mdr
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import contact
-from validation.report import Check, Claim, Figure
+from validation.cases import contact, loss_label
+from validation.figures import figure
+from validation.report import Check, Checks, Claim
 from validation.words import listed, ranged
 
 ALPHA = 0.1
 DAMPING = 0.05  # c_x/(2 sqrt(k_x m))
 ZERO = 2.0  # s where m omega² = k_x + k_xc
+BELOW, ABOVE = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95), (2.05, 2.1, 2.3, 2.7, 3.5, 4.5, 6.0)  # s: pole, zero
+BETWEEN = (1.05, 1.1, 1.2, 1.4, 1.6, 1.8, 1.9, 1.95)
 SWEEP = {
     "quick": (0.5, 0.95, 1.95),
     "full": (0.0, 0.5, 0.9, 1.1, 1.4, 1.9, 2.1, 4.0),
-    "long": (
-        0.0,
-        0.2,
-        0.4,
-        0.6,
-        0.8,
-        0.9,
-        0.95,
-        1.05,
-        1.1,
-        1.2,
-        1.4,
-        1.6,
-        1.8,
-        1.9,
-        1.95,
-        2.05,
-        2.1,
-        2.3,
-        2.7,
-        3.5,
-        4.5,
-        6.0,
-    ),
+    "long": (*BELOW, *BETWEEN, *ABOVE),
 }
 MATERIALS = {"quick": (0.0, 1.0), "full": (0.0, 0.3, 1.0), "long": (0.0, 0.3, 1.0)}  # T
 PLATEAU = (0.1, 0.17, 0.3, 0.55, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0)  # v_0 over Eq. (1) on the pole
@@ -92,10 +73,8 @@ def measure(s: float, T: float, damping_ratio: float = DAMPING) -> Point:
     found = mdr.measure_critical_velocity(case).v_c
     expected = mdr.critical_velocity(case) / case.unit_velocity
     assert isinstance(case.pull, mdr.SpringPull)
-    body = (
-        abs(case.k_zc * (1 + 1j * T) * complex(case.pull.receptance(case.oscillation.omega)))
-        / case.material.mindlin_ratio
-    )
+    swing = abs(case.k_zc * (1 + 1j * T) * complex(case.pull.receptance(case.oscillation.omega)))
+    body = swing / case.material.mindlin_ratio
     got = None if found is None else found / case.unit_velocity
     return Point(s, T, got, expected, BRACKET + STEP * (1 + body) / expected)
 
@@ -117,207 +96,120 @@ def claim(effort: str) -> Claim:
     points = [measure(s, T) for T in materials for s in SWEEP[effort]]
     swings = {T: [on_the_pole(T, ratio) for ratio in PLATEAU] for T in materials}
     plateaus = {T: np.array([run.cof / run.mu_0 for run in runs]) for T, runs in swings.items()}
-    checks = [*_sweep_checks(points), *_undamped_checks(effort), *_pole_checks(plateaus, swings)]
     worst = np.nanmax([abs(point.deviation) for point in points])
     return Claim(
         name="spring_pull",
         title="A flat punch under a spring and a mass has the v_c of Eqs. (2) and (15)",
-        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where "
-        "v_c becomes infinite. "
-        "Numerical experiments show that in this case, the coefficient of friction reaches a plateau (which is less "
-        "than mu_0) at fairly "
-        "low sliding velocities and does not change thereafter. — Section 1, Eq. (2); with a Kelvin contact, Eq. (15)",
+        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where"
+        " v_c becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
+        " plateau (which is less than mu_0) at fairly low sliding velocities and does not change thereafter. — Section"
+        " 1, Eq. (2); with a Kelvin contact, Eq. (15)",
         range=f"flat punch in contact throughout, α = {ALPHA:g}, k_x = k_x,c, mω²/k_x "
         f"{f'= {listed(SWEEP[effort])}' if effort == 'quick' else ranged(SWEEP[effort])}, "
         f"ωτ = {listed(materials)}; damper c_x of {100 * DAMPING:g} % of critical, and none",
-        measured=f"The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e} "
-        f"{'beside' if effort == 'quick' else 'through'} pole and zero. "
-        f"Undamped at the zero an elastic "
-        "contact has v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). "
-        "Undamped on the pole no "
-        "velocity is high enough, and the COF tends to the mean of its static value and mu_0.",
+        measured=f"The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e}"
+        f" {'beside' if effort == 'quick' else 'through'} pole and zero. Undamped at the zero an elastic contact has"
+        " v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). Undamped on the pole"
+        " no velocity is high enough, and the COF tends to the mean of its static value and mu_0.",
         verdict="holds",
         sentence="For a contact of constant stiffness Eq. (15) gives v_c on both sides of its pole and of its zero. On "
         "the pole the COF of an undamped body tends to the mean of static COF and μ_0, from below.",
-        checks=tuple(checks),
+        checks=(*_sweep_checks(points), *_undamped_checks(effort), *_pole_checks(plateaus, swings)),
         figures=(_sweep_figure(points, materials), _pole_figure(plateaus)),
     )
 
 
-def _sweep_checks(points: list[Point]) -> list[Check]:
-    why = (
-        "over its tolerance: bracket 2e-5, and h² = (2π/1024)² of the velocities of foot and body, which nearly "
-        "cancel at the zero; greatest difference"
-    )
-    checks = []
-    for T in dict.fromkeys(point.T for point in points):
-        for name, low, high in (
-            ("below the pole", 0, 1),
-            ("between pole and zero", 1, ZERO),
-            ("above the zero", ZERO, np.inf),
-        ):
-            group = [p for p in points if p.T == T and low <= p.s < high]
-            if group:
-                share = max(abs(p.deviation) / p.tolerance for p in group)
-                told = f"{why} {max(abs(p.deviation) for p in group):.1e} of v_c"
-                checks.append(Check.at_most(f"ωτ = {T:g}, {name}: worst |measured/Eq. (15) − 1|", share, 1.0, told))
-    return checks
+def _sweep_checks(points: list[Point]) -> Checks:
+    why = "over its tolerance: bracket 2e-5, and h² = (2π/1024)² of the velocities of foot and body, which nearly"
+    why += " cancel at the zero; greatest difference"
+    sides = {"below the pole": (0, 1), "between pole and zero": (1, ZERO), "above the zero": (ZERO, np.inf)}
+    for T, (name, (low, high)) in product(dict.fromkeys(point.T for point in points), sides.items()):
+        group = [p for p in points if p.T == T and low <= p.s < high]
+        if group:
+            share = max(abs(p.deviation) / p.tolerance for p in group)
+            told = f"{why} {max(abs(p.deviation) for p in group):.1e} of v_c"
+            yield Check.at_most(f"ωτ = {T:g}, {name}: worst |measured/Eq. (15) − 1|", share, 1.0, told)
 
 
-def _undamped_checks(effort: str) -> list[Check]:
+def _undamped_checks(effort: str) -> Checks:
     near = measure(3.5, 0.0, 0.0)
     why = "bracket 2e-5, and h² = (2π/1024)² of the velocities of foot and body"
-    checks = [Check("undamped, elastic, mω² = 3.5 k_x: v_c over Eq. (2)", 1 + near.deviation, 1.0, near.tolerance, why)]
+    yield Check("undamped, elastic, mω² = 3.5 k_x: v_c over Eq. (2)", 1 + near.deviation, 1.0, near.tolerance, why)
     if effort != "quick":
         zero = measure(ZERO, 0.3, 0.0)
-        checks.append(
-            Check(
-                "undamped, ωτ = 0.3, at the zero: v_c over Eq. (1)",
-                zero.measured,
-                0.3,
-                0.3 * zero.tolerance,
-                why + "; Eq. (15) gives ωτ there",
-            )
-        )
+        name = "undamped, ωτ = 0.3, at the zero: v_c over Eq. (1)"
+        yield Check(name, zero.measured, 0.3, 0.3 * zero.tolerance, why + "; Eq. (15) gives ωτ there")
     case = punch(ZERO, 0.0, 0.0)
     run = mdr.slide(case, 0.01 * case.unit_velocity)
-    checks.append(
-        Check.at_most(
-            "undamped, elastic, at the zero: 1 − cof/mu_0 at 0.01 of Eq. (1)",
-            1 - run.cof / run.mu_0,
-            run.cof_error / run.mu_0,
-            "Eq. (2) gives v_c = 0, so not even a crawl lowers friction (by more than the error of the run); static "
-            "cof/mu_0 is 0.9",
-        )
-    )
-    return checks
+    name = "undamped, elastic, at the zero: 1 − cof/mu_0 at 0.01 of Eq. (1)"
+    why = "Eq. (2) gives v_c = 0, so not even a crawl lowers friction (by more than the error of the run);"
+    why += " static cof/mu_0 is 0.9"
+    yield Check.at_most(name, 1 - run.cof / run.mu_0, run.cof_error / run.mu_0, why)
 
 
-def _pole_checks(plateaus: dict[float, Array], swings: dict[float, list[mdr.SlidingRun]]) -> list[Check]:
+def _pole_checks(plateaus: dict[float, Array], swings: dict[float, list[mdr.SlidingRun]]) -> Checks:
     case = punch(1.0, 0.0, 0.0)
     found = mdr.measure_critical_velocity(case)
-    checks = [
-        Check("undamped pole: Eq. (15)", mdr.critical_velocity(case), np.inf, 0.0, "the denominator is zero"),
-        Check(
-            "undamped pole: critical velocities found by measurement",
-            int(found.v_c is not None),
-            0,
-            0.0,
-            "friction stays reduced up to a million times Eq. (1), the highest velocity tried",
-        ),
-        Check(
-            f"undamped pole: runs of {sum(map(len, swings.values()))} that have not settled",
-            sum(not run.settled for runs in swings.values() for run in runs),
-            0,
-            0.0,
-            "every one of them is a point of the plateau",
-        ),
-    ]
+    yield Check("undamped pole: Eq. (15)", mdr.critical_velocity(case), np.inf, 0.0, "the denominator is zero")
+    why = "friction stays reduced up to a million times Eq. (1), the highest velocity tried"
+    yield Check("undamped pole: critical velocities found by measurement", int(found.v_c is not None), 0, 0.0, why)
+    name = f"undamped pole: runs of {sum(map(len, swings.values()))} that have not settled"
+    got = sum(not run.settled for runs in swings.values() for run in runs)
+    yield Check(name, got, 0, 0.0, "every one of them is a point of the plateau")
     for T, cof in plateaus.items():
         far = 2 * cof[-1] - cof[-2]
-        checks.append(
-            Check(
-                f"undamped pole, ωτ = {T:g}: cof/mu_0 carried on to v_0 → ∞",
-                far,
-                half_way(T),
-                ALPHA / PLATEAU[-2],
-                "halfway between static COF and mu_0; from 64 and 256 times Eq. (1) by the power −1/2 of v_0, "
-                "the next power leaves α/64 at most",
-            )
-        )
-        checks.append(
-            Check.at_most(
-                f"undamped pole, ωτ = {T:g}: cof/mu_0 at 256 times Eq. (1)",
-                cof[-1],
-                half_way(T),
-                "the plateau is approached from below: mu_0 is never reached",
-            )
-        )
+        name = f"undamped pole, ωτ = {T:g}: cof/mu_0 carried on to v_0 → ∞"
+        why = "halfway between static COF and mu_0; from 64 and 256 times Eq. (1) by the power −1/2 of v_0,"
+        why += " the next power leaves α/64 at most"
+        yield Check(name, far, half_way(T), ALPHA / PLATEAU[-2], why)
+        name = f"undamped pole, ωτ = {T:g}: cof/mu_0 at 256 times Eq. (1)"
+        yield Check.at_most(name, cof[-1], half_way(T), "the plateau is approached from below: mu_0 is never reached")
     rest = on_the_pole(0.0, 16.0, "rest")
-    checks.append(
-        Check(
-            "undamped pole: cof/mu_0 from rest less that from full slip, at 16 times Eq. (1)",
-            rest.cof / rest.mu_0 - plateaus[0.0][PLATEAU.index(16.0)],
-            0.0,
-            2e-6,
-            "both runs settled to 1e-6",
-        )
-    )
-    return checks
+    name = "undamped pole: cof/mu_0 from rest less that from full slip, at 16 times Eq. (1)"
+    yield Check(name, rest.cof / rest.mu_0 - plateaus[0.0][PLATEAU.index(16.0)], 0.0, 2e-6, "both runs settled to 1e-6")
 
 
-def _sweep_figure(points: list[Point], materials: tuple[float, ...]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(7.2, 4.6))
-        s = np.unique(np.r_[np.linspace(0.005, 6.5, 300), np.linspace(0.9, 1.1, 101), np.linspace(1.8, 2.2, 101)])
-        for T, colour in zip(materials, COLOURS, strict=False):
-            for damping, look in ((DAMPING, {"lw": 1.6}), (0.0, {"lw": 0.8, "ls": "--"})):
-                cases = [punch(float(value), T, damping) for value in s]
-                curve = np.array([mdr.critical_velocity(case) / case.unit_velocity for case in cases])
-                ax.plot(s, np.where(np.isfinite(curve), curve, np.nan), color=colour, **look)
-            here = [p for p in points if p.T == T and p.measured is not None]
-            name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
-            ax.plot(
-                [p.s for p in here],
-                [p.measured or np.nan for p in here],
-                "o",
-                color=colour,
-                mec="white",
-                mew=0.6,
-                ms=7,
-                label=name,
-                zorder=3,
-            )
-        ax.set(yscale="log", xlim=(-0.1, 6.6), ylim=(0.02, 60), xlabel=r"$m\omega^2/k_x$", ylabel=r"$v_c$ over Eq. (1)")
-        for place, name in ((1.0, "pole\n$m\\omega^2 = k_x$"), (ZERO, "zero\n$m\\omega^2 = k_x + k_{xc}$")):
-            ax.axvline(place, color="0.6", lw=0.8, ls=":", zorder=0)
-            ax.annotate(name, (place, 60), (4, -2), textcoords="offset points", va="top", fontsize=9)
-        ax.plot([], [], color="0.3", label=f"Eq. (15), damper {100 * DAMPING:g} % of critical")
-        ax.plot([], [], color="0.3", lw=0.8, ls="--", label="Eq. (15), undamped")
-        ax.legend(loc="upper right", title="points: measured", alignment="left")
-    return Figure(
-        "sweep",
-        "Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from "
-        "runs alone, curves are "
-        "Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact swing in step and "
-        "v_c falls, for an elastic "
-        "contact to nothing, for a viscoelastic one to ωτ times Eq. (1).",
-        fig,
-        "Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a "
-        "dip at the zero.",
+@figure("sweep", size=(7.2, 4.6))
+def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]) -> str:
+    """Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a dip at
+    the zero.
+    """
+    s = np.unique(np.r_[np.linspace(0.005, 6.5, 300), np.linspace(0.9, 1.1, 101), np.linspace(1.8, 2.2, 101)])
+    for T, colour in zip(materials, COLOURS, strict=False):
+        for damping, look in ((DAMPING, {"lw": 1.6}), (0.0, {"lw": 0.8, "ls": "--"})):
+            cases = [punch(float(value), T, damping) for value in s]
+            curve = np.array([mdr.critical_velocity(case) / case.unit_velocity for case in cases])
+            ax.plot(s, np.where(np.isfinite(curve), curve, np.nan), color=colour, **look)
+        here = [p for p in points if p.T == T and p.measured is not None]
+        look = {"color": colour, "mec": "white", "mew": 0.6, "ms": 7, "zorder": 3}
+        ax.plot([p.s for p in here], [p.measured for p in here], "o", label=loss_label(T), **look)
+    ax.set(yscale="log", xlim=(-0.1, 6.6), ylim=(0.02, 60), xlabel=r"$m\omega^2/k_x$", ylabel=r"$v_c$ over Eq. (1)")
+    for place, name in ((1.0, "pole\n$m\\omega^2 = k_x$"), (ZERO, "zero\n$m\\omega^2 = k_x + k_{xc}$")):
+        ax.axvline(place, color="0.6", lw=0.8, ls=":", zorder=0)
+        ax.annotate(name, (place, 60), (4, -2), textcoords="offset points", va="top", fontsize=9)
+    ax.plot([], [], color="0.3", label=f"Eq. (15), damper {100 * DAMPING:g} % of critical")
+    ax.plot([], [], color="0.3", lw=0.8, ls="--", label="Eq. (15), undamped")
+    ax.legend(loc="upper right", title="points: measured", alignment="left")
+    return (
+        "Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from runs"
+        " alone, curves are Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact"
+        " swing in step and v_c falls, for an elastic contact to nothing, for a viscoelastic one to ωτ times Eq. (1)."
     )
 
 
-def _pole_figure(plateaus: dict[float, Array]) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.0))
-        for (T, cof), colour in zip(plateaus.items(), COLOURS, strict=False):
-            name = "elastic" if T == 0 else rf"$\omega\tau$ = {T:g}"
-            ax.axhline(half_way(T), color=colour, lw=0.9, ls="--", zorder=0)
-            ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {name}")
-        off = punch(0.5, 0.0)
-        ratios = np.geomspace(0.1, 6.0, 40)
-        away = [mdr.slide(off, ratio * off.unit_velocity) for ratio in ratios]
-        ax.plot(
-            ratios,
-            [run.cof / run.mu_0 for run in away],
-            "-",
-            color="0.45",
-            lw=1.0,
-            label=r"off the pole, $m\omega^2 = k_x/2$",
-        )
-        ax.axhline(1.0, color="0.75", lw=0.8, zorder=0)
-        ax.set(xscale="log", xlabel=r"$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$", ylim=(None, 1.008))
-        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
-    return Figure(
-        "pole",
-        "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between "
-        "static COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at"
-        " v_c.",
-        fig,
-        "COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole.",
+@figure("pole", size=(6.8, 4.0))
+def _pole_figure(fig, ax, plateaus: dict[float, Array]) -> str:
+    """COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole."""
+    for (T, cof), colour in zip(plateaus.items(), COLOURS, strict=False):
+        ax.axhline(half_way(T), color=colour, lw=0.9, ls="--", zorder=0)
+        ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {loss_label(T)}")
+    off, ratios = punch(0.5, 0.0), np.geomspace(0.1, 6.0, 40)
+    cof = [mdr.slide(off, ratio * off.unit_velocity).cof / off.mu_0 for ratio in ratios]
+    ax.plot(ratios, cof, "-", color="0.45", lw=1.0, label=r"off the pole, $m\omega^2 = k_x/2$")
+    ax.axhline(1.0, color="0.75", lw=0.8, zorder=0)
+    ax.set(xscale="log", xlabel=r"$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$", ylim=(None, 1.008))
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
+    return (
+        "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between static"
+        " COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c."
     )

@@ -11,10 +11,11 @@ from functools import cache
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from validation.cases import contact
+from validation.figures import figure
 from validation.half_space.springs import of_springs
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import listed, number, span
 
 ALPHA, FRICTION = 0.3, 0.3
@@ -63,16 +64,10 @@ def losses(nu: float, v: float, settings: Settings) -> Losses:
 
 def errors(settings: Settings) -> dict[str, float]:
     """By how much half of the steps and half of the cells change the loss and its parts, together; at one point."""
-    here, slow, wide = (
-        losses(0.3, CHECKED, one)
-        for one in (
-            settings,
-            replace(settings, steps=settings.steps // 2),
-            replace(settings, cells=(settings.cells + 1) // 2),
-        )
-    )
+    coarser = replace(settings, steps=settings.steps // 2), replace(settings, cells=(settings.cells + 1) // 2)
+    here, *others = (losses(0.3, CHECKED, one) for one in (settings, *coarser))
     names = ("coupled", "by_coupling", "by_itself")
-    return {name: sum(abs(getattr(here, name) - getattr(other, name)) for other in (slow, wide)) for name in names}
+    return {name: sum(abs(getattr(here, name) - getattr(other, name)) for other in others) for name in names}
 
 
 def claim(effort: str) -> Claim:
@@ -89,81 +84,61 @@ def claim(effort: str) -> Claim:
         name="transverse_slip",
         title="Slip across the pull does not change friction noticeably",
         quote="",
-        range=(
-            f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
-            f" v_0/v_c = {listed(velocities)}; {settings.cells}² cells,"
-            f" {settings.steps} steps a period; at ν = 0.3 and {CHECKED:g} v_c half the steps and half the cells change"
-            f" the losses by up to {error['coupled']:.0e}, what slip across does with coupling by"
-            f" {error['by_coupling']:.0e}"
-            f" and without by {error['by_itself']:.0e}"
-        ),
-        measured=(
-            f"Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0: what"
-            " Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts."
-            f" At {span([one.v for one in some])} v_c up to {100 * max(below):.0f} % of it come from slip across the"
-            " pull; the"
-            " rest would be there without, as the leading and the trailing half are rubbed along the pull in opposite"
-            " senses. Above the end of stick all of it is slip across the pull, which turns friction aside: with"
-            " slip along the pull only, friction there is full."
-        ),
+        range=f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
+        f" v_0/v_c = {listed(velocities)}; {settings.cells}² cells, {settings.steps} steps a period; at ν = 0.3 and"
+        f" {CHECKED:g} v_c half the steps and half the cells change the losses by up to {error['coupled']:.0e}, what"
+        f" slip across does with coupling by {error['by_coupling']:.0e} and without by {error['by_itself']:.0e}",
+        measured=f"Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0:"
+        " what Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts."
+        f" At {span([one.v for one in some])} v_c up to {100 * max(below):.0f} % of it come from slip across the pull;"
+        " the rest would be there without, as the leading and the trailing half are rubbed along the pull in opposite"
+        " senses. Above the end of stick all of it is slip across the pull, which turns friction aside: with slip along"
+        " the pull only, friction there is full.",
         verdict="holds if β = 0",
-        sentence=(
-            f"Without coupling slip across changes the COF of a paraboloid by {number(itself, 1)} of μ_0 at most; with"
-            " it, it makes a part of the loss below v_c and all of it above the end of stick."
-        ),
+        sentence=f"Without coupling slip across changes the COF of a paraboloid by {number(itself, 1)} of μ_0 at most;"
+        " with it, it makes a part of the loss below v_c and all of it above the end of stick.",
         checks=_checks(found),
         figures=(_figure(found),),
     )
 
 
-def _checks(found: list[Losses]) -> tuple[Check, ...]:
+def _checks(found: list[Losses]) -> Checks:
     itself = max(abs(one.by_itself) for one in found)
     beyond = [one for one in found if one.nu < 0.5 and one.v > 1 + rub(one.nu)]
     alone, both = max(one.along for one in beyond), min(one.coupled for one in beyond)
     below = [one.by_coupling / one.coupled for one in found if one.nu < 0.5 and 0.3 < one.v < 0.9]
     why, of_two = "of the order of the square of ν/(4 − 2ν) and less", "two parts of one order"
+    yield Check.at_most(f"uncoupled: greatest change of μ/μ_0 by slip across, {len(found)} runs", itself, 3e-4, why)
+    yield Check.at_most("above the end of stick: loss without slip across, over μ_0", alone, 1e-6, "full slip along x")
+    yield Check.at_least("above the end of stick: loss with it, over μ_0", both, 5e-4, "friction turned aside")
+    yield Check.between("least share of the loss by slip across, 0.4 to 0.8 v_c", min(below), 0.2, 0.8, of_two)
+    yield Check.between("greatest such share", max(below), 0.2, 0.8, of_two)
+
+
+@figure("loss", size=(6.4, 4.0))
+def _figure(fig, ax, found: list[Losses]) -> str:
+    """Curves of the loss of friction against velocity, full above dashed, dotted at zero."""
+    few = len({one.v for one in found}) < 3  # no line through two points
+    for nu, colour in zip(sorted({one.nu for one in found if one.nu < 0.5}), COLOURS, strict=False):
+        own = [one for one in found if one.nu == nu]
+        v = [one.v for one in own]
+        for of, mark, line, label in (
+            ("coupled", "o", "-", rf"$\nu = {nu:g}$"),
+            ("along", "s", "--", "the same, slip along the pull only"),
+            ("uncoupled", "x" if few else "", ":", "the same, without coupling"),
+        ):
+            look = {"marker": mark, "ls": "" if few else line, "mfc": colour if of == "coupled" else "w"}
+            ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
+    ax.set(xlabel="$v_0$ over Eq. (1)", ylabel=r"(springs $-$ 3D)/$\mu_0$")
+    ax.legend()
+    if few:
+        return (
+            "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three"
+            " dimensions. Squares: with tractions and slip along the pull only, less below and nothing above. Crosses:"
+            " without coupling."
+        )
     return (
-        Check.at_most(f"uncoupled: greatest change of μ/μ_0 by slip across, {len(found)} runs", itself, 3e-4, why),
-        Check.at_most("above the end of stick: loss without slip across, over μ_0", alone, 1e-6, "full slip along x"),
-        Check.at_least("above the end of stick: loss with it, over μ_0", both, 5e-4, "friction turned aside"),
-        Check.between("least share of the loss by slip across, 0.4 to 0.8 v_c", min(below), 0.2, 0.8, of_two),
-        Check.between("greatest such share", max(below), 0.2, 0.8, of_two),
-    )
-
-
-_FEW = (
-    "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three dimensions."
-    " Squares: with tractions and slip along the pull only, less below and nothing above. Crosses: without coupling."
-)
-
-
-def _figure(found: list[Losses]) -> Figure:
-    """Loss with and without slip across."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(6.4, 4.0))
-        few = len({one.v for one in found}) < 3  # no line through two points
-        for nu, colour in zip(sorted({one.nu for one in found if one.nu < 0.5}), COLOURS, strict=False):
-            own = [one for one in found if one.nu == nu]
-            v = [one.v for one in own]
-            for of, mark, line, label in (
-                ("coupled", "o", "-", rf"$\nu = {nu:g}$"),
-                ("along", "s", "--", "the same, slip along the pull only"),
-                ("uncoupled", "x" if few else "", ":", "the same, without coupling"),
-            ):
-                look = {"marker": mark, "ls": "" if few else line, "mfc": colour if of == "coupled" else "w"}
-                ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
-        ax.set_xlabel("$v_0$ over Eq. (1)")
-        ax.set_ylabel(r"(springs $-$ 3D)/$\mu_0$")
-        ax.legend()
-    return Figure(
-        name="loss",
-        caption=_FEW
-        if few
-        else "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
+        "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
         " only, which stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by"
-        " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing.",
-        drawing=fig,
-        alt="Curves of the loss of friction against velocity, full above dashed, dotted at zero.",
+        " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing."
     )

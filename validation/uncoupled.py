@@ -11,13 +11,14 @@ The table (validation/half_space/tables/uncoupled.csv) is computed by `python -m
 
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import product
 
 from mdr.half_space.friction import Settings
-from mdr.plots import style
 from validation.cases import LOOKS, SHAPES, loss, shape_label
+from validation.figures import figure
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Claim, Figure
+from validation.report import Check, Checks, Claim
 from validation.words import number
 
 KEPT, LOST = 0.3, 1.5  # du_z/u_z0
@@ -41,33 +42,24 @@ def claim(effort: str) -> Claim:
     else:
         again = tables.compute(_columns(SHAPES, KEPT, VELOCITIES[1:2]), SETTINGS)
         again += tables.compute(_columns(("cone",), LOST, VELOCITIES[1:2])[:1], FINER)
-    checks = (*_table_checks(rows), *_again_checks(again, rows))
     worst = max(abs(row.loss) for row in rows)
     return Claim(
         name="uncoupled",
         title="Without coupling springs give the friction of the three-dimensional contact",
-        quote=(
-            "According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
-            " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)"
-        ),
-        range=(
-            f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1, contact"
-            f" kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
-            f" {max(VELOCITIES):g}; {SETTINGS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
-            f" {SETTINGS.steps} steps a period (validation/half_space/tables/uncoupled.csv)"
-        ),
-        measured=(
-            f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in the"
-            " same steps; half the steps and half the cells change that by at most"
-            f" {max(row.step for row in rows):.0e} and {max(row.grid for row in rows):.0e}. So independent springs do"
-            " what neighbours that feel each other do, cell by cell with stick, slip and loss of contact."
-        ),
+        quote="According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
+        " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)",
+        range=f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1,"
+        f" contact kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
+        f" {max(VELOCITIES):g}; {SETTINGS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
+        f" {SETTINGS.steps} steps a period (validation/half_space/tables/uncoupled.csv)",
+        measured=f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in"
+        f" the same steps; half the steps and half the cells change that by at most {max(row.step for row in rows):.0e}"
+        f" and {max(row.grid for row in rows):.0e}. So independent springs do what neighbours that feel each other do,"
+        " cell by cell with stick, slip and loss of contact.",
         verdict="holds",
-        sentence=(
-            "Where pressure and friction do not act on each other, the springs have the friction of the half-space, to"
-            f" {number(worst, 1)} of μ_0."
-        ),
-        checks=checks,
+        sentence="Where pressure and friction do not act on each other, the springs have the friction of the"
+        f" half-space, to {number(worst, 1)} of μ_0.",
+        checks=(*_table_checks(rows), *_again_checks(again, rows)),
         figures=(_figure(rows),),
     )
 
@@ -76,47 +68,35 @@ def _columns(shapes: Iterable[str], alpha: float, velocities: Iterable[float]) -
     return [[Point(shape, 0.0, 0.3, alpha, T, v) for v in velocities] for shape in shapes for T in TIMES]
 
 
-def _table_checks(rows: list[Row]) -> list[Check]:
-    checks = []
-    for shape in SHAPES:
-        for alpha, contact in ((KEPT, "kept"), (LOST, "lost")):
-            own = [row for row in rows if row.point.shape == shape and row.point.alpha == alpha]
-            found = max((row.loss for row in own), key=abs)
-            why = f"2e-4 asked; half the steps and cells change it by {max(row.step + row.grid for row in own):.0e}"
-            name = f"{shape}, contact {contact}: worst COF(springs) − COF(3D), over μ_0, of {len(own)}"
-            checks.append(Check(name, found, 0, ALLOWED, why))
-    return checks
+def _table_checks(rows: list[Row]) -> Checks:
+    for shape, (alpha, contact) in product(SHAPES, ((KEPT, "kept"), (LOST, "lost"))):
+        own = [row for row in rows if (row.point.shape, row.point.alpha) == (shape, alpha)]
+        why = f"2e-4 asked; half the steps and cells change it by {max(row.step + row.grid for row in own):.0e}"
+        name = f"{shape}, contact {contact}: worst COF(springs) − COF(3D), over μ_0, of {len(own)}"
+        yield Check(name, max((row.loss for row in own), key=abs), 0, ALLOWED, why)
 
 
-def _again_checks(again: list[Row], rows: list[Row]) -> list[Check]:
+def _again_checks(again: list[Row], rows: list[Row]) -> Checks:
     """The same computed now; a coarser grid must come as close as it says of itself."""
     known = {row.point: row for row in rows}
     shares = [abs(row.loss - known[row.point].loss) / (row.error + known[row.point].error) for row in again]
     name = f"{len(again)} of the table computed again: greatest change over the errors of both"
-    return [Check.at_most(name, max(shares), 1, "steps, cells and settling")]
+    yield Check.at_most(name, max(shares), 1, "steps, cells and settling")
 
 
-def _figure(rows: list[Row]) -> Figure:
-    """COF of both over velocity."""
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, panels = plt.subplots(1, 4, figsize=(10.4, 3.4), sharey=True)
-        for ax, (alpha, T) in zip(panels, ((a, t) for a in (KEPT, LOST) for t in TIMES), strict=True):
-            for shape, (colour, marker) in LOOKS.items():
-                own = [r for r in rows if (r.point.shape, r.point.alpha, r.point.T) == (shape, alpha, T)]
-                v = [row.point.v for row in own]
-                ax.plot(v, [row.springs for row in own], "-", color=colour, label=shape_label(shape))
-                ax.plot(v, [row.cof for row in own], marker, color=colour, mfc="w", ms=7)
-            ax.set_title(f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}")
-            ax.set_xlabel("$v_0/v_c$")
-            ax.set_xlim(0, 0.9)
-        panels[0].set_ylabel(r"$\mu/\mu_0$")
-        panels[0].legend()
-    return Figure(
-        name="cof",
-        caption="Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no"
-        " difference can be seen, with contact kept and lost.",
-        drawing=fig,
-        alt="Four panels of friction against velocity; marks of four shapes lie on their lines.",
+@figure("cof", 1, 4, size=(10.4, 3.4), sharey=True)
+def _figure(fig, panels, rows: list[Row]) -> str:
+    """Four panels of friction against velocity; marks of four shapes lie on their lines."""
+    for ax, (alpha, T) in zip(panels, product((KEPT, LOST), TIMES), strict=True):
+        for shape, (colour, marker) in LOOKS.items():
+            own = [r for r in rows if (r.point.shape, r.point.alpha, r.point.T) == (shape, alpha, T)]
+            v = [row.point.v for row in own]
+            ax.plot(v, [row.springs for row in own], "-", color=colour, label=shape_label(shape))
+            ax.plot(v, [row.cof for row in own], marker, color=colour, mfc="w", ms=7)
+        ax.set(title=f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}", xlabel="$v_0/v_c$", xlim=(0, 0.9))
+    panels[0].set_ylabel(r"$\mu/\mu_0$")
+    panels[0].legend()
+    return (
+        "Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no"
+        " difference can be seen, with contact kept and lost."
     )

@@ -46,11 +46,12 @@ from mdr.march.orbit_search import search_from_full_slip
 from mdr.march.steady_state import TOLERANCE, Settling
 from mdr.march.stepper import Stepper
 from mdr.march.waiting import Waiting, way_from_rest
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
-from validation.report import Check, Claim, Equation, Figure
+from validation.figures import figure
+from validation.report import Check, Checks, Claim, Equation
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
 SYSTEMS = {"quick": 6, "full": 60, "long": 200}
@@ -79,14 +80,8 @@ class System:
     @property
     def case(self) -> mdr.SlidingContact:
         """The contact."""
-        return contact(
-            self.shape,
-            self.alpha,
-            self.T,
-            k_ratio=self.k_ratio,
-            omega_0_ratio=self.ratio,
-            damping_ratio=self.damping_ratio,
-        )
+        groups = {"k_ratio": self.k_ratio, "omega_0_ratio": self.ratio, "damping_ratio": self.damping_ratio}
+        return contact(self.shape, self.alpha, self.T, **groups)
 
     @property
     def v_0(self) -> float:
@@ -159,17 +154,11 @@ def drawn(n: int) -> list[System]:
     names, systems = tuple(SHAPES), []
     for i in range(n):
         log = rng.uniform(size=4)
-        systems.append(
-            System(
-                shape=names[int(rng.integers(4))],
-                alpha=float(0.05 * 30 ** log[0]),
-                T=float((0.0, 0.1 * 30 ** log[1])[int(rng.integers(2))]),
-                ratio=_beside(i, near) if i % 5 == 4 else float(0.4 * 6 ** rng.uniform()),
-                k_ratio=float(0.3 * 10 ** log[2]),
-                damping_ratio=0.0 if i % 3 == 0 else float(0.005 * 20 ** log[3]),
-                v_hat=float(rng.uniform(0.1, 1.2)),
-            )
-        )
+        shape, alpha = names[int(rng.integers(4))], float(0.05 * 30 ** log[0])
+        T = float((0.0, 0.1 * 30 ** log[1])[int(rng.integers(2))])
+        ratio = _beside(i, near) if i % 5 == 4 else float(0.4 * 6 ** rng.uniform())
+        k_ratio, damping_ratio = float(0.3 * 10 ** log[2]), 0.0 if i % 3 == 0 else float(0.005 * 20 ** log[3])
+        systems.append(System(shape, alpha, T, ratio, k_ratio, damping_ratio, float(rng.uniform(0.1, 1.2))))
     return systems
 
 
@@ -195,12 +184,6 @@ class Ends:
         """Largest difference of two COFs over mu_0 less what their spreads allow, of all pairs that settled."""
         pairs = combinations(self.settled, 2)
         return max((abs(a.mean - b.mean) - a.spread - b.spread for a, b in pairs), default=-np.inf)
-
-    @property
-    def difference(self) -> float:
-        """Largest difference of two settled COFs over mu_0."""
-        means = [s.mean for s in self.settled]
-        return float(np.ptp(means)) if means else 0.0
 
 
 @cache
@@ -234,15 +217,24 @@ def swept(n_periods: int | None) -> tuple[Array, Array, NDArray[np.bool_]]:
         march.state = state or march.state
         if n_periods is None:
             orbit = march.wait(MOST)
-            runs.append(orbit.settling)
-            state = orbit.state
+            settling, state = orbit.settling, orbit.state
         else:
             march.advance(n_periods)
-            runs.append(replace(march.assess(), mean=float(march.periods.cof[n_periods // 2 :].mean())))
+            settling = replace(march.assess(), mean=float(march.periods.cof[n_periods // 2 :].mean()))
             state = march.state
-    means, spreads, settled = (np.array([getattr(r, k) for r in runs]) for k in ("mean", "spread", "settled"))
-    back = [np.stack([values[: len(SWEEP)], values[len(SWEEP) :][::-1]]) for values in (means, spreads, settled)]
-    return back[0], back[1], back[2]
+        runs.append(settling)
+    n, found = len(SWEEP), (np.array([getattr(r, k) for r in runs]) for k in ("mean", "spread", "settled"))
+    means, spreads, settled = (np.stack([values[:n], values[n:][::-1]]) for values in found)
+    return means, spreads, settled
+
+
+_EQUATION = Equation(
+    "D",
+    r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta \dot{e}^2, \quad D ="
+    r" \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta e^2 \right]",
+    "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull P,"
+    " the body u and the extensions e of the springs. With δv = 0 it never grows.",
+)
 
 
 def claim(effort: str) -> Claim:
@@ -250,87 +242,62 @@ def claim(effort: str) -> Claim:
     found = [ends(system) for system in progress(drawn(SYSTEMS[effort]), "uniqueness")]
     curves = _curves(effort)
     n_runs, n_settled = sum(len(e.settlings) for e in found), sum(len(e.settled) for e in found)
-    open_ends = sum(len(e.settled) < len(STARTS) for e in found)
-    others = f"; the rest, {open_ends} of the undamped systems, still changed, said so, and is not compared"
-    others = others if open_ends else ""
+    rest = sum(len(e.settled) < len(STARTS) for e in found)
+    others = f"; the rest, {rest} of the undamped systems, still changed, said so, and is not compared" if rest else ""
     short, waited = swept(SHORT), swept(None)
     loop = float(np.abs(short[0][0] - short[0][1]).max())
     return Claim(
         name="uniqueness",
         title="One coefficient of friction for one velocity, and never less at a higher one",
-        quote="Second, the coefficient of friction increases monotonically (again, barring exceptional "
-        "system-dynamical circumstances) until it reaches the microscopic value at some critical velocity. "
-        "(Section 3)",
-        range=f"{len(found)} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4, "
-        "one in five within 1e-2 of 1, 2 or 3, "
-        f"k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from {len(STARTS)} states each: full slip, "
-        f"rest and {STARTS.count('random')} random ones; {len(curves)} of them over {len(FASTER)} velocities, and "
-        f"{RIGID[effort]} rigid pulls in closed form.",
-        measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this "
-        "alone it follows that two motions of one contact never move apart, that the mean friction at a higher "
-        "velocity is never less, and that the COF is unique (of an undamped elastic body: except where the curve "
-        "jumps): no hysteresis, no coexisting states, for any shape, amplitude, relaxation time and body, on a "
-        f"resonance too. Of {n_runs} runs {n_settled} settled, and those of one system agree to "
-        f"{max(e.difference for e in found):.1e}, each pair within its own spreads{others}. The motion is not unique: "
-        "in full slip an undamped body keeps its free oscillation for ever, with the same friction. Sweeping the "
-        f"velocity up and down with {SHORT} periods at each step shows a loop of {loop:.2f} μ_0, made of transients "
-        f"that no run calls settled; waiting closes it to {np.abs(waited[0][0] - waited[0][1]).max():.1e}.",
+        quote="Second, the coefficient of friction increases monotonically (again, barring exceptional system-dynamical"
+        " circumstances) until it reaches the microscopic value at some critical velocity. (Section 3)",
+        range=f"{len(found)} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4,"
+        " one in five within 1e-2 of 1, 2 or 3, k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from"
+        f" {len(STARTS)} states each: full slip, rest and {STARTS.count('random')} random ones; {len(curves)} of them"
+        f" over {len(FASTER)} velocities, and {RIGID[effort]} rigid pulls in closed form.",
+        measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this"
+        " alone it follows that two motions of one contact never move apart, that the mean friction at a higher"
+        " velocity is never less, and that the COF is unique (of an undamped elastic body: except where the curve"
+        " jumps): no hysteresis, no coexisting states, for any shape, amplitude, relaxation time and body, on a"
+        f" resonance too. Of {n_runs} runs {n_settled} settled, and those of one system agree to"
+        f" {max(np.ptp([s.mean for s in e.settled] or [0.0]) for e in found):.1e}, each pair within its own"
+        f" spreads{others}. The motion is not unique: in full slip an undamped body keeps its free oscillation for"
+        f" ever, with the same friction. Sweeping the velocity up and down with {SHORT} periods at each step shows a"
+        f" loop of {loop:.2f} μ_0, made of transients that no run calls settled; waiting closes it to"
+        f" {np.abs(waited[0][0] - waited[0][1]).max():.1e}.",
         verdict="holds",
         sentence="Under a given normal motion, with constant μ_0, one velocity has one COF (except where the curve"
         " of an undamped elastic body jumps), which never falls with velocity; so there is one v_c.",
         checks=(*_distance_checks(found), *_end_checks(found), *_curve_checks(curves, effort), *_sweep_checks()),
         figures=(_distance_figure(), _sweep_figure()),
-        equations=(
-            Equation(
-                "D",
-                r"\dot{D} \le \delta v \, \delta P - c_x (\delta \dot{u} - \delta v)^2 - \sum k \tau \delta"
-                r" \dot{e}^2, \quad D ="
-                r" \frac{1}{2} \left[ m \delta \dot{u}^2 + k_x (\delta u - \delta v \, t)^2 + \sum k \delta e^2"
-                r" \right]",
-                "Distance of two motions of one contact, δ the difference of the two: of the velocity v_0, the pull"
-                " P, the"
-                " body u and the extensions e of the springs. With δv = 0 it never grows.",
-            ),
-        ),
+        equations=(_EQUATION,),
     )
 
 
-def _distance_checks(found: list[Ends]) -> list[Check]:
-    checks, systems = [], [e.system for e in found]
-    worst = max(systems, key=growth)
+def _distance_checks(found: list[Ends]) -> Checks:
+    fastest = max(growth(e.system) for e in found)
     why = "the scheme is of second order: h² of the exchange between speed and position, per period"
-    name = f"largest growth of the distance of two motions over a period, {len(systems)} systems"
-    checks.append(Check.at_most(name, growth(worst), 4 * np.pi * (2 * np.pi / STEPS) ** 2, why))
-    once, half = (float(np.ptp(D) / D[0]) for D in (swinging(STEPS), swinging(STEPS // 2)))
+    name = f"largest growth of the distance of two motions over a period, {len(found)} systems"
+    yield Check.at_most(name, fastest, 4 * np.pi * (2 * np.pi / STEPS) ** 2, why)
+    once, half = (np.ptp(D) / D[0] for D in (swinging(STEPS), swinging(STEPS // 2)))
     name = f"undamped body in full slip: change of the distance in {PERIODS} periods, over it"
-    checks.append(Check.at_most(name, once, 4 * (2 * np.pi / STEPS) ** 2, "no force sees them differ; h² of velocity"))
+    yield Check.at_most(name, once, 4 * (2 * np.pi / STEPS) ** 2, "no force sees them differ; h² of velocity")
     name = "the same at half the steps, over that"
-    checks.append(Check(name, half / once, 4.0, 0.2, "of second order in the step, so none without it"))
-    return checks
+    yield Check(name, half / once, 4.0, 0.2, "of second order in the step, so none without it")
 
 
-def _end_checks(found: list[Ends]) -> list[Check]:
+def _end_checks(found: list[Ends]) -> Checks:
     compared = [e for e in found if len(e.settled) > 1]
     why = "spreads that the runs state of themselves; rounding"
     name = f"largest difference of the COFs of one system over μ_0, less both spreads, {len(compared)} systems"
     damped = [e for e in found if e.system.damping_ratio]
-    return [
-        Check.at_most(name, max(e.excess for e in compared), 1e-12, why),
-        Check(
-            f"starts of {len(damped)} damped systems that did not settle",
-            sum(len(STARTS) - len(e.settled) for e in damped),
-            0,
-            0,
-            "a damper of 0.5 % lets a free oscillation die out in some hundred periods",
-        ),
-        Check(
-            f"settled motions of {len(damped)} damped systems that do not repeat after one period",
-            sum(s.kind != "periodic" for e in damped for s in e.settled),
-            0,
-            0,
-            "two motions one period apart merge like any other two; what alternates is followed for four times as long",
-        ),
-    ]
+    yield Check.at_most(name, max(e.excess for e in compared), 1e-12, why)
+    name = f"starts of {len(damped)} damped systems that did not settle"
+    got = sum(len(STARTS) - len(e.settled) for e in damped)
+    yield Check(name, got, 0, 0, "a damper of 0.5 % lets a free oscillation die out in some hundred periods")
+    name = f"settled motions of {len(damped)} damped systems that do not repeat after one period"
+    why = "two motions one period apart merge like any other two; what alternates is followed for four times as long"
+    yield Check(name, sum(s.kind != "periodic" for e in damped for s in e.settled), 0, 0, why)
 
 
 def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
@@ -346,12 +313,9 @@ def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
     return out
 
 
-def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> list[Check]:
-    falls = [
-        (a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0
-        for _, runs in curves
-        for a, b in combinations([run for run in runs if run.settled], 2)
-    ]
+def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> Checks:
+    pairs = [pair for _, runs in curves for pair in combinations([run for run in runs if run.settled], 2)]
+    falls = [(a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0 for a, b in pairs]
     n_settled = sum(run.settled for _, runs in curves for run in runs)
     damped = [run.settled for system, runs in curves if system.damping_ratio for run in runs]
     name = f"largest fall of COF/μ_0 with velocity, less both errors, {n_settled} runs of {len(curves)} systems"
@@ -361,46 +325,33 @@ def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str
         T = float((0.0, 0.03 * 1000 ** rng.uniform())[int(rng.integers(2))])
         case = contact(names[int(rng.integers(4))], float(0.02 * 250 ** rng.uniform()), T)
         cof = average_friction(case, v_hat * mdr.critical_velocity(case)).cof / case.mu_0
-        drops.append(float(np.max(-np.diff(cof))))
-    why = "accuracy of the closed form"
-    return [
-        Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding"),
-        Check(f"settled of the {len(damped)} runs with a damper", sum(damped), len(damped), 0, "transients die out"),
-        Check.at_most(f"largest fall in {len(drops)} closed-form curves of rigid pulls", max(drops), 1e-8, why),
-    ]
+        drops.append(np.max(-np.diff(cof)))
+    yield Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding")
+    yield Check(f"settled of the {len(damped)} runs with a damper", sum(damped), len(damped), 0, "transients die out")
+    name = f"largest fall in {len(drops)} closed-form curves of rigid pulls"
+    yield Check.at_most(name, max(drops), 1e-8, "accuracy of the closed form")
 
 
-def _sweep_checks() -> list[Check]:
+def _sweep_checks() -> Checks:
     short, waited = swept(SHORT), swept(None)
     up, down = waited[0]
     off = np.abs(short[0] - waited[0])
-    return [
-        Check.at_most(
-            "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads",
-            float(np.max(np.abs(up - down) - waited[1].sum(axis=0))),
-            1e-12,
-            "spreads that the runs state of themselves",
-        ),
-        Check("of these runs settled", float(waited[2].mean()), 1.0, 0.0, "the damper ends every transient"),
-        Check.at_least(
-            f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0",
-            float(np.abs(short[0][0] - short[0][1]).max()),
-            0.01,
-            "a loop made of transients",
-        ),
-        Check(
-            f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0",
-            float(np.sum(short[2] & (off > TOLERANCE))),
-            0.0,
-            0.0,
-            "what settled means: a transient is not taken for an end",
-        ),
-    ]
+    name = "velocity swept up and down, each run until settled: largest |COF up − down|/μ_0 less spreads"
+    got = np.max(np.abs(up - down) - waited[1].sum(axis=0))
+    yield Check.at_most(name, got, 1e-12, "spreads that the runs state of themselves")
+    yield Check("of these runs settled", float(waited[2].mean()), 1.0, 0.0, "the damper ends every transient")
+    name = f"the same with {SHORT} periods at each velocity: largest |COF up − down|/μ_0"
+    yield Check.at_least(name, np.abs(short[0][0] - short[0][1]).max(), 0.01, "a loop made of transients")
+    name = f"of those runs called settled, but off by more than {TOLERANCE:g} μ_0"
+    got = np.sum(short[2] & (off > TOLERANCE))
+    yield Check(name, got, 0.0, 0.0, "what settled means: a transient is not taken for an end")
 
 
-def _distance_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("distance", size=(7.4, 4.4))
+def _distance_figure(fig, ax) -> str:
+    """Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an undamped
+    body in full slip.
+    """
     shown = (
         ("damper 1 %, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.01, 0.5)),
         ("no damper, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.0, 0.5)),
@@ -408,43 +359,32 @@ def _distance_figure() -> Figure:
         ("damper 1 %, 1.5 $v_c$", System("r^4", 0.5, 0.0, 1.3, 1.5, 0.01, 1.5)),
         ("no damper, 1.5 $v_c$", System("r^4", 0.5, 0.0, 1.3, 1.5, 0.0, 1.5)),
     )
-    with style():
-        fig, ax = plt.subplots(figsize=(7.4, 4.4))
-        for colour, (label, system) in zip(COLOURS, shown, strict=False):
-            D = distances(system)
-            ax.semilogy(np.maximum(D / D[0], 1e-18), "o-", ms=3, lw=1.1, color=colour, label=label)
-        ax.set(xlabel="periods", ylabel="distance $D$ of two motions, over its start", ylim=(1e-10, 10))
-        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return Figure(
-        "distance",
+    for colour, (label, system) in zip(COLOURS, shown, strict=False):
+        D = distances(system)
+        ax.semilogy(np.maximum(D / D[0], 1e-18), "o-", ms=3, lw=1.1, color=colour, label=label)
+    ax.set(xlabel="periods", ylabel="distance $D$ of two motions, over its start", ylim=(1e-10, 10))
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return (
         "Two motions of one contact from random states never move apart. Below v_c stick takes part of their "
         "difference in every period, with or without a damper; above v_c they slip with the same forces, only a "
-        "damper sees them differ, and without one the free oscillation of the body stays as it is.",
-        fig,
-        "Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an "
-        "undamped body in full slip.",
+        "damper sees them differ, and without one the free oscillation of the body stays as it is."
     )
 
 
-def _sweep_figure() -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("sweep", size=(6.8, 4.2))
+def _sweep_figure(fig, ax) -> str:
+    """Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones."""
     short, waited, v = swept(SHORT)[0], swept(None)[0], np.array(SWEEP)
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.2))
-        ax.plot(v, short[0], ">-", color=COLOURS[1], lw=1, label=f"up, {SHORT} periods each")
-        ax.plot(v, short[1], "<-", color=COLOURS[2], lw=1, label=f"down, {SHORT} periods each")
-        ax.plot(v, waited[0], "o", ms=9, mfc="none", color=COLOURS[0], label="up, until settled")
-        ax.plot(v, waited[1], ".", color=COLOURS[0], label="down, until settled")
-        ax.axvline(1.0, color="0.5", lw=0.9, ls=":")
-        ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"coefficient of friction $\mu/\mu_0$")
-        ax.legend(loc="lower right")
-    return Figure(
-        "sweep",
+    ax.plot(v, short[0], ">-", color=COLOURS[1], lw=1, label=f"up, {SHORT} periods each")
+    ax.plot(v, short[1], "<-", color=COLOURS[2], lw=1, label=f"down, {SHORT} periods each")
+    ax.plot(v, waited[0], "o", ms=9, mfc="none", color=COLOURS[0], label="up, until settled")
+    ax.plot(v, waited[1], ".", color=COLOURS[0], label="down, until settled")
+    ax.axvline(1.0, color="0.5", lw=0.9, ls=":")
+    ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"coefficient of friction $\mu/\mu_0$")
+    ax.legend(loc="lower right")
+    return (
         "A loop that is none: velocity swept up and down on a lightly damped body (paraboloid, elastic, α = 0.5, ω_0 = "
         f"0.97 ω, damper 1 %), each run going on from the state of the last. With {SHORT} periods at each velocity "
         "(triangles) friction seems to depend on the direction; when each run is awaited (circles and dots) the two "
-        "ways coincide.",
-        fig,
-        "Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones.",
+        "ways coincide."
     )

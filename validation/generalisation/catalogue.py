@@ -10,16 +10,17 @@ Symbols: alpha = du_z/u_z0, T = omega tau.
 """
 
 from functools import cache
+from itertools import product
 
 import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import style
 from mdr.tools.progress import progress
-from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, body, depth_of
-from validation.measured import TOLERANCE, Point, slope_at_zero
-from validation.report import Check, Equation, Figure, Part
+from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, any_contact, depth_of, shape_label
+from validation.figures import figure
+from validation.measured import TOLERANCE, Point, measured, slope_at_zero
+from validation.report import Check, Checks, Equation, Part
 from validation.words import counted
 
 NU = 0.5
@@ -34,9 +35,9 @@ MATERIALS: dict[str, mdr.Material] = {
 
 def contact(shape: str, material: str, alpha: float, pulled: bool) -> mdr.SlidingContact:
     """A shape of the catalogue at its own depth, pulled rigidly or by a body of the same groups."""
-    indenter, made, depth = ALL[shape], MATERIALS[material], mean_depth(shape)
-    pull = body(indenter, made, depth, **BODY) if pulled else mdr.RigidPull()
-    return mdr.SlidingContact(indenter, made, 0.5, mdr.NormalOscillation(depth, alpha * depth, OMEGA), pull)
+    depth = mean_depth(shape)
+    motion = mdr.NormalOscillation(depth, alpha * depth, OMEGA)
+    return any_contact(ALL[shape], MATERIALS[material], motion, BODY if pulled else None, depth)
 
 
 def mean_depth(shape: str) -> float:
@@ -52,6 +53,14 @@ def slope(shape: str) -> float:
     return laws.stiffness_exponent(ALL[shape], mean_depth(shape))
 
 
+_EQUATION = Equation(
+    "",
+    r"\frac{v_c}{v_c^{(15)}} - 1 \to C \alpha s, \quad s = \frac{d \ln k_{z,c}}{d \ln d}",
+    "As α → 0; C knows the material and the body, s the shape (<code>mdr.laws.first_order</code>,"
+    " <code>stiffness_exponent</code>).",
+)
+
+
 def part(effort: str) -> Part:
     """Every shape: measured, and by the first order of its deviation."""
     quick = effort == "quick"
@@ -60,35 +69,20 @@ def part(effort: str) -> Part:
         name="catalogue",
         title="Shape: all of the handbook",
         quote="",
-        range=(
-            f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range;"
-            f" {counted(len(points), 'measured velocity')}"
-            f" at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and the full-slip value under a body at α →"
-            f" 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes, standard solid for"
-            f" {'three' if quick else 'the curved ones'}."
-        ),
-        measured=(
-            f"{'' if quick else 'Rigid pull: Eq. (1) for every shape. '}Body: what a shape does to v_c at small"
-            " amplitude is one number, the"
-            " exponent s with which its stiffness changes about the mean depth. The deviation from Eq. (15) is C α s,"
-            " with one C for all shapes, closed forms, sampled points and measured forces alike; a flat or hollow punch"
-            " has none. For a standard solid C is another number, again the same for"
-            f" {'the three shapes computed' if quick else 'all curved shapes'}."
-        ),
-        sentence=(
-            "At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not know"
-            " the shape."
-        ),
+        range=f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range;"
+        f" {counted(len(points), 'measured velocity')} at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and"
+        f" the full-slip value under a body at α → 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes,"
+        f" standard solid for {'three' if quick else 'the curved ones'}.",
+        measured=f"{'' if quick else 'Rigid pull: Eq. (1) for every shape. '}Body: what a shape does to v_c at small"
+        " amplitude is one number, the exponent s with which its stiffness changes about the mean depth. The deviation"
+        " from Eq. (15) is C α s, with one C for all shapes, closed forms, sampled points and measured forces alike; a"
+        " flat or hollow punch has none. For a standard solid C is another number, again the same for"
+        f" {'the three shapes computed' if quick else 'all curved shapes'}.",
+        sentence="At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not"
+        " know the shape.",
         checks=(*_measured_checks(points), *_order_checks(quick)),
         figures=(_figure(quick),),
-        equations=(
-            Equation(
-                "",
-                r"\frac{v_c}{v_c^{(15)}} - 1 \to C \alpha s, \quad s = \frac{d \ln k_{z,c}}{d \ln d}",
-                "As α → 0; C knows the material and the body, s the shape (<code>mdr.laws.first_order</code>,"
-                " <code>stiffness_exponent</code>).",
-            ),
-        ),
+        equations=(_EQUATION,),
     )
 
 
@@ -103,22 +97,19 @@ def _grid(quick: bool) -> list[tuple[str, str, bool]]:
     return [*rigid, *((shape, "elastic", True) for shape in CATALOGUE)]
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     """Against Eq. (1) under a rigid pull, else against the full-slip value."""
-    checks, why = [], "bracket of the measurement and second order in its step"
+    why = "bracket of the measurement and second order in its step"
     for p in points:
         rigid = isinstance(p.case.pull, mdr.RigidPull)
         name = f"{p.where}: measured v_c over {'Eq. (1)' if rigid else 'the full-slip value'}"
-        checks.append(Check(name, p.over_rigid if rigid else 1 + p.miss, 1.0, TOLERANCE, why))
-    return checks
+        yield Check(name, p.over_rigid if rigid else 1 + p.miss, 1.0, TOLERANCE, why)
 
 
 @cache
 def _measured(shape: str, material: str, pulled: bool) -> Point:
-    case = contact(shape, material, 0.1, pulled)
-    return Point(
-        case, mdr.measure_critical_velocity(case), f"{shape}, {material}, {'body' if pulled else 'rigid pull'}"
-    )
+    where = f"{shape}, {material}, {'body' if pulled else 'rigid pull'}"
+    return measured(contact(shape, material, 0.1, pulled), where)
 
 
 # --- first order in the amplitude ---
@@ -130,56 +121,40 @@ def limit(shape: str, material: str, alpha: float) -> float:
     return slope_at_zero(*(contact(shape, material, share * alpha, True) for share in (1, 2)))
 
 
-def _order_checks(quick: bool) -> list[Check]:
-    checks = []
-    for material in ("elastic",) if quick else ("elastic", "ωτ = 1"):
-        for shape in ALL:
-            expected = laws.first_order(contact(shape, material, 0.1, True)) * slope(shape)
-            why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
-            name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
-            checks.append(Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why))
+def _order_checks(quick: bool) -> Checks:
+    for material, shape in product(("elastic",) if quick else ("elastic", "ωτ = 1"), ALL):
+        expected = laws.first_order(contact(shape, material, 0.1, True)) * slope(shape)
+        why = "1e-10 of the full-slip value over α = 1e-3, the third power of α, and the slope to 1e-8"
+        name = f"{shape}, {material}: deviation/α for α → 0 against C d ln k_zc/d ln d"
+        yield Check(name, limit(shape, material, 1e-3), expected, 1e-4 * abs(expected) + 1e-6, why)
     shapes = ("cone", "capped cone") if quick else [s for s in ALL if slope(s) > 0.02]
     first = limit("paraboloid", "standard solid", 0.01) / slope("paraboloid")
     for shape in shapes:
         name = f"{shape}, standard solid: C of its deviation over that of the paraboloid"
         ratio = limit(shape, "standard solid", 0.01) / slope(shape) / first
         why = "the third power of α = 0.01, with factors of some units; more where the stiffness changes within it"
-        checks.append(Check(name, ratio, 1.0, 0.02, why))
-    return checks
+        yield Check(name, ratio, 1.0, 0.02, why)
 
 
 # --- figure ---
 
 
-def _figure(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, ax = plt.subplots(figsize=(8.4, 4.4))
-        slopes = np.array([slope(shape) for shape in ALL])
-        for material, colour in zip(list(MATERIALS)[: 1 if quick else 3], ("C0", "C1", "C2"), strict=False):
-            alpha = 0.01 if material == "standard solid" else 1e-3
-            C = np.array([limit(shape, material, alpha) for shape in ALL])
-            ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
-            ax.plot(slopes, C, "o", ms=5, mfc="white", color=colour, label=material)
-        ax.set(
-            xlabel=r"$s = d\ln k_{zc}/d\ln d$ at the mean depth", ylabel=r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$"
-        )
-        ax.legend(loc="lower left")
-        rows = [f"{abs(slope(shape)):.2f}  {_set(shape)}" for shape in sorted(ALL, key=slope)]
-        ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
-    return Figure(
-        "slopes",
+@figure("slopes", size=(8.4, 4.4))
+def _figure(fig, ax, quick: bool) -> str:
+    """Points of all shapes on a straight line through zero, one line for each material."""
+    slopes = np.array([slope(shape) for shape in ALL])
+    for material, colour in zip(list(MATERIALS)[: 1 if quick else 3], ("C0", "C1", "C2"), strict=False):
+        alpha = 0.01 if material == "standard solid" else 1e-3
+        C = np.array([limit(shape, material, alpha) for shape in ALL])
+        ax.plot([0, 1], [0, C[list(ALL).index("cone")]], color=colour, lw=1)
+        ax.plot(slopes, C, "o", ms=5, mfc="white", color=colour, label=material)
+    ax.set(xlabel=r"$s = d\ln k_{zc}/d\ln d$ at the mean depth", ylabel=r"(full-slip $v_c$ over Eq. (15) $-1)/\alpha$")
+    ax.legend(loc="lower left")
+    rows = [f"{abs(slope(shape)):.2f}  {shape_label(shape)}" for shape in sorted(ALL, key=slope)]
+    ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
+    return (
         f"{len(ALL)} shapes under the same body{', elastic' if quick else ''}: how fast v_c leaves Eq. (15) with"
         " amplitude, over the exponent with which the stiffness of the contact changes about its mean depth."
         f" {'They' if quick else 'All shapes of one material'} lie on one straight line through zero: at small"
-        " amplitude v_c depends on the shape through this exponent alone.",
-        fig,
-        f"Points of {len(ALL)} shapes on {'a straight line' if quick else 'straight lines'} through zero"
-        f"{'' if quick else ', one for each material'}.",
+        " amplitude v_c depends on the shape through this exponent alone."
     )
-
-
-def _set(shape: str) -> str:
-    """A shape's name as matplotlib sets it."""
-    return shape.replace("r^4", "$r^4$").replace("d^1.7", "$d^{1.7}$")

@@ -29,12 +29,12 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import style
 from mdr.tools.progress import progress
-from validation import measured
-from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, body, shape_label
-from validation.measured import TOLERANCE, Point
-from validation.report import Check, Figure, Part
+from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, any_contact, shape_label
+from validation.figures import figure
+from validation.measured import TOLERANCE, Point, lost, measured
+from validation.measured import deviation as deviation_of
+from validation.report import Check, Checks, Figure, Part
 
 NU = 0.5
 MATERIALS: dict[str, mdr.Material] = {
@@ -43,12 +43,8 @@ MATERIALS: dict[str, mdr.Material] = {
     "standard solid": mdr.StandardLinearSolid(E, 2 * E, 0.7 / OMEGA, NU),
 }
 SMALL, GREAT = 1e-3, 0.6
-EQUIVALENT = (
-    ("cone", "elastic"),
-    ("paraboloid", "ωτ = 1"),
-    ("paraboloid", "standard solid"),
-    ("flat punch", "standard solid"),
-)
+EQUIVALENT = [("cone", "elastic"), ("paraboloid", "ωτ = 1")]
+EQUIVALENT += [("paraboloid", "standard solid"), ("flat punch", "standard solid")]
 SQUARE = tuple(4 / np.pi / n if n % 2 else 0.0 for n in range(1, 10))  # a square wave of amplitude 1, five terms
 PERIODIC = {
     "two frequencies": mdr.PeriodicMotion(OMEGA, DEPTH, cos=(0.15 * DEPTH, 0.0, 0.05 * DEPTH)),
@@ -58,13 +54,9 @@ PERIODIC = {
 }
 
 
-def contact(
-    shape: str, material: str, motion: mdr.Motion, groups: dict[str, float] | None = None
-) -> mdr.SlidingContact:
+def contact(shape: str, material: str, motion: mdr.Motion, groups: Any = None) -> mdr.SlidingContact:
     """A shape on a material under any drive, pulled rigidly or by a body."""
-    made = MATERIALS[material]
-    pull = body(SHAPES[shape], made, DEPTH, **groups) if groups else mdr.RigidPull()
-    return mdr.SlidingContact(SHAPES[shape], made, 0.5, motion, pull)
+    return any_contact(SHAPES[shape], MATERIALS[material], motion, groups)
 
 
 def load(shape: str, material: str, eps: float, mass_ratio: float = 0.0) -> mdr.LoadOscillation:
@@ -74,6 +66,13 @@ def load(shape: str, material: str, eps: float, mass_ratio: float = 0.0) -> mdr.
     return mdr.LoadOscillation(F_z0, eps * F_z0, OMEGA, mass_ratio * k_zc / OMEGA**2)
 
 
+_ALL = (
+    f"oscillating load of {SMALL:g} and {GREAT:g} of the mean without mass, and of 0.3 with mass in z, four shapes,"
+    " elastic, Kelvin and standard solid, rigid pull and body; periodic depths of three to nine harmonics, square-like"
+    " tapping among them"
+)  #: the contacts of a full report in words
+
+
 def part(effort: str) -> Part:
     """Drives other than Eq. (3), from runs alone."""
     quick = effort == "quick"
@@ -81,32 +80,17 @@ def part(effort: str) -> Part:
     return Part(
         name="motions",
         title="Drive: an oscillating load, a periodic depth",
-        quote=(
-            "[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact geometries"
-            " and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3)."
-        ),
-        range=(
-            f"{len(points)} contacts measured from runs: "
-            + (
-                "; ".join(p.where for p in points) + "."
-                if quick
-                else f"oscillating load of {SMALL:g} and {GREAT:g} of the mean without mass, and of 0.3 with mass in z,"
-                " four shapes, elastic, Kelvin and standard solid, rigid pull and body; periodic depths of three to"
-                " nine harmonics, square-like tapping among them."
-            )
-        ),
-        measured=(
-            "Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this is a"
-            " closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter"
-            " even under a rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and"
-            " what leaves the formula is the depth alone: for an elastic contact in second order of ΔF_z/F_z0, by"
-            " (ΔF_z/F_z0)^2/2(n+1)^2. For periodic depths v_c is the greatest slip velocity over the cycle, with every"
-            " harmonic; a square-like drive has a v_c far above that of its first harmonic."
-        ),
-        sentence=(
-            "Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2| for small ΔF_z; for a periodic"
-            " depth v_c is the maximum of the same expression over the cycle."
-        ),
+        quote="[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact"
+        " geometries and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3).",
+        range=f"{len(points)} contacts measured from runs: {'; '.join(p.where for p in points) if quick else _ALL}.",
+        measured="Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this"
+        " is a closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter"
+        " even under a rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and what"
+        " leaves the formula is the depth alone: for an elastic contact in second order of ΔF_z/F_z0, by"
+        " (ΔF_z/F_z0)^2/2(n+1)^2. For periodic depths v_c is the greatest slip velocity over the cycle, with every"
+        " harmonic; a square-like drive has a v_c far above that of its first harmonic.",
+        sentence="Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2| for small ΔF_z; for a"
+        " periodic depth v_c is the maximum of the same expression over the cycle.",
         checks=(*_measured_checks(points), *_equivalence_checks(quick), *_amplitude_checks()),
         figures=(_figure_of_loads(quick), *(() if quick else (_figure_of_series(),))),
     )
@@ -131,17 +115,15 @@ def _grid(quick: bool) -> list[tuple[str, str, str, float, float, bool]]:
     return found
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     """Against the full-slip value, and against the formula where the load swings little."""
-    checks, why = [], "bracket of the measurement, second order in its step; depth and force are followed to 1e-5"
+    why = "bracket of the measurement, second order in its step; depth and force are followed to 1e-5"
     for p in points:
-        name = f"measured v_c over the full-slip value: {p.where}"
-        checks.append(Check(name, 1 + p.miss, 1, 2 * TOLERANCE, why))
+        yield Check(f"measured v_c over the full-slip value: {p.where}", 1 + p.miss, 1, 2 * TOLERANCE, why)
         motion = p.case.oscillation
         if isinstance(motion, mdr.LoadOscillation) and motion.dF_z < 2 * SMALL * motion.F_z0:
             small = "ΔF_z/F_z0 = 1e-3, first order for a body, and the bracket"
-            checks.append(Check(f"measured v_c over the formula: {p.where}", 1 + p.deviation, 1, 1e-3, small))
-    return checks
+            yield Check(f"measured v_c over the formula: {p.where}", 1 + p.deviation, 1, 1e-3, small)
 
 
 @cache
@@ -150,14 +132,13 @@ def _measured(shape: str, material: str, drive: str, eps: float, mass_ratio: flo
     case = contact(shape, material, motion, BODY if pulled else None)
     words = f"ΔF_z/F_z0 = {eps:g}" + (f", m_z ω² = {mass_ratio:g} k_zc" if mass_ratio else "")
     where = f"{shape}, {material}, {words if drive == 'load' else drive}{', body' if pulled else ', rigid pull'}"
-    return Point(case, mdr.measure_critical_velocity(case), where)
+    return measured(case, where)
 
 
 # --- a small load is a small depth ---
 
 
-def _equivalence_checks(quick: bool) -> list[Check]:
-    checks = []
+def _equivalence_checks(quick: bool) -> Checks:
     for shape, material in EQUIVALENT[:1] if quick else EQUIVALENT:
         motion = load(shape, material, SMALL)
         loaded = mdr.resolved(contact(shape, material, motion, BODY))
@@ -166,17 +147,9 @@ def _equivalence_checks(quick: bool) -> list[Check]:
         pressed = contact(shape, material, depth, BODY)
         for share in (0.2, 0.6):
             v_0 = share * mdr.critical_velocity(pressed)
-            one, two = (1 - mdr.slide(c, v_0).cof / c.mu_0 for c in (loaded, pressed))
-            checks.append(
-                Check(
-                    f"COF deficit under load over that at its depth, {share:g} v_c: {shape}, {material}",
-                    one / two,
-                    1.0,
-                    5e-3,
-                    "first order in ΔF_z/F_z0 = 1e-3, with a factor of some units",
-                )
-            )
-    return checks
+            one, two = lost(loaded, v_0), lost(pressed, v_0)
+            name = f"COF deficit under load over that at its depth, {share:g} v_c: {shape}, {material}"
+            yield Check(name, one / two, 1.0, 5e-3, "first order in ΔF_z/F_z0 = 1e-3, with a factor of some units")
 
 
 # --- how the formula ends ---
@@ -185,102 +158,72 @@ def _equivalence_checks(quick: bool) -> list[Check]:
 @cache
 def deviation(shape: str, material: str, eps: float, pulled: bool, mass_ratio: float = 0.0) -> float:
     """Full-slip value over the formula, less 1."""
-    return measured.deviation(
-        contact(shape, material, load(shape, material, eps, mass_ratio), BODY if pulled else None)
-    )
+    return deviation_of(contact(shape, material, load(shape, material, eps, mass_ratio), BODY if pulled else None))
 
 
-def _amplitude_checks() -> list[Check]:
-    checks = []
+def _amplitude_checks() -> Checks:
     for shape, n in POWERS.items():
-        value = deviation(shape, "elastic", 0.04, False) / 0.04**2
-        checks.append(
-            Check(
-                f"elastic, rigid pull: deviation of v_c over (ΔF_z/F_z0)²: {shape}",
-                value,
-                laws.load_error(1.0, n),
-                2e-3,
-                "the next term of the series, of order eps² = 1.6e-3",
-            )
-        )
-    for name, motion in PERIODIC.items():
-        if name == "square-like tapping":
-            continue
+        got = deviation(shape, "elastic", 0.04, False) / 0.04**2
+        name = f"elastic, rigid pull: deviation of v_c over (ΔF_z/F_z0)²: {shape}"
+        yield Check(name, got, laws.load_error(1.0, n), 2e-3, "the next term of the series, of order eps² = 1.6e-3")
+    for drive, motion in list(PERIODIC.items())[:3]:
         case = contact("paraboloid", "elastic", motion)
-        t = np.linspace(0, 2 * np.pi / OMEGA, 200_001)
-        rate = case.mu_0 * case.material.mindlin_ratio * float(np.max(motion.u_z_dot(t)))
-        checks.append(
-            Check(
-                f"v_c of a rigid pull over μ_0 κ max u_z': {name}",
-                mdr.critical_velocity(case) / rate,
-                1.0,
-                1e-6,
-                "200001 instants miss the maximum by (9 · 3e-5)²/2",
-            )
-        )
-    return checks
+        fastest = np.max(motion.u_z_dot(np.linspace(0, 2 * np.pi / OMEGA, 200_001)))
+        name = f"v_c of a rigid pull over μ_0 κ max u_z': {drive}"
+        got = mdr.critical_velocity(case) / (case.mu_0 * case.material.mindlin_ratio * fastest)
+        yield Check(name, got, 1.0, 1e-6, "200001 instants miss the maximum by (9 · 3e-5)²/2")
 
 
 # --- figures ---
 
 
 def _figure_of_loads(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
+    panels = (("rigid pull", "elastic", False), ("rigid pull", "standard solid", False), ("body", "elastic", True))
+    shown = panels[:: 2 if quick else 1]
+    return figure("loads", 1, len(shown), size=(3.4 * len(shown), 3.6))(_loads)(shown, quick)
 
+
+def _loads(fig, axes, panels: Any, quick: bool) -> str:
+    """Panels of deviation in % over relative load amplitude for four shapes."""
     shares = np.array([0.0, 0.3, 0.6, 0.9]) if quick else np.linspace(0, 0.9, 10)
-    with style():
-        panels = (
-            ("rigid pull, elastic", "elastic", False),
-            ("rigid pull, standard solid", "standard solid", False),
-            ("body, elastic", "elastic", True),
-        )[:: 2 if quick else 1]
-        fig, axes = plt.subplots(1, len(panels), figsize=(3.4 * len(panels), 3.6))
-        for ax, (title, material, pulled) in zip(axes, panels, strict=True):
-            for shape, (colour, marker) in LOOKS.items():
-                values = [0.0, *(deviation(shape, material, float(eps), pulled) for eps in shares[1:])]
-                ax.plot(shares, 100 * np.array(values), color=colour, label=shape_label(shape))
-                if not pulled and not quick:
-                    point = _measured(shape, material, "load", GREAT, 0.0, False)
-                    ax.plot(GREAT, 100 * point.deviation, marker, color=colour, mfc="white")
-            ax.set(xlabel=r"$\Delta F_z/F_{z0}$", title=title)
-        axes[0].set_ylabel("full-slip $v_c$ over the formula, less 1 [%]")
-        axes[0].legend(loc="upper left")
-    return Figure(
-        "loads",
+    for ax, (pull, material, pulled) in zip(axes, panels, strict=True):
+        for shape, (colour, marker) in LOOKS.items():
+            values = [0.0, *(deviation(shape, material, float(eps), pulled) for eps in shares[1:])]
+            ax.plot(shares, 100 * np.array(values), color=colour, label=shape_label(shape))
+            if not pulled and not quick:
+                point = _measured(shape, material, "load", GREAT, 0.0, False)
+                ax.plot(GREAT, 100 * point.deviation, marker, color=colour, mfc="white")
+        ax.set(xlabel=r"$\Delta F_z/F_{z0}$", title=f"{pull}, {material}")
+    axes[0].set_ylabel("full-slip $v_c$ over the formula, less 1 [%]")
+    axes[0].legend(loc="upper left")
+    return (
         "Load-controlled drive: how far v_c at finite amplitude is from μ_0 ω ΔF_z |κ + K_z H|/|K_z|. The punch"
         " stays on it. Elastic curved shapes leave it in second order, as their stiffness falls while the load is"
         " low: under a rigid pull the more, the sharper the shape."
-        + ("" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0."),
-        fig,
-        "Panels of deviation in % over relative load amplitude for four shapes.",
+        + ("" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0.")
     )
 
 
-def _figure_of_series() -> Figure:
-    import matplotlib.pyplot as plt
-
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(8.8, 3.6))
-        phase = np.linspace(0, 1, 600)
-        for (name, motion), colour in zip(PERIODIC.items(), ("C0", "C1", "C2", "C3"), strict=True):
-            axes[0].plot(phase, motion.u_z(phase * 2 * np.pi / OMEGA) * 1e6, color=colour, label=name)
-            case = contact("paraboloid", "elastic", motion)
-            v_c = mdr.full_slip_critical_velocity(case)
-            first: Any = mdr.NormalOscillation(motion.u_z0, float(np.hypot(motion.cos[0], motion.sin[0])), OMEGA)
-            alone = mdr.full_slip_critical_velocity(contact("paraboloid", "elastic", first))
-            v = np.array([0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.1])
-            cof = [mdr.slide(case, x * v_c, n_springs=96, steps_per_period=512).cof / case.mu_0 for x in v]
-            axes[1].plot(np.r_[0, v] * v_c * 1e3, [mdr.static_cof(case) / case.mu_0, *cof], "-o", ms=3, color=colour)
-            axes[1].axvline(alone * 1e3, color=colour, lw=0.8, ls=":")
-        axes[0].axhline(0, color="0.6", lw=0.8)
-        axes[0].set(xlabel="time over period", ylabel="depth $u_z$ [µm]")
-        axes[0].legend(loc="lower left")
-        axes[1].set(xlabel="pulling velocity $v_0$ [mm/s]", ylabel=r"$\mu/\mu_0$", xlim=(0, 8))
-    return Figure(
-        "series",
+@figure("series", 1, 2, size=(8.8, 3.6))
+def _figure_of_series(fig, axes) -> str:
+    """Depth over a period for four drives, and their COF curves."""
+    phase = np.linspace(0, 1, 600)
+    for (name, motion), colour in zip(PERIODIC.items(), ("C0", "C1", "C2", "C3"), strict=True):
+        axes[0].plot(phase, motion.u_z(phase * 2 * np.pi / OMEGA) * 1e6, color=colour, label=name)
+        case = contact("paraboloid", "elastic", motion)
+        v_c = mdr.full_slip_critical_velocity(case)
+        first: Any = mdr.NormalOscillation(motion.u_z0, float(np.hypot(motion.cos[0], motion.sin[0])), OMEGA)
+        alone = mdr.full_slip_critical_velocity(contact("paraboloid", "elastic", first))
+        v = np.array([0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.1])
+        cof = [mdr.slide(case, x * v_c, n_springs=96, steps_per_period=512).cof / case.mu_0 for x in v]
+        axes[1].plot(np.r_[0, v] * v_c * 1e3, [mdr.static_cof(case) / case.mu_0, *cof], "-o", ms=3, color=colour)
+        axes[1].axvline(alone * 1e3, color=colour, lw=0.8, ls=":")
+    axes[0].axhline(0, color="0.6", lw=0.8)
+    axes[0].set(xlabel="time over period", ylabel="depth $u_z$ [µm]")
+    axes[0].legend(loc="lower left")
+    axes[1].set(xlabel="pulling velocity $v_0$ [mm/s]", ylabel=r"$\mu/\mu_0$", xlim=(0, 8))
+    return (
         "Periodic depths (left) and the friction of an elastic paraboloid under a rigid pull (right). Dotted lines: v_c"
         " of the first harmonic alone. Steep fronts reduce friction up to velocities several times higher, but the"
-        " reduction there is slight: what matters for the COF is how long the contact is lightly pressed.",
-        fig,
-        "Depth over a period for four drives, and their COF curves.",
+        " reduction there is slight: what matters for the COF is how long the contact is lightly pressed."
     )

@@ -16,40 +16,45 @@ Symbols: E_inf, E_1, tau_1 long-time modulus, modulus and relaxation time of the
 of the Kelvin branch, alpha = du_z/u_z0, v_hat = v_0 over Eq. (1).
 """
 
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr.closed_forms import paper
-from mdr.plots import style
 from mdr.tools.progress import progress
-from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, body, shape_label
-from validation.measured import TOLERANCE, Point, deviation
-from validation.report import Check, Equation, Figure, Part
+from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, any_contact, shape_label
+from validation.figures import figure
+from validation.measured import TOLERANCE, Point, deviation, lost, measured
+from validation.report import Check, Checks, Equation, Part
 from validation.words import counted, listed
 
 NU = 0.5
 RATIO = 3.0  # E_1/E_inf of the standard solid
+ARMS = ((0.7 * E, 0.03 / OMEGA), (1.3 * E, 1 / OMEGA), (0.4 * E, 30 / OMEGA))
 MATERIALS: dict[str, mdr.Material] = {
     "standard solid, ωτ_1 = 0.5": mdr.StandardLinearSolid(E, RATIO * E, 0.5 / OMEGA, NU),
     "standard solid, ωτ_1 = 5": mdr.StandardLinearSolid(E, RATIO * E, 5 / OMEGA, NU),
-    "three arms and a dashpot": mdr.Prony(
-        E, ((0.7 * E, 0.03 / OMEGA), (1.3 * E, 1 / OMEGA), (0.4 * E, 30 / OMEGA)), NU, 0.1 / OMEGA
-    ),
+    "three arms and a dashpot": mdr.Prony(E, ARMS, NU, 0.1 / OMEGA),
     "power law ω^0.3": mdr.Prony.power_law(modulus=E, exponent=0.3, omega=(OMEGA / 30, 30 * OMEGA), nu=NU, error=1e-2),
 }
 SEED = 20
 
 
-def contact(
-    shape: str, material: mdr.Material, alpha: float, groups: dict[str, float] | None = None, u_z0: float = DEPTH
-) -> mdr.SlidingContact:
+def contact(shape: str, material: mdr.Material, alpha: float, groups: Any = None) -> mdr.SlidingContact:
     """A shape on a material, pulled rigidly or by a body whose groups refer to the long-time stiffness."""
-    pull = body(SHAPES[shape], material, u_z0, **groups) if groups else mdr.RigidPull()
-    return mdr.SlidingContact(SHAPES[shape], material, 0.5, mdr.NormalOscillation(u_z0, alpha * u_z0, OMEGA), pull)
+    return any_contact(SHAPES[shape], material, mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA), groups)
+
+
+_EQUATION = Equation(
+    "",
+    r"v_c = \mu_0 \omega \Delta u_z \left| \kappa + K_z(\omega) H(\omega) \right|, \quad K_z = 2 a E^*(\omega), \quad"
+    r" E^*(\omega) = E^*_{\infty} (1 + i\omega\tau) + \sum_j E^*_j \frac{i\omega\tau_j}{1 + i\omega\tau_j}",
+    "Any linear material with one Poisson’s ratio; for a Kelvin material this is Eq. (15).",
+)
 
 
 def part(effort: str) -> Part:
@@ -61,61 +66,34 @@ def part(effort: str) -> Part:
     sides = [_sides(index) for index in progress(range(n), "rheology")]
     pairs = [(shape, name) for shape in shapes for name in chosen if shape == "flat punch" or "power" not in name]
     points = [_measured(*pair) for pair in progress(pairs, "rheology, measured")]
-    checks = [*_side_checks(sides), *_measured_checks(points), *_motion_checks(chosen)]
-    checks += [*_limit_checks(), *([] if quick else _amplitude_checks())]
-    figures = (_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),)))
+    checks = [*_side_checks(sides), *_measured_checks(points), *_motion_checks(chosen), *_limit_checks()]
     return Part(
         name="rheology",
         title="Rheology: any linear material",
-        quote=(
-            "In the future, the critical velocity could also be considered for materials with more general rheology."
-            " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3"
-        ),
-        range=(
-            f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with"
-            " and without a dashpot) under random bodies; "
-            f"{counted(len(chosen), 'chosen material')} ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 %"
-            " amplitude."
-        ),
-        measured=(
-            "With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is for a"
-            " Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the limit"
-            " of small amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that relaxes"
-            " within a period stiffens the contact against the oscillation but not against the mean load, so that the"
-            " static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one."
-        ),
-        sentence=(
-            "Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is"
-            " Eq. (15) for a Kelvin material."
-        ),
-        checks=tuple(checks),
-        figures=figures,
-        equations=(
-            Equation(
-                "",
-                r"v_c = \mu_0 \omega \Delta u_z \left| \kappa + K_z(\omega) H(\omega) \right|, \quad K_z = 2 a"
-                r" E^*(\omega), \quad E^*(\omega) ="
-                r" E^*_{\infty} (1 + i\omega\tau) + \sum_j E^*_j \frac{i\omega\tau_j}{1 + i\omega\tau_j}",
-                "Any linear material with one Poisson’s ratio; for a Kelvin material this is Eq. (15).",
-            ),
-        ),
+        quote="In the future, the critical velocity could also be considered for materials with more general rheology."
+        " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3",
+        range=f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf,"
+        f" with and without a dashpot) under random bodies; {counted(len(chosen), 'chosen material')}"
+        f" ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 % amplitude.",
+        measured="With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is"
+        " for a Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the"
+        " limit of small amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that"
+        " relaxes within a period stiffens the contact against the oscillation but not against the mean load, so that"
+        " the static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one.",
+        sentence="Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is"
+        " Eq. (15) for a Kelvin material.",
+        checks=(*checks, *(() if quick else _amplitude_checks())),
+        figures=(_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),))),
+        equations=(_EQUATION,),
     )
 
 
 # --- stick on one side of v_c, none on the other ---
 
 
-@dataclass(frozen=True)
-class Sides:
-    """Runs a little below and above the formula, on a random material."""
-
-    words: str
-    below: mdr.SlidingRun
-    above: mdr.SlidingRun
-
-
 @cache
-def _sides(index: int) -> Sides:
+def _sides(index: int) -> list[mdr.SlidingRun]:
+    """Runs a little below and above the formula, on a random material."""
     rng = np.random.default_rng((SEED, index))
     n_arms = int(rng.integers(1, 5))
     arms = tuple((E * 10 ** rng.uniform(-1, 1), 10 ** rng.uniform(-2, 2) / OMEGA) for _ in range(n_arms))
@@ -125,58 +103,48 @@ def _sides(index: int) -> Sides:
     alpha = 0.5 * E / (abs(complex(material.dynamic_modulus(OMEGA))) * (1 - NU**2))  # half of what would lose contact
     case = contact("flat punch", material, alpha, groups if index % 5 else None)
     v_c = mdr.critical_velocity(case)
-    runs = [mdr.slide(case, share * v_c, n_springs=32, steps_per_period=1024) for share in (0.98, 1.02)]
-    return Sides(f"{n_arms} arms, ωτ = {T:.2g}", *runs)
+    return [mdr.slide(case, share * v_c, n_springs=32, steps_per_period=1024) for share in (0.98, 1.02)]
 
 
-def _side_checks(sides: list[Sides]) -> list[Check]:
+def _side_checks(sides: list[list[mdr.SlidingRun]]) -> Checks:
     why = "at 0.98 v_c a few per cent of the period still stick; above v_c slip never stops"
-    settled = sum(s.below.settled and s.above.settled for s in sides)
-    least = min(s.below.stick_share for s in sides)
-    most = max(s.above.stick_share for s in sides)
-    slip = min(s.above.least_slip / s.above.v_0 for s in sides)
-    full = max(abs(1 - s.above.cof / s.above.mu_0) for s in sides)
-    return [
-        Check("random materials whose runs settle", settled, len(sides), 0, "all of them"),
-        Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why),
-        Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why),
-        Check.at_least("least slip velocity at 1.02 v_c, over v_0", slip, 0.01, "v_0 − v_c is 0.0196 v_0"),
-        Check("greatest 1 − COF/μ_0 at 1.02 v_c", full, 0.0, 1e-11, "full slip but for rounding"),
-    ]
+    settled = sum(below.settled and above.settled for below, above in sides)
+    least, most = min(below.stick_share for below, _ in sides), max(above.stick_share for _, above in sides)
+    slip = min(above.least_slip / above.v_0 for _, above in sides)
+    full = max(abs(1 - above.cof / above.mu_0) for _, above in sides)
+    yield Check("random materials whose runs settle", settled, len(sides), 0, "all of them")
+    yield Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why)
+    yield Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why)
+    yield Check.at_least("least slip velocity at 1.02 v_c, over v_0", slip, 0.01, "v_0 − v_c is 0.0196 v_0")
+    yield Check("greatest 1 − COF/μ_0 at 1.02 v_c", full, 0.0, 1e-11, "full slip but for rounding")
 
 
 # --- measured from runs alone ---
 
 
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     """Against the full-slip value, and for the punch against the closed form, which is exact for it."""
-    checks, why = [], "bracket of the measurement and second order in its step"
+    why = "bracket of the measurement and second order in its step"
     for p in points:
-        checks.append(Check(f"measured v_c over the full-slip value: {p.where}", 1 + p.miss, 1.0, TOLERANCE, why))
+        yield Check(f"measured v_c over the full-slip value: {p.where}", 1 + p.miss, 1.0, TOLERANCE, why)
         if isinstance(p.case.indenter, mdr.FlatPunch):
             name = f"measured v_c over the closed form: {p.where}"
-            checks.append(Check(name, 1 + p.deviation, 1.0, TOLERANCE, why))
-    return checks
+            yield Check(name, 1 + p.deviation, 1.0, TOLERANCE, why)
 
 
 @cache
 def _measured(shape: str, name: str) -> Point:
-    case = contact(shape, MATERIALS[name], 0.01, BODY)
-    return Point(case, mdr.measure_critical_velocity(case), f"{shape}, {name}")
+    return measured(contact(shape, MATERIALS[name], 0.01, BODY), f"{shape}, {name}")
 
 
 # --- motion in full slip ---
 
 
-def _motion_checks(chosen: dict[str, mdr.Material]) -> list[Check]:
+def _motion_checks(chosen: dict[str, mdr.Material]) -> Checks:
     """The marched motion of the body, and its force, against the harmonic that they must be."""
-    checks = []
     for name, material in chosen.items():
         case = contact("flat punch", material, 0.05, BODY)
-        run = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
-        assert run.t is not None
-        assert run.u_x is not None
-        assert run.F_z is not None
+        run: Any = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
         turn = np.exp(1j * OMEGA * run.t)
         F_1 = complex(case.dynamic_stiffness(OMEGA)) * case.cycle.du_z
         y_1 = -case.mu_0 * F_1 * complex(case.pull.receptance(OMEGA))
@@ -184,129 +152,96 @@ def _motion_checks(chosen: dict[str, mdr.Material]) -> list[Check]:
         off_x = np.abs(run.u_x - run.v_0 * run.t - (y_0 + y_1 * turn).real).max() / abs(y_1)
         off_z = np.abs(run.F_z - case.k_zc * DEPTH - (F_1 * turn).real).max() / abs(F_1)
         why = "second order of 1024 steps, h² = 4e-5, of which the harmonic of the recursion keeps a fraction"
-        checks += [
-            Check(f"body in full slip off −μ_0 H F_N, over its swing: {name}", off_x, 0.0, 2e-5, why),
-            Check(f"normal force off K_z(ω) Δu_z, over its swing: {name}", off_z, 0.0, 2e-5, why),
-        ]
-    return checks
+        yield Check(f"body in full slip off −μ_0 H F_N, over its swing: {name}", off_x, 0.0, 2e-5, why)
+        yield Check(f"normal force off K_z(ω) Δu_z, over its swing: {name}", off_z, 0.0, 2e-5, why)
 
 
 # --- limits ---
 
 
-def _limit_checks() -> list[Check]:
+def _limit_checks() -> Checks:
     """Fast and slow arms are dashpots and springs."""
     T, v_hat = 0.7, 0.4
     kelvin = mdr.KelvinVoigt(E, NU, T / OMEGA)
     fast = mdr.StandardLinearSolid(E, E * T / 1e-4, 1e-4 / OMEGA, NU)
     slow = mdr.StandardLinearSolid(E, RATIO * E, 1e5 / OMEGA, NU)
-    one, two = (
-        1 - mdr.slide(c, v_hat * c.unit_velocity).cof / c.mu_0
-        for c in (contact("paraboloid", m, 0.2) for m in (fast, kelvin))
-    )
-    punch = contact("flat punch", slow, 0.1)
-    deficit = 1 - mdr.slide(punch, v_hat * punch.unit_velocity).cof / punch.mu_0
-    return [
-        Check(
-            "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to",
-            one / two, 1.0, 1e-3, "what the force of the arm lags, 1e-4, and the error of the runs",
-        ),
-        Check(
-            "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)",
-            deficit / (0.1 * (1 + RATIO) * paper.deficit(v_hat)), 1.0, 2e-4, "1e-5 of the arm relaxes in a period",
-        ),
-    ]  # fmt: skip
+    cases = contact("paraboloid", fast, 0.2), contact("paraboloid", kelvin, 0.2), contact("flat punch", slow, 0.1)
+    one, two, deficit = (lost(case, v_hat * case.unit_velocity) for case in cases)
+    name = "COF deficit of an arm with ωτ_1 = 1e-4 over that of the dashpot it tends to"
+    yield Check(name, one / two, 1.0, 1e-3, "what the force of the arm lags, 1e-4, and the error of the runs")
+    name = "COF deficit of a punch with a slow arm over α (1 + E_1/E_inf) ψ(v_hat)"
+    got = deficit / (0.1 * (1 + RATIO) * paper.deficit(v_hat))
+    yield Check(name, got, 1.0, 2e-4, "1e-5 of the arm relaxes in a period")
 
 
-def _amplitude_checks() -> list[Check]:
+def _amplitude_checks() -> Checks:
     """With small amplitude the closed form is approached in proportion to it, as for a Kelvin material."""
-    checks = []
-    for name in ("standard solid, ωτ_1 = 0.5", "three arms and a dashpot"):
-        for shape in ("cone", "paraboloid"):
-            cases = [contact(shape, MATERIALS[name], alpha, BODY) for alpha in (0.005, 0.01)]
-            one, two = map(deviation, cases)
-            why = "the next power of α, 1 %, with a factor of some units"
-            checks.append(Check(f"power of α in full slip over closed form − 1: {shape}, {name}",
-                                float(np.log2(two / one)), 1.0, 0.06, why))  # fmt: skip
-    return checks
+    for name, shape in product(("standard solid, ωτ_1 = 0.5", "three arms and a dashpot"), ("cone", "paraboloid")):
+        one, two = (deviation(contact(shape, MATERIALS[name], alpha, BODY)) for alpha in (0.005, 0.01))
+        why = "the next power of α, 1 %, with a factor of some units"
+        got = np.log2(two / one)
+        yield Check(f"power of α in full slip over closed form − 1: {shape}, {name}", got, 1.0, 0.06, why)
 
 
 # --- figures ---
 
 
-def _figure_of_curves() -> Figure:
-    import matplotlib.pyplot as plt
+@figure("curves", 1, 2, size=(8.6, 3.7), sharey=True)
+def _figure_of_curves(fig, axes) -> str:
+    """Two panels of COF curves, one for each relaxation time, that meet at velocity one."""
+    from matplotlib import colormaps
 
     times = (0.1, 0.5, 2.0, 10.0, 100.0)
     v_hat = np.array([0.02, 0.06, 0.12, 0.2, 0.3, 0.42, 0.55, 0.7, 0.85, 0.95, 1.05])
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.7), sharey=True)
-        for ax, shape in zip(axes, ("flat punch", "paraboloid"), strict=True):
-            for colour, time in zip(plt.get_cmap("viridis")(np.linspace(0, 0.9, len(times))), times, strict=True):
-                case = contact(shape, mdr.StandardLinearSolid(E, RATIO * E, time / OMEGA, NU), 0.15)
-                cof = [mdr.slide(case, v * case.unit_velocity, n_springs=96, steps_per_period=512).cof for v in v_hat]
-                curve = np.array([mdr.static_cof(case), *cof]) / case.mu_0
-                ax.plot([0, *v_hat], curve, "-o", ms=3, color=colour, label=rf"$\omega\tau_1={time:g}$")
-            for modulus, ls, label in ((E, "--", "$E_\\infty$ alone"), (E * (1 + RATIO), ":", "glassy")):
-                case = contact(shape, mdr.Elastic(modulus, NU), 0.15)
-                known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
-                if label == "glassy":  # stiff against the oscillation, soft under the mean load
-                    known_cof = 1 - (1 + RATIO) * (1 - known.cof / case.mu_0)
-                    if shape != "flat punch":
-                        continue
-                else:
-                    known_cof = known.cof / case.mu_0
-                ax.plot(known.v_0 / case.unit_velocity, known_cof, ls, color="0.4", lw=1, label=label)
-            ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
-        axes[0].set_ylabel(r"$\mu/\mu_0$")
-        axes[0].legend(loc="lower right")
-    return Figure(
-        "curves",
+    for ax, shape in zip(axes, ("flat punch", "paraboloid"), strict=True):
+        for colour, time in zip(colormaps["viridis"](np.linspace(0, 0.9, len(times))), times, strict=True):
+            case = contact(shape, mdr.StandardLinearSolid(E, RATIO * E, time / OMEGA, NU), 0.15)
+            cof = [mdr.slide(case, v * case.unit_velocity, n_springs=96, steps_per_period=512).cof for v in v_hat]
+            curve = np.array([mdr.static_cof(case), *cof]) / case.mu_0
+            ax.plot([0, *v_hat], curve, "-o", ms=3, color=colour, label=rf"$\omega\tau_1={time:g}$")
+        case = contact(shape, mdr.Elastic(E, NU), 0.15)
+        known = mdr.cof_curve(case, np.linspace(0, 1.05, 60) * case.unit_velocity)
+        v, cof = known.v_0 / case.unit_velocity, known.cof / case.mu_0
+        ax.plot(v, cof, "--", color="0.4", lw=1, label="$E_\\infty$ alone")
+        if shape == "flat punch":  # stiff against the oscillation, soft under the mean load
+            ax.plot(v, 1 - (1 + RATIO) * (1 - cof), ":", color="0.4", lw=1, label="glassy")
+        ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
+    axes[0].set_ylabel(r"$\mu/\mu_0$")
+    axes[0].legend(loc="lower right")
+    return (
         "COF of a standard solid (E_1 = 3 E_inf, Δu_z/u_z0 = 0.15) under a rigid pull, for relaxation times from a"
         " tenth of 1/ω to a hundred times it. All curves end at Eq. (1), whatever the rheology. Slow arms (bright)"
         " never relax within the period and multiply what the oscillation takes from friction: for the punch they end"
-        " on the dotted curve, four times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed.",
-        fig,
-        "Two panels of COF curves, one for each relaxation time, that meet at velocity one.",
+        " on the dotted curve, four times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed."
     )
 
 
-def _figure_of_velocities(quick: bool) -> Figure:
-    import matplotlib.pyplot as plt
-
+@figure("velocities", 1, 2, size=(8.6, 3.6))
+def _figure_of_velocities(fig, axes, quick: bool) -> str:
+    """Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body."""
     times = np.geomspace(1e-2, 1e2, 121)
     solid: list[Any] = [mdr.StandardLinearSolid(E, RATIO * E, t / OMEGA, NU) for t in times]
     kelvin: list[Any] = [mdr.KelvinVoigt(E, NU, RATIO * t / OMEGA) for t in times]
-    with style():
-        fig, axes = plt.subplots(1, 2, figsize=(8.6, 3.6))
-        bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
-        for ax, (title, groups) in zip(axes, bodies, strict=True):
-            for materials, look, label in (
-                (solid, {"color": "C0"}, "standard solid"),
-                (kelvin, {"color": "0.15", "ls": "-."}, "Kelvin, same first loss"),
-            ):
-                cases = [contact("flat punch", material, 0.01, groups) for material in materials]
-                ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
-            for material, ls, label in (
-                (mdr.Elastic(E, NU), "--", "$E_\\infty$ alone"),
-                (mdr.Elastic((1 + RATIO) * E, NU), ":", "glassy"),
-            ):
-                soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, groups)
-                case = mdr.SlidingContact(SHAPES["flat punch"], material, 0.5, soft.oscillation, soft.pull)
-                ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
-            for name in ("standard solid, ωτ_1 = 0.5", "standard solid, ωτ_1 = 5"):
-                if groups is BODY and not quick:
-                    found = _measured("flat punch", name)
-                    label = "measured from runs" if name.endswith("5") and "0.5" in name else None
-                    ax.plot(float(name.split("= ")[1]), found.over_rigid, "o", color="C0", mfc="white", label=label)
-            ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
-        axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
-        axes[0].legend(loc="upper left")
-    return Figure(
-        "velocities",
+    bodies = (("$\\omega_0=1.7\\,\\omega$", BODY), ("$\\omega_0=0.6\\,\\omega$", BODY | {"omega_0_ratio": 0.6}))
+    for ax, (title, groups) in zip(axes, bodies, strict=True):
+        for materials, look, label in (
+            (solid, {"color": "C0"}, "standard solid"),
+            (kelvin, {"color": "0.15", "ls": "-."}, "Kelvin, same first loss"),
+        ):
+            cases = [contact("flat punch", material, 0.01, groups) for material in materials]
+            ax.semilogx(times, [mdr.critical_velocity(c) / c.unit_velocity for c in cases], label=label, **look)
+        for stiffer, ls, label in ((1, "--", "$E_\\infty$ alone"), (1 + RATIO, ":", "glassy")):
+            soft = contact("flat punch", mdr.Elastic(E, NU), 0.01, groups)
+            case = replace(soft, material=mdr.Elastic(stiffer * E, NU))
+            ax.axhline(mdr.critical_velocity(case) / case.unit_velocity, color="0.4", ls=ls, lw=1, label=label)
+        for time, label in ((0.5, "measured from runs"), (5, None)) if groups is BODY and not quick else ():
+            found = _measured("flat punch", f"standard solid, ωτ_1 = {time:g}")
+            ax.plot(time, found.over_rigid, "o", color="C0", mfc="white", label=label)
+        ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
+    axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
+    axes[0].legend(loc="upper left")
+    return (
         "Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that"
         " of the long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the"
-        " same loss at low frequency (chain line) has no such end and rises without bound.",
-        fig,
-        "Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body.",
+        " same loss at low frequency (chain line) has no such end and rises without bound."
     )

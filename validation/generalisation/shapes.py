@@ -15,21 +15,22 @@ are of small amplitude: further up the deviation turns back and may change its s
 Symbols: alpha = du_z/u_z0, T = omega tau, n power of the shape (infinite for the punch).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import style
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
-from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, shape_label
-from validation.measured import TOLERANCE, Measured, slope_at_zero
+from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, loss_label, shape_label
+from validation.figures import figure, key, shape_keys, ticks
+from validation.measured import TOLERANCE, Point, measured, power, slope_at_zero, worst
 from validation.measured import deviation as deviation_of
-from validation.report import Check, Figure, Part
+from validation.report import Check, Checks, Part
 from validation.words import counted, listed, number, ranged
 
 PULLS: dict[str, dict[str, Any]] = {
@@ -53,39 +54,19 @@ def system(
     return replace(contact(shape, alpha, T, u_z0=u_z0), pull=contact(shape, alpha, T, **knobs).pull)
 
 
-@dataclass(frozen=True)
-class Point(Measured):
-    """One contact of the grid, measured from runs alone."""
-
-    shape: str
-    alpha: float
-    T: float
-    pull: str
-    u_z0: float
-
-    @property
-    def where(self) -> str:
-        """Shape, amplitude, loss, pull and depth in words."""
-        pull = f"ω_0 = {PULLS[self.pull]['omega_0_ratio']:g} ω" if PULLS[self.pull] else self.pull
-        return f"{self.shape}, α = {self.alpha:g}, ωτ = {self.T:g}, {pull}, {self.u_z0 * 1e6:g} µm deep"
-
-
 @cache
 def measure(shape: str, alpha: float, T: float, pull: str, u_z0: float) -> Point:
     """Measure v_c of one contact."""
-    case = system(shape, alpha, T, pull, u_z0)
-    return Point(case, mdr.measure_critical_velocity(case), shape, alpha, T, pull, u_z0)
+    body = f"ω_0 = {PULLS[pull]['omega_0_ratio']:g} ω" if PULLS[pull] else pull
+    where = f"{shape}, α = {alpha:g}, ωτ = {T:g}, {body}, {u_z0 * 1e6:g} µm deep"
+    return measured(system(shape, alpha, T, pull, u_z0), where, shape, alpha, T, pull)
 
 
 def grid(effort: str) -> list[tuple[str, float, float, str, float]]:
     """Which contacts are measured."""
     if effort == "quick":
         return [
-            *(
-                (shape, alpha, T, "rigid pull", DEPTH)
-                for shape in ("cone", "r^4")
-                for alpha, T in ((0.02, 0.0), (0.6, 0.0))
-            ),
+            *((shape, alpha, 0.0, "rigid pull", DEPTH) for shape in ("cone", "r^4") for alpha in (0.02, 0.6)),
             *((shape, 0.6, 0.0, "stiff spring", DEPTH) for shape in ("flat punch", "cone", "paraboloid")),
             ("cone", 0.02, 0.0, "stiff spring", DEPTH),
             ("cone", 0.3, 1.0, "stiff spring", DEPTH),
@@ -113,12 +94,6 @@ def deviation(shape: str, alpha: float, T: float, pull: str, damped: bool = True
     return deviation_of(system(shape, alpha, T, pull, damped=damped))
 
 
-def power(shape: str, T: float, pull: str, damped: bool = True) -> float:
-    """Slope of log|deviation| over log alpha at small alphas."""
-    values = [abs(deviation(shape, float(alpha), T, pull, damped)) for alpha in SMALL]
-    return float(np.polyfit(np.log(SMALL), np.log(values), 1)[0])
-
-
 def constant(shape: str, T: float, pull: str) -> float:
     """Deviation/alpha for alpha -> 0, from two small alphas with the next power taken out."""
     return slope_at_zero(*(system(shape, alpha, T, pull) for alpha in (1e-3, 2e-3)))
@@ -133,11 +108,8 @@ def first_order_map(effort: str) -> tuple[Array, Array, Array]:
     """C over omega_0/omega (n,) and T (m,), shape (m, n)."""
     n, m = (61, 13) if effort == "quick" else (241, 65)
     ratios, losses = np.linspace(*SPAN, n), np.geomspace(*LOSSES, m)
-    return (
-        ratios,
-        losses,
-        np.array([[laws.first_order(mapped(float(r), float(T)), 512) for r in ratios] for T in losses]),
-    )
+    C = [[laws.first_order(mapped(float(r), float(T)), 512) for r in ratios] for T in losses]
+    return ratios, losses, np.array(C)
 
 
 def part(effort: str) -> Part:
@@ -152,21 +124,19 @@ def part(effort: str) -> Part:
         name="shapes",
         title="Shape: a punch, a cone, a paraboloid and r^4",
         quote="",
-        range=f"{listed(shape for shape in SHAPES if shape in {p.shape for p in points})}; α = "
-        f"{listed(sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths "
-        f"{listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and "
-        f"damper; rigid pull, ω_0 = 1.7 ω and 0.6 ω; "
-        f"{counted(len(points), 'measured velocity')}. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and"
-        " ωτ = "
-        f"{LOSSES[0]:g} … {LOSSES[1]:g}",
-        measured=f"Rigid pull: Eq. (1) in all of {counted(len(rigid), 'measurement')} ({_tested(rigid)}), to "
-        f"{_worst(points, 'rigid pull'):.1e}; each of these contacts is closed at the moment of fastest approach."
-        " Spring pull: Eq. (15) for the flat "
-        f"punch; for curved shapes it is the limit of small amplitude. For small α the deviation is proportional to α "
-        f"times the exponent of the stiffness k_zc ∝ d^{{1/n}}, with one factor for all shapes (elastic and undamped: "
-        f"to α^2); for large α it turns back and may change its sign. Farthest off: {100 * far.deviation:+.1f} % "
-        f"({far.where}); at α = 0.02: {100 * small.deviation:+.2f} % ({small.where}). The full-slip condition with "
-        f"all harmonics gives the measured value in all of them, to {max(abs(p.miss) for p in points):.1e}.",
+        range=f"{listed(shape for shape in SHAPES if shape in {p.shape for p in points})}; α ="
+        f" {listed(sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths"
+        f" {listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and damper; rigid"
+        f" pull, ω_0 = 1.7 ω and 0.6 ω; {counted(len(points), 'measured velocity')}. First order in α over ω_0/ω ="
+        f" {SPAN[0]:g} … {SPAN[1]:g} and ωτ = {LOSSES[0]:g} … {LOSSES[1]:g}",
+        measured=f"Rigid pull: Eq. (1) in all of {counted(len(rigid), 'measurement')} ({_tested(rigid)}), to"
+        f" {max(abs(p.deviation) for p in rigid):.1e}; each of these contacts is closed at the moment of fastest"
+        " approach. Spring pull: Eq. (15) for the flat punch; for curved shapes it is the limit of small amplitude. For"
+        " small α the deviation is proportional to α times the exponent of the stiffness k_zc ∝ d^{1/n}, with one"
+        " factor for all shapes (elastic and undamped: to α^2); for large α it turns back and may change its sign."
+        f" Farthest off: {100 * far.deviation:+.1f} % ({far.where}); at α = 0.02: {100 * small.deviation:+.2f} %"
+        f" ({small.where}). The full-slip condition with all harmonics gives the measured value in all of them, to"
+        f" {max(abs(p.miss) for p in points):.1e}.",
         sentence="For a curved shape under a body the error of Eq. (15) is proportional to α for small α, and to the "
         "exponent with which the stiffness depends on depth.",
         checks=(*_measured_checks(points), *_power_checks(), *_map_checks()),
@@ -180,204 +150,109 @@ def _tested(points: list[Point]) -> str:
     return f"{shapes}, {listed(loss(T) for T in sorted({p.T for p in points}))}, α {ranged(p.alpha for p in points)}"
 
 
-def _worst(points: list[Point], pull: str) -> float:
-    return max(abs(p.deviation) for p in points if p.pull == pull)
-
-
-def _measured_checks(points: list[Point]) -> list[Check]:
+def _measured_checks(points: list[Point]) -> Checks:
     why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
-    checks = []
     for shape in SHAPES:
         here = [p for p in points if p.shape == shape]
         stiff, soft = [p for p in here if p.pull == "rigid pull"], [p for p in here if p.pull != "rigid pull"]
-        if stiff:
-            checks.append(
-                Check.at_most(
-                    f"{shape}, rigid pull: worst |v_c/Eq. (1) − 1| of {len(stiff)}",
-                    max(abs(p.deviation) for p in stiff),
-                    TOLERANCE,
-                    why,
-                )
-            )
-        if soft and shape == "flat punch":
-            checks.append(
-                Check.at_most(
-                    f"{shape}, spring pull: worst |v_c/Eq. (15) − 1| of {len(soft)}",
-                    max(abs(p.deviation) for p in soft),
-                    TOLERANCE,
-                    why,
-                )
-            )
-        elif soft:
-            checks.append(
-                Check.at_most(
-                    f"{shape}, spring pull: worst |v_c/full-slip value − 1| of {len(soft)}",
-                    max(abs(p.miss) for p in soft),
-                    TOLERANCE,
-                    why,
-                )
-            )
+        exact = {"rigid pull: worst |v_c/Eq. (1) − 1|": stiff}
+        if shape == "flat punch":
+            exact["spring pull: worst |v_c/Eq. (15) − 1|"] = soft
+        for what, found in exact.items():
+            if found:
+                name = f"{shape}, {what} of {len(found)}"
+                yield Check.at_most(name, max(abs(p.deviation) for p in found), TOLERANCE, why)
+        if soft and shape != "flat punch":
+            name = f"{shape}, spring pull: worst |v_c/full-slip value − 1| of {len(soft)}"
+            yield Check.at_most(name, max(abs(p.miss) for p in soft), TOLERANCE, why)
             large = max(soft, key=lambda p: abs(p.deviation))
-            checks.append(
-                Check.at_least(
-                    f"{shape}, spring pull: largest |v_c/Eq. (15) − 1|",
-                    abs(large.deviation),
-                    10 * TOLERANCE,
-                    f"Eq. (15) is off by far more than the measurement ({large.where})",
-                )
-            )
-    odd = [p for p in points if p.found.kind != "end of stick"]
-    checks.append(
-        Check(
-            f"measurements of {len(points)} whose signs disagree",
-            len(odd),
-            0,
-            0,
-            "end of stick, least slip velocity and COF name one velocity",
-        )
-    )
-    return checks
+            name = f"{shape}, spring pull: largest |v_c/Eq. (15) − 1|"
+            off = f"Eq. (15) is off by far more than the measurement ({large.where})"
+            yield Check.at_least(name, abs(large.deviation), 10 * TOLERANCE, off)
+    odd = sum(p.found.kind != "end of stick" for p in points)
+    why = "end of stick, least slip velocity and COF name one velocity"
+    yield Check(f"measurements of {len(points)} whose signs disagree", odd, 0, 0, why)
 
 
-def _power_checks() -> list[Check]:
-    checks = []
-    for shape in list(SHAPES)[1:]:
-        for T, pull, damped, expected in (
-            (0.0, "stiff spring", False, 2),
-            (0.0, "stiff spring", True, 1),
-            (1.0, "stiff spring", True, 1),
-            (1.0, "soft spring", True, 1),
-        ):
-            if damped:
-                got, limit = constant(shape, T, pull), laws.first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
-                checks.append(
-                    Check(
-                        f"{shape}, {_called(T, pull, damped)}: deviation/α for α → 0",
-                        got,
-                        limit,
-                        2e-3 * abs(limit),
-                        "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out",
-                    )
-                )
-            name = f"{shape}, {_called(T, pull, damped)}: power of α in the deviation"
-            checks.append(
-                Check(
-                    name,
-                    power(shape, T, pull, damped),
-                    expected,
-                    0.02,
-                    "the next power adds up to 5 α, and alphas end at 0.002"
-                    + ("" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"),
-                )
-            )
-    return checks
+def _power_checks() -> Checks:
+    kinds = ((0.0, "stiff spring", False), (0.0, "stiff spring", True), (1.0, "stiff spring", True))
+    for shape, (T, pull, damped) in product(list(SHAPES)[1:], (*kinds, (1.0, "soft spring", True))):
+        where = f"{shape}, {loss(T)}, {pull}{'' if damped else ' undamped'}"
+        if damped:
+            limit = laws.first_order(system(shape, 0.1, T, pull)) / POWERS[shape]
+            why = "C/n; 1e-8 of v_c in the full-slip value is up to 1e-3 of it, and the next power is taken out"
+            yield Check(f"{where}: deviation/α for α → 0", constant(shape, T, pull), limit, 2e-3 * abs(limit), why)
+        why = "the next power adds up to 5 α, and alphas end at 0.002"
+        why += "" if damped else "; rounding of 1e-12 of v_c is below 1 % of the least deviation"
+        values = [abs(deviation(shape, float(alpha), T, pull, damped)) for alpha in SMALL]
+        yield Check(f"{where}: power of α in the deviation", power(SMALL, values), 1 if damped else 2, 0.02, why)
 
 
-def _map_checks() -> list[Check]:
+def _map_checks() -> Checks:
     rng, ratios = np.random.default_rng(15), []
-    for shape in ("cone", "paraboloid", "r^4"):
-        for _ in range(6):
-            ratio, T = float(rng.uniform(*SPAN)), float(LOSSES[0] * (LOSSES[1] / LOSSES[0]) ** rng.uniform())
-            got = slope_at_zero(*(mapped(ratio, T, alpha, shape) for alpha in (2e-5, 4e-5)))
-            ratios.append(got * POWERS[shape] / laws.first_order(mapped(ratio, T)))
+    for shape, _ in product(("cone", "paraboloid", "r^4"), range(6)):
+        ratio, T = float(rng.uniform(*SPAN)), float(LOSSES[0] * (LOSSES[1] / LOSSES[0]) ** rng.uniform())
+        got = slope_at_zero(*(mapped(ratio, T, alpha, shape) for alpha in (2e-5, 4e-5)))
+        ratios.append(got * POWERS[shape] / laws.first_order(mapped(ratio, T)))
     name = f"n times deviation/α for α → 0 over C of the map, worst of {len(ratios)} random places and shapes"
     why = "1e-10 of v_c in the full-slip value over C α; powers beyond the next"
-    return [Check(name, max(ratios, key=lambda r: abs(r - 1)), 1.0, 2e-3, why)]
+    yield Check(name, worst(ratios, 1.0), 1.0, 2e-3, why)
 
 
-def _called(T: float, pull: str, damped: bool) -> str:
-    return f"{loss(T)}, {pull}{'' if damped else ' undamped'}"
-
-
-def _glance(points: list[Point], effort: str) -> Figure:
-    import matplotlib.pyplot as plt
-    from matplotlib.lines import Line2D
-
-    panels = (
-        ("rigid pull", None, "rigid pull"),
-        ("spring pull, elastic", 0.0, "stiff spring"),
-        (r"spring pull, $\omega\tau$ = 1", 1.0, "stiff spring"),
-    )
+@figure("glance", 1, 3, size=(9.6, 4.6), sharey=True)
+def _glance(fig, axes, points: list[Point], effort: str) -> str:
+    """Three panels of measured critical velocity over Eq. (15) against amplitude: all on one for a rigid pull, falling
+    away from one for curved shapes under a spring pull, the cone rising again at large amplitude.
+    """
+    hollow = {"mfc": "none", "mew": 1.6, "ms": 7}
     alphas = np.geomspace(0.01, 0.7, 30 if effort == "quick" else 80)
     rigid, springs = ([p for p in points if (p.pull == "rigid pull") is side] for side in (True, False))
-    with style():
-        fig, axes = plt.subplots(1, 3, sharey=True, figsize=(9.6, 4.6))
-        for ax, (title, T, pull) in zip(axes, panels, strict=True):
-            ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
-            for shape, (colour, marker) in LOOKS.items():
-                if T is not None:
-                    ax.plot(alphas, [1 + deviation(shape, float(a), T, pull) for a in alphas], color=colour, lw=1.2)
-                here = [
-                    p
-                    for p in points
-                    if p.shape == shape and p.pull == pull and (T is None or (p.T == T and p.u_z0 == DEPTH))
-                ]
-                ax.plot(
-                    [p.alpha * (BESIDE[shape] if T is None else 1) for p in here],
-                    [1 + p.deviation for p in here],
-                    marker,
-                    color=colour,
-                    ms=7,
-                    mfc="none",
-                    mew=1.6,
-                )
-            ax.set(xscale="log", xlim=(0.009, 0.9), xlabel=r"amplitude $\Delta u_z/u_{z0}$", title=title)
-            ax.set_xticks([0.01, 0.03, 0.1, 0.3], ["0.01", "0.03", "0.1", "0.3"])
-            ax.minorticks_off()
-        axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
-        handles = [
-            Line2D([], [], color=colour, marker=marker, mfc="none", mew=1.6, ms=7, label=shape_label(shape))
-            for shape, (colour, marker) in LOOKS.items()
-        ]
-        fig.legend(handles=handles, loc="outside lower center", ncols=4)
-    return Figure(
-        "glance",
+    for ax, T in zip(axes, (None, 0.0, 1.0), strict=True):
+        pull = "rigid pull" if T is None else "stiff spring"
+        title = pull if T is None else f"spring pull, {loss_label(T)}"
+        ax.axhline(1.0, color="0.4", lw=0.9, ls="--", zorder=0)
+        for shape, (colour, marker) in LOOKS.items():
+            if T is not None:
+                ax.plot(alphas, [1 + deviation(shape, float(a), T, pull) for a in alphas], color=colour, lw=1.2)
+            here = [p for p in points if p.shape == shape and p.pull == pull]
+            here = [p for p in here if T is None or (p.T == T and p.u_z0 == DEPTH)]
+            beside = BESIDE[shape] if T is None else 1
+            values = [1 + p.deviation for p in here]
+            ax.plot([p.alpha * beside for p in here], values, marker, color=colour, **hollow)
+        ax.set(xscale="log", xlim=(0.009, 0.9), xlabel=r"amplitude $\Delta u_z/u_{z0}$", title=title)
+        ticks(ax.xaxis, 0.01, 0.03, 0.1, 0.3)
+    axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
+    fig.legend(handles=shape_keys(**hollow), loc="outside lower center", ncols=4)
+    return (
         "Points: critical velocities measured with arrays of springs, over Eq. (15) with the contact "
         "stiffness at the mean depth. Lines: the full-slip condition. Under a rigid pull "
         f"({_tested(rigid)}; points of one amplitude side by side) all lie on 1. Under a spring and a mass (ω_0 = "
         f"1.7 ω, damper 5 % of critical, {DEPTH * 1e6:g} µm deep) only the flat punch does; the other lines tend to "
         "1 in proportion to α as it becomes small, and for large α that of the cone turns back and crosses 1."
-        + (f" Measured under a spring were {_tested(springs)}, not all combined." if effort == "quick" else ""),
-        fig,
-        "Three panels of measured critical velocity over Eq. (15) against amplitude: all on one for a rigid pull, "
-        "falling away from one for curved shapes under a spring pull, the cone rising again at large amplitude.",
+        + (f" Measured under a spring were {_tested(springs)}, not all combined." if effort == "quick" else "")
     )
 
 
-def _powers(effort: str) -> Figure:
-    import matplotlib.pyplot as plt
-    from matplotlib.lines import Line2D
-
+@figure("powers", size=(6.8, 4.6))
+def _powers(fig, ax, effort: str) -> str:
+    """Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two."""
     alphas = np.r_[np.geomspace(1e-3, 0.1, 9), np.linspace(0.11, 0.6, 20 if effort == "quick" else 50)]
-    kinds = (
-        ("elastic, undamped", 0.0, False, ":"),
-        ("elastic, damper", 0.0, True, "--"),
-        (r"$\omega\tau$ = 1, damper", 1.0, True, "-"),
-    )
-    with style():
-        fig, ax = plt.subplots(figsize=(6.8, 4.6))
-        for shape in list(SHAPES)[1:]:
-            for _, T, damped, line in kinds:
-                values = np.array([abs(deviation(shape, float(a), T, "stiff spring", damped)) for a in alphas])
-                ax.plot(alphas, np.where(values > LEAST, values, np.nan), line, color=LOOKS[shape][0])
-        ax.set(
-            xscale="log",
-            yscale="log",
-            xlabel=r"amplitude $\alpha = \Delta u_z/u_{z0}$",
-            ylabel="|full-slip value over Eq. (15) − 1|",
-            ylim=(LEAST, 1),
-        )
-        handles = [Line2D([], [], color=LOOKS[shape][0], label=shape_label(shape)) for shape in list(SHAPES)[1:]]
-        handles += [Line2D([], [], color="0.3", ls=line, label=name) for name, _, _, line in kinds]
-        ax.legend(handles=handles, loc="lower right", ncols=2)
-    return Figure(
-        "powers",
+    kinds = ((0.0, False, ":"), (0.0, True, "--"), (1.0, True, "-"))
+    for shape in list(SHAPES)[1:]:
+        for T, damped, line in kinds:
+            values = np.array([abs(deviation(shape, float(a), T, "stiff spring", damped)) for a in alphas])
+            ax.plot(alphas, np.where(values > LEAST, values, np.nan), line, color=LOOKS[shape][0])
+    ax.set(xscale="log", yscale="log", ylim=(LEAST, 1))
+    ax.set(xlabel=r"amplitude $\alpha = \Delta u_z/u_{z0}$", ylabel="|full-slip value over Eq. (15) − 1|")
+    handles = [key(shape_label(shape), color=LOOKS[shape][0]) for shape in list(SHAPES)[1:]]
+    for T, damped, line in kinds:
+        handles.append(key(f"{loss_label(T)}, {'damper' if damped else 'undamped'}", color="0.3", ls=line))
+    ax.legend(handles=handles, loc="lower right", ncols=2)
+    return (
         "How fast Eq. (15) becomes exact under a spring pull (ω_0 = 1.7 ω): with α^2 where nothing dissipates "
         "(dotted), with α as soon as the contact or the system is damped. For small α the shapes then differ by the "
         f"exponent of their stiffness, {_ratios(0.0, True)} (dashed) and {_ratios(1.0, True)} (full); undamped by "
-        f"more, {_ratios(0.0, False)}. The dip of the cone is a change of sign.",
-        fig,
-        "Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two.",
+        f"more, {_ratios(0.0, False)}. The dip of the cone is a change of sign."
     )
 
 
@@ -387,31 +262,26 @@ def _ratios(T: float, damped: bool) -> str:
     return " : ".join(f"{value / at[0]:.2g}" for value in at)
 
 
-def _map_figure(ratios: Array, losses: Array, C: Array) -> Figure:
-    import matplotlib.pyplot as plt
+@figure("map", size=(7.6, 4.4))
+def _map_figure(fig, ax, ratios: Array, losses: Array, C: Array) -> str:
+    """Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: dark for slow
+    materials and near twice the frequency.
+    """
     from matplotlib.colors import LogNorm
 
     reach = 0.01 / np.abs(C)
-    with style():
-        fig, ax = plt.subplots(figsize=(7.6, 4.4))
-        mesh = ax.pcolormesh(ratios, losses, reach, norm=LogNorm(5e-4, 0.5), cmap="viridis", rasterized=True)
-        ax.contour(ratios, losses, reach, (1e-3, 1e-2, 1e-1), colors="white", linewidths=0.8)
-        ax.set(yscale="log", xlabel=r"$\omega_0/\omega$", ylabel=r"$\omega\tau$")
-        ax.grid(False)
-        bar = fig.colorbar(mesh, ax=ax, extend="both")
-        bar.set_label("amplitude at which Eq. (15) is off by 1 %, cone")
+    mesh = ax.pcolormesh(ratios, losses, reach, norm=LogNorm(5e-4, 0.5), cmap="viridis", rasterized=True)
+    ax.contour(ratios, losses, reach, (1e-3, 1e-2, 1e-1), colors="white", linewidths=0.8)
+    ax.set(yscale="log", xlabel=r"$\omega_0/\omega$", ylabel=r"$\omega\tau$")
+    ax.grid(False)
+    fig.colorbar(mesh, ax=ax, extend="both", label="amplitude at which Eq. (15) is off by 1 %, cone")
     row, column = np.unravel_index(np.argmin(reach), reach.shape)
-    return Figure(
-        "map",
-        "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone "
-        "(n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four "
-        "times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies "
-        "near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: "
-        f"α = {number(reach[row, column])} at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials"
-        " under "
-        "heavy bodies, ω_0 < ω, are the best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 ="
-        " 0.8 ω. Along thin bright lines C changes its sign, and the next order decides.",
-        fig,
-        "Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: "
-        "dark for slow materials and near twice the frequency.",
+    return (
+        "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone"
+        " (n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four"
+        " times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies"
+        f" near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: α = {number(reach[row, column])}"
+        f" at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials under heavy bodies, ω_0 < ω, are the"
+        " best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 = 0.8 ω. Along thin bright lines C"
+        " changes its sign, and the next order decides."
     )

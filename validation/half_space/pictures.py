@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from mdr.half_space.friction import MARGIN, LastPeriod, stuck
-from mdr.plots import style
 from mdr.tools.arrays import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 OPEN, SLIPS, STICKS = "#FFFFFF", "#F6D98B", "#0B3C6F"
 ARROWS = 13  #: along a side, at most
@@ -26,34 +21,20 @@ def places(found: LastPeriod) -> tuple[Array, Array]:
     return x, y
 
 
-def period(found: LastPeriod) -> Figure:
-    """Maps at four instants of the last period, a quarter apart."""
-    n = len(found.steps)
-    titles = ("fastest approach", "deepest", "fastest retreat", "least depth")
-    return maps(found, [round(n * share) - 1 for share in (0.25, 0.5, 0.75, 1.0)], titles)
-
-
-def maps(found: LastPeriod, moments: Sequence[int], titles: Sequence[str]) -> Figure:
-    """Maps of stick and slip in these steps of the last period, with arrows of slip, one scale a map."""
-    import matplotlib.pyplot as plt
+def period(panels: Any, found: LastPeriod) -> None:
+    """Maps of stick and slip at four instants of the last period, with arrows of slip, one scale a map."""
     from matplotlib.colors import ListedColormap
 
     x, y = places(found)
-    with style():
-        fig, panels = plt.subplots(1, len(moments), figsize=(2.6 * len(moments), 3.1), sharey=True)
-        for ax, i, title in zip(panels, moments, titles, strict=True):
-            step = found.steps[i]
-            kind = (step.pressure > 0).astype(float) + stuck(found.contact, step)
-            look = ListedColormap([OPEN, SLIPS, STICKS])
-            ax.pcolormesh(x, y, kind, cmap=look, vmin=0, vmax=2, rasterized=True)
-            _arrows(ax, x, y, step.slip, kind == 1)
-            ax.set_title(title)
-            ax.set_aspect("equal")
-            ax.set_xlabel(r"$x/a$ (pull $\rightarrow$)")
-            ax.set_xlim(-1.1, 1.1)
-            ax.set_ylim(-1.1, 1.1)
-        panels[0].set_ylabel("$y/a$")
-    return fig
+    titles = ("fastest approach", "deepest", "fastest retreat", "least depth")
+    for ax, share, title in zip(panels, (0.25, 0.5, 0.75, 1.0), titles, strict=True):
+        step = found.steps[round(len(found.steps) * share) - 1]
+        kind = (step.pressure > 0).astype(float) + stuck(found.contact, step)
+        ax.pcolormesh(x, y, kind, cmap=ListedColormap([OPEN, SLIPS, STICKS]), vmin=0, vmax=2, rasterized=True)
+        _arrows(ax, x, y, step.slip, kind == 1)
+        ax.set_aspect("equal")
+        ax.set(title=title, xlabel=r"$x/a$ (pull $\rightarrow$)", xlim=(-1.1, 1.1), ylim=(-1.1, 1.1))
+    panels[0].set_ylabel("$y/a$")
 
 
 def _arrows(ax: Any, x: Array, y: Array, slip: Array, where: Array) -> None:

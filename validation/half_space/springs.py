@@ -20,10 +20,9 @@ def of_springs(case: mdr.SlidingContact, v_0: float, settings: Settings) -> Fric
     depth = np.append(np.tile(depth[:-1], settings.cycles), depth[-1])
     x = np.append(0.0, np.cumsum(np.tile(np.diff(x), settings.cycles)))
     material = case.material
-    F_x, F_z = forces(
-        case.indenter.profile_1d, float(case.indenter.contact_radius(depth.max())), depth, x, dt,
-        case.mu_0, material.mindlin_ratio, material.tau,
-    )  # fmt: skip
+    indenter, radius = case.indenter, float(case.indenter.contact_radius(depth.max()))
+    of_material = case.mu_0, material.mindlin_ratio, material.tau
+    F_x, F_z = forces(indenter.profile_1d, radius, depth, x, dt, *of_material)
     return Friction.over(*(material.E_star * F[1:].reshape(settings.cycles, settings.steps) for F in (F_x, F_z)))
 
 

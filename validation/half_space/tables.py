@@ -11,6 +11,7 @@ is near, and few periods suffice.
 from __future__ import annotations
 
 import csv
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
@@ -69,6 +70,17 @@ class Row:
     def error(self) -> float:
         """Step, grid and settling together."""
         return self.step + self.grid + self.settling
+
+
+Column = Sequence[Row]  #: of one contact
+
+
+def columns_of(rows: Iterable[Row]) -> list[Column]:
+    """The rows of each contact together."""
+    found = defaultdict(list)
+    for row in rows:
+        found[replace(row.point, v=0.0)].append(row)
+    return list(found.values())
 
 
 def compute(columns: Iterable[Sequence[Point]], settings: Settings) -> list[Row]:
@@ -140,7 +152,5 @@ def read(name: str) -> list[Row]:
 def _row(values: dict[str, str]) -> Row:
     known = [float(values[f.name]) for f in fields(Point)[1:-1]]
     point = Point(values["shape"], *known, nu_2=float(values["nu_2"]) if values["nu_2"] else None)
-    cof, springs, step, grid, settling, stick = (
-        float(values[name]) for name in ("cof", "springs", "step", "grid", "settling", "stick")
-    )
-    return Row(point, cof, springs, step, grid, settling, int(values["cycles"]), stick)
+    cof, springs, step, grid, settling = (float(values[f.name]) for f in fields(Row)[1:6])
+    return Row(point, cof, springs, step, grid, settling, int(values["cycles"]), float(values["stick"]))

@@ -66,10 +66,9 @@ PAPER = (
     ),
     Equation(
         "full-slip condition", r"v_c = \max_t \left( \mu_0 \kappa \dot{u}_z - \dot{y} \right)",
-        "All springs in contact slip at v_0 + <i>ẏ</i> − μ_0 κ <i>u̇</i><sub>z</sub>; v_c is the velocity above"
-        " which this is never zero, over"
-        " the instants with contact. Any shape, amplitude, linear material and periodic depth; Eq. (15) is its case of"
-        " a single harmonic.",
+        "All springs in contact slip at v_0 + <i>ẏ</i> − μ_0 κ <i>u̇</i><sub>z</sub>; v_c is the velocity above which"
+        " this is never zero, over the instants with contact. Any shape, amplitude, linear material and periodic depth;"
+        " Eq. (15) is its case of a single harmonic.",
     ),
 )  # fmt: skip
 
