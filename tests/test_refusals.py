@@ -7,7 +7,7 @@ a function or an answer takes. What remains are relations between two values, an
 import math
 import pickle
 import warnings
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
 
 import numpy as np
 import pytest
@@ -127,10 +127,17 @@ def test_a_field_refuses_what_its_rule_forbids(record, field):
 
 
 @pytest.mark.parametrize(("record", "field"), FIELDS, ids=NAMES)
-def test_a_number_has_the_rule_that_its_physics_asks_for(record, field):
+def test_a_field_is_frozen_and_told_apart_and_has_the_rule_that_its_physics_asks_for(record, field):
     name, facts = f"{record.__name__}.{field.name}", facts_of(field)
     assert facts.meaning
+    made = record(**sound(record))
+    with pytest.raises(FrozenInstanceError):
+        setattr(made, field.name, 1.0)
     if facts.rule and field.type in ("float", float):
+        if value := getattr(made, field.name):
+            other = replace(made, **{field.name: value * (1 - 1e-12)})
+            assert other != made
+            assert hash(other) != hash(made)
         by_sign = "not_negative" if name in NOT_NEGATIVE else "finite" if name in SIGNED else "positive"
         assert facts.rule.__name__ == (OWN.get(name) or BOUNDED.get(field.name) or by_sign)
 

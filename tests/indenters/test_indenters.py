@@ -151,14 +151,6 @@ def test_arrays_floats_and_mirror_images(shape):
         assert shape.force(1e-300, 1.0) >= 0
 
 
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_records_compare_hash_and_pickle(shape):
-    twin = pickle.loads(pickle.dumps(shape))
-    assert twin == shape
-    assert hash(twin) == hash(shape)
-    assert len({*SHAPES, *[pickle.loads(pickle.dumps(s)) for s in SHAPES]}) == len(SHAPES)
-
-
 @pytest.mark.parametrize("scale", [1e-9, 1e3])
 def test_no_length_is_special(scale):
     small, large = Paraboloid(1.0), Paraboloid(scale)
