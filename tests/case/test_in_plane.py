@@ -101,26 +101,6 @@ def test_a_shaken_case_is_varied_at_its_paths(path):
     assert varied != case
 
 
-@pytest.mark.parametrize("oscillation", [TAPPING, DEPTH, mdr.ConstantLoad(F_z0=0.05)])
-@pytest.mark.parametrize(
-    "shake", [replace(SHAKE, at="pull"), mdr.InPlaneMotion(OMEGA, x_sin=(1e-6, 0.5e-6)), SHAKE], ids=str
-)
-def test_a_case_file_carries_a_shake(oscillation, shake):
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, oscillation, BODY, shake)
-    text = mdr.write_case(case)
-    assert "[shake]" in text
-    assert mdr.parse_case(text) == case
-
-
-def test_faults_of_a_shake_are_all_told():
-    text = mdr.write_case(contact()).replace("du_x = 3e-06", "du_x = -3e-06\ndux = 1")
-    with pytest.raises(mdr.CaseFileError) as refusal:
-        mdr.parse_case(text)
-    told = "\n".join(refusal.value.faults)
-    assert "[shake] du_x must not be negative" in told
-    assert "dux is no key of InPlaneOscillation; did you mean du_x" in told
-
-
 @pytest.mark.parametrize("load", [mdr.ConstantLoad(F_z0=0.05), mdr.LoadOscillation(0.05, 0.01, OMEGA)])
 def test_chi_refers_to_the_depth_under_a_load(load):
     ball = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, load, shake=SHAKE)
