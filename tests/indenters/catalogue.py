@@ -76,6 +76,7 @@ MEASURED = (FromForce, SampledProfile)  # test_measured.py has them
 NEW = [one for one in EXAMPLES.values() if not isinstance(one, (*map(type, (*SLOPES, *FACES)), *MEASURED))]
 CURVED = [*SLOPES, *(shape for shape in NEW if not shape.least_depth and shape.profile_1d(end(shape) / 2) > 0)]
 SHAPES = [*FACES, *SLOPES, *NEW]
+ANY = [*SHAPES, *(one for one in EXAMPLES.values() if isinstance(one, MEASURED))]
 
 
 def name(shape):

@@ -147,6 +147,7 @@ def test_a_concave_punch_that_touches_with_a_ring(share):
 
 @pytest.mark.parametrize("scale", [1e-9, 1e3])
 @pytest.mark.parametrize("make", [
+    lambda s: mdr.Paraboloid(R * s),
     lambda s: mdr.Sphere(R * s),
     lambda s: mdr.Ellipsoid(2 * R * s, 1 / (R * s)),
     lambda s: mdr.Hyperboloid(1e-3 * s, 2e-3 * s),

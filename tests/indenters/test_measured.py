@@ -1,6 +1,5 @@
 """Shapes from measured points and from a force curve: as good as their splines say, or refused with the reason."""
 
-import pickle
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +8,6 @@ from catalogue import THETA, B, R
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-import mdr
 from mdr.indenters import (
     CappedCone,
     CappedParaboloid,
@@ -139,21 +137,6 @@ def test_a_kink_that_makes_the_spline_fall_is_found(shape):
     assert SampledProfile(GRID, f, kinks=(B,)).kinks == (B,)
 
 
-def test_a_second_kink_is_found_beside_one_that_is_named():
-    first, second = float(GRID[50]), float(GRID[150])
-    f = np.interp(GRID, [0, first, second, GRID[-1]], [0, 0, 1e-5, 1e-4])
-    with pytest.raises(ValueError, match=r"jumps at r") as refused:
-        SampledProfile(GRID, f, kinks=(first,))
-    assert f"r = {second!r} m, where it changes most, give kinks=({first!r}, {second!r}); if" in str(refused.value)
-    assert SampledProfile(GRID, f, kinks=(first, second)).kinks == (first, second)
-
-
-@pytest.mark.parametrize("f", [-GRID, -(GRID**2), 1e-7 * np.random.default_rng(3).standard_normal(GRID.size)])
-def test_a_slope_that_jumps_nowhere_is_not_said_where_to_jump(f):
-    with pytest.raises(ValueError, match=r"if its slope jumps at one of the r, name that in kinks=; if it is noise"):
-        SampledProfile(GRID, f)
-
-
 def test_a_slope_that_jumps_and_is_not_named_is_off():
     rough, named = sampled(CappedParaboloid(2 * R, R, B)), sampled(CappedParaboloid(2 * R, R, B), kinks=[B])
     d = 2e-4
@@ -216,23 +199,6 @@ def test_the_shape_of_a_force(shape, reach, tip, tolerance):
     assert worst(found.pressure(r, 0.99 * found.d[-1], E_STAR), p) < max(2e-7, tolerance)
 
 
-@pytest.mark.parametrize("scale", [1e-9, 1e3])
-def test_a_force_in_any_unit(scale):
-    d = 1e-5 * np.linspace(0, 1, 30)
-    one = FromForce(d, Sphere(R).force(d, E_STAR), E_STAR)
-    other = FromForce(scale * d, scale**2 * np.asarray(Sphere(R).force(d, E_STAR)), E_STAR)
-    assert_allclose(other.contact_radius(scale * d), scale * one.contact_radius(d), rtol=1e-12)
-    x = 1e-4 * np.array([0.001, 1, 2])
-    assert_allclose(other.profile_1d(scale * x), scale * one.profile_1d(x), rtol=1e-11)
-
-
-def test_the_area_under_the_image_is_what_the_force_leaves():
-    shape = from_force(Sphere(R), R / 2, tip="round")
-    a = R * np.array([0.1, 0.4])
-    assert_allclose(shape.profile_area(a), Sphere(R).profile_area(a), rtol=1e-10)
-    assert_allclose(Indenter.force(shape, 1e-4, 3.0), shape.force(1e-4, 3.0), rtol=1e-12)
-
-
 def test_a_noisy_force_is_smoothed():
     rng = np.random.default_rng(2)
     d = np.linspace(0, 1e-4, 100)
@@ -267,40 +233,3 @@ def test_deeper_than_it_was_measured():
 
 
 # --- both ---
-
-
-@pytest.mark.parametrize("shape", MEASURED, ids=lambda one: repr(one)[:40])
-def test_records_compare_print_and_pickle(shape):
-    twin = pickle.loads(pickle.dumps(shape))
-    assert twin == shape
-    assert hash(twin) == hash(shape)
-    assert twin.force(1e-5, 1) == shape.force(1e-5, 1)
-    assert len(repr(shape)) < 120
-    assert "points" in repr(shape)
-    assert all(isinstance(value, float) for value in vars(shape)[next(iter(vars(shape)))])
-    assert sum(shape == other for other in MEASURED) == 1
-
-
-@pytest.mark.parametrize("shape", MEASURED, ids=lambda one: repr(one)[:40])
-def test_arrays_floats_and_mirror_images(shape):
-    x, d = np.array([[1e-4], [2e-4]]), np.array([1e-5, 2e-5, 3e-5])
-    assert np.array_equal(shape.profile_1d(-x), shape.profile_1d(x))
-    assert shape.pressure(x, d, E_STAR).shape == (2, 3)
-    assert isinstance(shape.pressure(1e-4, 1e-5, 1), float)
-    for ask in (shape.profile_3d, shape.profile_1d, shape.profile_area, shape.contact_radius):
-        assert isinstance(ask(1e-5), float)
-    assert shape.contact_radius(-1.0) == shape.force(0.0, 1) == 0
-
-
-@pytest.mark.parametrize("shape", MEASURED, ids=lambda one: repr(one)[:40])
-def test_a_measured_shape_slides(shape):
-    oscillation = mdr.NormalOscillation(u_z0=2e-5, du_z=2e-6, omega=300.0)
-    case = mdr.SlidingContact(shape, mdr.Elastic(E=3e6, nu=0.5), 0.5, oscillation)
-    springs = mdr.SpringArray.of(case, 64)
-    assert_allclose(springs.normal_force(2.2e-5, 2e-5), shape.force(2.2e-5, case.material.E_star), rtol=1e-9)
-
-
-def test_noise_greater_than_the_profile_is_refused():
-    r = np.linspace(0, 1e-3, 12)
-    with pytest.raises(ValueError, match=r"smoothing = 0.02 m is the noise of the heights, which differ by 1e-05 m"):
-        mdr.SampledProfile(r, 10 * r**2, smoothing=0.02)

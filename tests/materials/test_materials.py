@@ -29,13 +29,6 @@ def test_contact_moduli_of_one_body(kind, nu):
     assert_allclose(material.dundurs_beta, (1 - 2 * nu) / (2 * (1 - nu)), rtol=EXACT)
 
 
-def test_rubber():
-    rubber = mdr.Elastic(E=3e6, nu=0.5)
-    assert rubber.mindlin_ratio == 1.5
-    assert rubber.dundurs_beta == 0
-    assert_allclose(rubber.E_star, 4e6, rtol=EXACT)
-
-
 @pytest.mark.parametrize("nu", RATIOS)
 def test_from_shear(nu):
     G, eta = 1e6, 500.0
@@ -88,15 +81,6 @@ def test_dynamic_modulus(material):
     assert type(material.dynamic_modulus(50.0)) is complex
     assert type(material.loss_tangent(50.0)) is float
     assert material.dynamic_modulus(0.0) == material.E_star
-    for bad in (math.nan, [1.0, math.inf]):
-        with pytest.raises(ValueError, match="omega must be finite"):
-            material.dynamic_modulus(bad)
-
-
-def test_zero_tau_is_elastic():
-    elastic, kelvin = mdr.Elastic(3e6, 0.3), mdr.KelvinVoigt(3e6, 0.3, 0)
-    assert elastic.tau == kelvin.tau == 0
-    assert elastic.E_star == kelvin.E_star
 
 
 # --- memory ---
@@ -176,20 +160,11 @@ def test_tables_of_arms(tmp_path):
     text = '[material]\nmodel = "Prony"\nE_inf = 1e6\narms = [[2e6, 0.01], [3e6, 1.0]]\nnu = 0.3\n'
     case.write_text(text, encoding="utf-8")
     assert mdr.Prony.read(case) == body
-    for text, words in (
-        ("tau,E\n1,2\n", "the header names no E_j: tau, E"),
-        ("E_j,tau_j\n1e6,soft\n", "line 2: soft is no number"),
-        ("E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
-        ("E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
-    ):
-        table.write_text(text, encoding="utf-8")
-        with pytest.raises(ValueError, match=words):
-            mdr.Prony.read(table, nu=0.3)
     for content, words in (
+        (b"tau,E\n1,2\n", "the header names no E_j: tau, E"),
+        (b"E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
+        (b"E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
         (b"E_j,tau_j\n1e6,\xff\n", "line 2 is not UTF-8"),
-        (b"E_j,tau_j\ninf,1\n", "line 2: inf is no number"),
-        (b"E_j,tau_j\n1e6," + b"1" * 140_000, "line 2: field larger"),
-        (b"E_j,\x1btau\n1,1\n", "names no tau_j: E_j, tau"),
     ):
         table.write_bytes(content)
         with pytest.raises(ValueError, match=rf"arms\.csv: .*{words}"):
@@ -197,23 +172,16 @@ def test_tables_of_arms(tmp_path):
     for text, words in (
         ("material = 3\n", "must be a table"),
         ("E_inf = 1.0\narms = 3\nnu = 0.3\n", r"arms\.toml: arms must be a sequence"),
-        ("E_inf = inf\narms = [[1.0, 1.0]]\nnu = 0.3\n", r"arms\.toml: E_inf must be a finite number"),
-        ("E_inf = 1.0\narms = [[1.0, 1.0]]\nnu = 0.7\n", r"arms\.toml: nu must lie in"),
-        ("arms = " + "[" * 3000, r"arms\.toml: nested too deeply"),
         ("E_inf = 1.0\n", "arms is missing"),
-        ("E_inf = = 1.0\n", r"arms\.toml: "),
         ('model = "Elastic"\n', 'model "Elastic" is not Prony'),
         ("E_inf = 1.0\nE_o = 2.0\n", "E_o is no key of Prony; there are E_inf, arms, nu, tau"),
     ):
         case.write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=words):
             mdr.Prony.read(case)
-
-
-def test_the_ratio_given_beside_a_table_is_the_one_taken(tmp_path):
-    table = tmp_path / "arms.toml"
-    table.write_text("E_inf = 1e6\narms = [[2e6, 0.01]]\nnu = 0.3\n", encoding="utf-8")
-    assert mdr.Prony.read(table, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)
+    text = "E_inf = 1e6\narms = [[2e6, 0.01]]\nnu = 0.3\n"
+    case.write_text(text, encoding="utf-8")
+    assert mdr.Prony.read(case, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)  # the ratio beside a table is taken
 
 
 def test_as_many_arms_as_asked_for():
