@@ -7,7 +7,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.case.in_plane import whole_ratio
 from mdr.normal.vary import case_at
 
 OMEGA = 300.0
@@ -52,13 +51,6 @@ def test_frequencies_in_whole_ratios_share_a_period(p, q):
         axis=1
     )
     assert_allclose(x, 3e-6 * np.cos(q * OMEGA * t + 0.7), rtol=0, atol=1e-18)
-
-
-def test_frequencies_in_no_whole_ratio_are_refused_with_the_reason():
-    with pytest.raises(ValueError, match=r"whole numbers up to 16.*not periodic"):
-        contact(shake=replace(SHAKE, omega=OMEGA * np.sqrt(2)))
-    with pytest.raises(ValueError, match="whole numbers"):
-        whole_ratio(17.0, 1.0)
 
 
 def test_the_tool_is_shaken_whole_and_the_pull_through_spring_and_damper():

@@ -148,21 +148,6 @@ def test_tractions_add_up_for_every_shape(shape):
     assert_allclose(found.traction, MU_0 * found.pressure)
 
 
-def test_springs_that_slip_one_by_one_draw_cattaneos_traction():
-    """No closed form inside: cells of springs, a return mapping, and the transform of what they carry."""
-    R, n = 5e-3, 4000
-    a, p_0 = math.sqrt(R * DEPTH), 2 / np.pi * BODY.E_star * math.sqrt(DEPTH / R)
-    edges = a * np.sin(np.linspace(0, np.pi / 2, n + 1))
-    c = a * math.sqrt(0.5)
-    x = np.unique(np.concatenate([[0.0, c, a], 0.5 * (edges[1:] + edges[:-1])]))
-    q_z = BODY.E_star * (DEPTH - x**2 / R)
-    q_x = np.minimum(BODY.G_star * 0.5 * FULL_SLIP, MU_0 * q_z)
-    r, weight = within(a, c)
-    assert (
-        off(from_line_load(x, q_x, r), hertz_traction(r, a, c, p_0), weight) < 1e-4
-    )  # the order h sqrt(h) of the kinks
-
-
 # --- from a run ---
 
 
@@ -206,15 +191,6 @@ def test_the_surface_of_a_viscoelastic_run_is_the_indenter_where_it_presses():
         found = surface_fields(run, r, i=i)
         assert_allclose(found.u_z, run.u_z[i] - r**2 / 1e-2, rtol=0, atol=2e-3 * run.u_z[i])  # by 512 springs
         assert np.all(np.abs(found.traction) <= 0.4 * found.pressure + 2e-2 * found.pressure.max())
-
-
-def test_fields_are_records():
-    pulled = partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, FULL_SLIP / 2)
-    one, two = surface_fields(pulled), surface_fields(pulled)
-    assert one == two
-    assert hash(one) == hash(two)
-    assert one.r.shape == (301,)
-    assert surface_fields(pulled, np.zeros((2, 3))).pressure.shape == (2, 3)
 
 
 @pytest.mark.parametrize("length", [1e-6, 1e3])

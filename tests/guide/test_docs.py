@@ -11,12 +11,9 @@ from inspect import isfunction
 import gallery_page
 import matplotlib as mpl
 import matplotlib.pyplot as plt
-import numpy as np
 import pages
 import pytest
 from matplotlib.testing.compare import compare_images
-from numpy.testing import assert_allclose
-from scipy.integrate import quad
 
 import mdr
 
@@ -134,17 +131,6 @@ def test_the_site_builds_without_a_warning_and_needs_no_network(tmp_path):
 
 
 # --- what stands on the pages ---
-
-
-def test_bump_of_the_page_on_extending_has_that_image():
-    """g of h [1 − exp(−r²/b²)] by Dawson's function, and its integral, by quadrature."""
-    from scipy.special import dawsn
-
-    x, b = 0.7, 1.3
-    by_quadrature = x * quad(lambda t: 2 * x * np.sin(t) / b**2 * np.exp(-((x * np.sin(t) / b) ** 2)), 0, np.pi / 2)[0]
-    assert_allclose(2 * x / b * dawsn(x / b), by_quadrature, rtol=1e-12)
-    area = quad(lambda x: 2 * x / b * dawsn(x / b), 0, x)[0]
-    assert_allclose(x - b * dawsn(x / b), area, rtol=1e-10)
 
 
 def test_figures_are_all_shown():
