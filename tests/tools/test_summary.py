@@ -77,14 +77,6 @@ def test_a_case_names_its_parts_with_units_and_reads_back_from_its_repr():
     assert eval(repr(case), vars(mdr)) == case
 
 
-def test_a_case_of_a_users_own_shape_prints_without_addresses():
-    measured = mdr.SampledProfile(np.linspace(0, 1e-3, 30), 100 * np.linspace(0, 1e-3, 30) ** 2)
-    for shape in (mdr.Profile(lambda r: 100 * r**2), measured):
-        text = str(replace(CASE, indenter=shape, oscillation=mdr.NormalOscillation(20e-6, 2e-6, 300.0)))
-        assert "0x" not in text
-        assert len(text) < 1000
-
-
 def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
     found = mdr.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7)
     assert str(found).splitlines() == [
