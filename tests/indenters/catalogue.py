@@ -71,7 +71,7 @@ def end(shape):
 KINKED = [shape for shape in SLOPES if shape.kinks]
 WORN = [shape for shape in KINKED if shape.profile_1d(B) == 0]  # with a flat face
 FACES = [FlatPunch(2e-3), ConcavePunch(2e-3, 1.0)]
-MEASURED = (FromForce, SampledProfile)  # test_measured.py has them
+MEASURED = (FromForce, SampledProfile)
 #: what this file does not know
 NEW = [one for one in EXAMPLES.values() if not isinstance(one, (*map(type, (*SLOPES, *FACES)), *MEASURED))]
 CURVED = [*SLOPES, *(shape for shape in NEW if not shape.least_depth and shape.profile_1d(end(shape) / 2) > 0)]
