@@ -168,17 +168,8 @@ print(mdr.__version__)
 
 
 def test_import_is_light():
-    heavy = [
-        "matplotlib",
-        "tqdm",
-        "scipy.optimize",
-        "scipy.integrate",
-        "scipy.io",
-        "dask",
-        "xarray",
-        "mdr.plots",
-        "mdr.__main__",
-    ]  # numba itself brings tomllib
+    heavy = ["matplotlib", "tqdm", "scipy.optimize", "scipy.integrate", "scipy.io", "dask", "xarray"]
+    heavy += ["mdr.plots", "mdr.__main__"]  # numba itself brings tomllib
     code = f"import sys, mdr; print([name for name in {heavy!r} if name in sys.modules])"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "[]"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from catalogue import ANY, CURVED, KINKED, SHAPES, WORN, B, T, depths, end, name
 from numpy.testing import assert_allclose
+from random_records import in_units
 from scipy.integrate import quad
 
 from mdr.indenters import Cone, FlatPunch, Paraboloid, PowerLaw, Profile, RoundedPunch
@@ -82,6 +83,19 @@ def test_generic_quadrature_agrees_with_closed_forms(shape):
         assert_allclose(E_STAR * p, shape.pressure(r, d, E_STAR), rtol=MAP)
     # the area is the lesser part of d a wherever a face is flat, and counts as that in the force
     assert_allclose(Indenter.profile_area(shape, a), shape.profile_area(a), rtol=EXACT, atol=EXACT * d * a)
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e3])
+@pytest.mark.parametrize("shape", ANY, ids=name)
+def test_any_unit_of_length_will_do(shape, scale):
+    other, near = in_units(shape, scale, 1.0, 1.0), EXACT if shape in SHAPES else 1e-11  # a spline is solved for
+    d, r = np.array([2e-5, 3e-5]), np.array([[1e-5], [3e-4]])
+    assert_allclose(other.profile_3d(scale * r), scale * shape.profile_3d(r), rtol=near, atol=1e-15 * scale * 1e-5)
+    assert_allclose(other.profile_1d(scale * r), scale * shape.profile_1d(r), rtol=near, atol=1e-15 * scale * 1e-5)
+    assert_allclose(other.contact_radius(scale * d), scale * shape.contact_radius(d), rtol=near)
+    assert_allclose(other.force(scale * d, 1), scale**2 * shape.force(d, 1), rtol=near)
+    near = EXACT if shape in SHAPES else 1e-7  # of a spline it is a slope, of a force a second derivative
+    assert_allclose(other.pressure(scale * r, scale * d, 1), shape.pressure(r, d, 1), rtol=near)
 
 
 @pytest.mark.parametrize("shape", ANY, ids=name)

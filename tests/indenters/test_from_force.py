@@ -4,15 +4,7 @@ import numpy as np
 import pytest
 from catalogue import THETA, B, R
 
-from mdr.indenters import (
-    Cone,
-    FlatPunch,
-    FromForce,
-    Hyperboloid,
-    Paraboloid,
-    Sphere,
-    TruncatedCone,
-)
+import mdr
 
 E_STAR = 2e6
 GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
@@ -20,26 +12,26 @@ GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
 
 def from_force(shape, reach, n=100, **how):
     d = np.linspace(0, float(shape.profile_1d(reach)) or 1e-5, n)
-    return FromForce(d, shape.force(d, E_STAR), E_STAR, **how)
+    return mdr.FromForce(d, shape.force(d, E_STAR), E_STAR, **how)
 
 
 def worst(got, expected):
     return float(np.max(np.abs(np.asarray(got) / expected - 1)))
 
 
-BALL = FromForce(1e-6 * np.arange(40), Paraboloid(R).force(1e-6 * np.arange(40), E_STAR), E_STAR)
+BALL = mdr.FromForce(1e-6 * np.arange(40), mdr.Paraboloid(R).force(1e-6 * np.arange(40), E_STAR), E_STAR)
 
 
 @pytest.mark.parametrize(("shape", "reach", "tip", "tolerance"), [
-    (Paraboloid(R), 1e-3, "any", 1e-11),
-    (Cone(THETA), 1e-3, "any", 1e-11),
-    (FlatPunch(B), B, "any", 1e-11),
-    (Paraboloid(R), 1e-3, "round", 1e-11),
-    (Sphere(R), R / 2, "round", 1e-11),
-    (Sphere(R), R / 2, "any", 1e-3),  # below the first depth
-    (Cone(THETA), 1e-3, "sharp", 1e-11),
-    (TruncatedCone(B, THETA), 2 * B, "flat", 1e-8),
-    (Hyperboloid(1e-4, 1e-4), 2e-3, "round", 1e-5),
+    (mdr.Paraboloid(R), 1e-3, "any", 1e-11),
+    (mdr.Cone(THETA), 1e-3, "any", 1e-11),
+    (mdr.FlatPunch(B), B, "any", 1e-11),
+    (mdr.Paraboloid(R), 1e-3, "round", 1e-11),
+    (mdr.Sphere(R), R / 2, "round", 1e-11),
+    (mdr.Sphere(R), R / 2, "any", 1e-3),  # below the first depth
+    (mdr.Cone(THETA), 1e-3, "sharp", 1e-11),
+    (mdr.TruncatedCone(B, THETA), 2 * B, "flat", 1e-8),
+    (mdr.Hyperboloid(1e-4, 1e-4), 2e-3, "round", 1e-5),
 ])  # fmt: skip
 def test_the_shape_of_a_force(shape, reach, tip, tolerance):
     found = from_force(shape, reach, tip=tip)
@@ -62,15 +54,15 @@ def test_the_shape_of_a_force(shape, reach, tip, tolerance):
 def test_a_noisy_force_is_smoothed():
     rng = np.random.default_rng(2)
     d = np.linspace(0, 1e-4, 100)
-    F = np.asarray(Sphere(R).force(d, E_STAR))
+    F = np.asarray(mdr.Sphere(R).force(d, E_STAR))
     noise = 1e-3 * F[-1]
     noisy = F + np.concatenate([[0], rng.normal(0, noise, 99)])
     keep = (noisy > 3 * noise) | (d == 0)
     with pytest.raises(ValueError, match=r"F must|slope falls"):
-        FromForce(d[keep], noisy[keep], E_STAR)
-    shape = FromForce(d[keep], noisy[keep], E_STAR, smoothing=noise)
+        mdr.FromForce(d[keep], noisy[keep], E_STAR)
+    shape = mdr.FromForce(d[keep], noisy[keep], E_STAR, smoothing=noise)
     some = np.array([2e-5, 5e-5, 9e-5])
-    assert worst(shape.contact_radius(some), Sphere(R).contact_radius(some)) < 0.01  # a few tenths of a percent
+    assert worst(shape.contact_radius(some), mdr.Sphere(R).contact_radius(some)) < 0.01  # a few tenths of a percent
 
 
 @pytest.mark.parametrize(("d", "F", "how", "words"), [
@@ -82,7 +74,7 @@ def test_a_noisy_force_is_smoothed():
 ])  # fmt: skip
 def test_curves_that_no_shape_has(d, F, how, words):
     with pytest.raises(ValueError, match=words):
-        FromForce(d, F, **{"E_star": E_STAR, **how})
+        mdr.FromForce(d, F, **{"E_star": E_STAR, **how})
 
 
 def test_deeper_than_it_was_measured():

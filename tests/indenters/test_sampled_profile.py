@@ -8,16 +8,7 @@ from catalogue import THETA, B, R
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-from mdr.indenters import (
-    CappedCone,
-    CappedParaboloid,
-    Cone,
-    Paraboloid,
-    SampledProfile,
-    Sphere,
-    TruncatedCone,
-    TruncatedParaboloid,
-)
+import mdr
 from mdr.indenters.base import Indenter
 
 E_STAR = 2e6
@@ -26,7 +17,7 @@ GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
 
 def sampled(shape, n=201, reach=2e-3, **how):
     r = np.linspace(0, reach, n)
-    return SampledProfile(r, shape.profile_3d(r), **how)
+    return mdr.SampledProfile(r, shape.profile_3d(r), **how)
 
 
 def worst(got, expected):
@@ -37,7 +28,7 @@ def worst(got, expected):
 @pytest.mark.parametrize("R", [5e-12, 5e-3, 5e3])
 def test_points_of_a_sphere(n, tolerance, R):
     """As the docstring promises; near the tip too, where f ~ r², and in any unit."""
-    sphere = Sphere(R)
+    sphere = mdr.Sphere(R)
     shape = sampled(sphere, n, R / 2)
     x = R / 2 * np.geomspace(1e-9, 1, 99)
     d = sphere.profile_1d(x[:-1])
@@ -50,11 +41,11 @@ def test_points_of_a_sphere(n, tolerance, R):
 
 
 @pytest.mark.parametrize(("shape", "how"), [
-    (Cone(THETA), {"tip": "sharp"}),
-    (Paraboloid(R), {}),
-    (TruncatedCone(B, THETA), {"kinks": [B]}),
-    (CappedCone(B, THETA), {"kinks": [B]}),
-    (CappedParaboloid(2 * R, R, B), {"kinks": [B]}),
+    (mdr.Cone(THETA), {"tip": "sharp"}),
+    (mdr.Paraboloid(R), {}),
+    (mdr.TruncatedCone(B, THETA), {"kinks": [B]}),
+    (mdr.CappedCone(B, THETA), {"kinks": [B]}),
+    (mdr.CappedParaboloid(2 * R, R, B), {"kinks": [B]}),
 ], ids=lambda one: repr(one)[:20])  # fmt: skip
 def test_what_a_spline_can_be_is_exact(shape, how):
     """Polynomials between the kinks: what is left is the rounding of 200 points."""
@@ -73,7 +64,7 @@ def test_the_image_is_that_of_the_spline():
     """Whatever the spline: one through rough points, against quad over each of its pieces."""
     rng = np.random.default_rng(3)
     r = 1e-3 * np.linspace(0, 1, 30) ** 1.3
-    shape = SampledProfile(r, r**2 / 1e-2 * (1 + 1e-3 * rng.normal(size=r.size)), tip="sharp")
+    shape = mdr.SampledProfile(r, r**2 / 1e-2 * (1 + 1e-3 * rng.normal(size=r.size)), tip="sharp")
     image = shape._image
     for x in (0.3e-3, 0.9e-3):
         turns = np.arcsin(np.append(r[r < x], x) / x)
@@ -95,22 +86,22 @@ def test_the_image_is_that_of_the_spline():
 
 def test_noise_is_smoothed_or_refused():
     rng, noise = np.random.default_rng(1), 1e-7
-    f = Sphere(R).profile_3d(GRID) + rng.normal(0, noise, GRID.size)
+    f = mdr.Sphere(R).profile_3d(GRID) + rng.normal(0, noise, GRID.size)
     with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing="):
-        SampledProfile(GRID, f)
-    shape = SampledProfile(GRID, f, smoothing=noise)
+        mdr.SampledProfile(GRID, f)
+    shape = mdr.SampledProfile(GRID, f, smoothing=noise)
     residual = shape.profile_3d(GRID) - (f - f[0])
     assert np.std(residual) == pytest.approx(noise, rel=0.3)
-    assert worst(shape.force(np.array([1e-5, 1e-4]), 1), Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
+    assert worst(shape.force(np.array([1e-5, 1e-4]), 1), mdr.Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
 
 
-@pytest.mark.parametrize("shape", [TruncatedCone(B, THETA), TruncatedParaboloid(B, R)])
+@pytest.mark.parametrize("shape", [mdr.TruncatedCone(B, THETA), mdr.TruncatedParaboloid(B, R)])
 def test_a_kink_that_makes_the_spline_fall_is_found(shape):
     f = shape.profile_3d(GRID)
     with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing=") as refused:
-        SampledProfile(GRID, f)
+        mdr.SampledProfile(GRID, f)
     assert f"if its slope jumps at r = {B!r} m, where it changes most, give kinks=({B!r},); if" in str(refused.value)
-    assert SampledProfile(GRID, f, kinks=(B,)).kinks == (B,)
+    assert mdr.SampledProfile(GRID, f, kinks=(B,)).kinks == (B,)
 
 
 @pytest.mark.parametrize(("r", "f", "how", "error", "words"), [
@@ -123,11 +114,11 @@ def test_a_kink_that_makes_the_spline_fall_is_found(shape):
 ])  # fmt: skip
 def test_points_that_are_no_profile(r, f, how, error, words):
     with pytest.raises(error, match=words):
-        SampledProfile(r, f, **how)
+        mdr.SampledProfile(r, f, **how)
 
 
 def test_what_lies_beyond_the_points_is_unknown():
-    shape = sampled(Sphere(R))
+    shape = sampled(mdr.Sphere(R))
     deepest = float(shape.profile_1d(2e-3))
     assert shape.contact_radius(deepest) == pytest.approx(2e-3, rel=1e-14)
     with pytest.raises(ValueError, match=r"deeper than SampledProfile reaches.*r <= 0.002 m.*describe more of it"):
