@@ -11,7 +11,6 @@ from scipy.integrate import quad
 import mdr
 from mdr.indenters.base import Indenter
 
-E_STAR = 2e6
 GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
 
 

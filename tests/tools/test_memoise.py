@@ -7,9 +7,6 @@ import numpy as np
 import mdr
 from mdr.tools.memoise import remembered
 
-MOTION = mdr.NormalOscillation(20e-6, 5e-6, 300.0)
-RUBBER = mdr.StandardLinearSolid(E_inf=3e6, E_1=3e6, tau_1=1e-3, nu=0.5)
-
 
 def counted():
     calls = []
