@@ -1,4 +1,4 @@
-"""Chromium without a window, driven by its driver, on a page of `mdr explore`: for tests and for its times."""
+"""Chromium without a window, driven by its driver, on a page of `mdr explore`, for tests."""
 
 import importlib.util
 import json

@@ -22,7 +22,6 @@ and equality holds in slip. Over a period <e + T e'> = <e> and <N> = <s>, so a r
 - <s - e> / <s>, summed over the springs.
 """
 
-import json
 import math
 from functools import lru_cache
 from itertools import pairwise
@@ -446,12 +445,6 @@ def full_slip_critical_velocity(
     return float(best)
 
 
-def eq_15(T, k_ratio, omega_0_ratio, c_ratio=0.0):
-    """Eq. (15) in these units, with damping of the body: flat punch that never leaves the plane."""
-    mass = k_ratio / omega_0_ratio**2
-    return abs(1 + (1 + 1j * T) / (k_ratio - mass + 1j * c_ratio))
-
-
 # --- spring pull --------------------------------------------------------------------------------------------
 
 
@@ -657,38 +650,6 @@ def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *
         sparser = spring_pull_run(*case, n_nodes=n_nodes * 3 // 4, steps=steps[:-1], **knobs)[-1]
         error = error + np.abs(sparser - coarser)
     return (float(cof[0]), float(error[0])) if np.ndim(v_hat) == 0 else (cof, error)
-
-
-# --- the table ----------------------------------------------------------------------------------------------
-
-SHAPES = {"flat": math.inf, "cone": 1, "paraboloid": 2, "r4": 4}
-BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "zeta": 0.07}
-
-
-def table(depth_ratio=3.0, relaxation=(0.0, 0.3, 1.0, 3.0), shares=(0.2, 0.5, 0.8)):
-    """Converged spring-pull values, one record a shape and relaxation time, at the given shares of v_c."""
-    k, omega_0 = BODY["k_ratio"], BODY["omega_0_ratio"]
-    c = damping_for(BODY["zeta"], k, omega_0)
-    for shape, n in SHAPES.items():
-        for T in relaxation:
-            v_c = full_slip_critical_velocity(n, depth_ratio, T, k, omega_0, c)
-            cof, error = spring_pull_cof(n, depth_ratio, v_c * np.array(shares), T, k, omega_0, c)
-            yield {
-                "shape": shape,
-                "depth_ratio": depth_ratio,
-                "T": T,
-                **BODY,
-                "v_c": v_c,
-                "static_cof": static_cof(n, depth_ratio, T),
-                "v_hat": [v_c * share for share in shares],
-                "cof": cof.tolist(),
-                "error": error.tolist(),
-            }
-
-
-if __name__ == "__main__":
-    for record in table():
-        print(json.dumps(record), flush=True)
 
 
 def massless_punch(depth, v, T, k, n, n_periods=12):

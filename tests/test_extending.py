@@ -1,4 +1,4 @@
-"""A shape, a material and a depth motion from outside the package, each through the whole chain."""
+"""A shape, that of the guide, a material and a depth motion from outside the package, each through the whole chain."""
 
 import ast
 import re
@@ -15,31 +15,15 @@ from mdr import plots
 from mdr.case import motion
 from mdr.case.depth_cycle import Cycle
 from mdr.files.own_records import _OWN
-from mdr.tools.checks import finite_array, plain, positive
 
 ROOT = Path(__file__).parents[1]
 OMEGA = 300.0
 KNOBS = {"n_springs": 32, "steps_per_period": 64}
-
-
-@dataclass(frozen=True)
-class OwnShape(mdr.Indenter):
-    """A rounded bump, f(r) = h [1 - exp(-r²/b²)] up to r = b; near its tip a paraboloid of R = b²/2h."""
-
-    h: float
-    b: float
-
-    def __post_init__(self):
-        object.__setattr__(self, "h", positive("h", self.h, "height in m"))
-        object.__setattr__(self, "b", positive("b", self.b, "width in m"))
-
-    @property
-    def max_radius(self):
-        return self.b
-
-    def profile_3d(self, r):
-        r = self._within(finite_array("r", r, "m"))
-        return plain(-self.h * np.expm1(-((r / self.b) ** 2)))
+GUIDE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
+CODE = re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)
+PAGE = {"__name__": "page"}
+exec(CODE[0], PAGE)
+Bump = PAGE["Bump"]  # near its tip a paraboloid of R = b²/2h
 
 
 @dataclass(frozen=True)
@@ -90,7 +74,7 @@ KNOWN = mdr.SlidingContact(
 )
 #: a part from outside, what of the library it must agree with, and by how much
 OWN = {
-    "shape": ({"indenter": OwnShape(h=1.0, b=0.1)}, {}, 1e-3),  # u_z0/h: beyond it, the bump levels out
+    "shape": ({"indenter": Bump(h=1.0, b=0.1)}, {}, 1e-3),  # u_z0/h: beyond it, the bump levels out
     "material": (
         {"material": OwnMaterial(3e6, 0.5, 1e-3)},
         {"material": mdr.StandardLinearSolid(3e6, 1.5e6, 1e-3, 0.5)},
@@ -156,7 +140,7 @@ def test_what_cannot_be_registered_is_refused():
     class Cone(mdr.Indenter):
         profile_1d = None
 
-    for wrong in (OwnShape(1e-4, 2e-3), mdr.Indenter, mdr.RigidPull, Cone, dict):
+    for wrong in (Bump(1e-4, 2e-3), mdr.Indenter, mdr.RigidPull, Cone, dict):
         with pytest.raises(TypeError, match="record must be a dataclass"):
             mdr.register(wrong)
     with pytest.raises(ValueError, match="Cone is the name of another record"):
@@ -165,7 +149,6 @@ def test_what_cannot_be_registered_is_refused():
 
 # --- the guide ---
 
-GUIDE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
 SECTIONS = {text.partition("\n")[0]: text for text in GUIDE.split("\n## ")[1:]}
 LISTS = {"A shape": mdr.indenters, "A material": mdr.materials, "A motion": motion}
 
@@ -202,15 +185,10 @@ def test_the_guide_names_every_file_that_a_new_part_touches(section):
     assert lists <= named
 
 
-def test_every_shape_has_a_script():
-    scripts = {path.stem.replace("_", "") for path in (ROOT / "geometries").glob("*.py")}
-    assert {name.casefold() for name in mdr.indenters.__all__} - {"indenter"} <= scripts
-
-
 def test_the_worked_examples_are_typed(tmp_path):
     api = pytest.importorskip("mypy.api")
     page = tmp_path / "page.py"
-    page.write_text("\n\n".join(re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)), encoding="utf-8")
+    page.write_text("\n\n".join(CODE), encoding="utf-8")
     # options and cache of `mypy` itself: what it has read of the package need not be read again
     options = ["--strict", "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(ROOT / ".mypy_cache")]
     limit = sys.getrecursionlimit()

@@ -7,7 +7,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.case.in_plane import whole_ratio
 from mdr.normal.vary import case_at
 
 OMEGA = 300.0
@@ -54,47 +53,6 @@ def test_frequencies_in_whole_ratios_share_a_period(p, q):
     assert_allclose(x, 3e-6 * np.cos(q * OMEGA * t + 0.7), rtol=0, atol=1e-18)
 
 
-def test_frequencies_in_no_whole_ratio_are_refused_with_the_reason():
-    with pytest.raises(ValueError, match=r"whole numbers up to 16.*not periodic"):
-        contact(shake=replace(SHAKE, omega=OMEGA * np.sqrt(2)))
-    with pytest.raises(ValueError, match="whole numbers"):
-        whole_ratio(17.0, 1.0)
-
-
-def test_something_has_to_move():
-    for still in (None, replace(SHAKE, du_x=0.0)):
-        with pytest.raises(ValueError, match="nothing oscillates"):
-            contact(DEPTH, still)
-    assert contact(TAPPING, replace(SHAKE, du_x=0.0)).is_shaken is False
-
-
-@pytest.mark.parametrize(
-    ("record", "fields", "field"),
-    [
-        (mdr.InPlaneOscillation, {"omega": OMEGA, "du_y": 1e-6}, "du_y"),
-        (mdr.InPlaneMotion, {"omega": OMEGA, "y_sin": (0.0, 1e-6)}, "y_sin"),
-        (mdr.InPlaneOscillation, {"omega": OMEGA, "du_x": -1e-6}, "du_x"),
-        (mdr.InPlaneOscillation, {"omega": 0.0, "du_x": 1e-6}, "omega"),
-        (mdr.InPlaneOscillation, {"omega": OMEGA, "phi_x": np.nan}, "phi_x"),
-        (mdr.InPlaneOscillation, {"omega": OMEGA, "at": "table"}, "at"),
-        (mdr.InPlaneOscillation, {"omega": OMEGA, "at": 1}, "at"),
-        (mdr.InPlaneMotion, {"omega": OMEGA, "x_cos": 1e-6}, "x_cos"),
-        (mdr.ConstantDepth, {"u_z0": 0.0}, "u_z0"),
-        (mdr.ConstantLoad, {"F_z0": -1.0}, "F_z0"),
-    ],
-)
-def test_what_is_wrong_is_refused_by_its_name(record, fields, field):
-    with pytest.raises((ValueError, TypeError)) as refusal:
-        record(**fields)
-    assert refusal.value.field == field
-    assert field in str(refusal.value)
-
-
-def test_a_contact_takes_no_class_for_a_shake():
-    with pytest.raises(TypeError, match=r"shake must be of kind Shake.*write InPlaneOscillation"):
-        contact(shake=mdr.InPlaneOscillation)
-
-
 def test_the_tool_is_shaken_whole_and_the_pull_through_spring_and_damper():
     tool, far = (contact(pull=BODY, shake=replace(SHAKE, at=at)) for at in ("tool", "pull"))
     assert_allclose(tool.way, SHAKE.along)
@@ -133,31 +91,6 @@ def test_a_shaken_case_is_varied_at_its_paths(path):
     got = {"chi": varied.chi, "T": varied.T, "shake.du_x": varied.shake.du_x, "shake.phi_x": varied.shake.phi_x}
     assert got.get(path, 0.6) == pytest.approx(0.6, rel=1e-12)
     assert varied != case
-
-
-def test_a_path_of_a_shake_asks_for_one():
-    with pytest.raises(ValueError, match="nothing shakes in the plane"):
-        case_at(contact(shake=None), {"chi": 0.3})
-
-
-@pytest.mark.parametrize("oscillation", [TAPPING, DEPTH, mdr.ConstantLoad(F_z0=0.05)])
-@pytest.mark.parametrize(
-    "shake", [replace(SHAKE, at="pull"), mdr.InPlaneMotion(OMEGA, x_sin=(1e-6, 0.5e-6)), SHAKE], ids=str
-)
-def test_a_case_file_carries_a_shake(oscillation, shake):
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, oscillation, BODY, shake)
-    text = mdr.write_case(case)
-    assert "[shake]" in text
-    assert mdr.parse_case(text) == case
-
-
-def test_faults_of_a_shake_are_all_told():
-    text = mdr.write_case(contact()).replace("du_x = 3e-06", "du_x = -3e-06\ndux = 1")
-    with pytest.raises(mdr.CaseFileError) as refusal:
-        mdr.parse_case(text)
-    told = "\n".join(refusal.value.faults)
-    assert "[shake] du_x must not be negative" in told
-    assert "dux is no key of InPlaneOscillation; did you mean du_x" in told
 
 
 @pytest.mark.parametrize("load", [mdr.ConstantLoad(F_z0=0.05), mdr.LoadOscillation(0.05, 0.01, OMEGA)])

@@ -8,8 +8,8 @@ import pytest
 import reference
 from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
-from table_of_full_slip import BODIES as BODIES_DRAWN
-from table_of_full_slip import difference, drawn
+from random_full_slip import BODIES as BODIES_DRAWN
+from random_full_slip import difference, drawn
 
 import mdr
 from mdr.closed_forms.full_slip import full_slip

@@ -48,15 +48,6 @@ def test_a_scan_across_the_tip_is_a_profile(write, head, arguments):
     assert shape.r[-1] == 200e-6
 
 
-def test_tables_of_other_separators(write):
-    text = "\n".join(f"{x};{f};left of the tip" for x, f in zip(X, HEIGHTS, strict=True)).replace(".", ",")
-    path = write(f"r [um];f [nm];note\n{text}\n")
-    with pytest.raises(ValueError, match=r"line 2: -200,0 is no number, write -200\.0 with a decimal point"):
-        mdr.SampledProfile.read(path)
-    shape = mdr.SampledProfile.read(write(f"r [um]\tf [nm]\n{table(X, HEIGHTS)}".replace(", ", "\t")))
-    assert len(shape.r) == 21
-
-
 def test_sides_apex_and_a_tip_that_points_up(write):
     worn = np.where(X > 0, 2 * HEIGHTS, HEIGHTS)
     path = write(f"r [um], f [nm]\n{table(X + 30, 7 - worn)}\n")
@@ -76,13 +67,6 @@ def test_a_rough_profile_is_smoothed(write):
         mdr.SampledProfile.read(path)
     smooth = mdr.SampledProfile.read(path, smoothing=20e-9 / np.sqrt(2))  # the mean of two sides
     assert_allclose(smooth.contact_radius(2e-6), np.sqrt(R * 2e-6), rtol=0.02)
-
-
-def test_kinks_are_points_of_the_file(write):
-    r = np.linspace(0, 300, 31)
-    path = write(f"r [um], f [um]\n{table(r, 0.05 * np.maximum(r - 100, 0))}\n")
-    shape = mdr.SampledProfile.read(path, tip="sharp", kinks=(1e-4 * (1 + 1e-12),))
-    assert shape.kinks == (100e-6,)
 
 
 # --- force over depth ---
@@ -125,11 +109,6 @@ def test_a_material_comes_back_from_its_moduli(write):
     assert mdr.Prony.fit(*moduli, nu=0.5).misfit(*moduli) < 0.01
 
 
-def test_arms_have_units(write):
-    body = mdr.Prony.read(write("tau_j [ms], E_j [MPa]\ninf, 1\n10, 2\n"), nu=0.3)
-    assert body == mdr.Prony(1e6, [(2e6, 1e-2)], 0.3)
-
-
 # --- what is wrong ---
 
 SCAN = table(np.arange(0, 60.0, 10), np.arange(0, 60.0, 10) ** 2)
@@ -150,55 +129,32 @@ def force(path):
 FAULTS = [
     # numbers
     (friction, "v [m/s];mu\n1;0,1\n", "line 2: 0,1 is no number, write 0.1 with a decimal point (column cof)"),
-    (friction, "v [m/s];mu\n1;5,0e-2\n", "write 5.0e-2 with a decimal point"),
     (friction, "v [m/s], mu\n0,5, 0,31\n", "line 2: has 4 cells, the header 2; if a comma is the decimal mark"),
     (friction, "v [um/s];mu\n1,234;0.1\n", "write 1234 without a thousands separator or, if the comma is the decimal"),
     (friction, "v [um/s];mu\n1,234.5;0.1\n", "write 1234.5 without a thousands separator (column"),
-    (friction, "v [um/s];mu\n1 234.5;0.1\n", "write 1234.5 without a thousands separator"),
-    (friction, "v [um/s];mu\n1'234.5;0.1\n", "write 1234.5 without a thousands separator"),
     (friction, "v [um/s];mu\n1.234,5;0.1\n", "1.234,5 is no number, write 1234.5"),
     (friction, "v [m/s], mu\n0.5 mm/s, 0.1\n", "write 0.5 and the unit in the header (column v_0)"),
-    (friction, "v [m/s], mu\n1, 30 %\n", "write 30 and the unit in the header"),
     (friction, "v [m/s], mu\n1, NaN\n", "line 2: NaN is no number, leave the line out (column cof)"),
-    (friction, "v [m/s], mu\n1, inf\n", "inf is no number, leave the line out"),
     (friction, "v [m/s], mu\n1, \n", "line 2: nothing is no number, leave the line out (column cof)"),
-    (friction, "v [m/s], mu\n1, 1e999\n", "1e999 is no number"),
     (friction, "v [m/s], mu\n1, 1_000\n", "1_000 is no number"),
     (friction, "v [m/s], mu\n1, high\n", "line 2: high is no number"),
     # headers
     (friction, "", "holds no table; a header such as v_0 [mm/s], cof, and a row a measurement"),
-    (friction, "# nothing yet\n\n", "holds no table"),
     (friction, "1, 0.3\n2, 0.4\n", "line 1: numbers, where a header must be: v_0 [mm/s], cof"),
     (friction, "v [m/s], y\n1, 0.3\n", "the header names no cof: v [m/s], y; write v_0 [mm/s], cof"),
-    (friction, "v [m/s] mu\n1 0.3\n", "columns are separated by commas, semicolons or tabs"),
     (friction, "v, mu\n1, 0.3\n", "v_0 needs a unit in its header, one of m/s, cm/s, mm/s, um/s"),
     (friction, "v [km/h], mu\n1, 0.3\n", "the unit 'km/h' of v_0 is none of m/s"),
     (friction, "v [m/s], v [mm/s], mu\n1, 1, 0.3\n", "the header names v_0 twice"),
-    (profile, "r [um], f [V]\n0, 0\n", "the unit 'V' of f is none of m, cm, mm, um, µm, nm: f [um]"),
     (mdr.read_moduli, "f [Hz], E' [mPa], E'' [mPa]\n1, 3, 0.3\n", "'mPa' of storage is none of Pa, kPa, MPa, GPa"),
     (mdr.read_moduli, "f [Hz], E' [MPa]\n1, 3\n", "neither E'' nor tan delta"),
-    (mdr.read_moduli, "f [Hz], E* [MPa]\n1, 3\n", "names no storage modulus"),
-    (
-        mdr.read_moduli,
-        "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n",
-        "need Poisson's ratio, as E = 2 (1 + nu) G: give nu=",
-    ),
+    (mdr.read_moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", "need Poisson's ratio, as E = 2 (1 + nu) G"),
     # rows
     (mdr.read_moduli, "f [Hz], E' [MPa], E'' [MPa]\n1, 3, 1\n2, 3, -0.1\n", "line 3: loss must not be negative"),
-    (mdr.read_moduli, "f [Hz], E' [MPa], tan delta\n0, 3, 1\n", "line 2: frequency must be positive"),
     (profile, "r [um], f [nm]\n0, 0\n1, 1\n2, 4\n", "r must have at least 6 numbers, got 3"),
     (profile, f"r [um], f [nm]\n{SCAN}\n10.0, 90\n", "lines 3 and 8 both have r = 1e-05 m; give one, or their mean"),
-    (
-        profile,
-        f"r [um], f [nm]\n{SCAN[9:]}\n",
-        "no point at the tip, r = 0 m; the nearest is at 1e-05 m, the least height at 1e-05 m",
-    ),
+    (profile, f"r [um], f [nm]\n{SCAN[9:]}\n", "no point at the tip, r = 0 m; the nearest is at 1e-05 m"),
     (profile, "r [um], f [nm]\n" + SCAN.replace(", ", ", -"), "heights fall away from the tip; of a tip that was"),
-    (
-        force,
-        f"d [um], F [mN]\n{SCAN}\n50.0, 2400\n",
-        "line 8: d must ascend, got 5e-05 m after 5e-05 m; give the loading",
-    ),
+    (force, f"d [um], F [mN]\n{SCAN}\n50.0, 2400\n", "line 8: d must ascend, got 5e-05 m after 5e-05 m"),
     (force, "d [um], F [mN]\n" + SCAN.replace(", ", ", -"), "compression must be positive, turn the sign of F"),
     (force, "d [um], F [mN]\n1001, 1\n1002, 2\n1003, 4\n1004, 7\n1005, 11\n1006, 16\n", "far from 0; give the depth"),
     (force, f"d [um], F [mN]\n-10, 0\n{SCAN}\n", "is above the surface; give the depth of the first touch as touch="),

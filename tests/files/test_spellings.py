@@ -58,11 +58,9 @@ def test_a_load_beside_the_amplitude_of_a_depth_is_the_depth_at_which_it_rests()
 
 REFUSED = [
     ({"slope": "theta_deg = 1.5\ntheta = 0.02"}, "theta_deg and theta say the same"),
-    ({"slope": "theta_deg = -2"}, "theta_deg must be positive, got -2"),
     ({"slope": "theta_deg = 100"}, "theta must lie between 0 and 1.5708"),
     ({"slope": ""}, "theta is missing; or give theta_deg"),
     ({"shape": "Paraboloid", "slope": "theta_deg = 2"}, "theta_deg is no key of Paraboloid"),
-    ({"loss": "tan_delta = true"}, "tan_delta must be"),
     (
         {"model": "Prony", "loss": "E_inf = 1e6\narms = [[2e6, 1e-3]]\ntan_delta = 0.2"},
         'of model = "KelvinVoigt" alone',
@@ -73,11 +71,7 @@ REFUSED = [
     ({"loss": ""}, "tau is missing; or give tan_delta"),
     ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "omega is missing; or give frequency"),
     ({"motion": "f = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "f is no key of NormalOscillation; did you mean frequency"),
-    ({"motion": "frequenzy = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "did you mean frequency"),
-    ({"motion": "frequency = '50 Hz'\nu_z0 = 2e-5\ndu_z = 2e-6"}, "frequency must be"),
-    ({"motion": "frequency = 50\nload = 0\ndu_z = 2e-6"}, "load must be positive"),
     ({"motion": "frequency = 50\nload = 1\nu_z0 = 1e-5\ndu_z = 2e-6"}, "load and u_z0 say the same"),
-    ({"motion": "frequency = 50\nu_z0 = 1e-5\ndu_z = 2e-6\nomega = 3"}, "frequency and omega say the same"),
 ]
 
 

@@ -44,12 +44,6 @@ RECORDS = [one for name in mdr.__all__ if is_dataclass(one := getattr(mdr, name)
 WITH_EXAMPLES = [name for name in mdr.__all__ if inspect.isfunction(getattr(mdr, name))]
 
 
-def test_there_is_something_to_ask():
-    assert {"slide", "sweep", "Indenter.force", "Material.creep_compliance", "Motion.u_z", "Prony.fit"} <= set(
-        FUNCTIONS
-    )
-
-
 def faults(function):
     """What a docstring lacks."""
     found = []
@@ -70,23 +64,6 @@ def faults(function):
 @pytest.mark.parametrize("path", FUNCTIONS)
 def test_sections_name_the_arguments(path):
     assert not faults(FUNCTIONS[path])
-
-
-def test_a_docstring_without_sections_is_refused():
-    def bare(v_0: "float") -> "float":
-        """Velocity."""
-
-    def other(v_0: "float") -> "float":
-        """Velocity.
-
-        Parameters
-        ----------
-        v : float
-            Velocity [m/s].
-        """
-
-    assert len(faults(bare)) == 2
-    assert len(faults(other)) == 2
 
 
 def test_every_name_of_the_reference_has_an_example():

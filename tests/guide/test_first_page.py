@@ -33,16 +33,6 @@ def test_the_picture_is_drawn_as_it_stands(drawn, tmp_path):
     assert "docs/picture.png" in README
 
 
-def test_no_label_of_the_picture_meets_another(drawn):
-    drawn.canvas.draw()
-    boxes = []
-    for ax in drawn.axes:
-        texts = [*ax.texts, ax.title, ax.xaxis.label, ax.yaxis.label, *ax.get_xticklabels(), *ax.get_yticklabels()]
-        boxes += [(text.get_text(), text.get_window_extent()) for text in texts if text.get_text()]
-    for n, (one, box) in enumerate(boxes):
-        assert not [other for other, second in boxes[n + 1 :] if box.overlaps(second)], one
-
-
 def test_it_is_read_in_some_minutes():
     assert len(prose(README).split()) <= 950
 

@@ -1,7 +1,6 @@
 """The student's notebook: stored without outputs, and its cells run from top to bottom, without Jupyter."""
 
 import json
-import re
 from pathlib import Path
 
 import matplotlib as mpl
@@ -38,23 +37,11 @@ def _show(shown, cell):
     plt.close("all")
 
 
-def test_it_is_a_notebook_of_format_4_without_outputs():
+def test_it_is_stored_without_outputs():
     assert (NOTEBOOK["nbformat"], NOTEBOOK["nbformat_minor"]) == (4, 5)
-    assert NOTEBOOK["metadata"] == {
-        "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
-        "language_info": {"name": "python"},
-    }
-    for cell in NOTEBOOK["cells"]:
-        code = {"execution_count", "outputs"} if cell["cell_type"] == "code" else set()
-        assert set(cell) == {"cell_type", "id", "metadata", "source"} | code
-        assert cell["cell_type"] in ("code", "markdown")
-        assert cell["metadata"] == {}
-        assert all(isinstance(line, str) for line in cell["source"])
-        if code:
-            assert (cell["execution_count"], cell["outputs"]) == (None, [])
-    ids = [cell["id"] for cell in NOTEBOOK["cells"]]
-    assert len(set(ids)) == len(ids)
-    assert all(re.fullmatch(r"[a-zA-Z0-9_-]{1,64}", one) for one in ids)
+    code = [cell for cell in NOTEBOOK["cells"] if cell["cell_type"] == "code"]
+    assert all((cell["execution_count"], cell["outputs"]) == (None, []) for cell in code)
+    assert len(CODE) == len(code)
 
 
 def test_its_cells_run_and_show_their_figures(session):

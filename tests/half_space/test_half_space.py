@@ -11,7 +11,6 @@ import mdr
 from mdr.half_space.friction import Settings, contact_of, in_three_dimensions, last_period, stuck
 from mdr.half_space.influence import HalfSpace, X, Y, Z
 from mdr.half_space.normal import NotConverged, pressure
-from mdr.half_space.steps import Contact
 from mdr.half_space.tangential import traction
 from validation.half_space.springs import of_springs
 
@@ -170,10 +169,3 @@ def test_a_step_that_does_not_converge_stops_the_run():
             lambda q: BODY.displacement(q, (X, Y), (X, Y)),
             np.ones((2, 6, 6)), np.ones((6, 6)), np.zeros((2, 6, 6)), 0, most=1,
         )  # fmt: skip
-
-
-def test_a_contact_is_what_its_parts_are():
-    contact = contact_of(BALL, COARSE)
-    assert isinstance(contact, Contact)
-    assert contact.half_space.beta == 0  # incompressible
-    assert contact.shape.shape == (25, 25)

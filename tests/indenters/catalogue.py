@@ -4,25 +4,8 @@ import math
 
 import numpy as np
 
+import mdr
 from mdr.files.examples import SHAPES as EXAMPLES
-from mdr.indenters import (
-    CappedCone,
-    CappedParaboloid,
-    ConcavePunch,
-    Cone,
-    ConstantPressure,
-    Ellipsoid,
-    FlatPunch,
-    FromForce,
-    Hyperboloid,
-    Paraboloid,
-    PowerLaw,
-    RoundedPunch,
-    SampledProfile,
-    Sphere,
-    TruncatedCone,
-    TruncatedParaboloid,
-)
 
 B, R, THETA = 1e-3, 5e-3, 0.05
 T = math.tan(THETA)
@@ -44,22 +27,22 @@ def elliptic_slope(u):
 
 #: f' at r = a cos t, outside the kink where there is one, and inside it
 SLOPES = {
-    Cone(THETA): (lambda a, t: T + 0 * t, None),
-    Paraboloid(R): (lambda a, t: a * np.cos(t) / R, None),
-    PowerLaw(1.5, 2.0): (lambda a, t: 3 * np.sqrt(a * np.cos(t)), None),
-    PowerLaw(4, 1e6): (lambda a, t: 4e6 * (a * np.cos(t)) ** 3, None),
-    Sphere(R): (lambda a, t: a * np.cos(t) / np.sqrt((R - a * np.cos(t)) * (R + a * np.cos(t))), None),
-    Ellipsoid(2 * R, 1 / R): (
+    mdr.Cone(THETA): (lambda a, t: T + 0 * t, None),
+    mdr.Paraboloid(R): (lambda a, t: a * np.cos(t) / R, None),
+    mdr.PowerLaw(1.5, 2.0): (lambda a, t: 3 * np.sqrt(a * np.cos(t)), None),
+    mdr.PowerLaw(4, 1e6): (lambda a, t: 4e6 * (a * np.cos(t)) ** 3, None),
+    mdr.Sphere(R): (lambda a, t: a * np.cos(t) / np.sqrt((R - a * np.cos(t)) * (R + a * np.cos(t))), None),
+    mdr.Ellipsoid(2 * R, 1 / R): (
         lambda a, t: 2 * a * np.cos(t) / np.sqrt((R - a * np.cos(t)) * (R + a * np.cos(t))),
         None,
     ),
-    Hyperboloid(1e-3, 2e-3): (lambda a, t: a * np.cos(t) / 4e-3 / np.hypot(1, a * np.cos(t) / 2e-3), None),
-    ConstantPressure(A_0, D_0): (lambda a, t: D_0 / A_0 * elliptic_slope(a * np.cos(t) / A_0), None),
-    TruncatedCone(B, THETA): (lambda a, t: T + 0 * t, lambda a, t: 0 * t),
-    TruncatedParaboloid(B, R): (lambda a, t: a * np.cos(t) / R, lambda a, t: 0 * t),
-    RoundedPunch(B, R): (lambda a, t: beyond(a, B, t) / R, lambda a, t: 0 * t),
-    CappedCone(B, THETA): (lambda a, t: T + 0 * t, lambda a, t: a * np.cos(t) / B * T),
-    CappedParaboloid(8e-3, R, B): (lambda a, t: a * np.cos(t) / R, lambda a, t: a * np.cos(t) / 8e-3),
+    mdr.Hyperboloid(1e-3, 2e-3): (lambda a, t: a * np.cos(t) / 4e-3 / np.hypot(1, a * np.cos(t) / 2e-3), None),
+    mdr.ConstantPressure(A_0, D_0): (lambda a, t: D_0 / A_0 * elliptic_slope(a * np.cos(t) / A_0), None),
+    mdr.TruncatedCone(B, THETA): (lambda a, t: T + 0 * t, lambda a, t: 0 * t),
+    mdr.TruncatedParaboloid(B, R): (lambda a, t: a * np.cos(t) / R, lambda a, t: 0 * t),
+    mdr.RoundedPunch(B, R): (lambda a, t: beyond(a, B, t) / R, lambda a, t: 0 * t),
+    mdr.CappedCone(B, THETA): (lambda a, t: T + 0 * t, lambda a, t: a * np.cos(t) / B * T),
+    mdr.CappedParaboloid(8e-3, R, B): (lambda a, t: a * np.cos(t) / R, lambda a, t: a * np.cos(t) / 8e-3),
 }
 
 
@@ -70,12 +53,13 @@ def end(shape):
 
 KINKED = [shape for shape in SLOPES if shape.kinks]
 WORN = [shape for shape in KINKED if shape.profile_1d(B) == 0]  # with a flat face
-FACES = [FlatPunch(2e-3), ConcavePunch(2e-3, 1.0)]
-MEASURED = (FromForce, SampledProfile)  # test_measured.py has them
+FACES = [mdr.FlatPunch(2e-3), mdr.ConcavePunch(2e-3, 1.0)]
+MEASURED = (mdr.FromForce, mdr.SampledProfile)
 #: what this file does not know
 NEW = [one for one in EXAMPLES.values() if not isinstance(one, (*map(type, (*SLOPES, *FACES)), *MEASURED))]
 CURVED = [*SLOPES, *(shape for shape in NEW if not shape.least_depth and shape.profile_1d(end(shape) / 2) > 0)]
 SHAPES = [*FACES, *SLOPES, *NEW]
+ANY = [*SHAPES, *(one for one in EXAMPLES.values() if isinstance(one, MEASURED))]
 
 
 def name(shape):

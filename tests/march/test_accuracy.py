@@ -1,13 +1,10 @@
-"""slide() with default knobs meets its budget, 1e-5 of cof/mu_0, and its own bound; truth is the independent twin.
-
-Every family in full: `python tests/table_of_accuracy.py`.
-"""
+"""slide() with default knobs meets its budget, 1e-5 of cof/mu_0, and its own bound; truth is the independent twin."""
 
 import numpy as np
 import pytest
 import reference
+from beside_the_twin import BODIES, rigid_elastic, rigid_kelvin, spring_pull, summary
 from conftest import SHAPES, contact, unit_of_velocity
-from table_of_accuracy import BODIES, rigid_elastic, rigid_kelvin, spring_pull, summary
 
 import mdr
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+import random_velocities as velocities
 import table_of_theorems as table
-import table_of_velocities as velocities
 from numpy.testing import assert_array_equal
 
 from mdr.march.theorems import disordered, outside

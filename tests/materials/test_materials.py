@@ -1,7 +1,6 @@
 """Moduli, their ratio, the response to a frequency, and what a material refuses."""
 
 import math
-import re
 
 import numpy as np
 import pytest
@@ -28,13 +27,6 @@ def test_contact_moduli_of_one_body(kind, nu):
     assert_allclose(material.mindlin_ratio, material.E_star / material.G_star, rtol=EXACT)
     assert_allclose(material.mindlin_ratio, (2 - nu) / (2 * (1 - nu)), rtol=EXACT)
     assert_allclose(material.dundurs_beta, (1 - 2 * nu) / (2 * (1 - nu)), rtol=EXACT)
-
-
-def test_rubber():
-    rubber = mdr.Elastic(E=3e6, nu=0.5)
-    assert rubber.mindlin_ratio == 1.5
-    assert rubber.dundurs_beta == 0
-    assert_allclose(rubber.E_star, 4e6, rtol=EXACT)
 
 
 @pytest.mark.parametrize("nu", RATIOS)
@@ -89,46 +81,6 @@ def test_dynamic_modulus(material):
     assert type(material.dynamic_modulus(50.0)) is complex
     assert type(material.loss_tangent(50.0)) is float
     assert material.dynamic_modulus(0.0) == material.E_star
-    for bad in (math.nan, [1.0, math.inf]):
-        with pytest.raises(ValueError, match="omega must be finite"):
-            material.dynamic_modulus(bad)
-
-
-def test_zero_tau_is_elastic():
-    elastic, kelvin = mdr.Elastic(3e6, 0.3), mdr.KelvinVoigt(3e6, 0.3, 0)
-    assert elastic.tau == kelvin.tau == 0
-    assert elastic.E_star == kelvin.E_star
-
-
-BAD = [
-    (lambda: mdr.Elastic(E=0, nu=0.3), ValueError, "E must be positive, got 0.0 (Young's modulus in Pa)"),
-    (lambda: mdr.Elastic(E=1e6, nu=0.51), ValueError, "nu must lie in -1 < nu <= 0.5"),
-    (lambda: mdr.Elastic(E=1e6, nu=-1), ValueError, "nu must lie in -1 < nu <= 0.5"),
-    (lambda: mdr.Elastic(E=1e6, nu=math.nan), ValueError, "nu must be a finite number"),
-    (lambda: mdr.Elastic(E="soft", nu=0.3), TypeError, "E must be a real number, got 'soft' (str)"),
-    (lambda: mdr.KelvinVoigt(E=1e6, nu=0.3, tau=-1e-3), ValueError, "tau must not be negative"),
-    (lambda: mdr.KelvinVoigt(E=1e6, nu=0.3, tau=math.inf), ValueError, "tau must be a finite number"),
-    (lambda: mdr.KelvinVoigt.from_shear(G=-1, eta=1, nu=0.3), ValueError, "G must be positive"),
-    (lambda: mdr.KelvinVoigt.from_shear(G=1, eta=-1, nu=0.3), ValueError, "eta must not be negative"),
-    (
-        lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=-1, omega=1),
-        ValueError,
-        "tan_delta must not be negative",
-    ),
-    (
-        lambda: mdr.KelvinVoigt.from_loss_tangent(E=1e6, nu=0.3, tan_delta=1, omega=0),
-        ValueError,
-        "omega must be positive",
-    ),
-    (lambda: mdr.ElasticPair(1e6, 0.3, -1, 0.3), ValueError, "E_2 must be positive"),
-    (lambda: mdr.ElasticPair(1e6, 0.3, 1e6, 0.6), ValueError, "nu_2 must lie in"),
-]
-
-
-@pytest.mark.parametrize(("make", "kind", "message"), BAD, ids=[message for *_, message in BAD])
-def test_bad_input_stops_at_construction(make, kind, message):
-    with pytest.raises(kind, match=re.escape(message)):
-        make()
 
 
 # --- memory ---
@@ -208,20 +160,11 @@ def test_tables_of_arms(tmp_path):
     text = '[material]\nmodel = "Prony"\nE_inf = 1e6\narms = [[2e6, 0.01], [3e6, 1.0]]\nnu = 0.3\n'
     case.write_text(text, encoding="utf-8")
     assert mdr.Prony.read(case) == body
-    for text, words in (
-        ("tau,E\n1,2\n", "the header names no E_j: tau, E"),
-        ("E_j,tau_j\n1e6,soft\n", "line 2: soft is no number"),
-        ("E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
-        ("E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
-    ):
-        table.write_text(text, encoding="utf-8")
-        with pytest.raises(ValueError, match=words):
-            mdr.Prony.read(table, nu=0.3)
     for content, words in (
+        (b"tau,E\n1,2\n", "the header names no E_j: tau, E"),
+        (b"E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
+        (b"E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
         (b"E_j,tau_j\n1e6,\xff\n", "line 2 is not UTF-8"),
-        (b"E_j,tau_j\ninf,1\n", "line 2: inf is no number"),
-        (b"E_j,tau_j\n1e6," + b"1" * 140_000, "line 2: field larger"),
-        (b"E_j,\x1btau\n1,1\n", "names no tau_j: E_j, tau"),
     ):
         table.write_bytes(content)
         with pytest.raises(ValueError, match=rf"arms\.csv: .*{words}"):
@@ -229,23 +172,16 @@ def test_tables_of_arms(tmp_path):
     for text, words in (
         ("material = 3\n", "must be a table"),
         ("E_inf = 1.0\narms = 3\nnu = 0.3\n", r"arms\.toml: arms must be a sequence"),
-        ("E_inf = inf\narms = [[1.0, 1.0]]\nnu = 0.3\n", r"arms\.toml: E_inf must be a finite number"),
-        ("E_inf = 1.0\narms = [[1.0, 1.0]]\nnu = 0.7\n", r"arms\.toml: nu must lie in"),
-        ("arms = " + "[" * 3000, r"arms\.toml: nested too deeply"),
         ("E_inf = 1.0\n", "arms is missing"),
-        ("E_inf = = 1.0\n", r"arms\.toml: "),
         ('model = "Elastic"\n', 'model "Elastic" is not Prony'),
         ("E_inf = 1.0\nE_o = 2.0\n", "E_o is no key of Prony; there are E_inf, arms, nu, tau"),
     ):
         case.write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=words):
             mdr.Prony.read(case)
-
-
-def test_the_ratio_given_beside_a_table_is_the_one_taken(tmp_path):
-    table = tmp_path / "arms.toml"
-    table.write_text("E_inf = 1e6\narms = [[2e6, 0.01]]\nnu = 0.3\n", encoding="utf-8")
-    assert mdr.Prony.read(table, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)
+    text = "E_inf = 1e6\narms = [[2e6, 0.01]]\nnu = 0.3\n"
+    case.write_text(text, encoding="utf-8")
+    assert mdr.Prony.read(case, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)  # the ratio beside a table is taken
 
 
 def test_as_many_arms_as_asked_for():
@@ -255,18 +191,6 @@ def test_as_many_arms_as_asked_for():
         found = mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=n_arms)
         assert len(found.arms) == n_arms
     assert_allclose(mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=1).arms[0][1], 1e-2, rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("storage", "loss", "words"),
-    [
-        ([1.0, 2.0, 3.0], [0.1, -0.2, 0.1], "loss must not be negative, got -0.2 Pa"),
-        ([1.0, 2.0], [0.1, 0.2, 0.1], r"lists of one length, got shapes \(3,\), \(2,\), \(3,\)"),
-    ],
-)
-def test_moduli_of_no_passive_body_are_refused(storage, loss, words):
-    with pytest.raises(ValueError, match=words):
-        mdr.Prony.fit([1.0, 10.0, 100.0], storage, loss, nu=0.3)
 
 
 def test_a_power_law_beyond_the_arms_says_how_near_it_comes(monkeypatch):

@@ -79,26 +79,3 @@ def test_a_long_march_says_how_many_periods_are_done(capsys, monkeypatch):
     assert capsys.readouterr().err.startswith("slide: 4 of 11 periods, about ")  # the last is looked at
     mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64)
     assert re.search("^slide, waiting for a steady state: [0-9]+ periods so far$", capsys.readouterr().err, re.M)
-
-
-def test_a_run_that_is_refined_says_what_for_and_how_far(capsys, monkeypatch):
-    """Each of its marches ends within the time before the first word."""
-    motion = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, motion)
-    now = iter(range(10**6))
-    monkeypatch.setattr(module.time, "monotonic", lambda: 0.7 * next(now))
-    mdr.slide(case, 1e-4)
-    said = capsys.readouterr().err
-    assert re.search(
-        "^slide, refined for an error of 1e-05 mu_0, [0-9]+ springs and [0-9]+ steps last: [0-9]+ runs so far$",
-        said,
-        re.M,
-    )
-
-
-def test_a_curve_says_how_many_velocities_there_are(capsys, monkeypatch):
-    monkeypatch.setattr(module, "PATIENCE", -1.0)
-    motion = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
-    case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, motion)
-    mdr.cof_curve(case, [1e-4, 2e-4], method="march", n_springs=32, steps_per_period=64)
-    assert "COF curve: 1 of 2 velocities, about " in capsys.readouterr().err

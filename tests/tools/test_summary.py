@@ -64,14 +64,6 @@ def test_a_run_says_how_it_ended():
     assert "64 instants" in text
 
 
-def test_a_curve_names_the_reasons_of_what_did_not_settle_once():
-    curve = mdr.cof_curve(CASE, V_0 * np.arange(4))
-    loose = replace(curve, settled=np.array([True, False, False, True]), why=("", "it drifts", "it drifts", "a note"))
-    assert "settled    2 of 4" in str(loose)
-    assert str(loose).count("it drifts") == 1
-    assert "a note" not in str(loose)
-
-
 def test_a_case_names_its_parts_with_units_and_reads_back_from_its_repr():
     load = mdr.LoadOscillation(F_z0=0.05, dF_z=0.01, omega=100 * np.pi)
     shake = mdr.InPlaneOscillation(omega=100 * np.pi, du_x=1e-6)
@@ -83,14 +75,6 @@ def test_a_case_names_its_parts_with_units_and_reads_back_from_its_repr():
     assert "a = 0.000" in str(mdr.resolved(case))
     assert "F_z0 = 0.05 N" in str(mdr.resolved(case))
     assert eval(repr(case), vars(mdr)) == case
-
-
-def test_a_case_of_a_users_own_shape_prints_without_addresses():
-    measured = mdr.SampledProfile(np.linspace(0, 1e-3, 30), 100 * np.linspace(0, 1e-3, 30) ** 2)
-    for shape in (mdr.Profile(lambda r: 100 * r**2), measured):
-        text = str(replace(CASE, indenter=shape, oscillation=mdr.NormalOscillation(20e-6, 2e-6, 300.0)))
-        assert "0x" not in text
-        assert len(text) < 1000
 
 
 def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
@@ -105,12 +89,6 @@ def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
     nothing = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
     assert "bracket" not in str(nothing)
     assert "none" in str(nothing)
-
-
-def test_what_has_a_sentence_shows_it_in_notebooks():
-    study = mdr.sweep(CASE, {"v_0": [V_0]}, quantities=("v_c", "cof"))
-    assert study._repr_html_().count("\n") == str(study).count("\n")
-    assert "Study of 1 points" in study._repr_html_()
 
 
 def test_numbers_are_cut_to_what_is_known():

@@ -1,7 +1,6 @@
 """Numbers in prose are those of the record, the record is that of the claims, and a stale number is seen."""
 
 import json
-import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -31,11 +30,6 @@ def test_the_record_is_of_all_claims_and_all_checks_held():
     for claim in record["claims"]:
         assert len(claim["verdict"]) <= 100
         assert len(claim["sentence"]) <= 200, "a row of a table is read at a glance"
-
-
-def test_every_group_of_claims_has_one_table():
-    page = (RECORD.parent / "claims.md").read_text(encoding="utf-8")
-    assert re.findall(r"<!--= verdicts :: (.*?) -->", page) == list(GROUPS)
 
 
 def test_a_verdict_that_is_not_quoted_is_named():
@@ -80,14 +74,6 @@ def test_a_mark_that_names_no_check_or_several_is_refused(mark):
 def test_the_table_counts_what_held_and_escapes_what_would_break_it():
     row = verdict_table(SAMPLE, ["one"]).splitlines()[2]
     assert row == r"| one | holds if E\* \| F | As <i>v</i><sub>c</sub><sup>2</sup>. | 2 of 3 |"
-
-
-def test_a_table_has_the_claims_of_its_group_in_their_order(monkeypatch):
-    monkeypatch.setitem(GROUPS, "Two of three", ("", ("c", "a_b")))
-    record = {"claims": [SAMPLE["claims"][0] | {"name": name} for name in ("one", "a_b", "c")], "checks": CHECKS}
-    text = written.written("<!--= verdicts :: Two of three -->\nbefore\n<!--= end -->\n", record)
-    assert [line.split(" | ")[0] for line in text.splitlines()[3:5]] == ["| c", "| a b"]
-    assert "before" not in text
 
 
 def test_a_table_of_no_group_or_of_claims_that_the_record_lacks_is_refused():

@@ -20,10 +20,6 @@ def rows():
     return tables.compute([POINTS], SETTINGS)
 
 
-def test_a_column_goes_from_fast_to_slow(rows):
-    assert [row.point.v for row in rows] == [1.5, 0.5]
-
-
 def test_a_row_is_what_a_run_by_itself_gives(rows):
     for row in rows:
         case = row.point.case

@@ -3,35 +3,24 @@
 import math
 import pickle
 import warnings
-from itertools import pairwise
 
 import numpy as np
 import pytest
-from catalogue import CURVED, KINKED, SHAPES, WORN, B, T, depths, end, name
+from catalogue import ANY, CURVED, KINKED, SHAPES, WORN, B, T, depths, end, name
 from numpy.testing import assert_allclose
+from random_records import in_units
 from scipy.integrate import quad
 
-import mdr.indenters as shapes
 from mdr.indenters import Cone, FlatPunch, Paraboloid, PowerLaw, Profile, RoundedPunch
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.abel import pressure_from_f
 
-MAPPED = [
-    (Profile(lambda r: r * T), Cone(0.05)),
-    (Profile(lambda r: r**2 / 1e-2), Paraboloid(5e-3)),
-    (Profile(lambda r: 2 * r**1.5), PowerLaw(1.5, 2.0)),
-    (Profile(lambda r: 1e6 * r**4), PowerLaw(4, 1e6)),
-]
 E_STAR = 2e6
 EXACT, MAP = 1e-12, 1e-9  # the accuracy promised for closed forms and for mapped profiles
 
 
 def parabola(r):
     return r**2 / 1e-2
-
-
-def truncated(r):
-    return np.maximum(r - B, 0) * T
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -42,23 +31,6 @@ def test_the_depth_about_is_of_the_size_of_the_depth(shape):
 
 def discs(a):
     return np.array([0.05, 0.3, 0.7, 0.99]) * a
-
-
-@pytest.mark.parametrize("shape", CURVED, ids=name)
-def test_g_is_the_quadrature_of_f(shape):
-    x = 1.3e-3
-
-    def slope(r):
-        h = 1e-4 * min([r, *[abs(r - b) / 3 for b in shape.kinks]])
-        return float(
-            8 * (shape.profile_3d(r + h) - shape.profile_3d(r - h))
-            - (shape.profile_3d(r + 2 * h) - shape.profile_3d(r - 2 * h))
-        ) / (12 * h)
-
-    ends = pairwise([1e-9, *[math.asin(b / x) for b in shape.kinks], math.pi / 2])
-    g = x * sum(quad(lambda t: slope(x * math.sin(t)), *two, epsabs=1e-12, epsrel=1e-11)[0] for two in ends)
-    # fourth-order differences, h = 1e-4 r, leave 1e-12 of rounding, 1e-9 next to a kink; the start cut off is the rest
-    assert_allclose(shape.profile_1d(x), g, rtol=2e-9 if not shape.kinks else 2e-8)
 
 
 @pytest.mark.parametrize("n", [1.0, 2.5, 300.0, 1000.0])
@@ -91,37 +63,12 @@ def test_depth_is_g_of_the_radius(shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_force_is_the_work_of_the_springs(shape):
-    d = 2e-5
-    a = float(shape.contact_radius(d))
-    pieces = pairwise([0, *[b for b in shape.kinks if b < a], a])
-    work = sum(quad(lambda x: d - float(shape.profile_1d(x)), *two, epsabs=0, epsrel=1e-12)[0] for two in pieces)
-    assert_allclose(shape.force(d, E_STAR), 2 * E_STAR * work, rtol=1e-11)
-
-
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_stiffness_is_the_slope_of_the_force_and_the_force_convex(shape):
     d, h = depths(shape, 1e-9, 9e-5, 9), 1e-4
     slope = (shape.force(d * (1 + h), E_STAR) - shape.force(d * (1 - h), E_STAR)) / (2 * h * d)
     assert_allclose(shape.stiffness(d, E_STAR), slope, rtol=1e-7)  # h**2 / 6 times a power below 3
     F = shape.force(np.linspace(shape.least_depth, d[-1], 50), E_STAR)
     assert np.all(np.diff(F, 2) >= -1e-12 * F[-1])
-
-
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_pressure_carries_the_force(shape):
-    d = 2e-5
-    a = float(shape.contact_radius(d))
-
-    def ring(t):  # r = a sin t: a root at the edge is smooth in t
-        r = a * math.sin(t)
-        return 2 * math.pi * r * float(shape.pressure(r, d, E_STAR)) * a * math.cos(t)
-
-    ends = pairwise([0, *[math.asin(b / a) for b in shape.kinks if b < a], math.pi / 2])
-    F = sum(quad(ring, *two, epsabs=0, epsrel=1e-10, limit=200)[0] for two in ends)
-    assert_allclose(F, shape.force(d, E_STAR), rtol=1e-9)
-    assert np.all(shape.pressure(a * np.array([1, 1.1, 50]), d, E_STAR) == 0)
-    assert np.all(np.isfinite(shape.pressure(np.array([0, 1e-300]), d, E_STAR)))
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -138,7 +85,20 @@ def test_generic_quadrature_agrees_with_closed_forms(shape):
     assert_allclose(Indenter.profile_area(shape, a), shape.profile_area(a), rtol=EXACT, atol=EXACT * d * a)
 
 
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
+@pytest.mark.parametrize("scale", [1e-9, 1e3])
+@pytest.mark.parametrize("shape", ANY, ids=name)
+def test_any_unit_of_length_will_do(shape, scale):
+    other, near = in_units(shape, scale, 1.0, 1.0), EXACT if shape in SHAPES else 1e-11  # a spline is solved for
+    d, r = np.array([2e-5, 3e-5]), np.array([[1e-5], [3e-4]])
+    assert_allclose(other.profile_3d(scale * r), scale * shape.profile_3d(r), rtol=near, atol=1e-15 * scale * 1e-5)
+    assert_allclose(other.profile_1d(scale * r), scale * shape.profile_1d(r), rtol=near, atol=1e-15 * scale * 1e-5)
+    assert_allclose(other.contact_radius(scale * d), scale * shape.contact_radius(d), rtol=near)
+    assert_allclose(other.force(scale * d, 1), scale**2 * shape.force(d, 1), rtol=near)
+    near = EXACT if shape in SHAPES else 1e-7  # of a spline it is a slope, of a force a second derivative
+    assert_allclose(other.pressure(scale * r, scale * d, 1), shape.pressure(r, d, 1), rtol=near)
+
+
+@pytest.mark.parametrize("shape", ANY, ids=name)
 def test_arrays_floats_and_mirror_images(shape):
     x, d = np.array([[1e-4], [5e-4]]), np.array([1e-5, 2e-5, 3e-5])
     assert np.array_equal(shape.profile_1d(-x), shape.profile_1d(x))
@@ -149,31 +109,6 @@ def test_arrays_floats_and_mirror_images(shape):
     assert isinstance(shape.contact_radius(1e-5), float)
     if shape.least_depth == 0:
         assert shape.force(1e-300, 1.0) >= 0
-
-
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_records_compare_hash_and_pickle(shape):
-    twin = pickle.loads(pickle.dumps(shape))
-    assert twin == shape
-    assert hash(twin) == hash(shape)
-    assert len({*SHAPES, *[pickle.loads(pickle.dumps(s)) for s in SHAPES]}) == len(SHAPES)
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_nothing_that_is_not_finite_gets_in(shape, bad):
-    for ask in (shape.profile_3d, shape.profile_1d, shape.contact_radius, lambda d: shape.force(d, E_STAR)):
-        with pytest.raises(ValueError, match="finite"):
-            ask([1e-3, bad])
-
-
-@pytest.mark.parametrize("scale", [1e-9, 1e3])
-def test_no_length_is_special(scale):
-    small, large = Paraboloid(1.0), Paraboloid(scale)
-    d, r = 1e-2, np.array([0, 0.05])
-    assert_allclose(large.contact_radius(scale * d), scale * small.contact_radius(d), rtol=EXACT)
-    assert_allclose(large.force(scale * d, 1), scale**2 * small.force(d, 1), rtol=EXACT)
-    assert_allclose(large.pressure(scale * r, scale * d, 1), small.pressure(r, d, 1), rtol=EXACT)
 
 
 def test_textbook_forces_and_pressures():
@@ -193,17 +128,7 @@ def test_textbook_forces_and_pressures():
     )
 
 
-@pytest.mark.parametrize(("mapped", "closed"), MAPPED, ids=lambda s: name(s))
-def test_a_mapped_profile_is_its_closed_form(mapped, closed):
-    x, d = np.geomspace(1e-12, 1e3, 40), np.geomspace(1e-9, 1e-1, 12)
-    assert_allclose(mapped.profile_1d(x), closed.profile_1d(x), rtol=MAP)
-    assert_allclose(mapped.contact_radius(d), closed.contact_radius(d), rtol=MAP)
-    assert_allclose(mapped.force(d, E_STAR), closed.force(d, E_STAR), rtol=MAP)
-    r = discs(float(closed.contact_radius(1e-5)))
-    assert_allclose(mapped.pressure(r, 1e-5, E_STAR), closed.pressure(r, 1e-5, E_STAR), rtol=MAP)
-
-
-@pytest.mark.parametrize("shape", [shape for shape in CURVED if not isinstance(shape, PowerLaw)], ids=name)
+@pytest.mark.parametrize("shape", CURVED, ids=name)
 def test_a_function_with_its_kinks_named_is_the_closed_form(shape):
     mapped = Profile(shape.profile_3d, kinks=shape.kinks, r_max=None if shape.max_radius == np.inf else end(shape))
     x, d = np.geomspace(1e-9, min(20 * B, end(shape)), 60), depths(shape, 1e-9, 1.1e-4, 12)
@@ -229,30 +154,12 @@ def test_a_kink_left_out_is_warned_of(shape):
     assert abs(a / shape.contact_radius(d) - 1) < 0.1  # a poor answer, not a wild one
 
 
-def test_an_unnamed_kink_is_warned_of():
-    with pytest.warns(UserWarning, match="kinks"):
-        Profile(truncated).contact_radius(1e-4)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        Profile(truncated, kinks=(B,)).contact_radius(1e-4)
-
-
 def test_a_profile_knows_its_end():
     sphere = Profile(lambda r: 1 - np.sqrt(1 - r**2), r_max=1.0)
     a = 0.9
     assert_allclose(sphere.profile_1d(a), a / 2 * math.log((1 + a) / (1 - a)), rtol=MAP)
-    short = Profile(parabola, r_max=1e-3)
-    with pytest.raises(ValueError, match="press less"):
-        short.contact_radius(1.0)
     with pytest.raises(ValueError, match="name its end"):
         Profile(lambda r: 1 - np.sqrt(1 - r**2)).profile_1d(2.0)
-
-
-def test_annular_contact_is_refused_by_name():
-    with pytest.raises(ValueError, match="annular contact"):
-        Profile(lambda r: r**2 * (1e-4 - r**2), r_max=0.02)
-    with pytest.raises(ValueError, match="annular contact"):
-        Profile(lambda r: -(r**2), r_max=1e-3)
 
 
 @pytest.mark.parametrize(("f", "d", "words"), [
@@ -301,25 +208,6 @@ def test_profiles_compare_by_their_function():
     assert_allclose(scalars_only.force(1e-5, 1), Paraboloid(5e-3).force(1e-5, 1), rtol=MAP)
 
 
-@pytest.mark.parametrize(("make", "error", "words"), [
-    (lambda: Paraboloid(-0.005), ValueError, "R must be positive, got -0.005"),
-    (lambda: Paraboloid(np.nan), ValueError, "finite"),
-    (lambda: Paraboloid("1"), TypeError, "real number"),
-    (lambda: Paraboloid(True), TypeError, "real number"),
-    (lambda: Cone(2), ValueError, "theta must lie between"),
-    (lambda: PowerLaw(0, 1), ValueError, "n must be positive"),
-    (lambda: FlatPunch(0), ValueError, "a must be positive"),
-    (lambda: Profile(3), TypeError, "function"),
-    (lambda: Profile(lambda r: r + 1), ValueError, "must be 0"),
-    (lambda: Profile(parabola, kinks=(2.0,), r_max=1.0), ValueError, "within r_max"),
-    (lambda: Paraboloid(1).force(1, -1), ValueError, "E_star must be positive"),
-    (lambda: Paraboloid(1).force("1", 1), TypeError, "d must be"),
-])  # fmt: skip
-def test_errors_name_quantity_and_rule(make, error, words):
-    with pytest.raises(error, match=words):
-        make()
-
-
 def test_a_shape_of_ones_own_needs_one_profile():
     class Bump(Indenter):
         def profile_1d(self, x):
@@ -330,7 +218,3 @@ def test_a_shape_of_ones_own_needs_one_profile():
     assert_allclose(Bump().profile_3d(r), Paraboloid(5e-3).profile_3d(r), rtol=MAP)
     with pytest.raises(TypeError, match="no shape yet"):
         type("Nothing", (Indenter,), {})
-
-
-def test_names_are_listed():
-    assert all(hasattr(shapes, one) for one in shapes.__all__)

@@ -1,15 +1,11 @@
 """What is remembered is what would be computed again."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-import pytest
 
 import mdr
 from mdr.tools.memoise import remembered
-
-MOTION = mdr.NormalOscillation(20e-6, 5e-6, 300.0)
-RUBBER = mdr.StandardLinearSolid(E_inf=3e6, E_1=3e6, tau_1=1e-3, nu=0.5)
 
 
 def counted():
@@ -39,24 +35,6 @@ def test_a_profile_is_remembered_for_itself_alone():
     for profile in [*profiles, *profiles]:
         function(profile, 1)
     assert len(calls) == 2
-
-
-def test_a_new_profile_of_a_function_that_changed_is_new():
-    bend = {"R": 5e-3}
-
-    def f(r):
-        return r * r / (2 * bend["R"])
-
-    forces = []
-    for R in (5e-3, 1e-2):
-        bend["R"] = R
-        case = mdr.SlidingContact(mdr.Profile(f), RUBBER, 0.5, MOTION)
-        knobs = {"n_springs": 64, "steps_per_period": 64, "n_periods": 2}
-        run = mdr.slide(case, 1e-3, **knobs)
-        forces.append((run.mean_F_z, mdr.static_cof(case)))
-        same = mdr.slide(replace(case, indenter=mdr.Paraboloid(R=R)), 1e-3, **knobs)
-        assert run.mean_F_z == pytest.approx(same.mean_F_z, rel=1e-6)
-    assert forces[1][0] > 1.2 * forces[0][0]
 
 
 def test_a_shape_that_can_be_written_to_is_not_remembered():

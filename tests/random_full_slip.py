@@ -1,13 +1,10 @@
-"""Full slip beside its definition: `python tests/table_of_full_slip.py 300`; takes some ten minutes.
+"""Full slip beside its definition: random contacts, and the difference from reference_full_slip.py.
 
-Random contacts of each class of body, elastic, Kelvin and with an arm, kept and lost, of up to three harmonics, shaken
-at the tool or at the pull. Prints the greatest and the median difference between `full_slip_critical_velocity` and
-reference_full_slip.py, over v_c or a tenth of the greatest rate of the depth, where the latter is known well enough.
+Each class of body, elastic, Kelvin and with an arm, kept and lost, of up to three harmonics, shaken at the tool or at
+the pull. Over v_c or a tenth of the greatest rate of the depth, where the reference is known well enough.
 """
 
 import math
-import sys
-from collections import defaultdict
 
 import numpy as np
 import reference_full_slip as reference
@@ -75,23 +72,3 @@ def difference(case, numbers, unit, **grid):
         return None
     v_c, unknown = reference.converged(*numbers, **grid)
     return abs(found - v_c) / max(abs(v_c), 0.1 * np.abs(reference.rate(numbers[0])).sum()), unknown
-
-
-def main(count):
-    rows = defaultdict(list)
-    for seed in range(count):
-        body, arms = BODIES[seed % len(BODIES)], seed % 4 == 3
-        case, numbers, unit, kept = drawn(seed, body, arms)
-        found = difference(case, numbers, unit, n_t=1024, n=300, most=2)
-        rows[body, "arms" if arms else "", "kept" if kept else "lost"].append(found)
-    for name, found in sorted(rows.items()):
-        known = [one for one in found if one is not None]
-        sure = [off for off, unknown in known if unknown < max(off / 3, 1e-6)]
-        worst = f"greatest {max(sure):.1e}, median {np.median(sure):.1e}" if sure else "none"
-        print(
-            f"{' '.join(name):24s} {len(found):3d} drawn, {len(found) - len(known)} infinite, {len(sure)} sure: {worst}"
-        )
-
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]))

@@ -1,9 +1,11 @@
-"""What any record is asked, and what any answer must be: finite, within its bounds, or a refusal that says why.
+"""Any record that constructs gives finite, bounded answers, or refuses in the words of the library.
 
-A question takes a contact and a dice and returns how it was answered, in a word. An answer that is wrong is an
-AssertionError, and any error or warning that is no refusal comes through.
+A question takes a contact and a dice. A wrong answer is an AssertionError, and any error or warning that is no refusal
+comes through.
 """
 
+import contextlib
+import copy
 import math
 import pickle
 import re
@@ -11,11 +13,13 @@ import traceback
 import warnings
 from pathlib import Path
 
-import anything
 import numpy as np
+import pytest
+import random_records
 
 import mdr
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.files.examples import MATERIALS, SHAPES
 from mdr.normal.resolved import at_rest
 
 LIBRARY = {str(path): path.read_text("utf-8").splitlines() for path in Path(mdr.__file__).parent.rglob("*.py")}
@@ -62,21 +66,19 @@ def finite(*answers):
 
 def identity(case, dice):
     """Records compare, hash, print and pickle; a file brings an equal case back."""
-    assert case == case
-    assert hash(case) == hash(case)
-    assert repr(case)
+    for part in (case.material, case.oscillation, case.pull):
+        assert eval(repr(part), vars(mdr)) == part == copy.deepcopy(part)
     again = pickle.loads(pickle.dumps(case))
     if isinstance(case.indenter, mdr.Profile):
         try:
             mdr.write_case(case)
         except mdr.CaseFileError:
-            return "no file for a function"
+            return
         raise AssertionError("a Profile was written to a file")
     assert again == case
     assert hash(again) == hash(case)
     text = mdr.write_case(case)
     assert mdr.parse_case(text) == case
-    return "equal"
 
 
 def numbers(case, dice):
@@ -94,7 +96,6 @@ def numbers(case, dice):
     assert one.real > 0
     assert one.imag >= 0
     assert two.real >= one.real * (1 - ROUNDING)
-    return "answered"
 
 
 def shape(case, dice):
@@ -120,7 +121,6 @@ def shape(case, dice):
         beyond = float(one.profile_1d(min(np.nextafter(a[-1], np.inf), one.max_radius)))
         assert np.all(g <= max(deepest, beyond) * (1 + ROUNDING))
         assert np.all(f >= -ROUNDING * deepest)
-    return "answered"
 
 
 def velocities(case, dice):
@@ -131,7 +131,6 @@ def velocities(case, dice):
     full = mdr.full_slip_critical_velocity(case)
     assert full >= 0
     assert not math.isinf(full) or on_resonance(case) or jolts(case)
-    return "infinite" if math.isinf(eq_15) or math.isinf(full) else "finite"
 
 
 def on_resonance(case):
@@ -156,13 +155,12 @@ def static(case, dice):
     """The static limit lies between nothing and mu_0."""
     cof = mdr.static_cof(case)
     assert 0 <= cof <= case.mu_0 * (1 + ROUNDING), cof / case.mu_0
-    return "answered"
 
 
 def curve(case, dice):
     """Under a rigid pull, in closed form: between the static limit and mu_0, and never falling with velocity."""
     if not isinstance(case.pull, RigidPull) or not case.is_of_the_paper:
-        return "no closed form"
+        return
     v = case.unit_velocity * np.array([0, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999, 1.0, 1.1, 1e3])
     found = mdr.cof_curve(case, v)
     finite(found.cof, found.cof_error, found.stick_share, found.v_c)
@@ -171,7 +169,6 @@ def curve(case, dice):
     assert np.all(found.cof <= case.mu_0 + slack), found.cof / case.mu_0
     assert np.all(np.diff(found.cof) >= -slack), found.cof / case.mu_0
     assert np.all((found.stick_share >= -ROUNDING) & (found.stick_share <= 1 + ROUNDING)), found.stick_share
-    return "answered"
 
 
 def held(case, dice):
@@ -194,7 +191,6 @@ def held(case, dice):
         assert np.all(fields.pressure >= 0)
         slack = ROUNDING * fields.pressure.max()
         assert np.all(np.abs(fields.traction) <= case.mu_0 * (fields.pressure + slack))
-    return "answered"
 
 
 def pressed(case, dice):
@@ -210,7 +206,6 @@ def pressed(case, dice):
     finite(found.u_z, found.F_z, found.contact_radius)
     assert np.all(found.F_z >= 0)
     assert np.all(found.contact_radius >= 0)
-    return "answered"
 
 
 # --- runs ---
@@ -230,7 +225,7 @@ def coarse_run(case, dice):
     start = "rest" if dice.happens(0.2) else "full_slip"
     knobs = {"n_springs": n, "steps_per_period": steps, "start": start, "lump": not dice.happens(0.2)}
     run = mdr.slide(case, velocity(case, dice), record=int(dice.happens(0.3)), **knobs)
-    return judged(case, run)
+    judge(case, run)
 
 
 def short_run(case, dice):
@@ -244,10 +239,10 @@ def short_run(case, dice):
         start=dice.one_of(["rest", "full_slip"]),
         record=dice.below(2),
     )
-    return judged(case, run)
+    judge(case, run)
 
 
-def judged(case, run):
+def judge(case, run):
     """Within the bounds of physics, and frank where it did not settle."""
     mu_0, balance = case.mu_0, run.energy_balance
     finite(run.cof, run.cof_error, run.stick_share, run.least_slip, run.mean_F_x, run.mean_F_z)
@@ -263,10 +258,9 @@ def judged(case, run):
         recorded(case, run)
     if not run.settled:
         assert run.why, "unsettled without a reason"
-        return "unsettled"
+        return
     slack = run.cof_error + ROUNDING * mu_0
     assert -slack <= run.cof <= mu_0 + slack, f"cof/mu_0 = {run.cof / mu_0}, error/mu_0 = {run.cof_error / mu_0}"
-    return "settled"
 
 
 def recorded(case, run):
@@ -287,7 +281,7 @@ def other_units(case, dice):
     differently. A run that is chaotic may not settle, and is not compared.
     """
     length, time, force = (2.0 ** (dice.below(41) - 20) for _ in range(3))
-    other = anything.in_units(case, length, time, force)
+    other = random_records.case_in_units(case, length, time, force)
     v_0, knobs = velocity(case, dice), {"n_springs": 32, "steps_per_period": 64}
     ours, theirs = (mdr.slide(one, v, **knobs) for one, v in ((case, v_0), (other, v_0 * length / time)))
     slack = ROUNDING
@@ -295,10 +289,37 @@ def other_units(case, dice):
         slack = 1e-3  # this depth is sought until 1e-4 of the load is missing, or less
     assert abs(mdr.static_cof(case) - mdr.static_cof(other)) <= slack * case.mu_0
     if not (ours.settled and theirs.settled):
-        return "unsettled"
+        return
     assert abs(ours.cof - theirs.cof) <= slack * case.mu_0 + min(ours.cof_error, theirs.cof_error)
-    return "the same"
 
 
 QUICK = (identity, numbers, shape, velocities, static, curve, held)
-RUNS = (coarse_run, short_run, other_units)
+RUNS = (pressed, coarse_run, short_run, other_units)
+
+
+@pytest.mark.parametrize(
+    ("question", "n"),
+    [*((one, 16) for one in QUICK), *((one, 4) for one in RUNS)],
+    ids=lambda one: getattr(one, "__name__", str(one)),
+)
+def test_any_record_answers_or_says_why_not(question, n):
+    for seed in range(n):
+        dice = random_records.Dice([RUNS.index(question) if question in RUNS else len(RUNS), seed])
+        with contextlib.suppress(Refused):
+            case = asked(random_records.contact, dice)
+            asked(question, case, dice)
+
+
+def test_what_is_drawn_is_of_every_kind():
+    """The dice reach every shape, material, motion and pull, and most contacts slide; each prints as a few lines."""
+    kinds, slide = set(), 0
+    for seed in range(200):
+        with contextlib.suppress(Refused):
+            case = asked(random_records.contact, random_records.Dice(seed))
+            asked(mdr.resolved, case)
+            slide += 1
+            assert 6 <= len(str(case).splitlines()) <= 8
+            kinds |= {type(part).__name__ for part in (case.indenter, case.material, case.oscillation, case.pull)}
+    assert slide > 120
+    assert kinds >= {*SHAPES, *MATERIALS, "Profile", "NormalOscillation", "PeriodicMotion", "LoadOscillation"}
+    assert kinds >= {"RigidPull", "SpringPull"}

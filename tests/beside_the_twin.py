@@ -1,16 +1,10 @@
-"""The COF of slide() with default knobs beside the independent twin: `python tests/table_of_accuracy.py [family ...]`.
-
-Takes a quarter of an hour, as the twin is slow. One line a family: the worst error, the worst share of its own bound
-cof_error that an error takes, and how much larger than the error the bound is in the median; then the cases that set
-these. The tests assert the same on fewer cases (test_accuracy.py).
+"""The COF of slide() with default knobs beside the independent twin, by families; march/test_accuracy.py asks.
 
 The twin is converged to 1e-11 under a rigid pull. Under a spring pull it estimates its own error, the doubt; an error
 counts by what exceeds the doubt.
 """
 
 import itertools
-import sys
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,9 +78,6 @@ def spring_pull(
             yield compare((shape, alpha, T, body, share), truth, doubt, case, v_hat)
 
 
-# --- the table ----------------------------------------------------------------------------------------------
-
-
 def summary(rows):
     """Worst error, worst share of the bound, median of the bound over the distance."""
     return (
@@ -94,25 +85,3 @@ def summary(rows):
         max(row.error / row.bound for row in rows),
         float(np.median([row.bound / max(row.distance, 1e-13) for row in rows])),
     )
-
-
-def main(names):
-    families = {"rigid_elastic": rigid_elastic, "rigid_kelvin": rigid_kelvin, "spring_pull": spring_pull}
-    print("| family | cases | worst error | worst error/bound | median bound/error | worst doubt of the twin | s |")
-    print("| --- | --- | --- | --- | --- | --- | --- |", flush=True)
-    extremes = []
-    for name in names or families:
-        start = time.perf_counter()
-        rows = list(families[name]())
-        worst, share, median = summary(rows)
-        doubt, took = max(row.doubt for row in rows), time.perf_counter() - start
-        numbers = f"{len(rows)} | {worst:.2g} | {share:.2g} | {median:.3g} | {doubt:.1g} | {took:.0f}"
-        print(f"| {name} | {numbers} |", flush=True)
-        extremes += sorted(rows, key=lambda row: -row.error)[:3]
-        extremes += sorted(rows, key=lambda row: -row.error / row.bound)[:3]
-    print("\nLargest errors, then largest shares of the bound, family by family:\n")
-    print("\n".join(f"- {row}" for row in extremes))
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])

@@ -1,4 +1,4 @@
-"""The measured critical velocity beside its definition: `python tests/table_of_velocities.py 300`; takes some minutes.
+"""The measured critical velocity beside its definition.
 
 The systems of table_of_theorems.py: a third undamped, a third beside a whole multiple of the drive. Of each of them is
 asked whether runs at 0.97 and 1.03 of it, and the full-slip value, contradict what it says. A contradiction is
@@ -7,24 +7,16 @@ asked whether runs at 0.97 and 1.03 of it, and the full-slip value, contradict w
 * one 3 % below that neither sticks nor misses anything, where stick is what the measurement went by;
 * "no critical velocity" where a settled run above the finite full-slip value has the full COF;
 * an end of stick that is not the full-slip value to 1e-4 of it, or to the bracket.
-
-Prints what contradicts, the kinds of answers, and how long they took.
 """
 
 import math
-import sys
 import time
-from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 
-import numpy as np
 from table_of_theorems import drawn
 
 import mdr
 from mdr.friction.measured_velocity import GRAZING
-from mdr.tools.progress import progress
 
 NEAR = 1e-4  #: of v_c, to which it is measured away from resonances
 LONGEST = 120.0  #: seconds for one measurement
@@ -77,24 +69,3 @@ def _against(case, found, full):
     width = max(NEAR * found.v_c, found.high - found.low)
     if ends_stick and math.isfinite(full) and abs(found.v_c - full) > width:
         yield f"{found.v_c:.8g} is not the full-slip value"
-
-
-def main(n: int, first: int = 0) -> int:
-    """Print the table; 0 if nothing contradicts."""
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        waiting = [pool.submit(row, seed) for seed in range(first, first + n)]
-        rows = [one.result() for one in progress(waiting, "table_of_velocities")]
-    seconds = np.array([r.seconds for r in rows])
-    print(f"{n} systems: {dict(Counter(r.kind for r in rows))}")
-    print(f"seconds a measurement: median {np.median(seconds):.3g}, worst {seconds.max():.3g}")
-    against = [r for r in rows if r.contradictions]
-    print(f"{len(against)} contradict")
-    for r in against:
-        print(f"  {r.name}", *r.contradictions, sep="\n      ")
-    for r in (r for r in rows if r.kind == "unsettled"):
-        print(f"  unsettled after {r.seconds:.3g} s: {r.name}")
-    return 1 if against else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*(int(one) for one in sys.argv[1:])))

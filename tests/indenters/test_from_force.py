@@ -1,0 +1,87 @@
+"""Shapes from a force curve: as good as their splines say, or refused with the reason."""
+
+import numpy as np
+import pytest
+from catalogue import THETA, B, R
+
+import mdr
+
+E_STAR = 2e6
+GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
+
+
+def from_force(shape, reach, n=100, **how):
+    d = np.linspace(0, float(shape.profile_1d(reach)) or 1e-5, n)
+    return mdr.FromForce(d, shape.force(d, E_STAR), E_STAR, **how)
+
+
+def worst(got, expected):
+    return float(np.max(np.abs(np.asarray(got) / expected - 1)))
+
+
+BALL = mdr.FromForce(1e-6 * np.arange(40), mdr.Paraboloid(R).force(1e-6 * np.arange(40), E_STAR), E_STAR)
+
+
+@pytest.mark.parametrize(("shape", "reach", "tip", "tolerance"), [
+    (mdr.Paraboloid(R), 1e-3, "any", 1e-11),
+    (mdr.Cone(THETA), 1e-3, "any", 1e-11),
+    (mdr.FlatPunch(B), B, "any", 1e-11),
+    (mdr.Paraboloid(R), 1e-3, "round", 1e-11),
+    (mdr.Sphere(R), R / 2, "round", 1e-11),
+    (mdr.Sphere(R), R / 2, "any", 1e-3),  # below the first depth
+    (mdr.Cone(THETA), 1e-3, "sharp", 1e-11),
+    (mdr.TruncatedCone(B, THETA), 2 * B, "flat", 1e-8),
+    (mdr.Hyperboloid(1e-4, 1e-4), 2e-3, "round", 1e-5),
+])  # fmt: skip
+def test_the_shape_of_a_force(shape, reach, tip, tolerance):
+    found = from_force(shape, reach, tip=tip)
+    d = found.d[-1] * np.linspace(0.001, 1, 200)
+    assert worst(found.contact_radius(d), shape.contact_radius(d)) < tolerance
+    assert worst(found.force(d, 3.0), shape.force(d, 3.0)) < 2 * tolerance
+    assert worst(found.stiffness(d, 3.0), shape.stiffness(d, 3.0)) < tolerance
+    x = reach * np.linspace(0.001, 0.999, 99)
+    # over the greatest depth; at the edge of a face g has a vertical tangent
+    near = {"any": 0.02 * tolerance, "flat": tolerance**0.5}.get(tip, tolerance)
+    off = np.asarray(found.profile_1d(x)) - shape.profile_1d(x)
+    assert np.max(np.abs(off)) < max(near, 1e-11) * found.d[-1]
+    r = reach * np.array([0.05, 0.3, 0.7, 0.95])
+    off = np.asarray(found.profile_3d(r)) - shape.profile_3d(r)
+    assert np.max(np.abs(off)) < max(near, 1e-10) * found.d[-1]
+    p = shape.pressure(r, 0.99 * found.d[-1], E_STAR)
+    assert worst(found.pressure(r, 0.99 * found.d[-1], E_STAR), p) < max(2e-7, tolerance)
+
+
+def test_a_noisy_force_is_smoothed():
+    rng = np.random.default_rng(2)
+    d = np.linspace(0, 1e-4, 100)
+    F = np.asarray(mdr.Sphere(R).force(d, E_STAR))
+    noise = 1e-3 * F[-1]
+    noisy = F + np.concatenate([[0], rng.normal(0, noise, 99)])
+    keep = (noisy > 3 * noise) | (d == 0)
+    with pytest.raises(ValueError, match=r"F must|slope falls"):
+        mdr.FromForce(d[keep], noisy[keep], E_STAR)
+    shape = mdr.FromForce(d[keep], noisy[keep], E_STAR, smoothing=noise)
+    some = np.array([2e-5, 5e-5, 9e-5])
+    assert worst(shape.contact_radius(some), mdr.Sphere(R).contact_radius(some)) < 0.01  # a few tenths of a percent
+
+
+@pytest.mark.parametrize(("d", "F", "how", "words"), [
+    (GRID, GRID**0.9, {}, "F must rise more and more steeply.*falls at d = 1e-05 m"),
+    (GRID, np.minimum(GRID, 1e-3 + (GRID - 1e-3) / 2), {}, "F must rise more and more steeply"),
+    (GRID, GRID * 0, {"smoothing": 1.0}, "F must be positive for d > 0"),
+    (GRID + 1e-9, GRID, {}, "d and F must begin with 0, got 1e-09 m and 0 N"),
+    (GRID[:6], GRID[:6], {}, "at least 7 numbers"),
+])  # fmt: skip
+def test_curves_that_no_shape_has(d, F, how, words):
+    with pytest.raises(ValueError, match=words):
+        mdr.FromForce(d, F, **{"E_star": E_STAR, **how})
+
+
+def test_deeper_than_it_was_measured():
+    with pytest.raises(ValueError, match=r"d = 0.0001 m is deeper than the force is known, d = 3.9e-05 m"):
+        BALL.stiffness([1e-6, 1e-4], 1)
+    assert np.array_equal(BALL.force([-1, 0], 1), [0, 0])
+    assert BALL.contact_radius(1e-300) > 0
+
+
+# --- both ---

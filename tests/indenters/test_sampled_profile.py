@@ -1,0 +1,126 @@
+"""Shapes from measured points: as good as their splines say, or refused with the reason."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from catalogue import THETA, B, R
+from numpy.testing import assert_allclose
+from scipy.integrate import quad
+
+import mdr
+from mdr.indenters.base import Indenter
+
+GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
+
+
+def sampled(shape, n=201, reach=2e-3, **how):
+    r = np.linspace(0, reach, n)
+    return mdr.SampledProfile(r, shape.profile_3d(r), **how)
+
+
+def worst(got, expected):
+    return float(np.max(np.abs(np.asarray(got) / expected - 1)))
+
+
+@pytest.mark.parametrize(("n", "tolerance"), [(20, 1e-6), (50, 1e-8), (200, 1e-11)])
+@pytest.mark.parametrize("R", [5e-12, 5e-3, 5e3])
+def test_points_of_a_sphere(n, tolerance, R):
+    """As the docstring promises; near the tip too, where f ~ r², and in any unit."""
+    sphere = mdr.Sphere(R)
+    shape = sampled(sphere, n, R / 2)
+    x = R / 2 * np.geomspace(1e-9, 1, 99)
+    d = sphere.profile_1d(x[:-1])
+    assert worst(shape.profile_3d(x), sphere.profile_3d(x)) < tolerance
+    assert worst(shape.profile_1d(x), sphere.profile_1d(x)) < tolerance
+    assert worst(shape.contact_radius(d), x[:-1]) < tolerance
+    assert worst(shape.force(d, 1), sphere.force(d, 1)) < tolerance
+    r, deep = R * np.array([0, 1e-6, 0.1, 0.3, 0.39]), sphere.profile_1d(0.4 * R)
+    assert worst(shape.pressure(r, deep, 1), sphere.pressure(r, deep, 1)) < 10 * tolerance
+
+
+@pytest.mark.parametrize(("shape", "how"), [
+    (mdr.Cone(THETA), {"tip": "sharp"}),
+    (mdr.Paraboloid(R), {}),
+    (mdr.TruncatedCone(B, THETA), {"kinks": [B]}),
+    (mdr.CappedCone(B, THETA), {"kinks": [B]}),
+    (mdr.CappedParaboloid(2 * R, R, B), {"kinks": [B]}),
+], ids=lambda one: repr(one)[:20])  # fmt: skip
+def test_what_a_spline_can_be_is_exact(shape, how):
+    """Polynomials between the kinks: what is left is the rounding of 200 points."""
+    spline = sampled(shape, **how)
+    x = np.concatenate([np.geomspace(1e-8, 0.99 * B, 30), np.linspace(1.01 * B, 2e-3, 50)])
+    scale = float(shape.profile_1d(2e-3))
+    for ask in ("profile_3d", "profile_1d"):
+        assert_allclose(getattr(spline, ask)(x), getattr(shape, ask)(x), rtol=1e-11, atol=1e-15 * scale)
+    assert_allclose(spline.profile_area(x), shape.profile_area(x), rtol=1e-11, atol=1e-15 * scale * B)
+    d, r = scale * np.array([0.02, 0.5, 0.9]), np.array([[1e-5], [0.5 * B], [0.99 * B]])
+    assert_allclose(spline.contact_radius(d), shape.contact_radius(d), rtol=1e-11)
+    assert_allclose(spline.pressure(r, d, 1), shape.pressure(r, d, 1), rtol=1e-10)
+
+
+def test_the_image_is_that_of_the_spline():
+    """Whatever the spline: one through rough points, against quad over each of its pieces."""
+    rng = np.random.default_rng(3)
+    r = 1e-3 * np.linspace(0, 1, 30) ** 1.3
+    shape = mdr.SampledProfile(r, r**2 / 1e-2 * (1 + 1e-3 * rng.normal(size=r.size)), tip="sharp")
+    image = shape._image
+    for x in (0.3e-3, 0.9e-3):
+        turns = np.arcsin(np.append(r[r < x], x) / x)
+        area = sum(
+            quad(lambda t, x=x: float(shape.profile_3d(x * np.sin(t)) * np.sin(t)), *two, epsabs=0)[0]
+            for two in pairwise(turns)
+        )
+        assert_allclose(shape.profile_area(x), x * area, rtol=1e-11)
+        h = 1e-4 * x  # g is the slope of that area
+        slope = (shape.profile_area(x + h) - shape.profile_area(x - h)) / (2 * h)
+        assert_allclose(shape.profile_1d(x), slope, rtol=1e-5)  # h²/6 g''/g, and g'' is rough
+        steps = np.array([x - h, x + h])
+        rise = np.diff(shape.profile_1d(steps))[0] / (2 * h)
+        assert_allclose(image._outer(1, np.array([x]), image._piece(np.array([x]))), rise, rtol=1e-3)
+    assert_allclose(
+        Indenter.profile_3d(shape, 0.7e-3), shape.profile_3d(0.7e-3), rtol=3e-4
+    )  # a rule that knows no knots
+
+
+def test_noise_is_smoothed_or_refused():
+    rng, noise = np.random.default_rng(1), 1e-7
+    f = mdr.Sphere(R).profile_3d(GRID) + rng.normal(0, noise, GRID.size)
+    with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing="):
+        mdr.SampledProfile(GRID, f)
+    shape = mdr.SampledProfile(GRID, f, smoothing=noise)
+    residual = shape.profile_3d(GRID) - (f - f[0])
+    assert np.std(residual) == pytest.approx(noise, rel=0.3)
+    assert worst(shape.force(np.array([1e-5, 1e-4]), 1), mdr.Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
+
+
+@pytest.mark.parametrize("shape", [mdr.TruncatedCone(B, THETA), mdr.TruncatedParaboloid(B, R)])
+def test_a_kink_that_makes_the_spline_fall_is_found(shape):
+    f = shape.profile_3d(GRID)
+    with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing=") as refused:
+        mdr.SampledProfile(GRID, f)
+    assert f"if its slope jumps at r = {B!r} m, where it changes most, give kinks=({B!r},); if" in str(refused.value)
+    assert mdr.SampledProfile(GRID, f, kinks=(B,)).kinks == (B,)
+
+
+@pytest.mark.parametrize(("r", "f", "how", "error", "words"), [
+    (GRID[1:], GRID[1:], {}, ValueError, "r must begin at 0, the tip from which the depth counts, got 1e-05 m"),
+    (GRID - 1e-3, GRID, {}, ValueError, "got -0.001 m: give one side of a mirrored profile"),
+    (GRID[::-1], GRID, {}, ValueError, "sort the points by r"),
+    (np.repeat(GRID, 2), np.repeat(GRID, 2), {}, ValueError, "r must ascend, got 0 and then 0 .*take the mean"),
+    (GRID, GRID**2, {"kinks": [1.001e-3]}, ValueError, "among the r.*got 0.001001 m: the nearest is 0.001 m"),
+    (GRID, -(GRID**2), {}, ValueError, "annular contact"),
+])  # fmt: skip
+def test_points_that_are_no_profile(r, f, how, error, words):
+    with pytest.raises(error, match=words):
+        mdr.SampledProfile(r, f, **how)
+
+
+def test_what_lies_beyond_the_points_is_unknown():
+    shape = sampled(mdr.Sphere(R))
+    deepest = float(shape.profile_1d(2e-3))
+    assert shape.contact_radius(deepest) == pytest.approx(2e-3, rel=1e-14)
+    with pytest.raises(ValueError, match=r"deeper than SampledProfile reaches.*r <= 0.002 m.*describe more of it"):
+        shape.force(1.01 * deepest, 1)
+    with pytest.raises(ValueError, match=r"SampledProfile ends at r = 0.002 m, got 0.0021 m"):
+        shape.profile_1d(2.1e-3)

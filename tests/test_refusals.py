@@ -1,0 +1,327 @@
+"""Wrong input over the whole public vocabulary: refused, by type or by value, in words that name the quantity.
+
+The rule of a field is data, so every field of every record is given what its rule must refuse; so is every number that
+a function or an answer takes. What remains are relations between two values, and slips that people make at a keyboard.
+"""
+
+import math
+import pickle
+import warnings
+from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
+
+import numpy as np
+import pytest
+
+import mdr
+from mdr.closed_forms.full_slip import full_slip
+from mdr.tools.checks import FieldError, FieldTypeError
+from mdr.tools.fields import example_of, facts_of, has_example
+
+NAN, INF = math.nan, math.inf
+BALL, RUBBER, SLED = mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.SpringPull(2e4, 0.1, 4.0)
+TAPPING = mdr.NormalOscillation(20e-6, 2e-6, 314.0)
+CASE = mdr.SlidingContact(BALL, RUBBER, 0.5, TAPPING, SLED)
+SOME = mdr.FrictionData([1e-4, 2e-4, 3e-4], [0.4, 0.45, 0.5])
+CONE = 'mu_0 = 0.5\n[indenter]\nshape = "Cone"\n'
+NINE, SHAKE = np.linspace(0, 1e-6, 9), mdr.InPlaneOscillation(300.0, 1e-6)
+
+
+class Sly(float):
+    """A number in name."""
+
+    def __float__(self):
+        return NAN
+
+
+def refused(call, kind=(TypeError, ValueError)):
+    """The refusal: of this kind, without a warning on the way, and one line that a person reads."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(kind) as caught:
+            call()
+    message = str(caught.value)
+    assert 0 < len(message) < 400, message
+    assert "\n" not in message.strip() or isinstance(caught.value, mdr.CaseFileError)
+    return caught.value
+
+
+# --- every field of every record, by the rule that stands at it ---
+
+NO_NUMBER = [(one, FieldTypeError, "must be a real number, got") for one in (True, "1 mm", None, 1j, [1.0], np.ones(1))]
+NOT_FINITE = [(one, FieldError, "must be a finite number, got") for one in (NAN, INF, -INF, 10**400, Sly(1.0))]
+NUMBER = [*NO_NUMBER, *NOT_FINITE]
+POSITIVE = [*NUMBER, *((one, FieldError, "must be positive, got") for one in (0, -1e-300, -3))]
+NO_LIST = [(one, FieldTypeError, "must be a list") for one in (3.0, "ab", None)]
+ROW = [("a", FieldTypeError, "must"), ([1.0, NAN], FieldError, "finite"), (np.ones((2, 2)), FieldError, "one row")]
+ENTRIES = [*NO_LIST, ([NAN], FieldError, "[0] must be a finite number"), ([1, "1"], FieldTypeError, "[1] must be")]
+ANGLES = [(one, FieldError, "must lie between 0 and 1.5708, got") for one in (0, -0.1, np.pi / 2, 30)]
+RATIOS = [(one, FieldError, "must lie in -1 < nu <= 0.5") for one in (-1, 0.51)]
+#: what a rule must refuse: value, error, words
+HOSTILE = {
+    "finite": NUMBER,
+    "positive": POSITIVE,
+    "not_negative": [*NUMBER, (-1e-300, FieldError, "must not be negative, got")],
+    "poisson_ratio": [*NUMBER, *RATIOS],
+    "_slope_angle": [*NUMBER, *ANGLES],
+    "_invertible": [*POSITIVE, (1e-320, FieldError, "beyond the range of floats")],
+    "_end": [one for one in POSITIVE if one[0] is not None],
+    "amplitudes": ENTRIES,
+    "_no_amplitude": [*NUMBER, (1e-9, FieldError, "must be zero: motion across the pull")],
+    "_no_amplitudes": [*ENTRIES, ([0.0, 1e-9], FieldError, "must be zero: motion across the pull")],
+    "column": ROW,
+    "radii": [(3, FieldTypeError, "must be a sequence of radii"), ([-1.0], FieldError, "be positive"),
+              ("tip", FieldTypeError, "must be")],
+    "_pairs": [(5, FieldTypeError, "must be a sequence of"), ([1e6], FieldTypeError, "must be a sequence of pairs"),
+               ([(1, 2, 3)], FieldError, "[0] must be a pair"), ([(1, 1), (-1, 1)], FieldError, "[1] modulus must not"),
+               ([(1, NAN)], FieldError, "[0] relaxation time must be a finite number")],
+    "_place": [("table", FieldError, 'must be "tool"'), (1, FieldTypeError, "must be a word in quotes")],
+    "_tip": [("blunt", FieldError, "must be "), (None, FieldError, "must be ")],
+    "_function": [("r**2", FieldTypeError, "must be a function"), (3, FieldTypeError, "must be a function")],
+    "_name": [(3, FieldTypeError, "must be a string")],
+}  # fmt: skip
+PARTS = {"indenter": RUBBER, "material": BALL, "oscillation": SLED, "pull": TAPPING, "shake": TAPPING}
+RECORDS = [
+    one
+    for name in mdr.__all__
+    if is_dataclass(one := getattr(mdr, name)) and any(facts_of(f).meaning for f in fields(one))
+]
+FIELDS = [(record, field) for record in RECORDS for field in fields(record)]
+NAMES = [f"{record.__name__}.{field.name}" for record, field in FIELDS]
+#: what the physics allows to be zero, to have a sign, or to have bounds of its own; every other number is positive
+NOT_NEGATIVE = {"KelvinVoigt.tau", "Prony.tau", "Prony.E_inf", "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
+                "LoadOscillation.m_z", "InPlaneOscillation.du_x", "SpringPull.m", "SpringPull.c_x",
+                "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
+SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}
+BOUNDED = {"theta": "_slope_angle", "nu": "poisson_ratio", "nu_1": "poisson_ratio", "nu_2": "poisson_ratio"}
+OWN = {"Ellipsoid.k": "_invertible", "InPlaneOscillation.du_y": "_no_amplitude"}
+
+
+def sound(record):
+    """Arguments of a record that is right."""
+    if record is mdr.SlidingContact:
+        return vars(CASE)
+    if record is mdr.Profile:
+        return {"f": np.square}
+    made = example_of(record)
+    return {one.name: getattr(made, one.name) for one in fields(record)}
+
+
+@pytest.mark.parametrize(("record", "field"), FIELDS, ids=NAMES)
+def test_a_field_refuses_what_its_rule_forbids(record, field):
+    rule, known = facts_of(field).rule, sound(record)
+    record(**known)
+    if rule is None:
+        wrong = PARTS[field.name]
+        kind, hint = f"{field.name} must be of kind ", f"; write {type(wrong).__name__}(...)"
+        hostile = [(wrong, FieldTypeError, kind), (3, FieldTypeError, kind), (type(wrong), FieldTypeError, hint)]
+    else:
+        hostile = HOSTILE[rule.__name__]
+    for value, error, words in hostile:
+        refusal = refused(lambda value=value: record(**known | {field.name: value}), error)
+        message = str(refusal)
+        assert message.startswith(field.name), message
+        assert words in message, message
+        assert pickle.loads(pickle.dumps(refusal)).field == refusal.field == field.name  # it may come from afar
+        if words.startswith(("must be positive", "must not be negative")):
+            assert facts_of(field).note in message, message
+
+
+@pytest.mark.parametrize(("record", "field"), FIELDS, ids=NAMES)
+def test_a_field_is_frozen_and_told_apart_and_has_the_rule_that_its_physics_asks_for(record, field):
+    name, facts = f"{record.__name__}.{field.name}", facts_of(field)
+    assert facts.meaning
+    made = record(**sound(record))
+    with pytest.raises(FrozenInstanceError):
+        setattr(made, field.name, 1.0)
+    if facts.rule and field.type in ("float", float):
+        if value := getattr(made, field.name):
+            other = replace(made, **{field.name: value * (1 - 1e-12)})
+            assert other != made
+            assert hash(other) != hash(made)
+        by_sign = "not_negative" if name in NOT_NEGATIVE else "finite" if name in SIGNED else "positive"
+        assert facts.rule.__name__ == (OWN.get(name) or BOUNDED.get(field.name) or by_sign)
+
+
+@pytest.mark.parametrize("three", [3, 3.0, np.float64(3), np.int32(3), np.float32(3)], ids=lambda x: type(x).__name__)
+def test_a_record_does_not_tell_an_int_from_a_float(three):
+    one, other = mdr.SpringPull(k_x=three), mdr.SpringPull(k_x=3.0)
+    assert (one, hash(one), repr(one)) == (other, hash(other), repr(other))
+    assert pickle.dumps(one) == pickle.dumps(other)
+
+
+# --- every number that a function takes ---
+
+SHAPES = [
+    mdr.Profile(np.square),
+    *(example_of(one) for one in RECORDS if issubclass(one, mdr.Indenter) and has_example(one)),
+]
+ARRAY = [(NAN, "must be finite"), ([1e-6, INF], "must be finite"), ("deep", "must"), (1j, "must"), (None, "must"),
+         ([[1e-3], [1e-3, 2e-3]], "must be")]  # fmt: skip
+ABOVE_ZERO = [(value, words) for value, _, words in POSITIVE if not isinstance(value, Sly | np.ndarray | list)]
+COUNT = [(True, "must be a whole number"), (40.5, "must be a whole number"), ("many", "must be a whole number")]
+STARTS = [("zero", "must be"), (None, "must be"), (["rest"], "must be")]
+FLAG = [("no", "must be True or False")]
+#: argument, a call with it, and what is refused
+ARGUMENTS = [
+    *[("d", shape.contact_radius, ARRAY) for shape in SHAPES],
+    *[("r", shape.profile_3d, ARRAY) for shape in SHAPES],
+    *[("x", shape.profile_1d, ARRAY) for shape in SHAPES],
+    ("d", lambda d: BALL.pressure(1e-4, d, 1e6), ARRAY),
+    ("r", lambda r: BALL.pressure(r, 1e-6, 1e6), ARRAY),
+    *[("E_star", lambda E_star, ask=ask: ask(1e-6, E_star), [*ARRAY, (0, "must be positive"), (-1, "must be positive")])
+      for ask in (BALL.force, BALL.stiffness, lambda d, E_star: BALL.pressure(1e-4, d, E_star))],
+    ("omega", RUBBER.dynamic_modulus, ARRAY),
+    ("omega", RUBBER.loss_tangent, ARRAY),
+    ("omega", SLED.receptance, ARRAY),
+    ("t", RUBBER.creep_compliance, [*ARRAY, (-1, "must not be negative")]),
+    ("t", RUBBER.relaxation_modulus, ARRAY),
+    ("t", TAPPING.u_z, ARRAY),
+    ("t", TAPPING.u_z_dot, ARRAY),
+    ("G", lambda G: mdr.KelvinVoigt.from_shear(G=G, eta=1, nu=0.5), ABOVE_ZERO),
+    ("eta", lambda eta: mdr.KelvinVoigt.from_shear(G=1, eta=eta, nu=0.5), [(-1, "not be negative"), (NAN, "must be")]),
+    ("tan_delta", lambda value: mdr.KelvinVoigt.from_loss_tangent(E=1, nu=0.5, tan_delta=value, omega=1), [
+        (-1, "must not be negative"), (NAN, "must be a finite number")]),
+    ("omega", lambda value: mdr.KelvinVoigt.from_loss_tangent(E=1, nu=0.5, tan_delta=1, omega=value), ABOVE_ZERO),
+    ("v_0", lambda v_0: mdr.slide(CASE, v_0), [(0, "static_cof(case)"), (-1e-3, "must be positive"), *(
+        (value, words) for value, _, words in NUMBER if not isinstance(value, Sly))]),
+    ("n_springs", lambda n: mdr.slide(CASE, 1e-3, n_springs=n), [*COUNT, (31, "at least 32"), (10**9, "memory holds")]),
+    ("steps_per_period", lambda n: mdr.slide(CASE, 1e-3, steps_per_period=n), [*COUNT, (8, "must be at least 32")]),
+    ("n_periods", lambda n: mdr.slide(CASE, 1e-3, n_periods=n), [*COUNT, (INF, "whole number"), (0, "at least 1")]),
+    ("record", lambda n: mdr.slide(CASE, 1e-3, n_periods=2, record=n), [*COUNT, (-1, "at least"), (3, "cannot be")]),
+    ("lump", lambda value: mdr.slide(CASE, 1e-3, lump=value), FLAG),
+    ("start", lambda start: mdr.slide(CASE, 1e-3, start=start), [*STARTS, ("Rest", '"full_slip" or "rest"')]),
+    ("accuracy", lambda value: mdr.slide(CASE, 1e-3, accuracy=value), [(1e-12, "must lie between 1e-08 and 0.001")]),
+    ("v_0", lambda v_0: mdr.cof_curve(CASE, v_0), [*ARRAY, ([], "list"), ([[1e-3]], "list"), ([-1e-3], "negative")]),
+    ("steps_per_period", lambda n: mdr.cof_curve(CASE, 1e-3, steps_per_period=n), [*COUNT, (8, "at least 32")]),
+    ("method", lambda method: mdr.cof_curve(CASE, 1e-3, method=method), [("exact", 'must be None or "march"')]),
+    ("start", lambda start: mdr.measure_critical_velocity(CASE, start=start), STARTS),
+    ("direction", lambda way: mdr.critical_velocity(CASE, way), [(0, "must be 1 (forward) or -1")]),
+    ("within", lambda value: mdr.verdict(CASE, within=value), [
+        (NAN, "finite"), (1, "between 0 and 1, got 1.0"), (5, "0.01 for 1 %"), ("1%", "must be a real number")]),
+    ("n_springs", lambda n: mdr.SpringArray.of(CASE, n), [*COUNT, (15, "must be at least 16")]),
+    ("n_springs", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, n_springs=n), [*COUNT, (8, "must be at least 32")]),
+    ("chunk_seconds", lambda s: mdr.sweep(CASE, {"v_0": [1e-3]}, chunk_seconds=s), ABOVE_ZERO),
+    ("mu_0", lambda mu_0: mdr.partial_slip(BALL, RUBBER, mu_0, 1e-6, 1e-7), ABOVE_ZERO),
+    ("u_x", lambda u_x: mdr.partial_slip(BALL, RUBBER, 0.5, 1e-6, u_x), [*ARRAY, (-1e-7, "must not be negative")]),
+    ("u_z", lambda u_z: mdr.indent(BALL, RUBBER, [0, 1], u_z), [([0, NAN], "finite"), ([0], "one value for each")]),
+    ("t", lambda t: mdr.indent(BALL, RUBBER, t, [0, 1e-6]), [([1, 0], "must not descend"), (["a", "b"], "must be")]),
+    ("F_z", lambda F_z: mdr.indent(BALL, RUBBER, [0, 1], F_z=F_z), [([0, -1], "must not be negative")]),
+    ("n_t", lambda n: full_slip(CASE, n_t=n), [*COUNT, (0, "must be")]),
+    *[("case", ask, [(one, "must be a SlidingContact, got") for one in (BALL, None, "case.toml", mdr.SlidingContact)])
+      for ask in (mdr.SpringArray.of, mdr.measure_critical_velocity, mdr.verdict, mdr.critical_velocity, mdr.static_cof,
+                  mdr.full_slip_critical_velocity, mdr.write_case, lambda case: mdr.slide(case, 1e-3),
+                  lambda case: mdr.cof_curve(case, 1e-3), lambda case: mdr.sweep(case, {"v_0": [1e-3]}))],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "call", "hostile"), ARGUMENTS, ids=[f"{call.__qualname__} {name}" for name, call, _ in ARGUMENTS]
+)
+def test_an_argument_is_refused_by_name(name, call, hostile):
+    for value, words in hostile:
+        message = str(refused(lambda value=value: call(value)))
+        assert name in message, message
+        assert words in message, message
+
+
+# --- relations, and slips ---
+
+#: what is written after "mdr.", and what the answer says
+SAYINGS = {
+    # shapes
+    "Indenter()": "Indenter is no shape",
+    "Paraboloid(r=5e-3)": "Paraboloid takes no r; did you mean R?",
+    "FlatPunch()": "missing 1 required positional argument: 'a'",
+    "Cone(45)": "45 degrees are 0.785",
+    "TruncatedCone(0, 0.1)": "b must be positive, got 0.0 (radius of the face in m; a Cone has none)",
+    "Profile(lambda r: r + 1)": "f(0) must be 0",
+    "Profile(lambda r: r * NAN)": "f(0) must be",
+    "Profile(lambda r: r**2, kinks=(2.0,), r_max=1.0)": "within r_max",
+    "Profile(lambda r: np.sin(1e3 * r) * 1e-3, r_max=5e-3).contact_radius(8e-4)": "annular",
+    "Profile(lambda r: r**2, r_max=1e-3).contact_radius(1.0)": "d = 1 m is deeper than",
+    "CappedParaboloid(1.0, 2.0, 1e-3)": "R2 must not exceed R1 = 1 m, got 2 m",
+    "SampledProfile([0, 1e-3], [0, 1e-5])": "at least 6 numbers",
+    "SampledProfile([0, 1e-3], [0, 1e-6, 2e-6])": "f must have as many numbers as r",
+    "FromForce(NINE, -NINE, 1e6)": "F must ascend",
+    "SlidingContact(ConcavePunch(1e-3, 0.2), RUBBER, 0.5, NormalOscillation(6e-6, 2e-6, 3))": "its middle presses only",
+    # materials
+    "KelvinVoigt(3e6, 50, 1e-3)": "rubber is 0.5",
+    "KelvinVoigt(E=3e6, nu=0.5, tan_delta=0.2)": "use KelvinVoigt.from_loss_tangent",
+    "KelvinVoigt(E=3e6, nu=0.5, G=1e6)": "use KelvinVoigt.from_shear",
+    "StandardLinearSolid(0, 0, 1e-3, 0.5)": "nothing carries a load",
+    "Prony(0, [(1e6, 1)], 0.5, tau=1)": "tau must be 0 where E_inf = 0",
+    "SlidingContact(BALL, Prony(0, [(1e6, 1)], 0.5), 0.5, TAPPING)": "E_inf = 0: a mean load relaxes",
+    "Prony.fit([1, 2], [1e6, NAN], [0, 0], nu=0.5)": "storage must be finite",
+    "Prony.fit([1, 2], [1e6, 1e6], [0, -1], nu=0.5)": "loss must not be negative, got -1.0 Pa",
+    "Prony.fit([1], [1e6, 1e6], [0, 1], nu=0.5)": "lists of one length, got shapes (1,), (2,), (2,)",
+    "Prony.power_law(modulus=1, exponent=1.2, omega=(1, 9), nu=0)": "exponent must lie",
+    "Prony.power_law(modulus=1, exponent=0.2, omega=(9, 1), nu=0)": "omega must be a range",
+    # motion and pull
+    "NormalOscillation(-2e-6, 2e-6, 300)": "never touches; raise u_z0 above -du_z = -2e-06 m",
+    "NormalOscillation(uz0=2e-5, du_z=2e-6, omega=3)": "did you mean u_z0?",
+    "PeriodicMotion(1, 1e-6)": "nothing oscillates",
+    "PeriodicMotion(1, -1e-6, sin=(1e-7,))": "at its deepest: the indenter never touches",
+    "PeriodicMotion.of([1.0], 1)": "u_z must be a list of at least 3",
+    "LoadOscillation(0.1, 0.2, 300)": "dF_z = 0.2 N must be less than F_z0 = 0.1 N where nothing has mass",
+    "SpringPull(0)": "for a rigid pull use RigidPull()",
+    "SpringPull(kx=2e4)": "did you mean k_x?",
+    # a contact
+    "SlidingContact(Paraboloid, RUBBER, 0.5, TAPPING)": "write Paraboloid(...)",
+    "SlidingContact(BALL, RUBBER, 0.5)": "missing 1 required positional argument: 'oscillation'",
+    "SlidingContact(BALL, RUBBER, 0.5, ConstantDepth(2e-5))": "nothing oscillates",
+    "SlidingContact(BALL, RUBBER, 0.5, ConstantDepth(2e-5), shake=InPlaneOscillation(3.0))": "nothing oscillates",
+    "SlidingContact(Sphere(1e-5), RUBBER, 0.5, NormalOscillation(1e-3, 1e-6, 300))": "press less",
+    "SlidingContact(BALL, RUBBER, 0.5, TAPPING, shake=SHAKE)": "whole numbers up to 16",
+    "resolved(SlidingContact(Sphere(1e-6), RUBBER, 1, LoadOscillation(9, 1, 1)))": "carries",
+    # questions
+    "slide(CASE)": "missing 1 required positional argument: 'v_0'",
+    "slide(CASE, -1e-3)": "the other way is the same where nothing shakes in the plane",
+    "slide(CASE, 1e-3, n_periods=20_000, record=10_000)": "more than memory holds",
+    "slide(CASE, 1e-15)": "rounding hides the motion",
+    "indent(BALL, RUBBER, [0, 1])": "give either u_z",
+    "indent(BALL, RUBBER, [0, 1], [0, 1], F_z=[0, 1])": "give either u_z",
+    'sweep(CASE, {"v_0": [1e-3]}, quantities=["coff"])': "did you mean cof?",
+    'fit(CASE, SOME, ["mu0"])': "did you mean mu_0?",
+    # files
+    'read_case("nofile.toml")': "nofile.toml: cannot be read: No such file",
+    'Prony.read("arms.txt")': "arms.txt",
+    "parse_case(3)": "text must be",
+    'parse_case("mu_0 = 0,5")': "write one number in SI",
+    'parse_case("mu_0 = 0.5")': "[indenter] is missing",
+    'parse_case(CONE + "theta = 1 deg")': "without unit or arithmetic",
+    'parse_case(CONE + "angle = 0.1")': "angle is no key of Cone; there are shape, theta, theta_deg",
+}
+
+
+@pytest.mark.parametrize("saying", SAYINGS)
+def test_a_slip_is_answered_in_words(saying):
+    message = str(refused(lambda: eval(saying, vars(mdr) | globals()), (TypeError, ValueError, OSError)))
+    assert SAYINGS[saying] in message, message
+
+
+def test_what_is_right_passes():
+    """The same calls with sound values: the table refuses the wrong, not everything."""
+    case = mdr.SlidingContact(mdr.Profile(lambda r: r**2 / 1e-2), RUBBER, np.float64(0.5), TAPPING)
+    run = mdr.slide(case, np.float32(1e-4), n_springs=np.int64(32), steps_per_period=64, n_periods=9, record=1)
+    assert 0 < run.cof < 0.5
+    assert mdr.NormalOscillation(u_z0=-1e-6, du_z=2e-6, omega=1).u_z_dot(0.0) == 0
+    assert mdr.Elastic(E=1, nu=0).mindlin_ratio == 1
+    assert mdr.LoadOscillation(0.1, 0.2, 1.0, m_z=0.1).dF_z == 0.2  # with mass it may let go
+    assert mdr.SpringPull(k_x=1).receptance(0) == 1
+
+
+def test_a_pull_slower_than_rounding_is_its_limit_in_a_curve():
+    for pull in (SLED, mdr.RigidPull()):
+        case = replace(CASE, pull=pull)
+        curve = mdr.cof_curve(case, [1e-30, 1e-15])
+        assert curve.cof.tolist() == 2 * [mdr.static_cof(case)]
+        assert curve.v_0.tolist() == [1e-30, 1e-15]
+
+
+@pytest.mark.parametrize("v_0", [1e-11, 1e-9, 1e3, 1e9])
+def test_extreme_velocities_give_numbers(v_0):
+    """Legal however extreme: a friction between the static limit and mu_0, finite in every field."""
+    run = mdr.slide(replace(CASE, pull=mdr.RigidPull()), v_0, n_springs=32, steps_per_period=64, n_periods=20)
+    assert 0 <= run.cof <= CASE.mu_0 * (1 + 1e-9)
+    numbers = [run.cof_error, run.stick_share, run.least_slip, run.mean_F_x, run.mean_F_z]
+    assert np.isfinite([*numbers, *vars(run.energy_balance).values()]).all()
