@@ -117,10 +117,6 @@ def cycles():
         S = np.empty(n_z)
         kernels.settle_normal(s, gap, w, *motion, table, spans, S)
         yield f"{name}, start", [*S, *s.ravel(), *spans[:, :n_z].ravel()]
-        if table.shape[1] > 1:
-            (F, S, at_edge), outermost, begins = np.zeros((3, n_z)), np.empty(n_z, dtype=np.int64), np.empty(9)
-            kernels.normal_forces(gap, w, *motion, table, F, S, outermost, at_edge, begins)
-            yield f"{name}, force", [*F, *S, *outermost, *at_edge, *begins]
 
 
 MAKERS = (least_squares, slides, shakes, shaken_pulls, searches, presses, cycles)

@@ -34,9 +34,7 @@ RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 DOORS = ("plot", "to_", "read")  # methods of records that may import upwards
 OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the command
 #: Imports against the order, each with its reason. The list may only shrink.
-NAMED = {
-    ("mdr.normal.followed_force", "mdr.march.kernels"): "one step of a compiled spring holds its normal motion too",
-}
+NAMED: dict[tuple[str, str], str] = {}
 
 
 class Import(NamedTuple):
@@ -183,16 +181,21 @@ def test_closed_forms_and_the_march_know_nothing_of_each_other(house):
     assert ways_between(imports, known, march, closed, NAMED) == []
 
 
-def test_the_normal_problem_uses_its_own_half_of_the_compiled_code(house):
-    """The one way from closed forms to the file of the march leads to functions that have no friction in them."""
+def test_the_normal_motion_of_a_spring_has_no_friction_in_it(house):
+    """What closed forms use of a spring is `settle`, and this takes of a step the normal part alone."""
     known, _ = house
-    tree = ast.parse(known["mdr.normal.followed_force"].read_text(encoding="utf-8"))
+    tree = ast.parse(known["mdr.spring.settle"].read_text(encoding="utf-8"))
     used = {
-        node.attr
+        name.name
         for node in ast.walk(tree)
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "kernels"
+        if isinstance(node, ast.ImportFrom) and node.module == "mdr.spring.step"
+        for name in node.names
     }
-    assert used == {"normal_forces", "settle_spring"}
+    assert used == {"Path", "Tools", "fill", "press"}
+    below = ast.parse(known["mdr.spring.step"].read_text(encoding="utf-8"))
+    press = next(node for node in below.body if isinstance(node, ast.FunctionDef) and node.name == "press")
+    words = {node.id for node in ast.walk(press) if isinstance(node, ast.Name)}
+    assert not words & {"STICK", "SLIP", "SLIP_BACK", "row", "look"}
 
 
 def test_the_compiled_march_knows_numbers_alone(house):

@@ -865,33 +865,6 @@ def settle_spring(x, guess, gap, z, zd, table, force, touches, path):
 
 
 @_jit
-def normal_forces(gap, w, z, zd, table, F, S, outermost, at_edge, begins):
-    """All springs, from the centre outwards, in their periodic normal motion: adds to F (n_z,) their force and to S
-    (n_z,) the sum of w s.
-
-    Fills outermost (n_z,) with the last spring that presses (-1 for none), at_edge (n_z,) with its force over its
-    stiffness, and begins (n,) with the instant, in steps, at which a spring touches (NaN unless it does so just once).
-    """
-    x, guess = np.empty(table.shape[1]), np.zeros(table.shape[1])
-    force, touches, path = np.empty(F.size), np.empty(F.size), np.empty(F.size)
-    outermost[:] = -1
-    at_edge[:] = 0.0
-    for i in range(gap.size):
-        settle_spring(x, guess, gap[i], z, zd, table, force, touches, path)
-        n_touches = 0
-        for k in range(F.size):
-            F[k] += w[i] * force[k]
-            S[k] += w[i] * path[k]
-            if touches[k] > 0.0:
-                outermost[k], at_edge[k] = i, force[k]
-                if touches[k - 1] <= 0.0:
-                    n_touches += 1
-                    begins[i] = k - touches[k]
-        if n_touches != 1:
-            begins[i] = np.nan
-
-
-@_jit
 def settle_normal(s, gap, w, z, zd, table, spans, S):
     """Put every spring into the periodic normal motion, at its start z[0]; fills S (n_z,) with sum(w s) at z[0] to
     z[n_z - 1] and what the paths in the step before add to the mean of it, NaN if springs with arms find none. Returns

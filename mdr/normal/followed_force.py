@@ -1,9 +1,9 @@
 """The normal force over one period of any depth, for any shape and material, spring by spring.
 
 Springs that keep contact answer harmonic by harmonic with the dynamic modulus, exactly. Those of the edge band, which
-touch and leave, are followed through the period until it repeats, with a force that is known at its instants to second
-order in step and width (kernels.py). Where the depth is harmonic and the material has no arms, full_slip.py has
-the closed form of the same force; that these agree is a test.
+touch and leave, are followed through the period until it repeats (mdr/spring/settle.py). Their sum is taken up to the
+edge of the contact, at which dashpots jump, to third order in their width. Where the depth is harmonic and the material
+has no arms, full_slip.py has the closed form of the same force; that these agree is a test.
 """
 
 from __future__ import annotations
@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
-from mdr.march import kernels
 from mdr.materials.operator import Rheology
 from mdr.normal.spring_grid import cells
+from mdr.spring.law import law_of
+from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
 N_EDGE = 512  #: springs
-N_STEPS = 4096  #: of the period
+N_STEPS = 2048  #: of the period
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -76,40 +77,59 @@ class _Band:
     def press(self, F: Array, S: Array, radius: Array, rheology: Rheology, cycle: Cycle) -> tuple[Array, Array]:
         """Force and radius of contact with the band, (n_t,); adds to S (n_t,) what the band is compressed by.
 
-        A spring stands for its whole cell. Where contact grows the edge has come part of the way to the next spring,
-        and that part of the cells between them presses like the last one: dashpots would jump without it.
+        A sum over the springs that press is an integral up to the end of the cell of the last one. From there to the
+        edge of the contact the force is linear, as between the last two springs: all is of third order in the width of
+        a cell. The end of a midpoint rule adds its own term, width² slope/24.
         """
-        n_t = F.size
-        z, rate = cycle.over_a_period(n_t)
-        outermost, at_edge, begins = np.empty(n_t, dtype=np.int64), np.empty(n_t), np.empty(self.x.size)
-        table = rheology.over_step(2 * np.pi / n_t)
-        kernels.normal_forces(self.gap, self.width, z, rate, table, F, S, outermost, at_edge, begins)
-        if np.isnan(F).any():
-            raise ValueError(
-                "the normal motion of springs with these arms does not become periodic: an arm relaxes within less "
-                f"than 1/{n_t} of a period, or is far stiffer than E_inf; leave out what is so fast, or merge arms"
-            )
-        some = outermost >= 0
-        last = np.maximum(outermost, 0)
-        ends = radius[0] + 0.5 * np.cumsum(self.width)
-        ahead = np.minimum(last + 1, self.x.size - 1)
-        since, way = (np.arange(n_t) - begins[last]) % n_t, (begins[ahead] - begins[last]) % n_t
-        with np.errstate(invalid="ignore", divide="ignore"):
-            grows = some & (ahead > last) & (since < way) & (way < n_t / 2)
-            edge = np.where(grows, self.x[last] + since / way * (self.x[ahead] - self.x[last]), ends[last])
-        F = F + 2 * (edge - ends[last]) * at_edge
-        return F, np.where(some, edge, radius)
+        known = followed_springs(rheology, self.gap, self.width, cycle, F.size)
+        force, since = _at_instants(known)
+        now, presses, cell = np.arange(F.size), since > 0, 0.5 * self.width
+        last = self.x.size - 1 - np.argmax(presses[:, ::-1], axis=1)
+        behind, f = np.maximum(last - 1, 0), force[now, last]
+        with np.errstate(invalid="ignore"):
+            slope = np.nan_to_num((f - force[now, behind]) / (self.x[last] - self.x[behind]))
+        to_end = (radius[0] + np.cumsum(cell) - self.x)[last]
+        to_edge = self._to_edge(last, f, slope, to_end, since)
+        rest = (to_edge - to_end) * f + 0.5 * slope * (to_edge**2 - to_end**2 + cell[last] ** 2 / 12)
+        some = presses.any(axis=1)
+        S += known.compression
+        return F + force @ self.width + np.where(some, 2 * rest, 0), np.where(some, self.x[last] + to_edge, radius)
+
+    def _to_edge(self, last: Array, f: Array, slope: Array, to_end: Array, since: Array) -> Array:
+        """From the last spring that presses to the edge of the contact, (n_t,).
+
+        The edge of a growing contact passes by springs as they touch: a parabola in time through the last two and the
+        next one. Another contact ends where the force has fallen to zero.
+        """
+        now, behind, ahead = np.arange(last.size), np.maximum(last - 1, 0), np.minimum(last + 1, self.x.size - 1)
+        touched, touches = _touches(since)
+        t_0, t_1, t_2 = touched[now, behind], touched[now, last], touches[now, ahead]
+        to_next = self.x[ahead] - self.x[last]
+        with np.errstate(all="ignore"):  # springs that touch at once, or never
+            pace = to_next / (t_2 - t_1)
+            bend = np.nan_to_num((pace - (self.x[last] - self.x[behind]) / (t_1 - t_0)) / (t_2 - t_0))
+            grown = (now - t_1) * (pace + bend * (now - t_2))
+            shrunk = np.where(slope < 0, -f / slope, to_end)
+        to_edge = np.clip(np.where(t_2 < touches[now, last], grown, shrunk), 0, to_next)
+        return np.where(ahead > last, to_edge, to_end)
+
+
+def _touches(since: Array) -> tuple[Array, Array]:
+    """Instants, in steps, of the last touch of each spring and of its next one, (n_t, n); NaN for none."""
+    n_t = since.shape[0]
+    begins = (since > 0) & (np.roll(since, 1, axis=0) <= 0)
+    at = np.where(begins, np.arange(n_t)[:, None] - since, np.nan)
+    touched = np.fmax.accumulate(np.concatenate([at - n_t, at]))[n_t:]
+    touches = np.fmin.accumulate(np.concatenate([at, at + n_t])[::-1])[::-1]
+    return touched, touches[1 : n_t + 1]
 
 
 def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_], Array, Array]:
     """When the tip itself presses (n_t,), slightly longer than the first spring does; phases at which it touches, and
     at which its force has fallen to zero.
     """
-    z, rate = cycle.over_a_period(n_t)
-    force, shares, path = np.empty((3, n_t))
-    table = rheology.over_step(2 * np.pi / n_t)
-    state, guess = np.zeros((2, table.shape[1]))
-    kernels.settle_spring(state, guess, -cycle.u_z0 / cycle.unit, z, rate, table, force, shares, path)
+    tip = followed_springs(rheology, np.array([-cycle.u_z0 / cycle.unit]), np.ones(1), cycle, n_t)
+    force, shares = (values[:, 0] for values in _at_instants(tip))
     presses = shares > 0
     begins = np.flatnonzero(presses & ~np.roll(presses, 1))
     last = np.flatnonzero(presses & ~np.roll(presses, -1))
@@ -120,16 +140,21 @@ def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_],
     return presses, step * ((begins - shares[begins]) % n_t), np.asarray(step * ((last + more) % n_t))
 
 
-def shares_of_contact(rheology: Rheology, gaps: Array, cycle: Cycle, n_t: int) -> Array:
-    """For springs of these gaps, over the unit of the cycle, above zero at the nodes at which they press, (n, n_t):
-    there the share of the step since they touched.
-    """
-    z, rate = cycle.over_a_period(n_t)
-    table = rheology.over_step(2 * np.pi / n_t)
-    out, (force, path), (state, guess) = np.empty((gaps.size, n_t)), np.empty((2, n_t)), np.zeros((2, table.shape[1]))
-    for gap, shares in zip(gaps, out, strict=True):
-        kernels.settle_spring(state, guess, gap, z, rate, table, force, shares, path)
-    return out
+def followed_springs(rheology: Rheology, gap: Array, w: Array, cycle: Cycle, n_t: int) -> NormalPeriod:
+    """The periodic motion of springs of these gaps, over the unit of the cycle, and weights, in n_t steps."""
+    law = law_of(rheology.T, rheology.rho, rheology.theta)
+    known = settled(gap, w, *cycle.over_a_period(n_t), law, each=True)
+    if known is None:
+        raise ValueError(
+            "the normal motion of springs with these arms does not become periodic: an arm relaxes within less "
+            f"than 1/{n_t} of a period, or is far stiffer than E_inf; leave out what is so fast, or merge arms"
+        )
+    return known
+
+
+def _at_instants(known: NormalPeriod) -> tuple[Array, Array]:
+    """At the instants, from phase 0, force and share of the step before for which a spring has pressed, (n_t, n)."""
+    return np.roll(known.force, 1, axis=0), np.roll(known.since, 1, axis=0)
 
 
 def of_harmonics(harmonics: NDArray[np.complex128], n_t: int) -> Array:

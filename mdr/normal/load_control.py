@@ -37,6 +37,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import instance, positive
 
 N_HARMONICS = 256  #: of the depth; its instants are eight times as many
+N_BAND = 128  #: springs that touch and leave, while the depth is searched for
 CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
 ENOUGH = 1e-4  #: the same with which it may end when it gets no further
 NOISE = 1e-6  #: of a depth, from which on a search may end at the rounding of the shape
@@ -206,7 +207,7 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
         cycle = _cycle_of(u, omega)
         if cycle.u_z0 + cycle.unit * cycle.greatest <= 0:
             return load
-        known = normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, 256)
+        known = normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, N_BAND)
         if known.in_contact.all():
             F_n = np.fft.rfft(known.F_N)[: N_HARMONICS + 1]
         else:  # F_N jumps

@@ -17,9 +17,10 @@ from mdr.case.depth_cycle import Cycle
 from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
-from mdr.materials.operator import L_DECAY, L_FREE, L_GAIN, Rheology
-from mdr.normal.followed_force import shares_of_contact
+from mdr.materials.operator import Rheology
+from mdr.normal.followed_force import followed_springs
 from mdr.normal.spring_grid import cells
+from mdr.spring.law import law_of
 from mdr.tools.memoise import remembered
 
 N_BAND = 32  #: springs that touch and leave
@@ -34,27 +35,29 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     """
     rheology, h = Rheology.of(material, load.omega), 2 * np.pi / N_STEPS
     _, gap, width, n_core = cells(shape, cycle, cycle.kept_gap(rheology.response), N_BAND)
-    table = rheology.over_step(h)
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
+    band = followed_springs(rheology, gap[n_core:] / cycle.unit, width[n_kept:], cycle, N_STEPS)
     presses = np.ones((N_STEPS + 1, width.size), dtype=bool)
-    presses[:-1, n_kept:] = shares_of_contact(rheology, gap[n_core:] / cycle.unit, cycle, N_STEPS).T > 0
-    presses[-1] = presses[0]
+    presses[1:, n_kept:] = band.since > 0
+    presses[0] = presses[-1]
     M = load.m_z * load.omega**2 / material.E_star
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
-    decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
+    decay, gain = np.exp(-h / theta), -np.expm1(-h / theta) * theta / h  # of arms that are held
     lag, of_arms = T / h + float(rho * theta / h @ (1 - gain)), rho * theta / h * (1 - decay)
-    n, n_arms = width.size, rho.size
-    v, p, *rest = np.eye(2 + n * (1 + n_arms))  # columns: deviations to begin with
-    s, *arms = np.array(rest).reshape(1 + n_arms, n, -1)
+    modes = law_of(T, rheology.rho, rheology.theta).modes
+    free = np.zeros((1, 1)) if modes is None else modes.out * np.exp(-modes.mu * h) @ modes.into
+    n = width.size
+    v, p, *rest = np.eye(2 + n * (1 + rho.size))  # columns: deviations to begin with
+    x = np.array(rest).reshape(1 + rho.size, n, -1)
     for before, after in pairwise(presses):
         static, rate = 0.5 * (width * before + width * after), width * np.where(after, 1.0, 0.5 * before)
         A = 0.5 * static.sum() + lag * rate.sum()
-        B = 0.5 * static.sum() * v - lag * (rate @ s) + sum(c * (rate @ x) for c, x in zip(of_arms, arms, strict=True))
+        B = 0.5 * static.sum() * v + np.concatenate([[-lag], of_arms]) @ (rate @ x)
         end = (v + h * p - h**2 / (2 * M) * B) / (1 + h**2 * A / (2 * M))
         p, v = 2 * (end - v) / h - p, end
-        free = table[L_FREE, 0] * s + sum(c * x for c, x in zip(table[L_FREE, 1:], arms, strict=True))
-        s_end = np.where(after[:, None], v, free)
-        arms = [one * x + share * (s_end - s) for one, share, x in zip(decay, gain, arms, strict=True)]
-        s = s_end
-    return float(np.abs(np.linalg.eigvals(np.concatenate([[v, p], s, *arms]))).max())
+        held = np.concatenate(
+            [np.broadcast_to(v, x[:1].shape), decay[:, None, None] * x[1:] + gain[:, None, None] * (v - x[0])]
+        )
+        x = np.where(after[:, None], held, np.tensordot(free, x, 1))
+    return float(np.abs(np.linalg.eigvals(np.concatenate([[v, p], *x]))).max())

@@ -24,7 +24,8 @@ class NormalPeriod:
     s: Array  #: (1 + J, n) compressions at its start, and their arms
     area: Array  #: (n_t,) area of the normal force over each step
     moment: Array  #: (n_t,) its moment about the start of the step
-    nodes: Array  #: (2, n_t + 1) sums of w s and of the static force at the ends of steps
+    end: Array  #: (n_t,) the force at the end of each step
+    compression: Array  #: (n_t,) sum of w s at the start of each step
     force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
     since: Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
 
@@ -56,11 +57,11 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     rho, theta = law.arms or (np.empty(0), np.empty(0))
     s = np.zeros((1 + rho.size, n))
     s[0] = np.maximum(z[0] - gap, 0)
-    area, moment, nodes = np.empty(n_t), np.empty(n_t), np.empty((2, n_t + 1))
+    sums = np.empty((4, n_t))
     none = np.empty((0, n))
 
     def pass_through(x: Array, who: NDArray[np.int64], force: Array, since: Array) -> None:
-        period(x, gap[who], w[who], z, z_dot, *law, tools, area, moment, nodes, force, since)
+        period(x, gap[who], w[who], z, z_dot, *law, tools, sums, force, since)
 
     who, move = np.arange(n), np.zeros((rho.size, n))
     trust, before, change = np.ones(n), np.full(n, np.inf), np.zeros(n)
@@ -87,38 +88,28 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     every = np.arange(n)
     force, since = np.empty((2, n_t if each else 0, n))
     pass_through(s.copy(), every, force, since)
-    return NormalPeriod(s, area, moment, nodes, force, since)
+    area, moment, end, compression = sums
+    return NormalPeriod(s, area, moment, end, compression, force, since)
 
 
 @compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def sums_of(x, w, arms):  # type: ignore[no-untyped-def]
-    """Sum of w x, and of the force of springs at rest, with their arms."""
-    total = static = 0.0
-    for i in range(w.size):
-        one = x[0, i]
-        total += w[i] * one
-        if arms is not None:
-            for j in range(arms.rho.size):
-                one += arms.rho[j] * x[1 + j, i]
-        static += w[i] * one
-    return total, static
-
-
-@compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def period(s, gap, w, z, z_dot, T, modes, arms, tools, area, moment, nodes, force, since):  # type: ignore[no-untyped-def]
-    """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod."""
+def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # type: ignore[no-untyped-def]
+    """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (4, n_t)."""
     h, now = tools.h, np.empty(gap.size)
-    nodes[0, 0], nodes[1, 0] = sums_of(s, w, arms)
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
-        area[k], moment[k] = press(s, gap, w, path, T, modes, arms, tools, now)
-        nodes[0, k + 1], nodes[1, k + 1] = sums_of(s, w, arms)
-        if force.shape[0] > 0:
-            for i in range(gap.size):
-                normal = s[0, i] + T * z_dot[k + 1]
-                if arms is not None:
-                    for j in range(arms.rho.size):
-                        normal += arms.rho[j] * s[1 + j, i]
-                force[k, i] = max(normal, 0.0) if now[i] > 0.0 else 0.0
-                since[k, i] = now[i]
+        before = end = 0.0
+        for i in range(gap.size):
+            before += w[i] * s[0, i]
+        area, moment = press(s, gap, w, path, T, modes, arms, tools, now)
+        for i in range(gap.size):
+            normal = s[0, i] + T * z_dot[k + 1]
+            if arms is not None:
+                for j in range(arms.rho.size):
+                    normal += arms.rho[j] * s[1 + j, i]
+            normal = max(normal, 0.0) if now[i] > 0.0 else 0.0
+            end += w[i] * normal
+            if force.shape[0] > 0:
+                force[k, i], since[k, i] = normal, now[i]
+        sums[0, k], sums[1, k], sums[2, k], sums[3, k] = area, moment, end, before

@@ -396,19 +396,20 @@ def alone(x, rate, decay):
 
 @_call
 def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
-    """All springs over a step: sums of area and moment of their tangential forces, and of the time they stuck.
+    """All springs over a step: sums of area and moment of their tangential forces, of the time they stuck and its
+    moment, of their forces at the end, and of the weight of those that stick there.
 
-    s, e (1 + J, n) are updated. zd, xd: rates of the top at the end of the step, for a look; look: None or Look.
+    s, e (1 + J, n) are updated. zd, xd: rates of the top at the end of the step; look: None or Look.
     """
     h, n_x, rate, decay = tools.h, s.shape[0], 0.0, tools.decay
     if modes is not None:
         rate = modes.mu[0]
-    area, moment, stuck, least = 0.0, 0.0, 0.0, np.inf
+    area, moment, stuck, when, end, sticking, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf
     for i in range(gap.size):
         tol = ROUNDING * (1.0 + abs(gap[i]))
         z_0, z_1, z_2, x_1, x_2 = path.z_0 - gap[i], path.z_1, path.z_2, path.x_1, path.x_2
         t, done, k = h, 0.0, 0
-        of_area = of_moment = sticks = 0.0
+        of_area = of_moment = sticks = middle = 0.0
         mode = FREE
         if s[0, i] <= z_0 + tol:
             s[0, i], mode = z_0, BEGINS
@@ -496,6 +497,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                             e[j, i] = sign * (s[j, i] - of_modes(j, k, tools, modes))
                     A, B = A + C, B + D
                 sticks += t if mode == STICK else 0.0
+                middle += t * (done + 0.5 * t) if mode == STICK else 0.0
                 of_area += sign * A
                 of_moment += sign * (done * A + B)
             if not ends:
@@ -509,23 +511,27 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
         area += w[i] * of_area
         moment += w[i] * of_moment
         stuck += w[i] * sticks
+        when += w[i] * middle
+        normal = tangential = 0.0
+        if mode != FREE:
+            normal, tangential = s[0, i] + T * zd, e[0, i] + T * xd
+            if arms is not None:
+                for j in range(n_x - 1):
+                    normal += arms.rho[j] * s[1 + j, i]
+                    tangential += arms.rho[j] * e[1 + j, i]
+            normal = max(normal, 0.0)
+            tangential = max(min(tangential, normal), -normal) if mode == STICK else sign * normal
+            sticking += w[i] if mode == STICK else 0.0
+        end += w[i] * tangential
         if look is not None:
-            normal = tangential = 0.0
             if mode != FREE:
-                normal, tangential = s[0, i] + T * zd, e[0, i] + T * xd
-                if arms is not None:
-                    for j in range(n_x - 1):
-                        normal += arms.rho[j] * s[1 + j, i]
-                        tangential += arms.rho[j] * e[1 + j, i]
-                normal = max(normal, 0.0)
                 least = min(least, slip_velocity(mode, s, e, i, zd, xd, modes))
-                tangential = max(min(tangential, normal), -normal) if mode == STICK else sign * normal
             look.mode[i], look.f_x[i], look.f_z[i] = mode, tangential, normal
             look.F[0] += w[i] * tangential
             look.F[1] += w[i] * normal
     if look is not None:
         look.F[2] = least
-    return area, moment, stuck
+    return area, moment, stuck, when, end, sticking
 
 
 @_call

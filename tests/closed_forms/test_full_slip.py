@@ -111,7 +111,7 @@ def test_static_cof_of_the_punch_is_eq_7(T):
 def test_a_contact_too_brief_to_follow_is_refused_by_name(question):
     motion = mdr.PeriodicMotion(300.0, 1e-6, (2e-6, 5e-7), (0.0, 3e-7))
     case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.Prony(3e6, [(1e6, 1.0)], 0.5, 1e6), 0.4, motion)
-    with pytest.raises(ValueError, match="the contact lasts less than 1/4096 of a period"):
+    with pytest.raises(ValueError, match="the contact lasts less than 1/2048 of a period"):
         question(case)
 
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.closed_forms.full_slip import full_slip
 from mdr.materials.operator import Rheology
-from mdr.normal.followed_force import normal_cycle
+from mdr.normal.followed_force import N_STEPS, normal_cycle
 
 
 @pytest.mark.parametrize("T", [0.0, 0.3, 3.0])
@@ -16,7 +16,7 @@ from mdr.normal.followed_force import normal_cycle
 @pytest.mark.parametrize("shape", SHAPES)
 def test_force_is_that_of_the_closed_form(shape, depth_ratio, T):
     case = contact(shape, depth_ratio, T)
-    known, exact = normal_cycle(case.indenter, case.rheology, case.cycle), full_slip(case, 4096)
+    known, exact = normal_cycle(case.indenter, case.rheology, case.cycle), full_slip(case, N_STEPS)
     off = np.abs(case.material.E_star * known.F_N - exact.F_N)
     # but for the instants next to the first touch, of a punch with a jump or of a tip within the first cell; with T = 3
     # springs at the edge press with 3 times their depth from the first touch on
@@ -24,7 +24,7 @@ def test_force_is_that_of_the_closed_form(shape, depth_ratio, T):
     assert_allclose(case.material.E_star * known.F_N.mean(), exact.F_N.mean(), rtol=3e-4 if shape == "flat" else 2e-5)
     radius = np.abs(known.contact_radius - exact.contact_radius)
     assert np.quantile(radius, 0.99) < 0.01 * exact.contact_radius.max()
-    assert np.mean(known.in_contact != exact.in_contact) < 2 / 4096 + 1e-12
+    assert np.mean(known.in_contact != exact.in_contact) < 2 / N_STEPS + 1e-12
 
 
 @pytest.mark.parametrize("arms", [((2.0,), (0.7,)), ((5.0, 1.0), (0.01, 40.0))])

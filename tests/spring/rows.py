@@ -91,7 +91,7 @@ class Row:
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
                 args = path, *self.law, tools, last.z_1, last.x_1
-                area, moment, stuck = row(two, one, self.gap[i : i + 1], np.ones(1), *args, look and look[i])
+                area, moment, stuck, _, _, _ = row(two, one, self.gap[i : i + 1], np.ones(1), *args, look and look[i])
                 sums[:, i] += area, moment + part * h * area, stuck
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
@@ -108,7 +108,7 @@ class Row:
         """Sums over all springs in one call."""
         e, s, end = self.e.copy(), self.s.copy(), self.from_then(self.h)
         sums = row(s, e, self.gap, self.w, self.path, *self.law, tools_for(self.law, self.h), end.z_1, end.x_1, None)
-        return e, s, sums
+        return e, s, sums[:3]
 
     def pressed(self):
         """Compressions, sums of area and moment, and for how long each has pressed, without friction."""
