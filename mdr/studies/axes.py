@@ -33,39 +33,33 @@ from mdr.normal.vary import GROUPS, RIG, fields_of, fields_set
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.messages import nearest, one_line, short
+from mdr.tools.records import ArrayRecord
 
 VELOCITIES = ("v_0", "v_0/v_c")
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 
-@dataclass(frozen=True, eq=False)
-class Axis:
+@dataclass(frozen=True, eq=False, repr=False)
+class Axis(ArrayRecord):
     """One axis of a study; two are equal by path and values, records by their labels."""
 
     path: str  #: what it sets
     values: Array | tuple[Any, ...]  #: numbers as an array (n,), anything else as a tuple
     labels: tuple[str, ...] = ()  #: what values that are no numbers are called
 
-    def __post_init__(self) -> None:
-        if isinstance(self.values, np.ndarray):
-            own = self.values.view()
-            own.setflags(write=False)
-            object.__setattr__(self, "values", own)
+    @classmethod
+    def labelled(cls, path: str, labels: Iterable[str]) -> Axis:
+        """An axis of records of which the labels are known alone."""
+        return cls(path, tuple(labels), tuple(labels))
+
+    def _values(self) -> tuple[Any, ...]:
+        return self.path, self.values if self.is_numeric else None, self.labels
 
     def __len__(self) -> int:
         return len(self.values)
 
     def __getitem__(self, index: int) -> Any:
         return float(self.values[index]) if self.is_numeric else self.values[index]
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Axis):
-            return NotImplemented
-        same = self.labels == other.labels and (not self.is_numeric or np.array_equal(self.values, other.values))
-        return self.path == other.path and self.is_numeric == other.is_numeric and bool(same)
-
-    def __hash__(self) -> int:
-        return hash((self.path, self.labels, np.asarray(self.values).tobytes() if self.is_numeric else b""))
 
     @property
     def is_numeric(self) -> bool:

@@ -12,7 +12,6 @@ import numpy as np
 from grids import LOG, LONG
 
 import mdr
-from mdr.studies.cut import Cut
 from mdr.studies.store import Store
 
 HERE = Path(__file__).parent
@@ -58,10 +57,9 @@ def live(store, log, lifetime, at_work=True):
 
 def finished_units(store):
     """What the log says of the units of finished chunks."""
-    plan = Store(store).plan()
-    if plan is None:
+    cut = Store(store).plan()
+    if cut is None:
         return set()
-    cut = Cut(plan["n_units"], plan["units_per_chunk"])
     depths = [f"{depth!r}" for depth in LONG["oscillation.u_z0"]]
     return {depths[unit] for chunk in Store(store).finished() for unit in range(*cut.units(chunk))}
 

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.normal.vary import case_at
-from mdr.studies.velocities import velocities_of
+from mdr.studies.points import velocities_of
 
 
 @pytest.mark.parametrize(
@@ -97,6 +97,6 @@ def test_multiples_of_an_infinite_or_vanishing_velocity_say_nothing(monkeypatch)
     resonant = replace(BODY, pull=mdr.SpringPull(k_x=300.0**2 * 0.1, m=0.1))
     with pytest.raises(ValueError, match="v_0/v_c: the critical velocity of this case is infinite"):
         velocities_of(resonant, "v_0/v_c", np.array([0.5]))
-    monkeypatch.setattr("mdr.studies.velocities.critical_velocity", lambda case: 0.0)
+    monkeypatch.setattr("mdr.studies.points.critical_velocity", lambda case: 0.0)
     with pytest.raises(ValueError, match="v_0/v_c: the critical velocity of this case is zero"):
         velocities_of(BODY, "v_0/v_c", np.array([0.5]))

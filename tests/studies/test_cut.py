@@ -7,15 +7,13 @@ import pytest
 from grids import RIGID
 
 import mdr
-from mdr.studies import cut as module
+from mdr.studies import engine as module
 from mdr.studies.axes import read_axes
-from mdr.studies.cut import MOST_TRIALS, Cut
-from mdr.studies.layout import Layout
+from mdr.studies.engine import MOST_TRIALS, Call, timed
 from mdr.studies.points import compute
 from mdr.studies.quantities import CATALOGUE
 from mdr.studies.store import Store
-from mdr.studies.stored import Stored
-from mdr.studies.work import Work
+from mdr.studies.work import Cut, Work
 
 
 def work(n, quantity="v_c"):
@@ -33,35 +31,35 @@ def clock(monkeypatch):
     """Every unit takes a quarter of a second."""
     now, units = [0.0], []
 
-    def timed(work, start, stop):
+    def clocked(work, start, stop):
         units.append(start)
         now[0] += 0.25
 
-    monkeypatch.setattr(module, "compute", timed)
+    monkeypatch.setattr(module, "compute", clocked)
     monkeypatch.setattr(module.time, "perf_counter", lambda: now[0])
     return units
 
 
 def test_a_chunk_lasts_as_long_as_it_is_told(clock):
-    assert Cut.timed(work(100), 5.0) == Cut(10_000, 20)
-    assert Cut.timed(work(100), 0.1) == Cut(10_000, 1)
+    assert timed(work(100), 5.0) == Cut(10_000, 20)
+    assert timed(work(100), 0.1) == Cut(10_000, 1)
 
 
 def test_some_units_spread_over_the_grid_are_timed_for_a_second_or_so(clock):
-    Cut.timed(work(100), 5.0)
-    warm_up, *timed = clock
-    assert len(timed) == 5  # each a quarter of a second, until more than one is over
-    assert warm_up == timed[0]
-    assert max(timed) - min(timed) > 5000
+    timed(work(100), 5.0)
+    warm_up, *units = clock
+    assert len(units) == 5  # each a quarter of a second, until more than one is over
+    assert warm_up == units[0]
+    assert max(units) - min(units) > 5000
 
 
 def test_there_are_chunks_enough_to_share(clock):
-    assert Cut.timed(work(8), 1e6).n_chunks == 32
-    assert Cut.timed(work(4), 1e6).n_chunks == 16
+    assert timed(work(8), 1e6).n_chunks == 32
+    assert timed(work(4), 1e6).n_chunks == 16
 
 
 def test_few_units_are_not_timed_at_all(clock):
-    assert Cut.timed(work(4), 5.0) == Cut(16, 1)
+    assert timed(work(4), 5.0) == Cut(16, 1)
     assert clock == []
 
 
@@ -76,7 +74,7 @@ def test_a_million_points_are_planned_by_a_few_cases(tmp_path, monkeypatch):
         compute(work, 0, 1)
         raise stopped
 
-    monkeypatch.setattr("mdr.studies.stored.run", run)
+    monkeypatch.setattr("mdr.studies.engine.run", run)
     axes = {"mu_0": np.linspace(0.1, 0.9, 100), "indenter.R": np.linspace(1e-3, 9e-3, 100), "T": np.linspace(0, 1, 100)}
     tracemalloc.start()
     with pytest.raises(RuntimeError, match="planned"):
@@ -90,15 +88,9 @@ def test_a_million_points_are_planned_by_a_few_cases(tmp_path, monkeypatch):
 def test_a_study_of_a_store_is_cut_as_the_store_has_it(tmp_path):
     given = work(8)
     store = Store(tmp_path / "store")
-    stored = Stored(given, store, None)
+    call = Call(given, store, None)
     store.folder.mkdir()
     store.chunks.mkdir()
-    store.settle({"n_units": 64, "units_per_chunk": 7})
-    assert stored._cut(5.0) == Cut(64, 7)
-    assert store.settle({"n_units": 64, "units_per_chunk": 9})["units_per_chunk"] == 7
-
-
-def test_in_memory_the_work_is_shared_evenly():
-    assert Cut.in_memory(work(8)).units_per_chunk == 1
-    assert Cut.in_memory(work(64)).units_per_chunk == 16
-    assert Layout((64, 64), None, 1).n_units == 4096
+    store.settle(Cut(64, 7))
+    assert call._cut(store, 5.0) == Cut(64, 7)
+    assert store.settle(Cut(64, 9)).units_per_chunk == 7

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from mdr.studies.layout import Layout
+from mdr.studies.work import Layout
 
 LAYOUTS = [
     Layout((3,), None, 64),

@@ -10,7 +10,7 @@ from grids import BODY, COARSE, RIGID, SHAPES
 from numpy.testing import assert_array_equal
 
 import mdr
-from mdr.studies.netcdf import name_of, packed, unpacked
+from mdr.studies.formats import name_of, packed, unpacked
 from mdr.studies.points import Status
 
 AXES = {"v_0/v_c": [0.0, 0.5, 1.1], "indenter": SHAPES, "oscillation.u_z0": [6e-6, -1e-3, -2e-3, 8e-6]}

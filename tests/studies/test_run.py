@@ -11,7 +11,7 @@ import pytest
 from grids import RIGID, RUNS, deadly, study
 
 import mdr
-from mdr.studies import run
+from mdr.studies import engine
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +92,7 @@ class Recorder(Executor):
 
 
 def test_no_more_than_so_many_chunks_are_in_flight(monkeypatch):
-    monkeypatch.setattr(run, "MOST_IN_FLIGHT", 5)
+    monkeypatch.setattr(engine, "MOST_IN_FLIGHT", 5)
     executor = Recorder()
     axes = {"mu_0": [0.1 + 0.001 * k for k in range(100)]}
     mdr.sweep(RIGID, axes, executor=executor, quantities=["v_c"])
@@ -133,7 +133,7 @@ def test_a_function_that_cannot_be_sent_is_told_where_to_be():
 
 
 def test_cores_are_those_of_the_process(monkeypatch):
-    assert run.cores() >= 1
+    assert engine.cores() >= 1
     monkeypatch.delattr(os, "sched_getaffinity", raising=False)
     monkeypatch.setattr(os, "cpu_count", lambda: None)
-    assert run.cores() == 1
+    assert engine.cores() == 1

@@ -50,7 +50,7 @@ def test_a_finished_store_holds_two_files(tmp_path):
 
 def test_a_finished_store_is_read_not_computed(tmp_path, monkeypatch):
     found = small(tmp_path / "store")
-    monkeypatch.setattr("mdr.studies.stored.run", None)
+    monkeypatch.setattr("mdr.studies.engine.run", None)
     monkeypatch.setattr(os, "fsync", None)
     again = small(tmp_path / "store")
     assert again == found
@@ -352,7 +352,7 @@ def test_a_store_that_cannot_be_written(tmp_path, monkeypatch, part_done, code):
 
     small(tmp_path / "finished")
     monkeypatch.setattr(os, "fsync", refuse)
-    monkeypatch.setattr("mdr.studies.cut.compute", None)  # found out before any work
+    monkeypatch.setattr("mdr.studies.engine.compute", None)  # found out before any work
     with pytest.raises(mdr.StudyError, match=r"chunks cannot be written .*; make the folder writable, or give another"):
         small(part_done)
     assert small(tmp_path / "finished").complete

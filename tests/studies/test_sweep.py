@@ -156,7 +156,7 @@ def hears_interrupts():
 def test_ctrl_c_says_what_is_kept_and_ends_soon(tmp_path, capsys, monkeypatch):
     store = tmp_path / "store"
     monkeypatch.setenv(LOG, str(tmp_path / "log"))
-    monkeypatch.setattr("mdr.studies.run.cores", lambda: 2)
+    monkeypatch.setattr("mdr.studies.engine.cores", lambda: 2)
     units = count(1)
 
     def interrupting():
@@ -181,10 +181,10 @@ def test_ctrl_c_without_a_store(capsys, monkeypatch):
     def interrupted(*args):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["mdr.studies.sweep"], "run", interrupted)
+    monkeypatch.setattr("mdr.studies.engine.run", interrupted)
     with pytest.raises(KeyboardInterrupt):
         mdr.sweep(RIGID, {"mu_0": [0.1]}, quantities=["v_c"])
-    told = "sweep: interrupted, and nothing is kept; in a store (store=, --store) finished chunks are"
+    told = "sweep: interrupted; nothing is kept, as there is no store (store=, --store)"
     assert told in capsys.readouterr().err
 
 
@@ -192,7 +192,7 @@ def test_ctrl_c_before_the_plan(tmp_path, capsys, monkeypatch):
     def interrupted(*args):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("mdr.studies.cut.compute", interrupted)
+    monkeypatch.setattr("mdr.studies.engine.compute", interrupted)
     with pytest.raises(KeyboardInterrupt):
         mdr.sweep(RIGID, LONG, tmp_path / "store", quantities=["v_c"])
     assert "sweep: interrupted; nothing is computed yet" in capsys.readouterr().err

@@ -154,7 +154,7 @@ def test_an_interrupt_is_status_130(file, tmp_path, capsys, monkeypatch):
     def interrupted(*args):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("mdr.studies.stored.run", interrupted)
+    monkeypatch.setattr("mdr.studies.engine.run", interrupted)
     assert main(["sweep", file, "--store", str(tmp_path / "store")]) == 130
     told = capsys.readouterr().err
     assert "sweep: interrupted; 0 of 4 chunks are safe in" in told

@@ -1,22 +1,23 @@
-"""A study as NetCDF: every quantity over labelled axes, with units; status as flags; reasons as a table.
+"""The files of a study: NetCDF, which can be read back, and a CSV table.
 
-Names with "/", which NetCDF forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are
-no numbers are texts. The bytes follow from the study alone.
+In NetCDF every quantity stands over labelled axes, with units; status as flags; reasons as a table. Names with "/",
+which it forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are no numbers are
+texts. The bytes follow from the study alone.
 """
 
 from __future__ import annotations
 
+import csv
 import json
-from io import BytesIO
+from io import BytesIO, StringIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.studies.axes import Axis
-from mdr.studies.frame import Column, Frame
 from mdr.studies.points import Status
-from mdr.studies.study import Study
+from mdr.studies.study import Column, Frame, Study
 
 _TITLE = "Sliding friction under normal oscillation, a study by mdr"
 _MEANINGS = " ".join(status.name.lower() for status in Status)
@@ -70,7 +71,25 @@ def name_of(path: str) -> str:
     return path.replace("/", "_over_")
 
 
-# --- writing ---
+def table(study: Study) -> str:
+    """CSV, one row for each point: the axes, the quantities, status and reason; numbers with all their digits."""
+    grid, out = study.frame.grid, StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    named = [(axis.path, axis.unit) for axis in grid]
+    named += [(column.name, column.unit) for column in study.frame.columns]
+    writer.writerow([*(f"{name} [{unit}]" if unit else name for name, unit in named), "status", "why"])
+    names = {int(status): status.name.lower() for status in Status}
+    told = [[axis.told(i) for i in range(len(axis))] for axis in grid]
+    values = study.values.reshape(len(study.frame.columns), -1)
+    fates = zip(study.status.ravel().tolist(), study.reason.ravel().tolist(), strict=True)
+    for k, (where, (status, reason)) in enumerate(zip(np.ndindex(study.shape), fates, strict=True)):
+        coordinates = [texts[i] for texts, i in zip(told, where, strict=True)]
+        numbers = [repr(value) for value in values[:, k].tolist()]
+        writer.writerow([*coordinates, *numbers, names[status], study.reasons[reason]])
+    return out.getvalue()
+
+
+# --- writing NetCDF ---
 
 
 def _attributes(study: Study, history: str) -> dict[str, str]:
@@ -117,7 +136,7 @@ def _set(holder: Any, name: str, value: Any) -> None:
     setattr(holder, name, value.encode("utf-8") if isinstance(value, str) else value)
 
 
-# --- reading ---
+# --- reading NetCDF ---
 
 
 def _study(file: Any) -> Study:
@@ -145,8 +164,7 @@ def _study(file: Any) -> Study:
 def _axis(variable: Any) -> Axis:
     path = _text(variable, "path")
     if variable.typecode() == "c":
-        labels = _texts(variable)
-        return Axis(path, labels, labels)
+        return Axis.labelled(path, _texts(variable))
     return Axis(path, _native(variable, "f8"))
 
 
