@@ -9,7 +9,7 @@ from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.closed_forms.full_slip import mean_normal_force
-from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity, read_quantities
+from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
 
 OF_CASE = {
     "v_c": mdr.critical_velocity,
@@ -67,46 +67,6 @@ def test_no_critical_velocity_is_a_reason(monkeypatch):
     monkeypatch.setattr("mdr.studies.quantities.measure_critical_velocity", lambda case: nothing)
     with pytest.raises(ValueError, match="there is none: friction stays reduced"):
         CATALOGUE["measured_v_c"].of(BODY)
-
-
-@pytest.mark.parametrize(
-    ("quantities", "paths", "kind", "words"),
-    [
-        (["coef"], ["v_0"], ValueError, "coef is no quantity of the catalogue; did you mean cof?"),
-        (["zzz"], ["v_0"], ValueError, "there are v_c, full_slip_v_c"),
-        (["cof"], ["mu_0"], ValueError, 'cof needs a velocity: give an axis "v_0" [m/s] or "v_0/v_c"'),
-        ([Quantity("own", "-", depth, per_velocity=True)], ["mu_0"], ValueError, "own needs a velocity"),
-        (["v_c", "v_c"], ["mu_0"], ValueError, "quantities has v_c twice"),
-        (["T"], ["T"], ValueError, "T is an axis of the study already"),
-        ([], ["mu_0"], ValueError, "quantities must name at least one"),
-        ("v_c", ["mu_0"], TypeError, "quantities must be a list of names, got 'v_c'"),
-        ([3], ["mu_0"], TypeError, "quantities must be names or Quantity records, got 3"),
-        ([mdr.critical_velocity], ["mu_0"], TypeError, "quantities must be names or Quantity records"),
-        ([Quantity("v_c", "m/s", depth)], ["mu_0"], ValueError, "v_c is the name of another quantity"),
-    ],
-)
-def test_what_cannot_be_computed_is_refused(quantities, paths, kind, words):
-    with pytest.raises(kind) as caught:
-        read_quantities(quantities, paths)
-    assert words in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    ("make", "kind", "words"),
-    [
-        (lambda: Quantity("a b", "-", depth), ValueError, "name must be of letters"),
-        (lambda: Quantity("v_0/v_c", "-", depth), ValueError, "name must be of letters"),
-        (lambda: Quantity("status", "-", depth), ValueError, "name must be of letters"),
-        (lambda: Quantity("", "-", depth), ValueError, "name must be of letters"),
-        (lambda: Quantity(3, "-", depth), TypeError, "name must be a string"),
-        (lambda: Quantity("depth", None, depth), TypeError, "unit must be a string"),
-        (lambda: Quantity("depth", "m", 3.0), TypeError, "of must be a function"),
-        (lambda: Quantity("depth", "m", depth, per_velocity="no"), TypeError, "per_velocity must be True or False"),
-    ],
-)
-def test_a_quantity_is_checked(make, kind, words):
-    with pytest.raises(kind, match=words):
-        make()
 
 
 def test_a_quantity_of_one_s_own():
