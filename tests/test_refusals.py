@@ -203,6 +203,9 @@ ARGUMENTS = [
     ("n_springs", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, n_springs=n), [*COUNT, (8, "must be at least 32")]),
     ("steps_per_period", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, steps_per_period=n), [*COUNT, (8, "at least 32")]),
     ("chunk_seconds", lambda s: mdr.sweep(CASE, {"v_0": [1e-3]}, chunk_seconds=s), ABOVE_ZERO),
+    ("held", lambda held: mdr.sweep(CASE, {"v_0": [1e-3]}, held=held), [
+        ({"mu_0": 0.3}, "takes load, frequency, tan_delta, got 'mu_0'")]),
+    ("load", lambda load: mdr.sweep(CASE, {"v_0": [1e-3]}, held={"load": load}), ABOVE_ZERO),
     ("shard", lambda k_n: mdr.sweep(CASE, {"v_0": [1e-3]}, "nowhere", shard=k_n), [
         *((one, "must be k/n with k from 1 to n, such as 3/16, got") for one in ("0/4", "5/4", "1", "1/2/3", "a/b", "",
           "-1/4", "1.0/4", (0, 4), (1,), (1.0, 2), 3, (True, 2))), ("9" * 999 + "/" + "9" * 999, "must be k/n")]),
@@ -327,6 +330,10 @@ SAYINGS = {
     'sweep(CASE, {"T": [0.1], "material.tau": [1e-3]})': "T and material.tau set the same",
     'sweep(CASE, {"k_x/k_xc": [1], "pull.k_x": [1e4]})': "k_x/k_xc and pull.k_x set the same",
     'sweep(CASE, {"omega_0/omega": [1], "pull.m": [1]})': "omega_0/omega and pull.m set the same",
+    'sweep(CASE, {"load": [1.0], "oscillation.u_z0": [1e-6]})': "load and oscillation.u_z0 set the same",
+    'sweep(CASE, {"tan_delta": [0.1], "T": [0.1]})': "tan_delta and T set the same",
+    'sweep(CASE, {"frequency": [10.0], "oscillation.omega": [60.0]})': "frequency and oscillation.omega set the same",
+    'sweep(CASE, {"tan_delta": [0.1], "material": [Elastic(1e6, 0.3)]})': "which Elastic has not",
     'sweep(CASE, {"chi": [0.5], "v_0": [1]})': "chi sets shake.du_x, which a case without shake has not",
     'sweep(CASE, {"pull": [RigidPull()], "pull.m": [0.1]})': "pull.m is no path of this case; RigidPull has none",
     'sweep(CASE, {"pull": [RigidPull()], "k_x/k_xc": [1.0]})': "k_x/k_xc sets pull.k_x, which RigidPull has not; give",

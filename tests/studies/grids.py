@@ -22,22 +22,6 @@ RUNS = (
     COARSE,
 )
 
-#: tables of a case file, of a contact under a rigid pull
-TABLES = """
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
-"""
-
 LOG = "MDR_TEST_LOG"  # the file that computed units are written to
 LONG = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 240).tolist()}
 

@@ -41,18 +41,6 @@ def test_labels_are_distinct_and_know_no_places_in_memory():
     assert " at 0x" not in label_of(mdr.Profile(lambda r: r**2, name="bowl"))
 
 
-def test_values_are_found_exactly():
-    numbers, records = read_axes(RIGID, {"v_0": [0.1, 0.3], "indenter": SHAPES})
-    assert numbers.index(0.3) == 1
-    assert records.index(mdr.Cone(theta=0.05)) == records.index("Cone(theta=0.05)") == 1
-    with pytest.raises(ValueError, match=r"v_0 has no value 0.30000000000000004; the nearest is 0.3"):
-        numbers.index(0.1 + 0.2)
-    with pytest.raises(ValueError, match="v_0 has numbers for values"):
-        numbers.index("fast")
-    with pytest.raises(ValueError, match=r"indenter has no value Cone\(theta=0.06\); there are Paraboloid"):
-        records.index(mdr.Cone(theta=0.06))
-
-
 def test_axes_are_equal_by_path_and_values_records_by_label():
     (one,), (two,) = read_axes(RIGID, {"indenter": SHAPES}), read_axes(RIGID, {"indenter": SHAPES[:2]})
     again = Axis("indenter", one.labels, one.labels)
