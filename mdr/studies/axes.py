@@ -125,16 +125,11 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
         if not isinstance(path, str):
             raise TypeError(f"axes must have paths in quotes for keys, got {path!r}")
     _refuse_two_for_one(axes)
-    parts = {slot: _records(slot, axes[slot]) if slot in axes else _own(case, slot) for slot in KINDS}
+    own = {slot: () if getattr(case, slot) is None else (getattr(case, slot),) for slot in KINDS}
+    parts = own | {slot: _records(slot, axes[slot]) for slot in KINDS if slot in axes}
     for path in axes:
         _require_path(path, parts)
     return tuple(_axis(path, values, parts) for path, values in axes.items())
-
-
-def _own(case: SlidingContact, slot: str) -> tuple[Any, ...]:
-    """The part of the case, none where it has none."""
-    part = getattr(case, slot)
-    return () if part is None else (part,)
 
 
 def label_of(value: Any) -> str:
@@ -227,17 +222,13 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
-    known = _known_paths(parts)
+    of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
+    known = [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *dict.fromkeys(of_parts)]
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)
     whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""
     there = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
     raise ValueError(f"{short(path)} is no path of this case{whose}; {there}")
-
-
-def _known_paths(parts: Mapping[str, tuple[Any, ...]]) -> list[str]:
-    of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
-    return [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *dict.fromkeys(of_parts)]
 
 
 def _refuse_two_for_one(axes: Mapping[str, Any]) -> None:

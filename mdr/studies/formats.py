@@ -20,6 +20,7 @@ from mdr.studies.points import Status
 from mdr.studies.study import Column, Frame, Study
 
 _TITLE = "Sliding friction under normal oscillation, a study by mdr"
+_ONE, _DASH = {"-": "1"}, {"1": "-"}  #: a pure number in the file, and here
 _MEANINGS = " ".join(status.name.lower() for status in Status)
 
 
@@ -27,19 +28,27 @@ def packed(study: Study, history: str = "") -> bytes:
     """The bytes of the file; history is what made it, kept as the CF conventions have it."""
     from scipy.io import netcdf_file
 
-    buffer = BytesIO()
+    buffer, frame = BytesIO(), study.frame
     file = netcdf_file(buffer, "w", version=2)
-    for name, text in _attributes(study, history).items():
-        _set(file, name, text)
-    for axis in study.frame.grid:
-        _put_axis(file, axis)
-    dims = tuple(name_of(axis.path) for axis in study.frame.grid)
-    for column, values in zip(study.frame.columns, study.values, strict=True):
-        _put(file, column.name, "d", dims, values, **_described(column.unit, column.meaning))
+    _tell(file, title=_TITLE, identity=frame.identity, mdr_version=frame.version, case=frame.case, history=history)
+    _tell(file, selected=json.dumps(frame.selected) if frame.selected else "")
+    dims = tuple(name_of(axis.path) for axis in frame.grid)
+    for name, axis in zip(dims, frame.grid, strict=True):
+        told = {"units": _ONE.get(axis.unit, axis.unit), "long_name": axis.meaning, "path": axis.path}
+        if axis.is_numeric:
+            file.createDimension(name, len(axis))
+            _put(file, name, "d", (name,), axis.values, **told)
+        else:
+            _put_texts(file, name, axis.labels, **told)
+    for column, values in zip(frame.columns, study.values, strict=True):
+        _put(file, column.name, "d", dims, values, units=_ONE.get(column.unit, column.unit), long_name=column.meaning)
     flags = np.array([int(status) for status in Status], dtype=np.int8)
-    status = _put(file, "status", "b", dims, study.status, long_name="how the computation of the point ended")
-    _set(status, "flag_values", flags)
-    _set(status, "flag_meanings", _MEANINGS)
+    told: dict[str, Any] = {
+        "long_name": "how the computation of the point ended",
+        "flag_values": flags,
+        "flag_meanings": _MEANINGS,
+    }
+    _put(file, "status", "b", dims, study.status, **told)
     _put(file, "reason", "i", dims, study.reason, long_name="why it failed or did not settle, an index of reasons")
     _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
     file.flush()
@@ -92,48 +101,28 @@ def table(study: Study) -> str:
 # --- writing NetCDF ---
 
 
-def _attributes(study: Study, history: str) -> dict[str, str]:
-    frame = study.frame
-    known = {"title": _TITLE, "identity": frame.identity, "mdr_version": frame.version, "case": frame.case}
-    known["history"] = history
-    if frame.selected:
-        known["selected"] = json.dumps(frame.selected)
-    return {name: text for name, text in known.items() if text}  # an empty text cannot be read back
-
-
-def _described(unit: str, meaning: str) -> dict[str, str]:
-    known = {"units": "1" if unit == "-" else unit, "long_name": meaning}
-    return {name: text for name, text in known.items() if text}
-
-
-def _put_axis(file: Any, axis: Axis) -> None:
-    name, told = name_of(axis.path), _described(axis.unit, axis.meaning) | {"path": axis.path}
-    if axis.is_numeric:
-        file.createDimension(name, len(axis))
-        _put(file, name, "d", (name,), axis.values, **told)
-    else:
-        _put_texts(file, name, axis.labels, **told)
-
-
-def _put(file: Any, name: str, kind: str, dims: tuple[str, ...], values: Any, **told: str) -> Any:
-    variable = file.createVariable(name, kind, dims)
-    variable.data[...] = values
-    for attribute, text in told.items():
-        _set(variable, attribute, text)
-    return variable
-
-
-def _put_texts(file: Any, name: str, texts: tuple[str, ...], **told: str) -> None:
+def _put_texts(file: Any, name: str, texts: tuple[str, ...], **told: Any) -> None:
     raw = np.array([text.encode("utf-8") for text in texts])
     width = max(raw.dtype.itemsize, 1)
     file.createDimension(name, len(texts))
     file.createDimension(f"length_of_{name}", width)
     letters = raw.astype(f"S{width}").view("S1").reshape(len(texts), width)
-    _set(_put(file, name, "c", (name, f"length_of_{name}"), letters, **told), "_Encoding", "utf-8")
+    _put(file, name, "c", (name, f"length_of_{name}"), letters, **told, _Encoding="utf-8")
 
 
-def _set(holder: Any, name: str, value: Any) -> None:
-    setattr(holder, name, value.encode("utf-8") if isinstance(value, str) else value)
+def _put(file: Any, name: str, kind: str, dims: tuple[str, ...], values: Any, **told: Any) -> None:
+    variable = file.createVariable(name, kind, dims)
+    variable.data[...] = values
+    _tell(variable, **told)
+
+
+def _tell(holder: Any, **told: Any) -> None:
+    """Set attributes; an empty text is left out, as it cannot be read back."""
+    for name, value in told.items():
+        if not isinstance(value, str):
+            setattr(holder, name, value)
+        elif value:
+            setattr(holder, name, value.encode("utf-8"))
 
 
 # --- reading NetCDF ---
@@ -147,7 +136,9 @@ def _study(file: Any) -> Study:
     apart = {*status.dimensions, "status", "reason", "reasons"}
     # the file sorts its variables by shape, which all quantities share, and keeps their order otherwise
     columns = tuple(
-        Column(name, _unit(one), _text(one, "long_name")) for name, one in variables.items() if name not in apart
+        Column(name, _DASH.get(unit := _text(one, "units"), unit), _text(one, "long_name"))
+        for name, one in variables.items()
+        if name not in apart
     )
     frame = Frame(
         grid,
@@ -179,8 +170,3 @@ def _texts(variable: Any) -> tuple[str, ...]:
 def _text(holder: Any, name: str) -> str:
     value = getattr(holder, name, b"")
     return value.decode("utf-8") if isinstance(value, bytes) else str(value)
-
-
-def _unit(variable: Any) -> str:
-    unit = _text(variable, "units")
-    return "-" if unit == "1" else unit

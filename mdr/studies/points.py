@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from enum import IntEnum
 from threading import Event
@@ -110,11 +110,9 @@ class _Points:
         for whys in self.whys[part]:
             whys.append(why)
 
-    @contextmanager
-    def failing(self, part: slice, name: str = "") -> Iterator[None]:
+    def failing(self, part: slice, name: str = "") -> AbstractContextManager[None]:
         """What is done inside fails these points alone, with the quantity's name ahead of the reason."""
-        with _caught(lambda why: self.end(part, Status.FAILED, why), name):
-            yield
+        return _caught(lambda why: self.end(part, Status.FAILED, why), name)
 
 
 @dataclass

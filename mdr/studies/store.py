@@ -92,12 +92,7 @@ class Store:
 
     def merge(self, data: bytes) -> None:
         """Put the finished study in the place of its chunks."""
-        with self._told("study.nc"):
-            try:
-                write_whole(self.file, data)
-            except FileNotFoundError:  # another process merged, and cleared away the file just written
-                if not self.file.exists():
-                    raise
+        self._put(self.file, data)
         self.clear()
 
     def clear(self) -> None:
@@ -141,13 +136,7 @@ class Store:
 
     def write(self, number: int, identity: str, part: Part) -> None:
         """Keep a finished chunk."""
-        path = self._path(number)
-        with self._told(path.name):
-            try:
-                write_whole(path, _packed(number, identity, part))
-            except FileNotFoundError:  # another process has merged meanwhile
-                if not self.file.exists():
-                    raise
+        self._put(self._path(number), _packed(number, identity, part))
         self.n_kept += 1
 
     def read(self, number: int, identity: str, shape: tuple[int, int]) -> Part | None:
@@ -159,6 +148,15 @@ class Store:
         except Exception:  # whatever a reader of archives meets in bytes that are none
             return None
         return part if part.values.shape == shape else None
+
+    def _put(self, path: Path, data: bytes) -> None:
+        """Write a file, unless another process has merged meanwhile, and cleared away what is written here."""
+        with self._told(path.name):
+            try:
+                write_whole(path, data)
+            except FileNotFoundError:
+                if not self.file.exists():
+                    raise
 
     def _path(self, number: int) -> Path:
         return self.chunks / f"{number:06d}.npz"

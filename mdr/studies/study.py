@@ -23,6 +23,7 @@ from mdr.studies.points import Part, Status
 from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
+from mdr.tools.atomic_write import write_whole
 from mdr.tools.messages import nearest, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
@@ -201,7 +202,6 @@ class Study(Printed, ArrayRecord):
             The file.
         """
         from mdr.studies.formats import packed
-        from mdr.tools.atomic_write import write_whole
 
         write_whole(Path(path), packed(self))
 
@@ -214,7 +214,6 @@ class Study(Printed, ArrayRecord):
             The file.
         """
         from mdr.studies.formats import table
-        from mdr.tools.atomic_write import write_whole
 
         write_whole(Path(path), table(self).encode("utf-8"))
 
