@@ -43,12 +43,8 @@ def packed(study: Study, history: str = "") -> bytes:
     for column, values in zip(frame.columns, study.values, strict=True):
         _put(file, column.name, "d", dims, values, units=_ONE.get(column.unit, column.unit), long_name=column.meaning)
     flags = np.array([int(status) for status in Status], dtype=np.int8)
-    told: dict[str, Any] = {
-        "long_name": "how the computation of the point ended",
-        "flag_values": flags,
-        "flag_meanings": _MEANINGS,
-    }
-    _put(file, "status", "b", dims, study.status, **told)
+    ended = "how the computation of the point ended"
+    _put(file, "status", "b", dims, study.status, long_name=ended, flag_values=flags, flag_meanings=_MEANINGS)
     _put(file, "reason", "i", dims, study.reason, long_name="why it failed or did not settle, an index of reasons")
     _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
     file.flush()

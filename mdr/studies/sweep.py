@@ -68,7 +68,6 @@ def sweep(
         Springs and time steps of every run, as in `slide`.
     accuracy : float
         Bound on the error of every friction over mu_0 [-] that is asked for, as in `slide`.
-
     held : mapping of str to float, optional
         What every case of the study has besides: "load" [N], "frequency" [Hz] or "tan_delta" [-], unless an axis sets
         the same. A load is held where shape or material vary, by another depth in every case; a loss tangent where the

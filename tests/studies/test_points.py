@@ -33,15 +33,6 @@ def test_values_are_those_of_direct_calls():
     assert study.count(Status.DONE) == 18
 
 
-def test_a_curve_of_runs_takes_the_knobs_and_the_closed_form_has_none():
-    runs = mdr.cof_curve(BODY, [1e-4], **COARSE)
-    assert runs.cof[0] == mdr.slide(BODY, 1e-4, **COARSE).cof != mdr.slide(BODY, 1e-4).cof
-    assert mdr.cof_curve(RIGID, [1e-4], **COARSE) == mdr.cof_curve(RIGID, [1e-4])
-    for wrong in ({"n_springs": 8}, {"steps_per_period": 31}):
-        with pytest.raises(ValueError, match="must be at least 32"):
-            mdr.cof_curve(RIGID, [1e-4], **wrong)
-
-
 def test_a_case_that_cannot_be_built_is_a_failure_of_its_points():
     study = mdr.sweep(RIGID, {"oscillation.u_z0": [-1e-3, 6e-6], "v_0": [1e-4, 2e-4]}, quantities=["cof", "v_c"])
     assert_array_equal(study.status, [[Status.FAILED] * 2, [Status.DONE] * 2])

@@ -282,8 +282,8 @@ def test_a_disk_that_fails(part_done, whole, monkeypatch, code, after, words):
     assert len(computed) == 48 - kept
 
 
-def test_a_chunk_is_json_and_arrays(part_done):
-    """What is on the disk is read by other versions: its names stay."""
+def test_the_names_in_a_store_stay(part_done):
+    """What is on the disk is read by other versions."""
     head = json.loads((part_done / "study.json").read_text())
     assert set(head) == {"identity", "specification", "frame", "block"}
     assert json.loads((part_done / PLAN).read_text()) == {"n_units": 48, "units_per_chunk": 1}

@@ -210,13 +210,13 @@ def live(store, log, lifetime):
 def test_a_study_that_is_killed_goes_on_where_it_was(tmp_path, monkeypatch):
     rng, store, log = np.random.default_rng(7), tmp_path / "store", tmp_path / "log"
     killed, finished = [], set()
-    for lifetime in (0.0, *rng.uniform(0.02, 0.3, 3)):
+    for lifetime in (0.0, *rng.uniform(0.02, 0.15, 3)):
         known, seen = units_of(store), len(lines(log))
         assert Store(store).finished() == finished  # nothing finished was lost
         killed.append(live(store, log, lifetime))
         assert not known & set(lines(log)[seen:])  # nor computed again
         finished = Store(store).finished()
-    assert sum(killed) >= 3
+    assert all(killed)  # as its pauses alone take longer
     lost, seen = max(finished), len(lines(log))
     (store / "chunks" / f"{lost:06d}.npz").unlink()  # the log would tell
     known, again = units_of(store), units_of(store, [lost])
