@@ -8,6 +8,7 @@ import math
 import pickle
 import warnings
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -200,7 +201,38 @@ ARGUMENTS = [
         (NAN, "finite"), (1, "between 0 and 1, got 1.0"), (5, "0.01 for 1 %"), ("1%", "must be a real number")]),
     ("n_springs", lambda n: mdr.SpringArray.of(CASE, n), [*COUNT, (15, "must be at least 16")]),
     ("n_springs", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, n_springs=n), [*COUNT, (8, "must be at least 32")]),
+    ("steps_per_period", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, steps_per_period=n), [*COUNT, (8, "at least 32")]),
     ("chunk_seconds", lambda s: mdr.sweep(CASE, {"v_0": [1e-3]}, chunk_seconds=s), ABOVE_ZERO),
+    ("held", lambda held: mdr.sweep(CASE, {"v_0": [1e-3]}, held=held), [
+        ({"mu_0": 0.3}, "takes load, frequency, tan_delta, got 'mu_0'")]),
+    ("load", lambda load: mdr.sweep(CASE, {"v_0": [1e-3]}, held={"load": load}), ABOVE_ZERO),
+    ("shard", lambda k_n: mdr.sweep(CASE, {"v_0": [1e-3]}, "nowhere", shard=k_n), [
+        *((one, "must be k/n with k from 1 to n, such as 3/16, got") for one in ("0/4", "5/4", "1", "1/2/3", "a/b", "",
+          "-1/4", "1.0/4", (0, 4), (1,), (1.0, 2), 3, (True, 2))), ("9" * 999 + "/" + "9" * 999, "must be k/n")]),
+    ("store", lambda store: mdr.sweep(CASE, {"v_0": [1e-3]}, store), [(3, "must be a folder, got 3")]),
+    ("executor", lambda one: mdr.sweep(CASE, {"v_0": [1e-3]}, executor=one), [
+        (4, "must be a concurrent.futures.Executor, got 4"),
+        (SimpleNamespace(get_executor=None), "; write client.get_executor()")]),
+    ("quantities", lambda names: mdr.sweep(CASE, {"mu_0": [0.1]}, quantities=names), [
+        ([], "must name at least one; there are v_c"), ("v_c", "must be a list of names, got"), (["T", "T"], "T twice"),
+        *(([one], "must be names or Quantity records, got") for one in (3, mdr.critical_velocity))]),
+    ("name", lambda name: mdr.Quantity(name, "-", len), [*((one, "must be of letters, digits and _") for one in (
+        "a b", "v_0/v_c", "status", "")), (3, "must be a string")]),
+    ("unit", lambda unit: mdr.Quantity("depth", unit, len), [(None, "must be a string")]),
+    ("of", lambda of: mdr.Quantity("depth", "m", of), [(3.0, "must be a function")]),
+    ("per_velocity", lambda flag: mdr.Quantity("depth", "m", len, per_velocity=flag), FLAG),
+    ("axes", lambda axes: mdr.sweep(CASE, axes), [
+        ({}, "must name at least one path"), (["v_0"], "must map paths to values"), ({3: [1.0]}, "paths in quotes")]),
+    ("v_0", lambda v_0: mdr.sweep(CASE, {"v_0": v_0}), [
+        *((one, "has no values") for one in ([], np.array([]))), ([0.1, -0.1], "must not be negative, got -0.1"),
+        *((one, "must be a list of values, got") for one in (0.1, "slow", {0.1, 0.2})),
+        *((one, "must be finite in m/s, got") for one in ([0.1, NAN], [INF])),
+        *((one, "must be real numbers") for one in ([0.1, "x"], [True, 0.5], [0.1j], [10**400], [BALL]))]),
+    ("mu_0", lambda mu_0: mdr.sweep(CASE, {"mu_0": mu_0}, quantities=["v_c"]), [
+        ([[0.1, 0.2]], "must be a plain list"), ([0.1, 0.2, 0.1], "has the value 0.1 twice")]),
+    ("indenter", lambda shapes: mdr.sweep(CASE, {"indenter": shapes}, quantities=["v_c"]), [
+        (BALL, "must be a list of values"), ([BALL] * 2, "has the value Paraboloid(R=0.005) twice"),
+        *(([one], "must be a list of records of kind Indenter, got") for one in (0.1, mdr.Cone, SLED))]),
     ("mu_0", lambda mu_0: mdr.partial_slip(BALL, RUBBER, mu_0, 1e-6, 1e-7), ABOVE_ZERO),
     ("u_x", lambda u_x: mdr.partial_slip(BALL, RUBBER, 0.5, 1e-6, u_x), [*ARRAY, (-1e-7, "must not be negative")]),
     ("u_z", lambda u_z: mdr.indent(BALL, RUBBER, [0, 1], u_z), [([0, NAN], "finite"), ([0], "one value for each")]),
@@ -281,6 +313,33 @@ SAYINGS = {
     "indent(BALL, RUBBER, [0, 1])": "give either u_z",
     "indent(BALL, RUBBER, [0, 1], [0, 1], F_z=[0, 1])": "give either u_z",
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["coff"])': "did you mean cof?",
+    'sweep(CASE, {"v_0": [1e-3]}, quantities=["zzz"])': "there are v_c, full_slip_v_c",
+    'sweep(CASE, {"v_0": [1e-3]}, shard="1/2")': "a shard needs a store",
+    'sweep(CASE, {"mu_0": [0.1]})': 'cof needs a velocity: give an axis "v_0" [m/s] or "v_0/v_c"',
+    'sweep(CASE, {"T": [0.1]}, quantities=["T"])': "T is an axis of the study already",
+    'sweep(CASE, {"T": [0.1]}, quantities=[Quantity("v_c", "m/s", len)])': "v_c is the name of another quantity",
+    'sweep(CASE, {"T": [0.1]}, quantities=[Quantity("own", "-", len, per_velocity=True)])': "own needs a velocity",
+    'sweep(CASE, dict.fromkeys(("alpha", "T", "v_0"), np.linspace(0.1, 1, 1001)))': "more than memory holds",
+    'sweep(CASE, {"v0": [1.0]})': "v0 is no path of this case; did you mean v_0?",
+    'sweep(CASE, {"tau": [1.0]})': "did you mean material.tau?",
+    'sweep(CASE, {"oscilation.u_z0": [1.0]})': "did you mean oscillation.u_z0?",
+    'sweep(CASE, {"pull.k": [1.0]})': "SpringPull has none; did you mean pull.k_x?",
+    'sweep(CASE, {"xyz": [1.0]})': "there are v_0, v_0/v_c, mu_0, indenter, material",
+    'sweep(CASE, {"v_0": [1.0], "v_0/v_c": [1.0]})': "v_0 and v_0/v_c set the same",
+    'sweep(CASE, {"alpha": [0.1], "oscillation.du_z": [1e-6]})': "alpha and oscillation.du_z set the same",
+    'sweep(CASE, {"T": [0.1], "material.tau": [1e-3]})': "T and material.tau set the same",
+    'sweep(CASE, {"k_x/k_xc": [1], "pull.k_x": [1e4]})': "k_x/k_xc and pull.k_x set the same",
+    'sweep(CASE, {"omega_0/omega": [1], "pull.m": [1]})': "omega_0/omega and pull.m set the same",
+    'sweep(CASE, {"load": [1.0], "oscillation.u_z0": [1e-6]})': "load and oscillation.u_z0 set the same",
+    'sweep(CASE, {"tan_delta": [0.1], "T": [0.1]})': "tan_delta and T set the same",
+    'sweep(CASE, {"frequency": [10.0], "oscillation.omega": [60.0]})': "frequency and oscillation.omega set the same",
+    'sweep(CASE, {"tan_delta": [0.1], "material": [Elastic(1e6, 0.3)]})': "which Elastic has not",
+    'sweep(CASE, {"chi": [0.5], "v_0": [1]})': "chi sets shake.du_x, which a case without shake has not",
+    'sweep(CASE, {"pull": [RigidPull()], "pull.m": [0.1]})': "pull.m is no path of this case; RigidPull has none",
+    'sweep(CASE, {"pull": [RigidPull()], "k_x/k_xc": [1.0]})': "k_x/k_xc sets pull.k_x, which RigidPull has not; give",
+    'sweep(CASE, {"material": [Elastic(E=1e6, nu=0.3)], "T": [1.0]})': "T sets material.tau, which Elastic has not",
+    'sweep(CASE, {"oscillation": [LoadOscillation(1, 0.5, 3)], "alpha": [0.1]})': "alpha sets oscillation.du_z, which",
+    'sweep(CASE, {"indenter": [Cone(theta=0.1)], "indenter.R": [1e-3]})': "Cone has none; did you mean indenter",
     'fit(CASE, SOME, ["mu0"])': "did you mean mu_0?",
     # files
     'read_case("nofile.toml")': "nofile.toml: cannot be read: No such file",

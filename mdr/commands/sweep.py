@@ -96,8 +96,7 @@ def _is_file(output: Path) -> bool:
 
 def _write(args: argparse.Namespace, study: Study) -> None:
     """The study, and the picture of its first quantity, where it has few enough axes for one."""
-    from mdr.studies.csv_files import table
-    from mdr.studies.netcdf import packed
+    from mdr.studies.formats import packed, table
 
     files = [args.output] if _is_file(args.output) else [args.output / name for name in FILES[:2]]
     for path in files:

@@ -33,39 +33,33 @@ from mdr.normal.vary import GROUPS, RIG, fields_of, fields_set
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.messages import nearest, one_line, short
+from mdr.tools.records import ArrayRecord
 
 VELOCITIES = ("v_0", "v_0/v_c")
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 
-@dataclass(frozen=True, eq=False)
-class Axis:
+@dataclass(frozen=True, eq=False, repr=False)
+class Axis(ArrayRecord):
     """One axis of a study; two are equal by path and values, records by their labels."""
 
     path: str  #: what it sets
     values: Array | tuple[Any, ...]  #: numbers as an array (n,), anything else as a tuple
     labels: tuple[str, ...] = ()  #: what values that are no numbers are called
 
-    def __post_init__(self) -> None:
-        if isinstance(self.values, np.ndarray):
-            own = self.values.view()
-            own.setflags(write=False)
-            object.__setattr__(self, "values", own)
+    @classmethod
+    def labelled(cls, path: str, labels: Iterable[str]) -> Axis:
+        """An axis of records of which the labels are known alone."""
+        return cls(path, tuple(labels), tuple(labels))
+
+    def _values(self) -> tuple[Any, ...]:
+        return self.path, self.values if self.is_numeric else None, self.labels
 
     def __len__(self) -> int:
         return len(self.values)
 
     def __getitem__(self, index: int) -> Any:
         return float(self.values[index]) if self.is_numeric else self.values[index]
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Axis):
-            return NotImplemented
-        same = self.labels == other.labels and (not self.is_numeric or np.array_equal(self.values, other.values))
-        return self.path == other.path and self.is_numeric == other.is_numeric and bool(same)
-
-    def __hash__(self) -> int:
-        return hash((self.path, self.labels, np.asarray(self.values).tobytes() if self.is_numeric else b""))
 
     @property
     def is_numeric(self) -> bool:
@@ -131,16 +125,11 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
         if not isinstance(path, str):
             raise TypeError(f"axes must have paths in quotes for keys, got {path!r}")
     _refuse_two_for_one(axes)
-    parts = {slot: _records(slot, axes[slot]) if slot in axes else _own(case, slot) for slot in KINDS}
+    own = {slot: () if getattr(case, slot) is None else (getattr(case, slot),) for slot in KINDS}
+    parts = own | {slot: _records(slot, axes[slot]) for slot in KINDS if slot in axes}
     for path in axes:
         _require_path(path, parts)
     return tuple(_axis(path, values, parts) for path, values in axes.items())
-
-
-def _own(case: SlidingContact, slot: str) -> tuple[Any, ...]:
-    """The part of the case, none where it has none."""
-    part = getattr(case, slot)
-    return () if part is None else (part,)
 
 
 def label_of(value: Any) -> str:
@@ -233,17 +222,13 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
-    known = _known_paths(parts)
+    of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
+    known = [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *dict.fromkeys(of_parts)]
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)
     whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""
     there = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
     raise ValueError(f"{short(path)} is no path of this case{whose}; {there}")
-
-
-def _known_paths(parts: Mapping[str, tuple[Any, ...]]) -> list[str]:
-    of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
-    return [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *dict.fromkeys(of_parts)]
 
 
 def _refuse_two_for_one(axes: Mapping[str, Any]) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from enum import IntEnum
 from threading import Event
@@ -12,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import cof_curve
 from mdr.studies.axes import without_addresses
 from mdr.studies.quantities import CurveQuantity, Quantity
-from mdr.studies.velocities import velocities_of
 from mdr.studies.work import Work
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
@@ -60,112 +62,37 @@ def compute(work: Work, start: int, stop: int, ended: Event | None = None) -> Pa
             raise Ended
 
     seconds: list[float] = []
-    parts: list[tuple[Array, NDArray[np.uint8], list[str]]] = []
+    parts: list[_Points] = []
     with silent(watch):
-        known: _Case | None = None
+        case: _Case | None = None
         for unit in range(start, stop):
             watch()
-            if known is None or unit % work.layout.blocks == 0:
-                known = _Case.of(work, unit)
             begin = time.monotonic()
-            parts.append(known.points(work, work.layout.velocities(unit)))
+            if case is None or unit % work.layout.blocks == 0:
+                case = _Case.of(work, unit)
+            parts.append(case.points(work.layout.velocities(unit)))
             seconds.append(time.monotonic() - begin)
-    whys = [why for _, _, of_unit in parts for why in of_unit]
     reasons = {"": 0}
+    whys = [one_line("; ".join(of_point), LONGEST_REASON) for points in parts for of_point in points.whys]
     codes = [reasons.setdefault(why, len(reasons)) for why in whys]
     return Part(
-        values=np.concatenate([values for values, _, _ in parts], axis=1),
-        status=np.concatenate([status for _, status, _ in parts]),
+        values=np.concatenate([points.values for points in parts], axis=1),
+        status=np.concatenate([points.status for points in parts]),
         reason=np.array(codes, dtype=np.int32),
         reasons=tuple(reasons),
         slow=tuple(one for one in seconds if one > SLOW),
     )
 
 
-@dataclass
-class _Case:
-    """One case, and what is the same at all its velocities."""
-
-    case: SlidingContact | None
-    why: str  #: what keeps it from being built
-    constants: dict[str, float] = field(default_factory=dict)
-    failures: dict[str, str] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, work: Work, unit: int) -> _Case:
-        try:
-            made = cls(work.case_of(unit), "")
-        except OF_THE_POINT as error:
-            return cls(None, reason_of(error))
-        assert made.case is not None
-        for one in work.quantities:
-            if isinstance(one, Quantity) and not one.per_velocity:
-                try:
-                    made.constants[one.name] = _number(one.of(made.case))
-                except OF_THE_POINT as error:
-                    made.failures[one.name] = f"{one.name}: {reason_of(error)}"
-        return made
-
-    def points(self, work: Work, part: slice) -> tuple[Array, NDArray[np.uint8], list[str]]:
-        """Values (n_quantities, n), status and reason of the points at a part of the velocities."""
-        points = _Points(work.quantities, part.stop - part.start)
-        if self.case is None:
-            points.fail(slice(None), self.why)
-            return points.outcome()
-        for name, value in self.constants.items():
-            points.rows[name][:] = value
-        for why in self.failures.values():
-            points.fail(slice(None), why)
-        axis = work.velocity_axis
-        if axis is not None and any(one.per_velocity for one in work.quantities):
-            try:
-                v_0 = velocities_of(self.case, axis.path, np.asarray(axis.values)[part])
-            except OF_THE_POINT as error:
-                points.fail(slice(None), reason_of(error))
-                return points.outcome()
-            self._fill(work, v_0, points)
-        return points.outcome()
-
-    def _fill(self, work: Work, v_0: Array, points: _Points) -> None:
-        """The quantities that depend on the velocity."""
-        assert self.case is not None
-        of_curve = [one for one in work.quantities if isinstance(one, CurveQuantity)]
-        own = [one for one in work.quantities if isinstance(one, Quantity) and one.per_velocity]
-        if of_curve:
-            self._fill_curves(work, of_curve, v_0, points)
-        for one in own:
-            for j, v in enumerate(v_0.tolist()):
-                try:
-                    points.rows[one.name][j] = _number(one.of(self.case, v))
-                except OF_THE_POINT as error:
-                    points.fail(slice(j, j + 1), f"{one.name}: {reason_of(error)}")
-
-    def _fill_curves(self, work: Work, wanted: list[CurveQuantity], v_0: Array, points: _Points) -> None:
-        """All velocities together; if one of them fails, each for itself."""
-        case = self.case
-        assert case is not None
-
-        def curve_at(part: slice) -> None:
-            curve = cof_curve(
-                case,
-                v_0[part],
-                n_springs=work.n_springs,
-                steps_per_period=work.steps_per_period,
-                accuracy=work.accuracy,
-            )
-            for one in wanted:
-                points.rows[one.name][part] = one.of(case, curve)
-            for j in np.flatnonzero(~curve.settled):
-                points.unsettle(part.start + int(j), curve.why[j])
-
-        try:
-            curve_at(slice(0, v_0.size))
-        except OF_THE_POINT:
-            for j in range(v_0.size):
-                try:
-                    curve_at(slice(j, j + 1))
-                except OF_THE_POINT as error:
-                    points.fail(slice(j, j + 1), reason_of(error))
+def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
+    """Pulling velocities [m/s] of an axis "v_0" or "v_0/v_c" for this very case."""
+    if path == "v_0":
+        return values
+    v_c = critical_velocity(case)
+    if not 0 < v_c < np.inf:
+        what = "zero" if v_c == 0 else "infinite, as on an undamped resonance"
+        raise ValueError(f"v_0/v_c: the critical velocity of this case is {what}, so that its multiples say nothing")
+    return values * v_c
 
 
 class _Points:
@@ -177,17 +104,85 @@ class _Points:
         self.status = np.full(n, Status.DONE, dtype=np.uint8)
         self.whys: list[list[str]] = [[] for _ in range(n)]
 
-    def fail(self, part: slice, why: str) -> None:
-        self.status[part] = Status.FAILED
+    def end(self, part: slice, status: Status, why: str) -> None:
+        """Say how points ended; a worse end stands."""
+        self.status[part] = np.maximum(self.status[part], status)
         for whys in self.whys[part]:
             whys.append(why)
 
-    def unsettle(self, j: int, why: str) -> None:
-        self.status[j] = max(int(self.status[j]), Status.UNSETTLED)
-        self.whys[j].append(why or "the run did not settle")
+    def failing(self, part: slice, name: str = "") -> AbstractContextManager[None]:
+        """What is done inside fails these points alone, with the quantity's name ahead of the reason."""
+        return _caught(lambda why: self.end(part, Status.FAILED, why), name)
 
-    def outcome(self) -> tuple[Array, NDArray[np.uint8], list[str]]:
-        return self.values, self.status, [one_line("; ".join(whys), LONGEST_REASON) for whys in self.whys]
+
+@dataclass
+class _Case:
+    """One case, and what is the same at all its velocities."""
+
+    work: Work
+    case: SlidingContact | None = None  #: None where it cannot be built
+    constants: dict[str, float] = field(default_factory=dict)
+    whys: list[str] = field(default_factory=list)  #: what keeps it, or one of these, from being there
+
+    @classmethod
+    def of(cls, work: Work, unit: int) -> _Case:
+        made = cls(work)
+        with _caught(made.whys.append):
+            made.case = case = work.case_of(unit)
+            for one in work.quantities:
+                if isinstance(one, Quantity) and not one.per_velocity:
+                    with _caught(made.whys.append, one.name):
+                        made.constants[one.name] = _number(one.of(case))
+        return made
+
+    def points(self, part: slice) -> _Points:
+        """The points at a part of the velocities."""
+        points = _Points(self.work.quantities, part.stop - part.start)
+        for why in self.whys:
+            points.end(slice(None), Status.FAILED, why)
+        for name, value in self.constants.items():
+            points.rows[name][:] = value
+        axis = self.work.velocity_axis
+        if self.case is not None and axis is not None and any(one.per_velocity for one in self.work.quantities):
+            with points.failing(slice(None)):
+                v_0 = velocities_of(self.case, axis.path, np.asarray(axis.values)[part])
+                self._fill(self.case, v_0, points)
+        return points
+
+    def _fill(self, case: SlidingContact, v_0: Array, points: _Points) -> None:
+        """The quantities that depend on the velocity: of curves at all of them together; if one fails, at each."""
+        try:
+            self._fill_curves(case, v_0, slice(0, v_0.size), points)
+        except OF_THE_POINT:
+            for j in range(v_0.size):
+                with points.failing(slice(j, j + 1)):
+                    self._fill_curves(case, v_0, slice(j, j + 1), points)
+        for one in self.work.quantities:
+            if isinstance(one, Quantity) and one.per_velocity:
+                for j, v in enumerate(v_0.tolist()):
+                    with points.failing(slice(j, j + 1), one.name):
+                        points.rows[one.name][j] = _number(one.of(case, v))
+
+    def _fill_curves(self, case: SlidingContact, v_0: Array, part: slice, points: _Points) -> None:
+        wanted = [one for one in self.work.quantities if isinstance(one, CurveQuantity)]
+        if not wanted:
+            return
+        knobs = {name: getattr(self.work, name) for name in ("n_springs", "steps_per_period", "accuracy")}
+        curve = cof_curve(case, v_0[part], **knobs)
+        for one in wanted:
+            points.rows[one.name][part] = one.of(case, curve)
+        for j in np.flatnonzero(~curve.settled).tolist():
+            own = slice(part.start + j, part.start + j + 1)
+            points.end(own, Status.UNSETTLED, curve.why[j] or "the run did not settle")
+
+
+@contextmanager
+def _caught(tell: Callable[[str], None], name: str = "") -> Iterator[None]:
+    """An error that ends a point alone is told, with a name ahead of it, and goes no further."""
+    try:
+        yield
+    except OF_THE_POINT as error:
+        tell(f"{name}: {reason_of(error)}" if name else reason_of(error))
 
 
 def reason_of(error: BaseException) -> str:

@@ -71,29 +71,14 @@ class CurveQuantity:
 
 
 @dataclass(frozen=True)
-class _Column:
-    """A column of the curve, as a function that can be sent to other processes."""
+class _Attribute:
+    """An attribute of what a case is known by, or of its curve, as a function that can be sent to other processes."""
 
     name: str
+    known: Callable[[SlidingContact], Any] | None = None
 
-    def __call__(self, case: SlidingContact, curve: CofCurve) -> Array:
-        return np.asarray(getattr(curve, self.name), dtype=float)
-
-
-def _k_zc(case: SlidingContact) -> float:
-    return at_rest(case).k_zc
-
-
-def _k_xc(case: SlidingContact) -> float:
-    return at_rest(case).k_xc
-
-
-def _alpha(case: SlidingContact) -> float:
-    return resolved(case).alpha
-
-
-def _T(case: SlidingContact) -> float:
-    return case.T
+    def __call__(self, case: SlidingContact, curve: CofCurve | None = None) -> Any:
+        return getattr(self.known(case) if self.known else case if curve is None else curve, self.name)
 
 
 def _mean_F_x(case: SlidingContact, curve: CofCurve) -> Array:
@@ -118,15 +103,15 @@ CATALOGUE: dict[str, Quantity | CurveQuantity] = {
         Quantity("full_slip_v_c", "m/s", full_slip_critical_velocity, "critical velocity with all harmonics of F_N"),
         Quantity("measured_v_c", "m/s", _measured, "critical velocity measured from runs"),
         Quantity("static_cof", "-", static_cof, "coefficient of friction in the limit v_0 -> 0"),
-        Quantity("k_zc", "N/m", _k_zc, "normal contact stiffness at the mean depth"),
-        Quantity("k_xc", "N/m", _k_xc, "tangential contact stiffness at the mean depth"),
-        Quantity("alpha", "-", _alpha, "relative amplitude du_z/u_z0"),
-        Quantity("T", "-", _T, "omega tau of the long-time branch"),
+        Quantity("k_zc", "N/m", _Attribute("k_zc", at_rest), "normal contact stiffness at the mean depth"),
+        Quantity("k_xc", "N/m", _Attribute("k_xc", at_rest), "tangential contact stiffness at the mean depth"),
+        Quantity("alpha", "-", _Attribute("alpha", resolved), "relative amplitude du_z/u_z0"),
+        Quantity("T", "-", _Attribute("T"), "omega tau of the long-time branch"),
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
-        CurveQuantity("cof", "-", _Column("cof"), "average coefficient of friction"),
-        CurveQuantity("cof_error", "-", _Column("cof_error"), "bound on the numerical error of cof"),
-        CurveQuantity("stick_share", "-", _Column("stick_share"), "force-weighted share of contact time in stick"),
-        CurveQuantity("settled", "-", _Column("settled"), "1 where the run settled, else 0"),
+        CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction"),
+        CurveQuantity("cof_error", "-", _Attribute("cof_error"), "bound on the numerical error of cof"),
+        CurveQuantity("stick_share", "-", _Attribute("stick_share"), "force-weighted share of contact time in stick"),
+        CurveQuantity("settled", "-", _Attribute("settled"), "1 where the run settled, else 0"),
         CurveQuantity("mean_F_x", "N", _mean_F_x, "mean tangential force, cof times the mean normal force"),
         CurveQuantity("mean_F_z", "N", _mean_F_z, "mean normal force, the same at any velocity"),
     )

@@ -1,5 +1,7 @@
 """The store of a study: a folder with its specification, and its chunks until they are merged into one file.
 
+`read_study` reads a store, finished or not, and a file that was written elsewhere.
+
     study.json            specification and identity
     chunks/plan.json      how the work is cut
     chunks/000012.npz     a finished chunk, with its checksum
@@ -15,22 +17,29 @@ import errno
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import asdict
 from hashlib import sha256
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from mdr.studies.formats import unpacked
 from mdr.studies.points import Part
 from mdr.studies.specification import differences
+from mdr.studies.study import Frame, Results, Study
+from mdr.studies.work import Cut, Layout
 from mdr.tools.atomic_write import is_partial, write_once, write_whole
 
+HEAD = ("identity", "specification", "frame", "block")  #: what study.json says
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 _READ_ONLY = (errno.EROFS, errno.EACCES, errno.EPERM)
+
+T = TypeVar("T")
 
 
 class StudyError(RuntimeError):
@@ -72,15 +81,7 @@ class Store:
     def head(self) -> dict[str, Any] | None:
         """Specification and identity of the study in the store; None where there is none."""
         path = self.folder / "study.json"
-        try:
-            head = json.loads(path.read_text(encoding="utf-8"))
-            if not isinstance(head, dict) or not {"identity", "specification", "frame", "block"} <= head.keys():
-                raise ValueError("it lacks what every study has")
-        except (FileNotFoundError, NotADirectoryError):
-            return None
-        except ValueError as fault:
-            raise StudyError(f"{path}: is damaged ({fault}); move the store away and repeat the call") from None
-        return head
+        return _known(path, lambda head: {name: head[name] for name in HEAD}, "move the store away and repeat the call")
 
     def merged(self) -> bytes | None:
         """The finished study; None while chunks are missing."""
@@ -91,12 +92,7 @@ class Store:
 
     def merge(self, data: bytes) -> None:
         """Put the finished study in the place of its chunks."""
-        with self._told("study.nc"):
-            try:
-                write_whole(self.file, data)
-            except FileNotFoundError:  # another process merged, and cleared away the file just written
-                if not self.file.exists():
-                    raise
+        self._put(self.file, data)
         self.clear()
 
     def clear(self) -> None:
@@ -117,25 +113,18 @@ class Store:
             write_whole(self.chunks / "plan.try", b"")
             (self.chunks / "plan.try").unlink(missing_ok=True)
 
-    def plan(self) -> dict[str, int] | None:
+    def plan(self) -> Cut | None:
         """How the work is cut; None before that is settled."""
-        path = self.chunks / "plan.json"
-        try:
-            plan = json.loads(path.read_bytes())
-            if min(plan["units_per_chunk"], plan["n_units"]) < 1:
-                raise ValueError("nothing is planned")
-            return {name: int(plan[name]) for name in ("units_per_chunk", "n_units")}
-        except (FileNotFoundError, NotADirectoryError):
-            return None
-        except (ValueError, KeyError, TypeError):
-            message = f"{path}: is damaged; remove the folder {self.chunks} and repeat the call"
-            raise StudyError(message) from None
+        way_out = f"remove the folder {self.chunks} and repeat the call"
+        return _known(
+            self.chunks / "plan.json", lambda plan: Cut(int(plan["n_units"]), int(plan["units_per_chunk"])), way_out
+        )
 
-    def settle(self, plan: Mapping[str, int]) -> dict[str, int]:
+    def settle(self, cut: Cut) -> Cut:
         """Write down how the work is cut, unless another process has done so meanwhile; returns the cut that holds."""
         with self._told("plan.json"):
-            write_once(self.chunks / "plan.json", json.dumps(dict(plan)).encode("ascii"))
-        return self.plan() or dict(plan)
+            write_once(self.chunks / "plan.json", json.dumps(asdict(cut)).encode("ascii"))
+        return self.plan() or cut
 
     def finished(self) -> set[int]:
         """Numbers of the chunks that are there."""
@@ -147,13 +136,7 @@ class Store:
 
     def write(self, number: int, identity: str, part: Part) -> None:
         """Keep a finished chunk."""
-        path = self._path(number)
-        with self._told(path.name):
-            try:
-                write_whole(path, _packed(number, identity, part))
-            except FileNotFoundError:  # another process has merged meanwhile
-                if not self.file.exists():
-                    raise
+        self._put(self._path(number), _packed(number, identity, part))
         self.n_kept += 1
 
     def read(self, number: int, identity: str, shape: tuple[int, int]) -> Part | None:
@@ -165,6 +148,15 @@ class Store:
         except Exception:  # whatever a reader of archives meets in bytes that are none
             return None
         return part if part.values.shape == shape else None
+
+    def _put(self, path: Path, data: bytes) -> None:
+        """Write a file, unless another process has merged meanwhile, and cleared away what is written here."""
+        with self._told(path.name):
+            try:
+                write_whole(path, data)
+            except FileNotFoundError:
+                if not self.file.exists():
+                    raise
 
     def _path(self, number: int) -> Path:
         return self.chunks / f"{number:06d}.npz"
@@ -183,14 +175,82 @@ class Store:
         try:
             yield
         except OSError as error:
-            what, safe = error.strerror or str(error), f"; {self.kept}" if self.kept else ""
+            fault, way_out = f"{name} cannot be written", "repeat the call once that is mended"
             if error.errno in _FULL:
-                message = f"no room to write {name} ({what}){safe}; free space and repeat the call"
+                fault, way_out = f"no room to write {name}", "free space and repeat the call"
             elif error.errno in _READ_ONLY:
-                message = f"{name} cannot be written ({what}){safe}; make the folder writable, or give another store"
-            else:
-                message = f"{name} cannot be written ({what}){safe}; repeat the call once that is mended"
-            raise StudyError(f"{self.folder}: {message}") from error
+                way_out = "make the folder writable, or give another store"
+            safe = f"; {self.kept}" if self.kept else ""
+            raise StudyError(f"{self.folder}: {fault} ({error.strerror or error}){safe}; {way_out}") from error
+
+
+def read_study(path: str | PathLike[str]) -> Study:
+    """A study from its NetCDF file or from the folder of its store, finished or not.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A NetCDF file, or the folder that `sweep` was given as store.
+
+    Returns
+    -------
+    Study
+        With what is there of it. Records among the axes come back as their labels.
+
+    Raises
+    ------
+    StudyError
+        For what is neither.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
+    >>> mdr.sweep(case, {"alpha": [0.05, 0.1]}, quantities=["v_c"]).to_netcdf("study.nc")
+    >>> mdr.read_study("study.nc")["v_c"].round(5)
+    array([0.00018, 0.00036])
+    """
+    place = Path(path)
+    return _read_store(Store(place)) if place.is_dir() else _read_file(place)
+
+
+def _read_file(path: Path) -> Study:
+    try:
+        return unpacked(path.read_bytes())
+    except OSError as error:
+        raise StudyError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:
+        raise StudyError(f"{path}: is {error}") from None
+
+
+def _read_store(store: Store) -> Study:
+    """The study of a store, with what is there of it."""
+    if store.file.exists():
+        return _read_file(store.file)
+    head = store.head()
+    if head is None:
+        raise StudyError(f"{store.folder}: holds no study: there is no study.json")
+    frame = Frame.from_head(head)
+    results, cut = Results(Layout.of(frame.grid, head["block"]), len(frame.columns)), store.plan()
+    if cut is not None:
+        for chunk in sorted(store.finished()):
+            units = cut.units(chunk)
+            part = store.read(chunk, frame.identity, results.shape_of(units))
+            if part is not None:
+                results.put(units[0], part)
+    return results.study(frame)
+
+
+def _known(path: Path, check: Callable[[Any], T], way_out: str) -> T | None:
+    """What a JSON file of the store says; None where there is none."""
+    try:
+        return check(json.loads(path.read_bytes()))
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except (ValueError, KeyError, TypeError) as fault:
+        raise StudyError(f"{path}: is damaged ({fault!r}); {way_out}") from None
 
 
 def _packed(number: int, identity: str, part: Part) -> bytes:

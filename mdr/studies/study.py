@@ -1,10 +1,13 @@
-"""A study, finished or not: values with named axes, units, and the status of every point."""
+"""A study, finished or not: values with named axes, units, and the status of every point.
+
+Its frame is the study without its values: axes, quantities, and the case, version and identity it was made of.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,15 +15,72 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.studies.frame import Frame
-from mdr.studies.points import Status
+from mdr.case.contact import SlidingContact
+from mdr.files.case_files import written
+from mdr.files.toml_text import CaseFileError
+from mdr.studies.axes import Axis, without_addresses
+from mdr.studies.points import Part, Status
+from mdr.studies.work import Layout, Work
+from mdr.tools import version
 from mdr.tools.arrays import Array
+from mdr.tools.atomic_write import write_whole
 from mdr.tools.messages import nearest, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 MOST_REASONS = 5  #: told in print
+
+
+@dataclass(frozen=True)
+class Column:
+    """Name, unit and meaning of one quantity."""
+
+    name: str
+    unit: str  #: "-" for a pure number
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A study without its values."""
+
+    grid: tuple[Axis, ...]  #: in the order of the arrays' axes
+    columns: tuple[Column, ...]
+    case: str  #: what the axes vary, as the text of a case file where one can carry it
+    version: str  #: of mdr
+    identity: str  #: SHA-256 of the specification; "" where it has none
+    selected: tuple[tuple[str, str], ...] = ()  #: paths and values that `Study.select` has fixed
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each axis has."""
+        return tuple(len(axis) for axis in self.grid)
+
+    @classmethod
+    def of(cls, work: Work, identity: str) -> Frame:
+        """The frame of the study that this work makes."""
+        columns = tuple(Column(one.name, one.unit, one.meaning) for one in work.quantities)
+        return cls(work.axes, columns, _text(work.case, work.held), version.__version__, identity)
+
+    def tree(self) -> dict[str, Any]:
+        """All but the numbers of its axes, for JSON."""
+        labels = {axis.path: list(axis.labels) for axis in self.grid if not axis.is_numeric}
+        columns = [asdict(column) for column in self.columns]
+        return {"labels": labels, "columns": columns, "case": self.case, "version": self.version}
+
+    @classmethod
+    def from_head(cls, head: Mapping[str, Any]) -> Frame:
+        """The frame in the head of a store, with labels for records."""
+        tree, numbers = head["frame"], head["specification"]["axes"]
+        grid = tuple(
+            Axis.labelled(path, tree["labels"][path])
+            if path in tree["labels"]
+            else Axis(path, np.array(numbers[path], dtype=float))
+            for path in head["specification"]["order of axes"]
+        )
+        columns = tuple(Column(**column) for column in tree["columns"])
+        return cls(grid, columns, tree["case"], tree["version"], head["identity"])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -141,8 +201,7 @@ class Study(Printed, ArrayRecord):
         path : str or path-like
             The file.
         """
-        from mdr.studies.netcdf import packed
-        from mdr.tools.atomic_write import write_whole
+        from mdr.studies.formats import packed
 
         write_whole(Path(path), packed(self))
 
@@ -154,8 +213,7 @@ class Study(Printed, ArrayRecord):
         path : str or path-like
             The file.
         """
-        from mdr.studies.csv_files import table
-        from mdr.tools.atomic_write import write_whole
+        from mdr.studies.formats import table
 
         write_whole(Path(path), table(self).encode("utf-8"))
 
@@ -167,7 +225,7 @@ class Study(Printed, ArrayRecord):
         xarray.Dataset
             Quantities with labelled axes and units.
         """
-        from mdr.studies.netcdf import to_xarray
+        from mdr.studies.formats import to_xarray
 
         return to_xarray(self)
 
@@ -281,6 +339,36 @@ class Study(Printed, ArrayRecord):
         return lines + ([f"    {rest}: for {len(ranked) - MOST_REASONS} other reasons"] if rest else [])
 
 
+class Results:
+    """All points, in the order of the work. They are missing at first; parts are put in their place, in any order."""
+
+    def __init__(self, layout: Layout, n_quantities: int) -> None:
+        self.layout = layout
+        self.values = np.full((n_quantities, layout.n_points), np.nan)
+        self.status = np.full(layout.n_points, Status.MISSING, dtype=np.uint8)
+        self.reason = np.zeros(layout.n_points, dtype=np.int32)
+        self.reasons = {"": 0}
+
+    def shape_of(self, units: tuple[int, int]) -> tuple[int, int]:
+        """Shape of the values of units first <= unit < last."""
+        first, last = (self.layout.first_point(unit) for unit in units)
+        return len(self.values), last - first
+
+    def put(self, first_unit: int, part: Part) -> None:
+        """Put the points of a part where its first unit begins."""
+        first = self.layout.first_point(first_unit)
+        where = slice(first, first + part.status.size)
+        codes = np.array([self.reasons.setdefault(why, len(self.reasons)) for why in part.reasons], dtype=np.int32)
+        self.values[:, where] = part.values
+        self.status[where] = part.status
+        self.reason[where] = codes[part.reason]
+
+    def study(self, frame: Frame) -> Study:
+        """The study of the points that are there, its arrays in the order of the axes."""
+        place = self.layout.in_place
+        return study_of(frame, place(self.values), place(self.status), place(self.reason), tuple(self.reasons))
+
+
 def study_of(
     frame: Frame, values: Array, status: NDArray[Any], reason: NDArray[Any], reasons: tuple[str, ...]
 ) -> Study:
@@ -297,3 +385,10 @@ def study_of(
         np.array(new[reason], order="C"),
         ("", *(reasons[code] for code in kept.tolist())),
     )
+
+
+def _text(case: SlidingContact, held: Mapping[str, float]) -> str:
+    try:
+        return written(case, held)
+    except CaseFileError:
+        return without_addresses(repr(case))

@@ -41,7 +41,6 @@ from mdr.tools.messages import offer, short
 
 KEYS = ("axes", "quantities", "n_springs", "steps_per_period", "accuracy")
 MOST_VALUES = 10**7  #: of an axis
-_RANGE = ("from", "to", "n", "spacing")
 
 
 @dataclass(frozen=True)
@@ -129,28 +128,32 @@ def _read_values(path: str, written: Any) -> tuple[Any, list[str]]:
     return records, faults
 
 
+def _number_of_values(name: str, value: Any) -> None:
+    if count(name, value, 2) > MOST_VALUES:
+        raise ValueError(f"{name} must be at most {MOST_VALUES}, got {value}")
+
+
+def _spacing(name: str, value: Any) -> None:
+    if value not in ("linear", "log"):
+        raise ValueError(f'{name} must be "linear" or "log", got {short(str(value))}')
+
+
+_RANGE = {"from": finite, "to": finite, "n": _number_of_values, "spacing": _spacing}  # keys, and what each must be
+
+
 def _range(path: str, written: Mapping[str, Any]) -> tuple[Any, list[str]]:
     """Equidistant values, or values in equal ratios."""
-    faults = [
-        f"{path}: {short(key)} is no key of a range; {offer(key, _RANGE)}" for key in written if key not in _RANGE
-    ]
-    faults += [f"{path}: {key} is missing from the range" for key in _RANGE[:3] if key not in written]
-    for key in ("from", "to"):
-        if key in written:
-            faults += _tried(finite, f"{path}: {key}", written[key])
-    if "n" in written:
-        faults += _tried(count, f"{path}: n", written["n"], 2)
-        if not faults and written["n"] > MOST_VALUES:
-            faults.append(f"{path}: n must be at most {MOST_VALUES}, got {written['n']}")
-    spacing = written.get("spacing", "linear")
-    if spacing not in ("linear", "log"):
-        faults.append(f'{path}: spacing must be "linear" or "log", got {short(str(spacing))}')
+    known = list(_RANGE)
+    faults = [f"{path}: {short(key)} is no key of a range; {offer(key, known)}" for key in written if key not in known]
+    faults += [f"{path}: {key} is missing from the range" for key in known[:3] if key not in written]
+    for key, must in _RANGE.items():
+        faults += _tried(must, f"{path}: {key}", written[key]) if key in written else []
     if faults:
         return None, faults
     low, high, n = float(written["from"]), float(written["to"]), written["n"]
-    if spacing == "linear":
+    if written.get("spacing") != "log":
         return np.linspace(low, high, n), []
-    if low <= 0 or high <= 0:
+    if min(low, high) <= 0:
         return None, [f'{path}: a range with spacing = "log" must be positive, got {low:g} to {high:g}']
     return np.geomspace(low, high, n), []
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from numbers import Integral
@@ -15,20 +14,13 @@ from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import still_held
 from mdr.studies.axes import read_axes
-from mdr.studies.cut import Cut
-from mdr.studies.frame import Frame
-from mdr.studies.points import Part
+from mdr.studies.engine import Call
 from mdr.studies.quantities import Quantity, read_quantities
-from mdr.studies.results import Results
-from mdr.studies.run import WorkersLost, run
-from mdr.studies.specification import identity_of, specification
-from mdr.studies.store import Store, StudyError
-from mdr.studies.stored import Stored
+from mdr.studies.store import Store
 from mdr.studies.study import Study
 from mdr.studies.work import Work
 from mdr.tools.checks import count, positive
 from mdr.tools.messages import short
-from mdr.tools.progress import Meter
 
 MOST_NUMBERS = 10**9  #: of a study
 
@@ -76,7 +68,6 @@ def sweep(
         Springs and time steps of every run, as in `slide`.
     accuracy : float
         Bound on the error of every friction over mu_0 [-] that is asked for, as in `slide`.
-
     held : mapping of str to float, optional
         What every case of the study has besides: "load" [N], "frequency" [Hz] or "tan_delta" [-], unless an axis sets
         the same. A load is held where shape or material vary, by another depth in every case; a loss tangent where the
@@ -117,50 +108,11 @@ def sweep(
     _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
     _require_executor(executor)
-    if store is None:
-        if shard is not None:
-            raise ValueError("a shard needs a store that the others are kept in: store= in Python, --store in a shell")
-        return _in_memory(work, executor)
-    if not isinstance(store, str | PathLike):
+    if store is None and shard is not None:
+        raise ValueError("a shard needs a store that the others are kept in: store= in Python, --store in a shell")
+    if not isinstance(store, str | PathLike | None):
         raise TypeError(f"store must be a folder, got {short(repr(store))}")
-    return Stored(work, Store(fsdecode(store)), executor).study(chunk_seconds, part)
-
-
-# --- without a store ---
-
-
-def _in_memory(work: Work, executor: Any) -> Study:
-    results, cut = Results(work.layout, len(work.quantities)), Cut.in_memory(work)
-    meter = Meter("sweep", cut.n_chunks, "chunks")
-
-    def take(chunk: int, part: Part) -> None:
-        results.put(cut.units(chunk)[0], part)
-        meter.tick()
-
-    try:
-        run(work, cut, range(cut.n_chunks), executor, take)
-    except KeyboardInterrupt:
-        meter.close()
-        print(
-            "sweep: interrupted, and nothing is kept; in a store (store=, --store) finished chunks are", file=sys.stderr
-        )
-        raise
-    except WorkersLost as error:
-        raise StudyError(f"{error}; nothing is kept, as there is no store") from error
-    finally:
-        meter.close()
-    results.tell_slow()
-    return results.study(Frame.of(work, _identity_or_none(work)))
-
-
-def _identity_or_none(work: Work) -> str:
-    try:
-        return identity_of(specification(work))
-    except ValueError:  # a function without a name, which only a store has to tell from others
-        return ""
-
-
-# --- what was given ---
+    return Call(work, None if store is None else Store(fsdecode(store)), executor).study(chunk_seconds, part)
 
 
 def _require_room(work: Work) -> None:
@@ -177,16 +129,12 @@ def _shard(shard: Any) -> tuple[int, int]:
     if shard is None:
         return 1, 1
     rule = f"shard must be k/n with k from 1 to n, such as 3/16, got {short(repr(shard))}"
+    parts = shard
     if isinstance(shard, str):
-        parts: Any = shard.split("/")
-        if not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
-            raise ValueError(rule)
-        parts = tuple(map(int, parts))
-    else:
-        parts = tuple(shard) if isinstance(shard, tuple | list) else ()
-    if len(parts) != 2 or not all(isinstance(part, Integral) and not isinstance(part, bool) for part in parts):
+        parts = [int(part) if part.isascii() and part.isdigit() and len(part) < 10 else 0 for part in shard.split("/")]
+    if not isinstance(parts, tuple | list) or len(parts) != 2:
         raise ValueError(rule)
-    if not 1 <= parts[0] <= parts[1]:
+    if any(isinstance(part, bool) or not isinstance(part, Integral) for part in parts) or not 1 <= parts[0] <= parts[1]:
         raise ValueError(rule)
     return int(parts[0]), int(parts[1])
 

@@ -1,20 +1,112 @@
-"""The work of a study: a case, the axes that vary it, and the quantities that are computed at every point."""
+"""The work of a study: a case, what varies it, what is computed at every point, and in which order and pieces.
+
+Points are computed in units, blocks of the velocities of one case, numbered from 0. The velocity is innermost whatever
+the order of the axes, so that a case is built once for all its velocities. A unit is computed in one piece and alike
+wherever it is, so that no result depends on how the units are dealt out. A chunk is some consecutive units.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import prod
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET
 from mdr.normal.vary import case_at
 from mdr.studies.axes import Axis
-from mdr.studies.layout import Layout
 from mdr.studies.quantities import CurveQuantity, Quantity
 
 IN_CLOSED_FORM, MARCHED = 64, 8  #: velocities of a unit under a rigid pull, and of one that is run velocity by velocity
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Order of the points of a grid."""
+
+    shape: tuple[int, ...]  #: how many values each axis has, in the order of the user
+    velocity: int | None  #: which of the axes is the velocity
+    block: int  #: how many velocities a unit has at most
+
+    @classmethod
+    def of(cls, axes: tuple[Axis, ...], block: int) -> Layout:
+        """The order of the points over these axes."""
+        velocity = next((i for i, axis in enumerate(axes) if axis.is_velocity), None)
+        return cls(tuple(len(axis) for axis in axes), velocity, block)
+
+    @property
+    def of_cases(self) -> tuple[int, ...]:
+        """Shape of the grid without the velocity."""
+        return tuple(n for i, n in enumerate(self.shape) if i != self.velocity)
+
+    @property
+    def n_velocities(self) -> int:
+        """Number of points of each case."""
+        return 1 if self.velocity is None else self.shape[self.velocity]
+
+    @property
+    def n_points(self) -> int:
+        """Number of points."""
+        return prod(self.shape)
+
+    @property
+    def blocks(self) -> int:
+        """Number of units of each case."""
+        return -(-self.n_velocities // self.block)
+
+    @property
+    def n_units(self) -> int:
+        """Number of units."""
+        return prod(self.of_cases) * self.blocks
+
+    def first_point(self, unit: int) -> int:
+        """The first point of a unit; that of n_units is n_points."""
+        case, block = divmod(unit, self.blocks)
+        return case * self.n_velocities + block * self.block
+
+    def case(self, unit: int) -> tuple[int, ...]:
+        """Index of the case of a unit along each axis but the velocity."""
+        return tuple(int(i) for i in np.unravel_index(unit // self.blocks, self.of_cases)) if self.of_cases else ()
+
+    def velocities(self, unit: int) -> slice:
+        """The velocities of a unit, as a part of their axis."""
+        start = unit % self.blocks * self.block
+        return slice(start, min(start + self.block, self.n_velocities))
+
+    def in_place(self, points: NDArray[Any]) -> NDArray[Any]:
+        """Arrays (..., n_points) as (..., *shape)."""
+        ahead = points.shape[:-1]
+        if self.velocity is None:
+            return points.reshape(*ahead, *self.shape)
+        grid = points.reshape(*ahead, *self.of_cases, self.n_velocities)
+        return np.moveaxis(grid, -1, len(ahead) + self.velocity)
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Chunks of equally many units; the last may have fewer."""
+
+    n_units: int
+    units_per_chunk: int
+
+    def __post_init__(self) -> None:
+        if min(self.n_units, self.units_per_chunk) < 1:
+            raise ValueError("nothing is planned")
+
+    @property
+    def n_chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.n_units // self.units_per_chunk)
+
+    def units(self, chunk: int) -> tuple[int, int]:
+        """First unit of a chunk, and the first unit after it."""
+        start = chunk * self.units_per_chunk
+        return start, min(start + self.units_per_chunk, self.n_units)
 
 
 @dataclass(frozen=True)
@@ -29,7 +121,7 @@ class Work:
     accuracy: float = BUDGET
     held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
 
-    @cached_property
+    @property
     def velocity_axis(self) -> Axis | None:
         """The axis of the velocity, if there is one."""
         return next((axis for axis in self.axes if axis.is_velocity), None)
@@ -37,10 +129,8 @@ class Work:
     @cached_property
     def layout(self) -> Layout:
         """The order of its points."""
-        velocity = next((i for i, axis in enumerate(self.axes) if axis.is_velocity), None)
         pulls = next((axis.values for axis in self.axes if axis.path == "pull"), (self.case.pull,))
-        block = IN_CLOSED_FORM if all(pull.is_rigid for pull in pulls) else MARCHED
-        return Layout(tuple(len(axis) for axis in self.axes), velocity, block)
+        return Layout.of(self.axes, IN_CLOSED_FORM if all(pull.is_rigid for pull in pulls) else MARCHED)
 
     def case_of(self, unit: int) -> SlidingContact:
         """The case of a unit; what its records refuse is raised."""

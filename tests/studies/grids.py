@@ -14,38 +14,16 @@ BODY = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.5, MOTION, mdr.Sprin
 COARSE = {"n_springs": 32, "steps_per_period": 64}  # for runs whose digits do not matter
 SHAPES = [mdr.Paraboloid(R=5e-3), mdr.Cone(theta=0.05), mdr.FlatPunch(a=1e-3)]
 
-#: case, axes, quantities and knobs of a study of 120 runs, in 20 units of at most 8 velocities
-RUNS = (
-    BODY,
-    {"v_0/v_c": np.linspace(0.1, 1.2, 12), "pull.m": [0.05, 0.1, 0.2, 0.3, 0.4], "T": [0.1, 1.0]},
-    ("cof", "v_c"),
-    COARSE,
-)
-
-#: tables of a case file, of a contact under a rigid pull
-TABLES = """
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
-"""
+#: a study of 120 runs, in 20 units of at most 8 velocities
+RUNS = {
+    "case": BODY,
+    "axes": {"v_0/v_c": np.linspace(0.1, 1.2, 12), "pull.m": [0.05, 0.1, 0.2, 0.3, 0.4], "T": [0.1, 1.0]},
+    "quantities": ("cof", "v_c"),
+    **COARSE,
+}
 
 LOG = "MDR_TEST_LOG"  # the file that computed units are written to
 LONG = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 240).tolist()}
-
-
-def study(grid, **options):
-    """One of the grids, computed."""
-    case, axes, quantities, knobs = grid
-    return mdr.sweep(case, axes, quantities=quantities, **knobs, **options)
 
 
 def slow_and_logged(case):

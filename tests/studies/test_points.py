@@ -12,7 +12,7 @@ import mdr
 from mdr.studies.axes import read_axes
 from mdr.studies.points import Ended, Status, compute, reason_of
 from mdr.studies.quantities import Quantity, read_quantities
-from mdr.studies.work import IN_CLOSED_FORM, MARCHED, Work
+from mdr.studies.work import Work
 
 
 def work(case, axes, quantities, **knobs):
@@ -31,41 +31,6 @@ def test_values_are_those_of_direct_calls():
             assert_array_equal(study["stick_share"][:, i, j], curve.stick_share)
             assert_array_equal(study["v_c"][:, i, j], mdr.critical_velocity(case))
     assert study.count(Status.DONE) == 18
-
-
-def test_runs_have_the_knobs_of_the_study():
-    v_0 = [1e-4, 3e-4]
-    study = mdr.sweep(BODY, {"pull.m": [0.1, 0.2], "v_0": v_0}, quantities=["cof", "settled"], **COARSE)
-    for i, m in enumerate((0.1, 0.2)):
-        case = replace(BODY, pull=replace(BODY.pull, m=m))
-        assert_array_equal(study["cof"][i], mdr.cof_curve(case, v_0, **COARSE).cof)
-    assert_array_equal(study["settled"], 1.0)
-
-
-def test_a_curve_of_runs_takes_the_knobs_and_the_closed_form_has_none():
-    runs = mdr.cof_curve(BODY, [1e-4], **COARSE)
-    assert runs.cof[0] == mdr.slide(BODY, 1e-4, **COARSE).cof != mdr.slide(BODY, 1e-4).cof
-    assert mdr.cof_curve(RIGID, [1e-4], **COARSE) == mdr.cof_curve(RIGID, [1e-4])
-    for wrong in ({"n_springs": 8}, {"steps_per_period": 31}):
-        with pytest.raises(ValueError, match="must be at least 32"):
-            mdr.cof_curve(RIGID, [1e-4], **wrong)
-
-
-def test_blocks_of_velocities():
-    v_0 = np.linspace(0, 1e-3, 130)
-    closed, marched = work(RIGID, {"v_0": v_0}, ["cof"]), work(BODY, {"v_0": v_0}, ["cof"])
-    assert (closed.layout.block, closed.layout.n_units) == (IN_CLOSED_FORM, 3)
-    assert (marched.layout.block, marched.layout.n_units) == (MARCHED, 17)
-    assert work(BODY, {"v_0": v_0, "pull": [mdr.RigidPull()]}, ["cof"]).layout.block == IN_CLOSED_FORM
-    assert work(RIGID, {"v_0": v_0, "pull": [mdr.RigidPull(), BODY.pull]}, ["cof"]).layout.block == MARCHED
-    assert_array_equal(compute(closed, 0, 3).values[0], mdr.sweep(RIGID, {"v_0": v_0})["cof"])
-
-
-def test_a_result_does_not_depend_on_how_units_are_dealt_out():
-    given = work(RIGID, {"v_0": np.linspace(0, 1e-3, 130), "T": [0.1, 1.0, 2.0]}, ["cof", "v_c"])
-    whole = compute(given, 0, 9)
-    parts = [compute(given, unit, unit + 1) for unit in range(9)]
-    assert_array_equal(np.concatenate([part.values for part in parts], axis=1), whole.values)
 
 
 def test_a_case_that_cannot_be_built_is_a_failure_of_its_points():
@@ -139,15 +104,6 @@ def test_a_quantity_of_velocity_fails_at_its_own():
     assert study.why[0] == "slowness: ZeroDivisionError: float division by zero"
 
 
-@pytest.mark.parametrize("error", [MemoryError, NameError, OSError])
-def test_what_is_no_matter_of_the_point_ends_the_sweep(error):
-    def of(case):
-        raise error("no more")
-
-    with pytest.raises(error):
-        mdr.sweep(RIGID, {"mu_0": [0.2, 0.4]}, quantities=[Quantity("own", "-", of)])
-
-
 def test_reasons_are_one_line_without_places_in_memory():
     assert reason_of(ValueError("a\nb")) == "a b"
     assert reason_of(ZeroDivisionError()) == "ZeroDivisionError"
@@ -167,13 +123,6 @@ def test_the_work_ends_soon_after_it_is_asked_to():
     with pytest.raises(Ended):
         compute(given, 0, 3, ended)
     assert seen == [0.2]
-
-
-def test_a_march_ends_between_its_velocities():
-    ended = threading.Event()
-    ended.set()
-    with pytest.raises(Ended):
-        compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), 0, 1, ended)
 
 
 def test_nothing_inside_speaks(capsys, monkeypatch):

@@ -1,203 +1,167 @@
 """The store: what cannot be used or written is an error that says what to do, and no finished chunk is lost."""
 
 import errno
+import json
 import os
-import subprocess
+import re
+import shutil
 import warnings
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from grids import RIGID, RUNS, SHAPES, depth, study
-from numpy.testing import assert_array_equal
+from grids import BODY, RIGID, SHAPES, depth
 
 import mdr
 from mdr.studies import specification
 from mdr.studies.points import Part, Status
-from mdr.studies.store import Store, _packed, _unpacked
+from mdr.studies.store import Store, _packed
 from mdr.tools.sources import texts
 
+SHAKE = mdr.InPlaneOscillation(omega=300.0, du_x=1e-6)
 AXES = {"mu_0": np.linspace(0.1, 0.9, 24).tolist(), "indenter": SHAPES[:2]}
 PART = Part(np.array([[1.0, np.nan]]), np.array([0, 2], np.uint8), np.array([0, 1], np.int32), ("", "µ no"))
+LEFT = ["study.json", "study.nc"]  # of a finished study
 
 
-def small(store, axes=AXES, **options):
+def small(store, axes=AXES, case=RIGID, quantities=("v_c", "static_cof"), **options):
     """48 chunks of one point."""
-    return mdr.sweep(RIGID, axes, store, quantities=["v_c", "static_cof"], chunk_seconds=1e-9, **options)
+    return mdr.sweep(case, axes, store, quantities=quantities, chunk_seconds=1e-9, **options)
 
 
-def bytes_of(store):
-    return (Path(store) / "study.nc").read_bytes()
+@pytest.fixture(scope="module")
+def whole():
+    return small(None)
 
 
 @pytest.fixture
 def part_done(tmp_path):
-    """A store with the odd half of its chunks."""
+    """A store with half of its chunks: 0, 2, 4, ..."""
     small(tmp_path / "store", shard="1/2")
     return tmp_path / "store"
 
 
-# --- what is written ---
-
-
-def test_a_finished_store_holds_two_files(tmp_path):
-    found = small(tmp_path / "store")
-    assert sorted(os.listdir(tmp_path / "store")) == ["study.json", "study.nc"]
-    assert mdr.read_study(tmp_path / "store") == found == small(tmp_path / "store")
-    assert found == small(None)
-
-
-def test_a_finished_store_is_read_not_computed(tmp_path, monkeypatch):
-    found = small(tmp_path / "store")
-    monkeypatch.setattr("mdr.studies.stored.run", None)
-    monkeypatch.setattr(os, "fsync", None)
-    again = small(tmp_path / "store")
-    assert again == found
+def test_a_finished_store_holds_two_files_and_is_read_not_computed(part_done, whole, monkeypatch):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert small(part_done) == whole
+        assert sorted(os.listdir(part_done)) == LEFT
+        monkeypatch.setattr("mdr.studies.engine.run", None)
+        monkeypatch.setattr(os, "fsync", None)  # nor is anything written
+        again = small(part_done)
+    assert again == mdr.read_study(part_done) == whole
     assert again.axes["indenter"] == tuple(SHAPES[:2])  # records, not labels
 
 
-def test_a_chunk_comes_back_as_it_went():
-    back = _unpacked(3, "id", _packed(3, "id", PART))
-    assert back == PART
+# --- damage and leftovers ---
 
 
-@pytest.mark.parametrize(("number", "identity"), [(4, "id"), (3, "other")])
-def test_a_chunk_of_another_place_or_study_is_no_chunk(number, identity):
-    with pytest.raises(ValueError, match="the checksum is another"):
-        _unpacked(number, identity, _packed(3, "id", PART))
-
-
-@pytest.mark.parametrize("change", ["cut", "empty", "flip", "text", "shape"])
-def test_a_damaged_chunk_is_noticed_and_computed_again(tmp_path, part_done, change):
-    path = part_done / "chunks" / "000004.npz"
-    data = path.read_bytes()
-    place = data.index(np.float64(small(None)["v_c"].ravel()[4]).tobytes())
-    damaged = {
+@pytest.mark.parametrize("shard", [None, "2/2"])
+@pytest.mark.parametrize("change", ["cut", "empty", "flip", "text", "shape", "of another place", "of another study"])
+def test_a_damaged_chunk_is_left_out_when_read_and_computed_again(part_done, whole, change, shard):
+    chunks, before = part_done / "chunks", mdr.read_study(part_done)
+    data, own = (chunks / "000004.npz").read_bytes(), Store(part_done).read(4, before.identity, (2, 1))
+    place = data.index(np.float64(whole["v_c"].ravel()[4]).tobytes())
+    (chunks / "000004.npz").write_bytes({
         "cut": data[: len(data) // 2],
         "empty": b"",
         "flip": data[:place] + bytes([data[place] ^ 1]) + data[place + 1 :],
         "text": b"not an archive",
-        "shape": _packed(4, mdr.read_study(part_done).identity, PART),
-    }[change]
-    path.write_bytes(damaged)
+        "shape": _packed(4, before.identity, PART),
+        "of another place": (chunks / "000002.npz").read_bytes(),
+        "of another study": _packed(4, "other", own),
+    }[change])  # fmt: skip
+    assert mdr.read_study(part_done).count(Status.MISSING) == before.count(Status.MISSING) + 1
     with pytest.warns(UserWarning, match="chunk 4 is damaged and is computed again"):
-        found = small(part_done)
-    assert found == small(None)
-    small(tmp_path / "other")
-    assert bytes_of(part_done) == bytes_of(tmp_path / "other")
+        assert small(part_done, shard=shard) == whole
 
 
-def test_what_is_read_of_a_study_leaves_a_damaged_chunk_out(part_done):
-    before = mdr.read_study(part_done)
-    (part_done / "chunks" / "000004.npz").write_bytes(b"")
-    now = mdr.read_study(part_done)
-    assert now.count(Status.MISSING) == before.count(Status.MISSING) + 1
-    there = now.status != Status.MISSING
-    assert_array_equal(now["v_c"][there], before["v_c"][there])
-
-
-def test_a_damaged_chunk_of_another_shard_is_computed_again(part_done):
-    (part_done / "chunks" / "000004.npz").write_bytes(b"")
-    with pytest.warns(UserWarning, match="chunk 4 is damaged"):
-        assert small(part_done, shard="2/2").complete
-
-
-def test_leftovers_of_killed_runs_are_cleared(part_done):
+def test_leftovers_of_killed_runs_are_cleared(part_done, whole, monkeypatch):
     for folder in (part_done, part_done / "chunks"):
         (folder / ".study.nc-123-0a1b2c3d.part").write_bytes(b"half")
-    small(part_done)
-    assert sorted(os.listdir(part_done)) == ["study.json", "study.nc"]
-
-
-def test_a_kill_between_the_merge_and_the_clearing_is_made_good(part_done, monkeypatch):
-    with monkeypatch.context() as patch:
+    with monkeypatch.context() as patch:  # a kill between the merge and the clearing
         patch.setattr(Store, "clear", lambda store: None)
         small(part_done)
-    assert sorted(os.listdir(part_done)) == ["chunks", "study.json", "study.nc"]
-    assert mdr.read_study(part_done).complete
-    small(part_done)
-    assert sorted(os.listdir(part_done)) == ["study.json", "study.nc"]
-
-
-# --- two at a time ---
+    assert {*LEFT, "chunks"} < set(os.listdir(part_done))
+    assert mdr.read_study(part_done) == small(part_done) == whole
+    assert sorted(os.listdir(part_done)) == LEFT
 
 
 @pytest.mark.parametrize("method", ["require_writable", "plan", "finished", "read", "write", "merge"])
-def test_another_process_may_merge_at_any_moment(part_done, monkeypatch, method):
+def test_another_process_may_merge_at_any_moment(part_done, whole, monkeypatch, method):
     """Before this step of one call, another call finishes the study."""
-    real, calls = getattr(Store, method), []
+    real, others = getattr(Store, method), []
 
-    def slow(store, *args):
-        if not calls:
-            calls.append(1)
-            other = small(part_done)
-            assert other.complete
+    def late(store, *args):
+        if not others:
+            others.append(None)
+            others.append(small(part_done))
         return real(store, *args)
 
-    monkeypatch.setattr(Store, method, slow)
-    found = small(part_done)
-    assert calls
-    assert found == mdr.read_study(part_done)
-    assert sorted(os.listdir(part_done)) == ["study.json", "study.nc"]
+    monkeypatch.setattr(Store, method, late)
+    assert small(part_done) == whole
+    assert others == [None, whole]
+    assert sorted(os.listdir(part_done)) == LEFT
 
 
-def test_two_may_merge_at_once(tmp_path, monkeypatch):
+def test_two_may_merge_at_once(part_done, monkeypatch):
     """The other has merged and cleared away, as a leftover, the very file that this one was about to move in."""
-    small(tmp_path / "store")
-    data, real = bytes_of(tmp_path / "store"), os.replace
-
-    def too_late(partial, path):
-        os.unlink(partial)
-        real(partial, path)
-
-    monkeypatch.setattr(os, "replace", too_late)
-    Store(tmp_path / "store").merge(data)
-    (tmp_path / "store" / "study.nc").unlink()
+    small(part_done)
+    data, real = (part_done / "study.nc").read_bytes(), os.replace
+    monkeypatch.setattr(os, "replace", lambda partial, path: (os.unlink(partial), real(partial, path)))
+    Store(part_done).merge(data)
+    (part_done / "study.nc").unlink()
     with pytest.raises(mdr.StudyError, match=r"study.nc cannot be written \(No such file"):
-        Store(tmp_path / "store").merge(data)
+        Store(part_done).merge(data)
 
 
 # --- stores that are of no use ---
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"axes": {**AXES, "mu_0": [0.1, 0.2]}}, "axes.mu_0 is [0.1, 0.13478"),
-        ({"axes": {"mu_0": AXES["mu_0"]}}, "axes.indenter is in the store only"),
-        ({"axes": {**AXES, "T": [1.0]}}, "axes.T is in this call only"),
-        (
-            {"axes": dict(reversed(AXES.items()))},
-            'order of axes is ["mu_0", "indenter"] there and ["indenter", "mu_0"]',
-        ),
-        ({"case": RUNS[0]}, "case.pull is RigidPull() there and SpringPull(k_x=20000.0, m=0.1, c_x=4.0) here"),
-        ({"quantities": ["v_c"]}, 'quantities is ["v_c", "static_cof"] there and ["v_c"] here'),
-        ({"n_springs": 64}, "n_springs is null there and 64 here"),
-    ],
-)
-def test_a_store_of_another_study_says_what_differs(part_done, change, words):
-    given = {"case": RIGID, "axes": AXES, "quantities": ["v_c", "static_cof"], **change}
-    with pytest.raises(mdr.StudyError, match="is the store of another study") as caught:
-        mdr.sweep(store=part_done, **given)
-    assert words in str(caught.value)
-    assert str(part_done) in str(caught.value)
+def of_another(store):
+    small(store)
+    small(store / "two", axes={"mu_0": [0.3]})
+    shutil.move(store / "two" / "study.nc", store / "study.nc")
 
 
-def test_a_store_of_another_version_or_of_other_sources(part_done, monkeypatch):
-    monkeypatch.setattr("mdr.tools.version.__version__", "9.9")
-    known = specification.code()
-    monkeypatch.setitem(texts(), "mdr.march.kernels", "")
-    words = (
-        f'version of mdr is "0.1.0" there and "9.9" here; code of mdr is "{known}" there and "{specification.code()}"'
-    )
-    with pytest.raises(mdr.StudyError, match=words):
-        small(part_done)
+def folder_with(name):
+    def change(store):
+        shutil.rmtree(store)
+        store.mkdir()
+        (store / name).write_text("")
+
+    return change
 
 
-def test_differences_beyond_some_are_counted():
-    there = {f"key {i}": i for i in range(9)}
-    assert specification.differences(there, {}).endswith("; and 5 more")
+HEAD, PLAN = "study.json", "chunks/plan.json"
+#: a file of a store and damaged texts of it, or another change, what a call says, and what reading says where it fails
+USELESS = [
+    (HEAD, ("", "{", "[]", "{}", '{"identity": 3}'), "study.json: is damaged", "study.json: is damaged"),
+    (PLAN, ("", "[]", "{}", '{"n_units": 48, "units_per_chunk": 0}'), "remove the folder", "remove the folder"),
+    (PLAN, ('{"n_units": 7, "units_per_chunk": 1}',), "its plan is of another study; remove that folder", None),
+    ("study.nc", ("", "CDF\x02", "hello"), "is no study, or a damaged one", "is no study, or a damaged one"),
+    (None, (of_another,), "is of another study than study.json beside it", None),
+    (None, (folder_with("thesis.tex"),), "holds other files (thesis.tex) and no study.json", "holds no study"),
+    (None, (shutil.rmtree,), None, "cannot be read: No such file"),
+]
+
+
+@pytest.mark.parametrize(("file", "change", "told", "read"), [
+    (file, change, *words) for file, changes, *words in USELESS for change in changes
+])  # fmt: skip
+def test_a_store_of_no_use_says_what_to_do_and_is_left_alone(part_done, file, change, told, read):
+    if file:
+        (part_done / file).write_text(change)
+    else:
+        change(part_done)
+    before = [path for path in part_done.rglob("*") if "chunks" not in path.parts]
+    for call, words in ((mdr.read_study, read), (small, told)):
+        if words:
+            with pytest.raises(mdr.StudyError, match=f"^{re.escape(str(part_done))}.*{re.escape(words)}"):
+                call(part_done)
+            assert [path for path in part_done.rglob("*") if "chunks" not in path.parts] == before
 
 
 def test_a_file_in_the_place_of_the_folder(tmp_path):
@@ -208,124 +172,88 @@ def test_a_file_in_the_place_of_the_folder(tmp_path):
         small(tmp_path / "store" / "inside")
 
 
-def test_a_folder_with_other_files_is_left_alone(tmp_path):
-    (tmp_path / "thesis.tex").write_text("")
-    with pytest.raises(mdr.StudyError, match=r"holds other files \(thesis.tex\) and no study.json"):
-        small(tmp_path)
-    assert os.listdir(tmp_path) == ["thesis.tex"]
-
-
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"identity": "x"}'])
-def test_a_damaged_head(part_done, text):
-    (part_done / "study.json").write_text(text)
-    for call in (small, mdr.read_study):
-        with pytest.raises(mdr.StudyError, match=r"study.json: is damaged"):
-            call(part_done)
+OTHER = replace(BODY, indenter=SHAPES[1], material=mdr.Elastic(3e6, 0.5), oscillation=mdr.ConstantLoad(1), shake=SHAKE)
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[]", "{}", '{"n_units": 48, "units_per_chunk": 0}', '{"n_units": 7, "units_per_chunk": 1}']
-)
-def test_a_damaged_plan(part_done, text):
-    (part_done / "chunks" / "plan.json").write_text(text)
-    with pytest.raises(mdr.StudyError, match="remove th"):
+    ("change", "words"),
+    [
+        ({"axes": {**AXES, "mu_0": [0.1, 0.2]}}, "axes.mu_0 is [0.1, 0.13478"),
+        ({"axes": {"mu_0": AXES["mu_0"]}}, "axes.indenter is in the store only"),
+        ({"axes": {**AXES, "T": [1.0]}}, "axes.T is in this call only"),
+        ({"axes": dict(reversed(AXES.items()))}, 'order of axes is ["mu_0", "indenter"] there and ["ind'),
+        ({"case": BODY}, "case.pull is RigidPull() there and SpringPull(k_x=20000.0, m=0.1, c_x=4.0) here"),
+        ({"quantities": ["v_c"]}, 'quantities is ["v_c", "static_cof"] there and ["v_c"] here'),
+        ({"quantities": [mdr.Quantity("own", "m", depth)]}, 'there and [{"name": "own", "unit": "m", "meaning": "",'),
+        ({"n_springs": 64, "steps_per_period": 64}, "n_springs is null there and 64 here; steps_per_period is null"),
+        ({"case": OTHER}, "; and 1 more"),
+    ],
+)  # fmt: skip
+def test_a_store_of_another_study_says_what_differs(part_done, change, words):
+    with pytest.raises(mdr.StudyError, match="is the store of another study") as caught:
+        small(part_done, **change)
+    assert words in str(caught.value)
+    assert str(part_done) in str(caught.value)
+
+
+def test_a_store_is_of_one_version_and_of_the_sources_that_can_move_a_value(part_done, monkeypatch):
+    known = specification.code()
+    for name, counts in {"plots.figures": 0, "commands.sweep": 0, "tools.anderson": 1, "march.kernels": 1}.items():
+        monkeypatch.setitem(texts(), f"mdr.{name}", "")
+        assert (specification.code() != known) == bool(counts)
+    monkeypatch.setattr("mdr.tools.version.__version__", "9.9")
+    words = f'mdr is "0.1.0" there and "9.9" here; code of mdr is "{known}" there and "{specification.code()}"'
+    with pytest.raises(mdr.StudyError, match=words):
         small(part_done)
 
 
-@pytest.mark.parametrize("data", [b"", b"CDF\x02", b"hello"])
-def test_a_damaged_study(tmp_path, data):
-    small(tmp_path / "store")
-    whole = bytes_of(tmp_path / "store")
-    (tmp_path / "store" / "study.nc").write_bytes(data or whole[: len(whole) // 2])
-    for call in (small, mdr.read_study):
-        with pytest.raises(mdr.StudyError, match="is no study, or a damaged one"):
-            call(tmp_path / "store")
+class Plain(mdr.Indenter):
+    """A shape that is no dataclass."""
+
+    def profile_1d(self, x):
+        return 100.0 * np.square(x)
 
 
-def test_a_study_of_another_store(tmp_path):
-    small(tmp_path / "one")
-    small(tmp_path / "two", axes={"mu_0": [0.3]})
-    (tmp_path / "one" / "study.nc").write_bytes(bytes_of(tmp_path / "two"))
-    with pytest.raises(mdr.StudyError, match=r"is of another study than study.json beside it"):
-        small(tmp_path / "one")
-
-
-def test_no_store_to_read(tmp_path):
-    with pytest.raises(mdr.StudyError, match="holds no study"):
-        mdr.read_study(tmp_path)
-    with pytest.raises(mdr.StudyError, match="cannot be read: No such file"):
-        mdr.read_study(tmp_path / "none")
-
-
-def test_a_function_without_a_name_is_refused_with_the_reason(tmp_path):
-    bowl = mdr.Profile(lambda r: 100 * r**2)
-    with pytest.raises(ValueError, match=r"Profile holds a function, which a store cannot compare .* name it"):
-        mdr.sweep(RIGID, {"indenter": [bowl]}, tmp_path / "store", quantities=["v_c"])
+@pytest.mark.parametrize(
+    ("shape", "words"),
+    [(Plain(), "cannot be told by its data, as a store must"),
+     (mdr.Profile(lambda r: 100 * r**2), r"Profile holds a function, which a store cannot compare .* name it")],
+)  # fmt: skip
+def test_what_cannot_be_told_by_its_data_is_refused_in_a_store_alone(tmp_path, shape, words):
+    options = {"axes": {"indenter": [shape]}, "quantities": ["k_zc"]}
+    with pytest.raises(ValueError, match=words):
+        small(tmp_path / "store", **options)
     assert not (tmp_path / "store").exists()
-    assert mdr.sweep(RIGID, {"indenter": [bowl]}, quantities=["v_c"]).identity == ""
-    named = mdr.Profile(lambda r: 100 * r**2, name="bowl")
-    found = mdr.sweep(RIGID, {"indenter": [named]}, tmp_path / "store", quantities=["v_c"])
-    assert len(found.identity) == 64
-    assert "0x" not in found.frame.grid[0].labels[0]
+    found = small(None, **options)
+    assert (found.complete, found.identity) == (True, "")
 
 
-def test_a_quantity_is_told_by_all_but_its_function(tmp_path):
-    own = mdr.Quantity("own", "m", depth)
-    axes = {"mu_0": [0.1]}
-    mdr.sweep(RIGID, axes, tmp_path / "store", quantities=[own])
-    assert mdr.sweep(RIGID, axes, tmp_path / "store", quantities=[mdr.Quantity("own", "m", len)])["own"][0] == 6e-6
-    with pytest.raises(mdr.StudyError, match="quantities is"):
-        mdr.sweep(RIGID, axes, tmp_path / "store", quantities=[mdr.Quantity("own", "um", depth)])
+def test_what_has_a_name_is_told_by_it(tmp_path):
+    """A function as a shape or a quantity; the case, which no file can carry, is told in words."""
+    case = replace(RIGID, indenter=mdr.Profile(lambda r: 100 * r**2, name="bowl"))
+    found = small(tmp_path, {"mu_0": [0.5]}, case, [mdr.Quantity("own", "m", depth)])
+    assert re.match(r"SlidingContact\(indenter=Profile\(f=<function .*name='bowl'", found.case)
+    assert " at 0x" not in found.case
+    case = replace(RIGID, indenter=mdr.Profile(lambda r: 200 * r**2, name="bowl"))
+    assert small(tmp_path, {"mu_0": [0.5]}, case, [mdr.Quantity("own", "m", len)])["own"] == found["own"] == [6e-6]
+    assert mdr.read_study(tmp_path) == found
 
 
 # --- disks that are full or cannot be written ---
 
-
-@contextmanager
-def a_disk_of(kilobytes, folder):
-    """A disk of its own in the memory, where this is allowed."""
-    folder.mkdir()
-    command = ["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "tmpfs", str(folder)]
-    if os.geteuid() != 0 or subprocess.run(command, capture_output=True).returncode != 0:
-        pytest.skip("no right to mount a disk")
-    try:
-        yield folder
-    finally:
-        subprocess.run(["umount", str(folder)], check=True)
+NO_ROOM = r"no room to write 0000\d\d.npz \(.*\); (\d+) of 48 chunks are safe in .*; free space and repeat the call"
+LOCKED = r"chunks cannot be written \(.*\); make the folder writable, or give another store"
 
 
-def test_a_full_disk(tmp_path):
-    with a_disk_of(64, tmp_path / "disk") as disk:
-        with pytest.raises(
-            mdr.StudyError, match=r"no room to write 0000\d\d.npz \(No space left on device\)"
-        ) as caught:
-            small(disk / "store")
-        kept = len(list(disk.glob("store/chunks/*.npz")))
-        assert 2 <= kept < 48
-        assert f"{kept} of 48 chunks are safe in {disk / 'store'}; free space and repeat the call" in str(caught.value)
-        assert not [path for path in disk.rglob("*") if path.name.endswith(".part")]
-        assert mdr.read_study(disk / "store").count(Status.DONE) == kept
-        subprocess.run(["mount", "-o", "remount,size=4m", str(disk)], check=True)
-        computed = []
-        found = small(disk / "store", executor=counting(computed))
-        assert found == small(None)
-        assert len(computed) == 48 - kept
-
-
-def counting(computed):
-    from concurrent.futures import ThreadPoolExecutor
-
-    class Counting(ThreadPoolExecutor):
-        def submit(self, task, work, start, stop, *rest):
-            computed.append(start)
-            return super().submit(task, work, start, stop, *rest)
-
-    return Counting(1)
-
-
-def failing(monkeypatch, code, after):
-    """Let the system refuse every file after the first ones."""
-    real, calls = os.fsync, []
+@pytest.mark.parametrize(
+    ("code", "after", "words"),
+    [*[(code, 20, NO_ROOM) for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)],
+     *[(code, 0, LOCKED) for code in (errno.EROFS, errno.EACCES)],
+     (errno.EIO, 0, r"chunks cannot be written \(Input/output error\); repeat the call once that is mended")],
+)  # fmt: skip
+def test_a_disk_that_fails(part_done, whole, monkeypatch, code, after, words):
+    """The system refuses every file after the first ones."""
+    real, calls, computed = os.fsync, [], []
 
     def fsync(descriptor):
         calls.append(1)
@@ -333,50 +261,31 @@ def failing(monkeypatch, code, after):
             raise OSError(code, os.strerror(code))
         real(descriptor)
 
-    monkeypatch.setattr(os, "fsync", fsync)
+    class Counting(ThreadPoolExecutor):
+        def submit(self, task, *args):
+            computed.append(args)
+            return super().submit(task, *args)
 
-
-@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EFBIG])
-def test_no_room(tmp_path, monkeypatch, code):
     with monkeypatch.context() as patch:
-        failing(patch, code, after=20)
-        with pytest.raises(mdr.StudyError, match=r"no room to write .*\d+ of 48 chunks are safe in .*; free space and"):
-            small(tmp_path / "store")
-    assert small(tmp_path / "store") == small(None)
+        patch.setattr(os, "fsync", fsync)
+        with pytest.raises(mdr.StudyError, match=words) as caught:
+            small(part_done, executor=Counting(1))
+    kept = len(list(part_done.glob("chunks/*.npz")))
+    if after:
+        assert re.search(NO_ROOM, str(caught.value))[1] == str(kept)
+        assert kept > 24
+    else:
+        assert computed == []  # found out before any work
+    assert not list(part_done.rglob("*.part"))
+    computed.clear()
+    assert small(part_done, executor=Counting(1)) == whole
+    assert len(computed) == 48 - kept
 
 
-@pytest.mark.parametrize("code", [errno.EROFS, errno.EACCES])
-def test_a_store_that_cannot_be_written(tmp_path, monkeypatch, part_done, code):
-    def refuse(*args, **options):
-        raise OSError(code, os.strerror(code))
-
-    small(tmp_path / "finished")
-    monkeypatch.setattr(os, "fsync", refuse)
-    monkeypatch.setattr("mdr.studies.cut.compute", None)  # found out before any work
-    with pytest.raises(mdr.StudyError, match=r"chunks cannot be written .*; make the folder writable, or give another"):
-        small(part_done)
-    assert small(tmp_path / "finished").complete
-
-
-def test_another_fault_of_the_disk(part_done, monkeypatch):
-    failing(monkeypatch, errno.EIO, after=0)
-    with pytest.raises(mdr.StudyError, match=r"cannot be written \(Input/output error\); repeat the call once that is"):
-        small(part_done)
-
-
-def test_a_finished_store_on_a_disk_that_cannot_be_written(tmp_path):
-    with a_disk_of(1024, tmp_path / "disk") as disk:
-        found = small(disk / "store")
-        subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            assert small(disk / "store") == found
-        with pytest.raises(mdr.StudyError, match="cannot be written"):
-            small(disk / "new")
-
-
-def test_a_study_without_faults_gives_no_warning(tmp_path):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        found = study((RIGID, {"mu_0": [0.2, 0.3]}, ["v_c"], {}), store=tmp_path / "store")
-    assert_array_equal(found.status, Status.DONE)
+def test_the_names_in_a_store_stay(part_done):
+    """What is on the disk is read by other versions."""
+    head = json.loads((part_done / "study.json").read_text())
+    assert set(head) == {"identity", "specification", "frame", "block"}
+    assert json.loads((part_done / PLAN).read_text()) == {"n_units": 48, "units_per_chunk": 1}
+    with np.load(Path(part_done) / "chunks" / "000004.npz") as chunk:
+        assert set(chunk) == {"values", "status", "reason", "reasons", "checksum"}

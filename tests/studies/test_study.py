@@ -1,6 +1,9 @@
-"""Study: labelled values, selection, and a print in which nothing hides."""
+"""Study: labelled values, selection, a print in which nothing hides, and files that come back equal."""
 
+import csv
 import pickle
+import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,14 +11,20 @@ from grids import RIGID, SHAPES
 from numpy.testing import assert_array_equal
 
 import mdr
+from mdr.studies.formats import packed
 from mdr.studies.points import Status
 
 AXES = {"v_0/v_c": [0.0, 0.5, 1.1], "indenter": SHAPES, "oscillation.u_z0": [6e-6, -1e-3, -2e-3, 8e-6]}
+POINT = {"indenter": SHAPES[1], "v_0/v_c": 0.5, "oscillation.u_z0": 8e-6}
+
+
+def made():
+    return mdr.sweep(RIGID, AXES, quantities=["cof", "v_c"])
 
 
 @pytest.fixture(scope="module")
 def study():
-    return mdr.sweep(RIGID, AXES, quantities=["cof", "v_c"])
+    return made()
 
 
 def test_what_it_knows(study):
@@ -30,19 +39,11 @@ def test_what_it_knows(study):
     assert len(study.identity) == 64
 
 
-def test_a_misspelt_quantity_is_offered_its_name(study):
-    with pytest.raises(KeyError, match=r"the study has no quantity 'coff'; did you mean cof?"):
-        study["coff"]
-    with pytest.raises(KeyError, match="there are cof, v_c"):
-        study["zzz"]
-    with pytest.raises(KeyError, match="there are cof, v_c"):
-        study[0]
-
-
 def test_it_is_a_value(study):
     again = pickle.loads(pickle.dumps(study))
-    assert again == study == mdr.sweep(RIGID, AXES, quantities=["cof", "v_c"])
+    assert again == study == made()
     assert hash(again) == hash(study)
+    assert packed(again) == packed(study) == packed(made())  # the bytes follow from the study alone
     assert study != study.select({"v_0/v_c": 0.5})
     with pytest.raises(ValueError, match="read-only"):
         study["cof"][0] = 0
@@ -58,35 +59,29 @@ def test_a_part_is_selected_by_its_values(study):
     assert "at indenter = Cone(theta=0.05)" in str(part)
     assert study.select({}) == study
     assert study.select({"v_0/v_c": 0.5}).select({"indenter": "Cone(theta=0.05)"}) == part
-
-
-def test_a_single_point_is_a_study_too(study):
-    point = study.select({"indenter": SHAPES[0], "v_0/v_c": 0.5, "oscillation.u_z0": 8e-6})
+    assert [len(one.reasons) for one in (study, part, study.select({"oscillation.u_z0": 6e-6}))] == [3, 3, 1]
+    point = study.select(POINT)
     assert point.shape == ()
-    assert point["cof"] == study["cof"][1, 0, 3]
-    assert point.why == ""
+    assert point["cof"] == study["cof"][1, 1, 3]
     assert str(point).startswith("Study of 1 points (1)")
 
 
-def test_reasons_of_a_part_are_its_own(study):
-    assert len(study.reasons) == 3
-    assert study.select({"oscillation.u_z0": 6e-6}).reasons == ("",)
-    assert len(study.select({"oscillation.u_z0": -1e-3}).reasons) == 2
-
-
 @pytest.mark.parametrize(
-    ("values", "kind", "words"),
+    ("call", "kind", "words"),
     [
-        ({"v_0": 0.5}, KeyError, "'v_0' is no axis of the study; there are v_0/v_c, indenter, oscillation.u_z0"),
-        ({"v_0/v_c": 0.49}, ValueError, "v_0/v_c has no value 0.49; the nearest is 0.5"),
-        ({"v_0/v_c": None}, ValueError, "v_0/v_c has numbers for values, got None"),
-        ({"indenter": mdr.Cone(theta=0.06)}, ValueError, "indenter has no value Cone"),
-        ("v_0/v_c", TypeError, "values must map paths to values"),
+        (lambda study: study["coff"], KeyError, r"the study has no quantity 'coff'; did you mean cof?"),
+        (lambda study: study["zzz"], KeyError, "there are cof, v_c"),
+        (lambda study: study[0], KeyError, "there are cof, v_c"),
+        (lambda study: study.select({"v_0": 0.5}), KeyError, "'v_0' is no axis of the study; there are v_0/v_c, ind"),
+        (lambda study: study.select({"v_0/v_c": 0.49}), ValueError, "v_0/v_c has no value 0.49; the nearest is 0.5"),
+        (lambda study: study.select({"v_0/v_c": None}), ValueError, "v_0/v_c has numbers for values, got None"),
+        (lambda study: study.select({"indenter": mdr.Cone(theta=0.06)}), ValueError, "no value Cone"),
+        (lambda study: study.select("v_0/v_c"), TypeError, "values must map paths to values"),
     ],
-)
-def test_what_is_not_there_cannot_be_selected(study, values, kind, words):
+)  # fmt: skip
+def test_what_is_not_there_cannot_be_had(study, call, kind, words):
     with pytest.raises(kind, match=words):
-        study.select(values)
+        call(study)
 
 
 def test_print_tells_axes_quantities_and_what_went_wrong(study):
@@ -102,23 +97,109 @@ def test_print_tells_axes_quantities_and_what_went_wrong(study):
     ]
 
 
-def test_print_tells_the_most_frequent_reasons(tmp_path):
+def test_print_tells_the_most_frequent_reasons():
     def of(case):
         if case.mu_0 < 0.5:
             return 1.0
         raise ValueError("abcdefghijklmnopqrstuvwxyz"[round(10 * case.mu_0)] * 3 if case.mu_0 < 1.45 else "slippery")
 
     axes = {"mu_0": [0.4, *(0.5 + 0.1 * k for k in range(12))]}
-    text = str(mdr.sweep(RIGID, axes, tmp_path, quantities=[mdr.Quantity("own", "-", of)], shard="1/1"))
-    assert "  1 done, 12 failed" in text
-    assert text.splitlines()[3] == "    2: own: slippery"
-    assert text.splitlines()[-1] == "    6: for 6 other reasons"
+    lines = str(mdr.sweep(RIGID, axes, quantities=[mdr.Quantity("own", "-", of)])).splitlines()
+    assert lines[2:4] == ["  1 done, 12 failed", "    2: own: slippery"]
+    assert lines[-1] == "    6: for 6 other reasons"
 
 
-def test_missing_points_are_counted(tmp_path):
-    part = mdr.sweep(RIGID, {"mu_0": [0.1, 0.2, 0.3]}, tmp_path, quantities=["v_c"], shard="1/2")
-    assert not part.complete
-    assert part.count(Status.MISSING) == 1
-    assert "2 done, 1 missing" in str(part)
-    assert np.isnan(part["v_c"][1])
-    assert mdr.read_study(tmp_path) == part
+# --- files ---
+
+#: of many kinds: with letters beyond ASCII, without shape or units, with points that are missing
+STUDIES = {
+    "whole": lambda folder: made(),
+    "selected": lambda folder: made().select({"indenter": SHAPES[1]}),
+    "a point": lambda folder: made().select(POINT),
+    "arms": lambda folder: mdr.sweep(
+        replace(RIGID, material=mdr.Prony(1e6, [(1e6, 1e-3)], 0.5)),
+        {"material.arms": [((1e6, 1e-3),), ((2e6, 1.0),)]},
+        quantities=["v_c", "T"],
+    ),
+    "no unit": lambda folder: mdr.sweep(
+        RIGID, {"mu_0": [0.3]}, quantities=[mdr.Quantity("bare", "", lambda case: np.inf)]
+    ),
+    "letters": lambda folder: mdr.sweep(
+        RIGID, {"indenter": [mdr.Profile(lambda r: r**2, name="Schüssel µ")]}, quantities=["k_zc"]
+    ),
+    "unfinished": lambda folder: mdr.sweep(RIGID, AXES, folder / "store", shard="2/3"),
+}
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_what_is_written_comes_back_equal(name, tmp_path):
+    study = STUDIES[name](tmp_path)
+    study.to_netcdf(tmp_path / "study.nc")
+    back = mdr.read_study(tmp_path / "study.nc")
+    assert back == study
+    assert hash(back) == hash(study)
+    assert packed(back) == packed(study)
+    assert str(back) == str(study)
+    if name == "unfinished":
+        n = study.count(Status.MISSING)
+        assert f"{36 - n - study.count(Status.FAILED)} done, {study.count(Status.FAILED)} failed, {n} missing" in str(
+            back
+        )
+        assert np.isnan(study["cof"][study.status == Status.MISSING]).all()
+        assert mdr.read_study(str(tmp_path / "store")) == study
+        assert not study.complete
+
+
+def test_it_opens_labelled_in_xarray(study, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    study.to_netcdf(tmp_path / "study.nc")
+    with xarray.open_dataset(tmp_path / "study.nc") as data:
+        xarray.testing.assert_identical(study.to_xarray(), data.load())
+        assert data["cof"].dims == ("v_0_over_v_c", "indenter", "oscillation.u_z0")
+        assert_array_equal(data["v_0_over_v_c"], AXES["v_0/v_c"])
+        assert data["v_0_over_v_c"].attrs["path"] == "v_0/v_c"
+        depth = {"units": "m", "long_name": "mean indentation depth", "path": "oscillation.u_z0"}
+        assert data["oscillation.u_z0"].attrs == depth
+        assert data["v_c"].attrs == {"units": "m/s", "long_name": "critical velocity, Eq. (15)"}
+        assert data["cof"].attrs["units"] == "1"
+        one = data["cof"].sel({"indenter": "Cone(theta=0.05)", "v_0_over_v_c": 0.5, "oscillation.u_z0": 8e-6})
+        assert float(one) == study.select(POINT)["cof"]
+        assert_array_equal(data["cof"], study["cof"])
+        assert_array_equal(data["status"].attrs["flag_values"], [0, 1, 2, 3])
+        assert data["status"].attrs["flag_meanings"] == "done unsettled failed missing"
+        assert_array_equal(data["status"], study.status)
+        assert_array_equal(data["reasons"].values[data["reason"].values], study.why)
+        assert (data.attrs["identity"], data.attrs["mdr_version"]) == (study.identity, mdr.__version__)
+        assert mdr.parse_case(data.attrs["case"]) == RIGID
+        assert "title" in data.attrs
+
+
+def test_without_xarray_it_says_what_to_install(study, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match=r"to_xarray needs xarray: .* install -e '\.\[xarray\]'"):
+        study.to_xarray()
+
+
+def test_a_file_of_somebody_else_is_no_study(tmp_path):
+    """Damaged files are asked of all readers in tests/files/test_damaged_files.py."""
+    from scipy.io import netcdf_file
+
+    with netcdf_file(tmp_path / "other.nc", "w", version=2) as file:
+        file.createDimension("x", 2)
+        file.createVariable("status", "b", ("x",))[:] = 1
+    with pytest.raises(mdr.StudyError, match="is no study, or a damaged one: its states are not those of a study"):
+        mdr.read_study(tmp_path / "other.nc")
+
+
+def test_csv_has_a_row_a_point(study, tmp_path):
+    study.to_csv(tmp_path / "study.csv")
+    with open(tmp_path / "study.csv", newline="", encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    assert head == ["v_0/v_c [-]", "indenter", "oscillation.u_z0 [m]", "cof [-]", "v_c [m/s]", "status", "why"]
+    assert len(rows) == study.status.size
+    assert_array_equal([float(row[3]) for row in rows], study["cof"].ravel())
+    assert [row[6] for row in rows] == study.why.ravel().tolist()
+    assert [row[5] for row in rows] == [Status(code).name.lower() for code in study.status.ravel()]
+    assert rows[5][:3] == ["0.0", "Cone(theta=0.05)", "-0.001"]
+    study.select(POINT).to_csv(tmp_path / "point.csv")
+    assert (tmp_path / "point.csv").read_text().startswith("cof [-],v_c [m/s],status,why\n")

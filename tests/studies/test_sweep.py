@@ -1,22 +1,30 @@
-"""sweep() end to end: shards, kills and interrupts lead to the same bits, and nothing finished is computed twice."""
+"""sweep() end to end: whoever computes it, however often it is killed, the bits are the same and none is lost."""
 
 import os
 import re
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from itertools import count
+from multiprocessing import get_context
+from pathlib import Path
 
 import grids
 import numpy as np
 import pytest
-from grids import BODY, COARSE, LOG, LONG, RIGID, RUNS, SHAPES, SLOW, long_study, study
-from kills import HERE, finished_units, lines, live, same_values, size
+from grids import LOG, LONG, RIGID, RUNS, SHAPES, deadly, long_study
 from numpy.testing import assert_array_equal
 
 import mdr
+from mdr.studies import engine
 from mdr.studies.points import Status
+from mdr.studies.store import Store
+
+HERE = Path(__file__).parent
+MANY = {"mu_0": [0.1 + 0.001 * k for k in range(100)]}
 
 
 def test_the_arrays_follow_the_order_of_the_axes():
@@ -29,119 +37,197 @@ def test_the_arrays_follow_the_order_of_the_axes():
         assert_array_equal(np.transpose(one["cof"], [orders[0].index(path) for path in order]), other["cof"])
 
 
-# --- shards ---
+# --- who computes it ---
 
 
-def test_shards_together_are_the_study(tmp_path):
-    whole = study(RUNS, store=tmp_path / "whole")
+@pytest.fixture(scope="module")
+def serial():
+    with ThreadPoolExecutor(1) as one:
+        return mdr.sweep(**RUNS, executor=one)
+
+
+@pytest.fixture(scope="module")
+def bytes_of_runs(tmp_path_factory, serial):
+    """The file of a store of these runs, of own threads."""
+    store = tmp_path_factory.mktemp("whole")
+    assert mdr.sweep(**RUNS, store=store) == serial
+    return (store / "study.nc").read_bytes()
+
+
+def spawned(n):
+    return ProcessPoolExecutor(n, mp_context=get_context("spawn"))
+
+
+def test_spawned_processes(serial):
+    with spawned(2) as processes:
+        assert mdr.sweep(**RUNS, executor=processes) == serial
+
+
+def test_a_cluster_that_loses_a_worker(serial, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    store, killed = tmp_path / "store", []
+
+    def kill(pid):
+        """As soon as the first chunk is there."""
+        while not list(store.glob("chunks/*.npz")):
+            time.sleep(0.001)
+        os.kill(pid, signal.SIGKILL)
+        killed.append(len(list(store.glob("chunks/*.npz"))))
+
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "ERROR"}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        killer = threading.Thread(target=kill, args=(next(iter(client.run(os.getpid).values())),))
+        killer.start()
+        found = mdr.sweep(**RUNS, store=store, executor=client.get_executor())
+        killer.join()
+    assert 0 < killed[0] < 20  # while it was running
+    assert found == serial
+
+
+def test_shards_together_are_the_study(tmp_path, serial, bytes_of_runs):
     missing = []
     for k in (3, 1, 4, 2):
-        part = study(RUNS, store=tmp_path / "parts", shard=(k, 4))
+        part = mdr.sweep(**RUNS, store=tmp_path, shard=(k, 4))
         missing.append(part.count(Status.MISSING))
         there = part.status != Status.MISSING
-        assert_array_equal(part["cof"][there], whole["cof"][there])
-        assert part.complete == (k == 2)
+        assert_array_equal(part["cof"][there], serial["cof"][there])
     assert all(0 < n < 120 for n in missing[:3])
-    assert part == whole
-    assert (tmp_path / "parts" / "study.nc").read_bytes() == (tmp_path / "whole" / "study.nc").read_bytes()
+    assert part == serial
+    assert (tmp_path / "study.nc").read_bytes() == bytes_of_runs
 
 
-def test_shards_at_the_same_time(tmp_path):
-    """All cut alike, whichever is first, and the last to end merges; or several do, to the same bytes."""
-    command = "import sys, grids; grids.study(grids.RUNS, store=sys.argv[1], shard=sys.argv[2])"
+def test_shards_at_the_same_time(tmp_path, bytes_of_runs):
+    """All cut alike, whichever is first, and the last to end merges; or several do, to the same bytes. One is idle."""
+    command = "import sys, grids; grids.mdr.sweep(**grids.RUNS, store=sys.argv[1], shard=sys.argv[2])"
     started = [
-        subprocess.Popen([sys.executable, "-c", command, str(tmp_path / "parts"), f"{k}/2"], stderr=-1, cwd=HERE)
-        for k in (1, 2)
+        subprocess.Popen([sys.executable, "-c", command, str(tmp_path), shard], stderr=-1, cwd=HERE)
+        for shard in ("1/2", "2/2", "99/99")
     ]
     for process in started:
         said = process.communicate()[1].decode()
         assert process.returncode == 0, said
-    study(RUNS, store=tmp_path / "whole")
-    assert sorted(os.listdir(tmp_path / "parts")) == ["study.json", "study.nc"]
-    assert (tmp_path / "parts" / "study.nc").read_bytes() == (tmp_path / "whole" / "study.nc").read_bytes()
+    assert sorted(os.listdir(tmp_path)) == ["study.json", "study.nc"]
+    assert (tmp_path / "study.nc").read_bytes() == bytes_of_runs
 
 
-def test_more_shards_than_chunks(tmp_path):
-    axes = {"mu_0": [0.1, 0.2]}
-    assert mdr.sweep(RIGID, axes, tmp_path / "store", quantities=["v_c"], shard="9/9").count(Status.MISSING) == 2
+def test_lost_processes_are_an_error_that_says_what_is_kept(tmp_path):
+    axes = {"oscillation.u_z0": [(1 + k) * 1e-6 for k in range(9)]}
+    words = "the workers were lost, .* of 9 chunks are safe in .*; the same call goes on from there"
+    with spawned(1) as processes, pytest.raises(mdr.StudyError, match=words):
+        mdr.sweep(RIGID, axes, tmp_path, processes, [mdr.Quantity("own", "-", deadly)])
+    assert mdr.read_study(tmp_path).count(Status.DONE) >= 1
 
 
-@pytest.mark.parametrize(
-    "shard", ["0/4", "5/4", "1", "1/2/3", "a/b", "", "-1/4", "1.0/4", (0, 4), (1,), (1.0, 2), 3, (True, 2)]
-)
-def test_shards_that_are_none(tmp_path, shard):
-    with pytest.raises(ValueError, match="shard must be k/n with k from 1 to n, such as 3/16"):
-        mdr.sweep(RIGID, {"mu_0": [0.1]}, tmp_path, quantities=["v_c"], shard=shard)
+def test_a_cancelled_future_is_a_lost_worker():
+    class Cancelling(Executor):
+        def submit(self, task, *args):
+            future = Future()
+            future.set_exception(CancelledError())
+            return future
+
+    with pytest.raises(mdr.StudyError, match=r"the workers were lost, .*; nothing is kept, as there is no store"):
+        mdr.sweep(RIGID, MANY, executor=Cancelling(), quantities=["v_c"])
 
 
-def test_a_shard_needs_a_store():
-    with pytest.raises(ValueError, match="a shard needs a store"):
-        mdr.sweep(RIGID, {"mu_0": [0.1]}, quantities=["v_c"], shard="1/2")
+@pytest.mark.parametrize("error", [MemoryError, NameError, OSError])
+def test_what_is_no_matter_of_a_point_ends_the_run_and_the_rest_is_cancelled(error):
+    seen = []
+
+    def of(case):
+        seen.append(case.mu_0)
+        time.sleep(0.02)
+        raise error("too much")
+
+    with ThreadPoolExecutor(1) as one, pytest.raises(error, match="too much"):
+        mdr.sweep(RIGID, MANY, executor=one, quantities=[mdr.Quantity("own", "-", of)])
+    assert len(seen) < 100
 
 
-@pytest.mark.parametrize(
-    ("options", "kind", "words"),
-    [
-        ({"chunk_seconds": 0}, ValueError, "chunk_seconds must be positive"),
-        ({"chunk_seconds": "long"}, TypeError, "chunk_seconds must be a real number"),
-        ({"store": 3}, TypeError, "store must be a folder, got 3"),
-        ({"n_springs": 8}, ValueError, "n_springs must be at least 32"),
-        ({"steps_per_period": 64.0}, TypeError, "steps_per_period must be a whole number"),
-        ({"executor": 4}, TypeError, "executor must be a concurrent.futures.Executor, got 4"),
-    ],
-)
-def test_options_are_checked(options, kind, words):
-    with pytest.raises(kind, match=words):
-        mdr.sweep(RIGID, {"mu_0": [0.1]}, quantities=["v_c"], **options)
+def test_a_function_that_cannot_be_sent_is_told_where_to_be():
+    quantities = [mdr.Quantity("own", "-", lambda case: 1.0)]
+    with spawned(1) as processes, pytest.raises(Exception, match=r"pickle|local object") as caught:
+        mdr.sweep(RIGID, MANY, executor=processes, quantities=quantities)
+    assert caught.value.__notes__ == ["what is sent to other processes must be defined at the top of a module"]
 
 
-# --- kills ---
+def test_no_more_than_so_many_chunks_are_in_flight(monkeypatch):
+    monkeypatch.setattr(engine, "MOST_IN_FLIGHT", 5)
+    flying = []
+
+    class Recorder(ThreadPoolExecutor):
+        def submit(self, task, *args):
+            future = super().submit(task, *args)
+            flying.append(sum(not one.done() for one in submitted) + 1)
+            submitted.append(future)
+            return future
+
+    submitted = []
+    with Recorder(1) as executor:
+        mdr.sweep(RIGID, MANY, executor=executor, quantities=["v_c"])
+    assert len(flying) == 100
+    assert max(flying) <= 5
 
 
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """The bytes of the long study, never interrupted."""
-    folder = tmp_path_factory.mktemp("whole")
-    os.environ[LOG] = str(folder / "log")
-    long_study(folder / "store")
-    return (folder / "store" / "study.nc").read_bytes()
+def test_cores_are_those_of_the_process(monkeypatch):
+    assert engine.cores() >= 1
+    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
+    monkeypatch.setattr(os, "cpu_count", lambda: None)
+    assert engine.cores() == 1
 
 
-def test_a_study_that_is_killed_goes_on_where_it_was(tmp_path, whole):
-    rng = np.random.default_rng(7)
-    store, log = tmp_path / "store", tmp_path / "log"
-    lives = [live(store, log, rng.uniform(0.02, 0.3)) for _ in range(3)]
-    assert sum(one.killed and one.computed > 0 for one in lives) >= 2
-    while not (store / "study.nc").exists():
-        lives.append(live(store, log, 60.0))
-    assert sum(one.twice for one in lives) == 0  # nothing finished was computed again
-    assert [one.before for one in lives[1:]] == [one.after for one in lives[:-1]]  # and nothing finished was lost
-    assert any(one.after > 0 for one in lives[:-1])
-    assert (store / "study.nc").read_bytes() == whole
+# --- kills and interrupts ---
+
+
+def units_of(store, chunks=None):
+    """What the log says of the units of chunks, by default of the finished ones."""
+    store = Store(store)
+    cut, chunks = store.plan(), store.finished() if chunks is None else chunks
+    units = [unit for chunk in chunks for unit in range(*cut.units(chunk))]
+    return {repr(LONG["oscillation.u_z0"][unit]) for unit in units}
+
+
+def lines(log):
+    """Units in the order in which they were computed."""
+    return log.read_text().splitlines() if log.exists() else []
+
+
+def live(store, log, lifetime):
+    """Run the study in a process of its own, killed so long [s] after its first chunk begins; True if it was."""
+    seen, plan = len(lines(log)), store / "chunks" / "plan.json"
+    command = [sys.executable, str(HERE / "grids.py"), str(store)]
+    with subprocess.Popen(command, env={**os.environ, LOG: str(log)}, stderr=subprocess.PIPE) as process:
+        while lifetime and process.poll() is None and (len(lines(log)) == seen or not plan.exists()):
+            time.sleep(0.001)
+        try:
+            process.wait(lifetime or 0.2)  # before there is a plan
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+        said = process.stderr.read().decode()
+    assert process.returncode in (0, -signal.SIGKILL), said
+    return process.returncode != 0
+
+
+def test_a_study_that_is_killed_goes_on_where_it_was(tmp_path, monkeypatch):
+    rng, store, log = np.random.default_rng(7), tmp_path / "store", tmp_path / "log"
+    killed, finished = [], set()
+    for lifetime in (0.0, *rng.uniform(0.02, 0.15, 3)):
+        known, seen = units_of(store), len(lines(log))
+        assert Store(store).finished() == finished  # nothing finished was lost
+        killed.append(live(store, log, lifetime))
+        assert not known & set(lines(log)[seen:])  # nor computed again
+        finished = Store(store).finished()
+    assert all(killed)  # as its pauses alone take longer
+    lost, seen = max(finished), len(lines(log))
+    (store / "chunks" / f"{lost:06d}.npz").unlink()  # the log would tell
+    known, again = units_of(store), units_of(store, [lost])
+    assert not live(store, log, 60.0)
+    assert again <= set(lines(log)[seen:])
+    assert not known & set(lines(log)[seen:])
+    assert_array_equal(mdr.read_study(store)["depth"], np.array(LONG["oscillation.u_z0"]) * 1e6)
+    monkeypatch.setenv(LOG, str(log))
+    long_study(tmp_path / "whole")
+    assert (store / "study.nc").read_bytes() == (tmp_path / "whole" / "study.nc").read_bytes()
     assert sorted(os.listdir(store)) == ["study.json", "study.nc"]
-    assert same_values(store)
-
-
-def test_a_kill_before_the_plan(tmp_path, whole):
-    store, log = tmp_path / "store", tmp_path / "log"
-    assert live(store, log, 0.2, at_work=False).killed
-    os.environ[LOG] = str(log)
-    long_study(store)
-    assert (store / "study.nc").read_bytes() == whole
-
-
-def test_a_wrong_count_would_be_seen(tmp_path):
-    """The log tells if a chunk is computed again: here its file is removed."""
-    store, log = tmp_path / "store", tmp_path / "log"
-    live(store, log, 0.4)
-    known, seen = finished_units(store), size(log)
-    next(store.glob("chunks/*.npz")).unlink()
-    os.environ[LOG] = str(log)
-    long_study(store)
-    assert known & set(lines(log)[seen:])
-
-
-# --- interrupts ---
 
 
 @pytest.fixture
@@ -154,10 +240,9 @@ def hears_interrupts():
 
 @pytest.mark.usefixtures("hears_interrupts")
 def test_ctrl_c_says_what_is_kept_and_ends_soon(tmp_path, capsys, monkeypatch):
-    store = tmp_path / "store"
-    monkeypatch.setenv(LOG, str(tmp_path / "log"))
-    monkeypatch.setattr("mdr.studies.run.cores", lambda: 2)
-    units = count(1)
+    store, log, units = tmp_path / "store", tmp_path / "log", count(1)
+    monkeypatch.setenv(LOG, str(log))
+    monkeypatch.setattr(engine, "cores", lambda: 2)
 
     def interrupting():
         time.sleep(0.005)
@@ -168,64 +253,44 @@ def test_ctrl_c_says_what_is_kept_and_ends_soon(tmp_path, capsys, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         long_study(store)
     kept = len(list(store.glob("chunks/*.npz")))
-    told = capsys.readouterr().err
-    assert "sweep: interrupted; " in told
-    assert f" chunks are safe in {store}; the same call goes on from there" in told
     assert 0 < kept < 60
-    known, seen = finished_units(store), size(tmp_path / "log")
+    words = rf"sweep: interrupted; (\d+) of \d+ chunks are safe in {store}; the same call goes on from there"
+    assert int(re.search(words, capsys.readouterr().err)[1]) in (kept - 1, kept)  # or between writing and counting it
+    known, seen = units_of(store), len(lines(log))
     assert long_study(store).complete
-    assert not known & set(lines(tmp_path / "log")[seen:])
+    assert not known & set(lines(log)[seen:])
 
 
-def test_ctrl_c_without_a_store(capsys, monkeypatch):
+@pytest.mark.parametrize(
+    ("name", "stored", "words"),
+    [
+        ("run", False, "nothing is kept, as there is no store"),
+        ("compute", True, "nothing is computed yet; the same"),
+    ],
+)
+def test_ctrl_c_where_nothing_is_kept(tmp_path, capsys, monkeypatch, name, stored, words):
     def interrupted(*args):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["mdr.studies.sweep"], "run", interrupted)
+    monkeypatch.setattr(engine, name, interrupted)
     with pytest.raises(KeyboardInterrupt):
-        mdr.sweep(RIGID, {"mu_0": [0.1]}, quantities=["v_c"])
-    told = "sweep: interrupted, and nothing is kept; in a store (store=, --store) finished chunks are"
-    assert told in capsys.readouterr().err
+        mdr.sweep(RIGID, LONG, tmp_path if stored else None, quantities=["v_c"])
+    assert f"sweep: interrupted; {words}" in capsys.readouterr().err
 
 
-def test_ctrl_c_before_the_plan(tmp_path, capsys, monkeypatch):
-    def interrupted(*args):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("mdr.studies.cut.compute", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        mdr.sweep(RIGID, LONG, tmp_path / "store", quantities=["v_c"])
-    assert "sweep: interrupted; nothing is computed yet" in capsys.readouterr().err
-
-
-# --- progress ---
+# --- what it says meanwhile ---
 
 
 def test_progress_counts_from_what_was_there(tmp_path, capsys, monkeypatch):
-    axes = {"mu_0": np.linspace(0.1, 0.9, 40)}
-    options = {"store": tmp_path / "store", "quantities": ["v_c"], "chunk_seconds": 1e-9}
-    mdr.sweep(RIGID, axes, shard="1/2", **options)
-    capsys.readouterr()
+    options = {"store": tmp_path, "quantities": ["v_c"], "chunk_seconds": 1e-9}
+    mdr.sweep(RIGID, {"mu_0": MANY["mu_0"][:40]}, shard="1/2", **options)
+    assert capsys.readouterr().err == ""
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
-    mdr.sweep(RIGID, axes, **options)
+    mdr.sweep(RIGID, {"mu_0": MANY["mu_0"][:40]}, **options)
     assert re.match(r"sweep: 21 of 40 chunks, about \d+ s left\n", capsys.readouterr().err)
-
-
-def test_a_study_of_runs_with_every_option(tmp_path):
-    found = mdr.sweep(BODY, {"v_0": [1e-4]}, tmp_path, None, ["cof"], chunk_seconds=1.0, shard="1/1", **COARSE)
-    assert found["cof"][0] == mdr.slide(BODY, 1e-4, **COARSE).cof
-    assert SLOW.name == "depth"
-
-
-def test_a_grid_that_no_memory_holds_is_refused():
-    axes = {"alpha": np.linspace(0.1, 1, 1001), "T": np.linspace(0.1, 1, 1001), "v_0": np.linspace(0.1, 1, 1001)}
-    with pytest.raises(ValueError, match="the grid has 1003003001 points of 1 quantities, more than memory holds"):
-        mdr.sweep(RIGID, axes)
 
 
 def test_cases_that_take_long_are_counted(capsys, monkeypatch):
     monkeypatch.setattr("mdr.studies.points.SLOW", -1.0)
     mdr.sweep(RIGID, {"mu_0": [0.2, 0.4]}, quantities=("v_c",))
-    told = capsys.readouterr().err
-    assert told.startswith("sweep: 2 cases took more than ")
-    assert told.endswith(" s, at most 0 s\n")
+    assert re.fullmatch(r"sweep: 2 cases took more than .* s, at most 0 s\n", capsys.readouterr().err)

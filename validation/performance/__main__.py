@@ -50,7 +50,7 @@ from numba import njit
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.studies.run import cores
+from mdr.studies.engine import cores
 from validation.cases import contact
 from validation.performance.loops import March, Start, built_in_c, cof_by_solve_ivp, compiled, same_state, vectorised
 from validation.performance.waits import STANDING, alternately

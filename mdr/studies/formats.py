@@ -1,0 +1,168 @@
+"""The files of a study: NetCDF, which can be read back, and a CSV table.
+
+In NetCDF every quantity stands over labelled axes, with units; status as flags; reasons as a table. Names with "/",
+which it forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are no numbers are
+texts. The bytes follow from the study alone.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from io import BytesIO, StringIO
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.studies.axes import Axis
+from mdr.studies.points import Status
+from mdr.studies.study import Column, Frame, Study
+
+_TITLE = "Sliding friction under normal oscillation, a study by mdr"
+_ONE, _DASH = {"-": "1"}, {"1": "-"}  #: a pure number in the file, and here
+_MEANINGS = " ".join(status.name.lower() for status in Status)
+
+
+def packed(study: Study, history: str = "") -> bytes:
+    """The bytes of the file; history is what made it, kept as the CF conventions have it."""
+    from scipy.io import netcdf_file
+
+    buffer, frame = BytesIO(), study.frame
+    file = netcdf_file(buffer, "w", version=2)
+    _tell(file, title=_TITLE, identity=frame.identity, mdr_version=frame.version, case=frame.case, history=history)
+    _tell(file, selected=json.dumps(frame.selected) if frame.selected else "")
+    dims = tuple(name_of(axis.path) for axis in frame.grid)
+    for name, axis in zip(dims, frame.grid, strict=True):
+        told = {"units": _ONE.get(axis.unit, axis.unit), "long_name": axis.meaning, "path": axis.path}
+        if axis.is_numeric:
+            file.createDimension(name, len(axis))
+            _put(file, name, "d", (name,), axis.values, **told)
+        else:
+            _put_texts(file, name, axis.labels, **told)
+    for column, values in zip(frame.columns, study.values, strict=True):
+        _put(file, column.name, "d", dims, values, units=_ONE.get(column.unit, column.unit), long_name=column.meaning)
+    flags = np.array([int(status) for status in Status], dtype=np.int8)
+    ended = "how the computation of the point ended"
+    _put(file, "status", "b", dims, study.status, long_name=ended, flag_values=flags, flag_meanings=_MEANINGS)
+    _put(file, "reason", "i", dims, study.reason, long_name="why it failed or did not settle, an index of reasons")
+    _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
+    file.flush()
+    return buffer.getvalue()
+
+
+def unpacked(data: bytes) -> Study:
+    """The study in the bytes of a file; ValueError if they are none."""
+    from scipy.io import netcdf_file
+
+    try:
+        file = netcdf_file(BytesIO(data), "r", mmap=False)
+        return _study(file)
+    except (TypeError, ValueError, LookupError, AttributeError, EOFError, ArithmeticError) as fault:
+        raise ValueError(f"no study, or a damaged one: {fault}") from fault
+
+
+def to_xarray(study: Study) -> Any:
+    """The study as an xarray.Dataset."""
+    try:
+        import xarray
+    except ImportError:
+        raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
+    return xarray.load_dataset(BytesIO(packed(study)), engine="scipy")
+
+
+def name_of(path: str) -> str:
+    """The name of an axis in the file."""
+    return path.replace("/", "_over_")
+
+
+def table(study: Study) -> str:
+    """CSV, one row for each point: the axes, the quantities, status and reason; numbers with all their digits."""
+    grid, out = study.frame.grid, StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    named = [(axis.path, axis.unit) for axis in grid]
+    named += [(column.name, column.unit) for column in study.frame.columns]
+    writer.writerow([*(f"{name} [{unit}]" if unit else name for name, unit in named), "status", "why"])
+    names = {int(status): status.name.lower() for status in Status}
+    told = [[axis.told(i) for i in range(len(axis))] for axis in grid]
+    values = study.values.reshape(len(study.frame.columns), -1)
+    fates = zip(study.status.ravel().tolist(), study.reason.ravel().tolist(), strict=True)
+    for k, (where, (status, reason)) in enumerate(zip(np.ndindex(study.shape), fates, strict=True)):
+        coordinates = [texts[i] for texts, i in zip(told, where, strict=True)]
+        numbers = [repr(value) for value in values[:, k].tolist()]
+        writer.writerow([*coordinates, *numbers, names[status], study.reasons[reason]])
+    return out.getvalue()
+
+
+# --- writing NetCDF ---
+
+
+def _put_texts(file: Any, name: str, texts: tuple[str, ...], **told: Any) -> None:
+    raw = np.array([text.encode("utf-8") for text in texts])
+    width = max(raw.dtype.itemsize, 1)
+    file.createDimension(name, len(texts))
+    file.createDimension(f"length_of_{name}", width)
+    letters = raw.astype(f"S{width}").view("S1").reshape(len(texts), width)
+    _put(file, name, "c", (name, f"length_of_{name}"), letters, **told, _Encoding="utf-8")
+
+
+def _put(file: Any, name: str, kind: str, dims: tuple[str, ...], values: Any, **told: Any) -> None:
+    variable = file.createVariable(name, kind, dims)
+    variable.data[...] = values
+    _tell(variable, **told)
+
+
+def _tell(holder: Any, **told: Any) -> None:
+    """Set attributes; an empty text is left out, as it cannot be read back."""
+    for name, value in told.items():
+        if not isinstance(value, str):
+            setattr(holder, name, value)
+        elif value:
+            setattr(holder, name, value.encode("utf-8"))
+
+
+# --- reading NetCDF ---
+
+
+def _study(file: Any) -> Study:
+    variables, status = file.variables, file.variables["status"]
+    if _text(status, "flag_meanings") != _MEANINGS:
+        raise ValueError("its states are not those of a study")
+    grid = tuple(_axis(variables[name]) for name in status.dimensions)
+    apart = {*status.dimensions, "status", "reason", "reasons"}
+    # the file sorts its variables by shape, which all quantities share, and keeps their order otherwise
+    columns = tuple(
+        Column(name, _DASH.get(unit := _text(one, "units"), unit), _text(one, "long_name"))
+        for name, one in variables.items()
+        if name not in apart
+    )
+    frame = Frame(
+        grid,
+        columns,
+        case=_text(file, "case"),
+        version=_text(file, "mdr_version"),
+        identity=_text(file, "identity"),
+        selected=tuple((path, told) for path, told in json.loads(_text(file, "selected") or "[]")),
+    )
+    values = np.stack([_native(variables[column.name], "f8") for column in columns])
+    return Study(frame, values, _native(status, "u1"), _native(variables["reason"], "i4"), _texts(variables["reasons"]))
+
+
+def _axis(variable: Any) -> Axis:
+    path = _text(variable, "path")
+    if variable.typecode() == "c":
+        return Axis.labelled(path, _texts(variable))
+    return Axis(path, _native(variable, "f8"))
+
+
+def _native(variable: Any, kind: str) -> NDArray[Any]:
+    return np.array(variable.data, dtype=kind, order="C")
+
+
+def _texts(variable: Any) -> tuple[str, ...]:
+    return tuple(b"".join(row).decode("utf-8") for row in np.asarray(variable.data))
+
+
+def _text(holder: Any, name: str) -> str:
+    value = getattr(holder, name, b"")
+    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
