@@ -236,7 +236,9 @@ def static_cof(case: SlidingContact) -> float:
         return case.mu_0 * band(ShakenPull.of(case))[1]
     if _slips_at_any_pull(case):
         return case.mu_0
-    if case.material.contact_arms:
+    if case.material.contact_arms and not followed(case).F_N.all():  # at some instant nothing presses
+        least = 0.0
+    elif case.material.contact_arms:
         least = max(_least(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
         least = float(case.indenter.force(case.cycle.u_z0 + case.cycle.unit * case.kept_gap, case.material.E_star))

@@ -24,7 +24,7 @@ from mdr.spring.law import law_of
 from mdr.tools.memoise import remembered
 
 N_BAND = 32  #: springs that touch and leave
-N_STEPS = 1024  #: of the period
+N_STEPS = 2048  #: of the period
 
 
 @remembered(maxsize=64)

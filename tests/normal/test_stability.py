@@ -48,7 +48,7 @@ def test_elastic_deviations_obey_hills_equation(shape, ratio, share, stable):
     end = solve_ivp(rate, (0, 2 * np.pi), [1, 0, 0, 1], rtol=1e-6, atol=1e-8, max_step=0.02).y[:, -1]
     expected = np.abs(np.linalg.eigvals(end.reshape(2, 2))).max()
     assert (expected < 1.001) == stable
-    # a touch is told to a step of 2 pi/1024, which at most some of these deviations grow by
+    # a touch is told to a step of 2 pi/2048, which at most some of these deviations grow by
     assert_allclose(floquet_multiplier(case.indenter, elastic, load, cycle), expected, rtol=1e-2)
 
 
