@@ -140,7 +140,7 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     stepper = Stepper(scaled, v_0 / scaled.speed)
     orbit = search_from_full_slip(stepper) or Waiting(stepper, stepper.full_slip()).wait(MAX_PERIODS["spring"])
     settling = orbit.settling
-    if not (settling.settled and orbit.period.as_one):
+    if not settling.settled:
         return []
     n = min(max(64, LONGER * stepper.n_periods), int(MOST_STEPS / scaled.steps))
     mean = float(stepper.advance(orbit.state, n)[1].cof.mean())

@@ -4,54 +4,28 @@ Time is omega t, normal lengths are in du_z, tangential lengths in mu_0 kappa du
 array. In this form Coulomb's law has no coefficient and everything is a function of
 
     depth ratio u_z0/du_z,  v = v_0/(mu_0 kappa omega du_z),  T = omega tau,  body/contact stiffness ratios,  shape.
-
-The body obeys M y'' + C y' + K y = -(S + T S' + sum_j rho_j P_j), S the sum of w e over the springs and P_j that of
-its Maxwell arms. Over a step h it is advanced
-
-* exactly as an oscillator under the mean force of the step, (S_0 + S_1)/2 + T (S_1 - S_0)/h and the means of the arms,
-  whose impulse is right even when the force of a dashpot jumps: no dispersion of its own natural frequency, second
-  order in the force;
-* without mass, or where the step cannot resolve the fast oscillation omega_1 = sqrt((k_x + k_xc)/m), by backward
-  differences of second order, which damp what the step does not resolve.
-
-As an arm follows S linearly within a step, either way it is one recursion with five numbers and two for each arm,
-y_new = a_1 y + a_2 y_old - (b_1 S_new + b_0 S + b_m S_old) - sum_j (b_j P_j + bm_j P_j,old).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
-from mdr.march import kernels
-from mdr.materials.operator import L_DECAY, L_GAIN, Rheology
+from mdr.march import loop
+from mdr.march.body import N_BODY, RATE, RESOLVED, Body, Y, body_of, harmonics_of, light_harmonics_of
+from mdr.materials.operator import Rheology
 from mdr.normal.springs import SpringArray
+from mdr.spring.law import Law, law_of
+from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 
+RINGING_PASSES = 20  #: of the iteration for the oscillation of a body on springs with arms
 FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
-RESOLVED = 32  #: steps per fast oscillation from which on it counts as resolved
-RINGING_PASSES = 20  #: of the iteration for that oscillation on springs with arms
-
-
-@dataclass(frozen=True, eq=False)
-class NormalState:
-    """The springs in their periodic normal motion, in which friction has no part; not to be written to."""
-
-    s: Array  #: (1 + J, n) compressions at phase 0, and their arms
-    spans: NDArray[np.int64]  #: (2, n_steps) of springs that press, or are free, throughout a step
-    S: Array  #: (n_steps,) sum of w s, as the march has that of w e; in full slip, where e = s, the same
-    load: float  #: mean of F_z over the period, of the nodes alone: where springs touch they miss both ways
-
-    @cached_property
-    def mean(self) -> float:
-        """Mean of S over the period, by which the COF divides: that of F_z but for the second order in the step."""
-        return float(self.S.mean())
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,13 +41,12 @@ class ScaledContact:
     far_end: Array  #: (n_steps + 1,) motion of the pulling point besides the pull; zero where the tool is shaken
     is_shaken: bool  #: whether there is one
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
-    table: Array  #: (L_ROWS, 1 + J) the same over one step
-    body: kernels.Body  #: recursion of the body
+    law: Law  #: the same, with its modes
+    body: Body  #: the body over a step
     M: float  #: mass
     C: float  #: damping
     K: float  #: system stiffness; infinite under a rigid pull
-    lump_margin: float  #: the first spring stands for the core while L[e + s] exceeds this
-    n_lumped: int  #: how many springs of the array the first one stands for
+    n_lumped: int  #: how many springs that stand alike the only one stands for
     n_core: int  #: how many of its own springs never lose contact
     length_x: float  #: tangential unit mu_0 kappa du_z [m]
     length_z: float  #: normal unit du_z [m]
@@ -141,13 +114,10 @@ class ScaledContact:
         """Scale a case, its springs and its motion; lump the core that never leaves into its first spring if asked."""
         cycle, kappa, rheology = case.cycle, case.material.mindlin_ratio, case.rheology
         width = float(springs.width.sum())
-        gap, w, margin, n_lumped = springs.gap / cycle.unit, springs.width / width, -np.inf, 1
-        core, n_core = gap[: springs.n_core], springs.n_core
+        gap, w, n_lumped = springs.gap / cycle.unit, springs.width / width, 1
+        n_core = springs.n_core
         if lump and gap.max() == gap.min():  # springs that stand alike do alike
             gap, w, n_lumped, n_core = gap[:1], np.ones(1), gap.size, min(n_core, 1)
-        elif lump and core.size > 1 and (not case.is_shaken or core.max() == core.min()):  # a shake has edges slip back
-            gap, w, margin, n_lumped = _lumped(gap, w, n_core)
-            n_core -= n_lumped - 1
         length_x = case.mu_0 * kappa * cycle.unit
         z, z_dot = cycle.over_a_period(steps)
         way = case.way
@@ -160,6 +130,7 @@ class ScaledContact:
         at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
         far_end = _over_a_period(case.shake_harmonics / length_x, steps)[0] if at_pull else np.zeros(steps + 1)
         M, C, K = _body_groups(case, springs.G_star * width)
+        law = law_of(rheology.T, rheology.rho, rheology.theta)
         return cls(
             gap=gap,
             w=w,
@@ -170,12 +141,13 @@ class ScaledContact:
             far_end=far_end,
             is_shaken=case.is_shaken,
             rheology=rheology,
-            table=rheology.over_step(2 * np.pi / steps),
-            body=_recursion(M, C, K, rheology, 2 * np.pi / steps),
+            law=law,
+            body=body_of(
+                M, C, K, law, 2 * np.pi / steps, _ringing(M, K, rheology) * 2 * np.pi / steps > 2 * np.pi / RESOLVED
+            ),
             M=M,
             C=C,
             K=K,
-            lump_margin=margin,
             n_lumped=n_lumped,
             n_core=n_core,
             length_x=length_x,
@@ -186,52 +158,48 @@ class ScaledContact:
         )
 
     @cached_property
-    def normal(self) -> NormalState:
+    def normal(self) -> NormalPeriod:
         """The springs in their periodic normal motion."""
-        s, spans = np.zeros((1 + self.n_arms, self.gap.size)), np.empty((2, self.steps), dtype=np.int64)
-        S = np.empty(self.steps)
-        load = kernels.settle_normal(s, self.gap, self.w, self.z, self.z_dot, self.table, spans, S)
-        if np.isnan(S).any():
+        found = settled(self.gap, self.w, self.z, self.z_dot, self.law)
+        if found is None:
             raise ValueError(
                 f"steps_per_period = {self.steps} is too coarse for the normal motion of springs with these arms, "
                 "which does not become periodic; raise it"
             )
-        return NormalState(s, spans, S, float(load))
+        return found
 
     @property
-    def springs(self) -> kernels.Springs:
-        """The springs as the kernels take them."""
-        return kernels.Springs(self.gap, self.w, self.lump_margin)
+    def springs(self) -> loop.Springs:
+        """The springs as the march takes them."""
+        return loop.Springs(self.gap, self.w)
 
-    def motion(self, v: float) -> kernels.Motion:
+    def motion(self, v: float) -> loop.Motion:
         """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
-        dx, x_dot = v * self.h + self._dx, v + self.x_dot
-        return kernels.Motion(self.z, self.z_dot, v, self.is_shaken, dx, x_dot, self.normal.spans)
+        return loop.Motion(self.z, self.z_dot, v, self.x, self.x_dot)
 
-    @cached_property
-    def _dx(self) -> Array:
-        """What a shake travels in each step (n_steps,)."""
-        return np.diff(self.x)
+    def trace(self, n_periods: int = 1) -> loop.Trace:
+        """Room for what a march leaves of its steps."""
+        return loop.Trace(*np.empty((4, n_periods * self.steps)))
 
     def pace(self, v: float) -> float:
         """A scale of velocities where the pull is at v: this, or that of the shake if it is faster."""
         return max(v, float(np.abs(self.x_dot).max()))
 
-    def full_slip_state(self, S: Array, v: float = np.inf) -> kernels.BodyState:
-        """State of the body at phase 0 that repeats itself under the full-slip force S (n_steps,).
+    def full_slip_state(self, v: float = np.inf) -> Array:
+        """State (N_BODY,) of the body at phase 0 that repeats itself under the force of full slip.
 
-        Harmonic by harmonic, with the response of the recursion itself, so that the march starts without any
+        Harmonic by harmonic, with the response of the steps themselves, so that the march starts without any
         free oscillation. On an undamped resonance the resonant harmonic is left out: no periodic motion has it. Near a
         resonance a harmonic that would carry the body back faster than FASTEST_START v is cut to that velocity.
         """
         if self.rigid:
-            return self._state(S, np.zeros(3))
-        y_n = self._full_slip_motion(S)
+            return np.zeros(N_BODY)
         most = FASTEST_START * self.pace(v)
-        cut = most / np.maximum(self._velocities(y_n), most) if np.isfinite(most) else 1.0
-        return self._state(S, self._positions(y_n * cut))
+        motion, _ = self._full_slip_motion
+        cut = most / np.maximum(self._velocities, most) if np.isfinite(most) else 1.0
+        return self._state(motion * cut)
 
-    def resonant_state(self, S: Array, v: float) -> kernels.BodyState | None:
+    def resonant_state(self, v: float) -> Array | None:
         """State of the body at phase 0 on an undamped resonance or beside one. The resonant harmonic, the n-th, swings
         as far as stick lets it: y' reaches -v, once in each of its own periods, when that harmonic of the force is
         greatest.
@@ -239,17 +207,17 @@ class ScaledContact:
         """
         if self.rigid:
             return None
-        y_n, resonant = self._full_slip_motion(S), self._resonant
-        swings = self._velocities(y_n)
-        n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(swings))
-        F_n = complex(np.fft.rfft(S)[n]) / self.steps * complex(self.rheology.response(n))
-        far = resonant[n] or swings[n] > FASTEST_START * self.pace(v)
-        if n == 0 or abs(F_n) < 1e-10 * abs(float(S.mean())) or not far:
+        motion, resonant = self._full_slip_motion
+        n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(self._velocities))
+        F_n = complex(self._force[n])
+        far = resonant[n] or self._velocities[n] > FASTEST_START * self.pace(v)
+        if n == 0 or abs(F_n) < 1e-10 * abs(self.normal.mean) or not far:
             return None
-        y_n[n] = 0
-        state = self._state(S, self._positions(y_n))
-        phase = n * self.h * np.array([0, -1, -2]) + np.angle(F_n)
-        state.y[:] -= v / n * np.sin(phase) - abs(F_n) / self.K  # and the mean force it takes away
+        motion = motion.copy()
+        motion[:, n] = 0
+        state, phase = self._state(motion), np.angle(F_n)
+        state[Y] += abs(F_n) / self.K - v / n * np.sin(phase)  # and the mean force it takes away
+        state[RATE] -= v * np.cos(phase)
         return state
 
     @cached_property
@@ -263,91 +231,41 @@ class ScaledContact:
         """
         if self.rigid:
             return 0.0
-        S = self.normal.S
-        y_n = self._full_slip_motion(S)
-        driven = np.abs(np.fft.rfft(S)) > 1e-10 * abs(float(S.sum()))
-        if (self._resonant & driven)[1:].any():
+        motion, resonant = self._full_slip_motion
+        if (resonant & (np.abs(self._force) > 1e-10 * abs(self.normal.mean)))[1:].any():
             return np.inf
-        y = np.fft.irfft(y_n, self.steps)
-        y_dot = (np.roll(y, -1) - np.roll(y, 1)) / (2 * self.h)
-        spans = self.normal.spans
-        touching = (spans[1] > 0) & (np.roll(spans[1], 1) > 0)  # contact at the node between two steps
+        y_dot = np.fft.irfft(motion[1], self.steps)
+        presses = self.normal.area > 0
+        touching = presses & np.roll(presses, 1)  # contact at the node between two steps
         return float((self.z_dot[:-1] - self.x_dot[:-1] - y_dot)[touching].max(initial=0.0))
 
-    def _state(self, S: Array, y: Array) -> kernels.BodyState:
-        """State at phase 0 of a body that was at y (3,), now and before, under the full-slip force S (n_steps,)."""
-        arms_n = self._arms_n(self._turn()) if self.n_arms else []
-        arms = [np.fft.irfft(arm_n * np.fft.rfft(S), self.steps)[[0, -1]] for arm_n in arms_n]
-        return kernels.BodyState(y, S[[0, -1]], np.array(arms).reshape(-1, 2).T.copy())
-
-    def _positions(self, y_n: NDArray[np.complex128]) -> Array:
-        """Where a body with these harmonics is at phase 0, one step before and two."""
-        return np.asarray(np.fft.irfft(y_n, self.steps)[[0, -1, -2]])
-
-    def _full_slip_motion(self, S: Array) -> NDArray[np.complex128]:
-        """Harmonics of the periodic motion under the full-slip force S (n_steps,), as of rfft; none on a resonance."""
-        return np.asarray(self._compliance * np.fft.rfft(S))
+    def _state(self, motion: NDArray[np.complex128]) -> Array:
+        """State at phase 0 of a body with these harmonics (2, N), under the force of full slip."""
+        return np.asarray(np.fft.irfft(motion, self.steps)[:, 0])
 
     @cached_property
-    def _compliance(self) -> NDArray[np.complex128]:
-        """Harmonics of the periodic motion over those of S, (n_steps // 2 + 1,); zero on a resonance."""
-        turn = self._turn()
-        force_n = self.body.b_1 * turn + self.body.b_0 + self.body.b_m / turn
-        for b, old, arm_n in zip(*self.body.arms, self._arms_n(turn), strict=True):
-            force_n += (b + old / turn) * arm_n
-        return np.asarray(np.where(self._resonant, 0, -force_n / np.where(self._resonant, 1, self._inertia(turn))))
+    def _force(self) -> NDArray[np.complex128]:
+        """Harmonics of the mean force of each step in full slip, as of rfft over the number of steps."""
+        return np.asarray(np.fft.rfft(self.normal.area) / (self.h * self.steps))
 
     @cached_property
-    def _resonant(self) -> NDArray[np.bool_]:
-        """Whether each harmonic is a resonance without damping, (n_steps // 2 + 1,)."""
-        return np.asarray(np.abs(self._inertia(self._turn())) < max(1e-9 * self.h**2, 2e-15))
+    def _full_slip_motion(self) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
+        """Harmonics (2, N) of y and its rate in full slip, as of rfft, and which of them are resonances."""
+        if self.light:
+            return light_harmonics_of(self.body, np.fft.rfft(self.normal.area), np.fft.rfft(self.normal.end))
+        return harmonics_of(self.body, np.fft.rfft(self.normal.area), np.fft.rfft(self.normal.moment))
 
-    def _velocities(self, y_n: NDArray[np.complex128]) -> Array:
+    @property
+    def _velocities(self) -> Array:
         """Amplitude of the velocity that each harmonic of the motion has."""
-        return np.asarray(2 * np.arange(y_n.size) * np.abs(y_n) / self.steps)
+        y = self._full_slip_motion[0][0]
+        return np.asarray(2 * np.arange(y.size) * np.abs(y) / self.steps)
 
-    def mean_force(self, change: Any, inner: Any, of_arms: Any, time: float) -> Any:
-        """Mean of L[e] over times in which S has the mean `inner` and changes by `change`, (n,) or one, and the sums
-        over the arms by of_arms (..., J).
-        """
-        mean = inner + self.T * change / time
-        for j, (rho, theta) in enumerate(zip(self.rheology.rho, self.rheology.theta, strict=True)):
-            mean = mean + rho * theta / time * (change - of_arms[..., j])  # x_j' = x' - x_j/theta_j
-        return mean
-
-    def arms_at_ends(self, S: Array, S_start: float, arms: Array) -> Array:
-        """Sums over the arms (n_periods + 1, J) at the ends of periods, from those at the start (J,) and S (n_t,)."""
-        out = np.empty((S.size // self.steps + 1, arms.size))
-        if not arms.size:
-            return out
-        steps = np.diff(S, prepend=S_start).reshape(-1, self.steps)
-        for j, (decay, gain) in enumerate(self._arms()):
-            added = steps @ (gain * decay ** np.arange(self.steps - 1, -1, -1))
-            out[0, j] = arms[j]
-            for k, one in enumerate(added):
-                out[k + 1, j] = decay**self.steps * out[k, j] + one
-        return out
-
-    def _arms(self) -> list[tuple[float, float]]:
-        """Decay and gain of each arm over a step."""
-        return [(float(row[0]), float(row[1])) for row in self.table[[L_DECAY, L_GAIN], 1:].T]
-
-    def _arms_n(self, turn: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
-        """What each arm makes of every harmonic of S: nothing of its mean, however slow it is."""
-        return [gain * (turn - 1) / np.where(turn == 1, 1, turn - decay) for decay, gain in self._arms()]
-
-    def _turn(self) -> NDArray[np.complex128]:
-        """exp(i n h) of every harmonic."""
-        return np.asarray(np.exp(1j * self.h * np.arange(self.steps // 2 + 1)))
-
-    def _inertia(self, turn: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """What the recursion answers every harmonic with."""
-        return np.asarray(turn - self.body.a_1 - self.body.a_2 / turn)
-
-    def rest_state(self, v: float) -> kernels.BodyState:
+    def rest_state(self, v: float) -> Array:
         """State of a body at rest with nothing stretched, from which the pull sets off at v."""
-        y = np.zeros(3) if self.rigid else np.array([0.0, 1.0, 2.0]) * v * self.h
-        return kernels.BodyState(y, np.zeros(2), np.zeros((2, self.n_arms)))
+        state = np.zeros(N_BODY)
+        state[RATE] = 0.0 if self.rigid else -v
+        return state
 
 
 def _over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:
@@ -383,52 +301,3 @@ def _ringing(M: float, K: float, rheology: Rheology) -> float:
 def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
     (m, c_x, k_x), omega = case.pull.coefficients, case.omega
     return m * omega**2 / stiffness, c_x * omega / stiffness, k_x / stiffness
-
-
-def _lumped(gap: Array, w: Array, n_core: int) -> tuple[Array, Array, float, int]:
-    """The core as one spring: all its springs share the lag s - e, so only sums and means of them matter."""
-    w_core = float(w[:n_core].sum())
-    gap_core = float(w[:n_core] @ gap[:n_core]) / w_core
-    margin = 2 * (float(gap[:n_core].max()) - gap_core)  # where the outermost would slip backward
-    gap, w = (np.concatenate([[one], rest[n_core:]]) for one, rest in ((gap_core, gap), (w_core, w)))
-    return gap, w, margin, n_core
-
-
-def _recursion(M: float, C: float, K: float, rheology: Rheology, h: float) -> kernels.Body:
-    """The recursion of the body; see the module's docstring."""
-    T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
-    if np.isinf(K):
-        return kernels.Body(True, False, 0.0, 0.0, 0.0, 0.0, 0.0, np.zeros((2, rho.size)))
-    table = rheology.over_step(h)
-    decay, gain = table[L_DECAY, 1:], table[L_GAIN, 1:]
-    if _ringing(M, K, rheology) * h > 2 * np.pi / RESOLVED:  # or no mass
-        inertia = M / h**2 + 1.5 * C / h + K
-        # the end of an arm whose rate changes within the step, by the second difference of S
-        bend = rho * theta / h * (0.5 * (1 + decay) - theta / h * (1 - decay))
-        end, second = float(rho @ gain), float(bend.sum())
-        return kernels.Body(
-            rigid=False,
-            light=True,
-            a_1=(2 * M / h**2 + 2 * C / h) / inertia,
-            a_2=-(M / h**2 + 0.5 * C / h) / inertia,
-            b_1=(1 + 1.5 * T / h + end + second) / inertia,
-            b_0=(-2 * T / h - end - 2 * second) / inertia,
-            b_m=(0.5 * T / h + second) / inertia,
-            arms=np.array([rho * decay, np.zeros(rho.size)]) / inertia,
-        )
-    from scipy.linalg import expm
-
-    A = expm(h * np.array([[0, 1, 0], [-K / M, -C / M, 1 / M], [0, 0, 0]]))  # last column: response to a unit force
-    now, before = float(A[0, 2]), float(A[0, 1] * A[1, 2] - A[1, 1] * A[0, 2])
-    change = T / h + float(np.sum(rho * theta / h * (1 - gain)))  # weight of S_new - S in the mean force of the step
-    new, old = 0.5 + change, 0.5 - change
-    return kernels.Body(
-        rigid=False,
-        light=False,
-        a_1=float(A[0, 0] + A[1, 1]),
-        a_2=float(-np.exp(-C / M * h)),
-        b_1=now * new,
-        b_0=now * old + before * new,
-        b_m=before * old,
-        arms=np.array([now * rho * gain, before * rho * gain]),
-    )

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.march import kernels
 from mdr.march.stepper import PeriodRecord, Stepper
+from mdr.spring.step import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK
 
 OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
 OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
@@ -69,22 +69,22 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     sums, h = account.seen.sums, scaled.h
     unit_x = scaled.stiffness_x * scaled.length_x**2
     unit_z = scaled.stiffness_z * scaled.length_z**2
-    shake, damper = float(sums[kernels.SHAKE_WORK]), 0.0
-    pull = float(sums[kernels.SHEAR_WORK]) - shake
+    shake, damper = float(sums[SHAKE_WORK]), 0.0
+    pull = float(sums[SHEAR_WORK]) - shake
     if not scaled.rigid:
-        stretch = account.y[2:]  # of the system spring, backward
+        stretch = account.y  # of the system spring, backward
         if at_pull := bool(scaled.far_end.any()):
             stretch = stretch + scaled.x - scaled.far_end
         force = -scaled.K * 0.5 * (stretch[1:] + stretch[:-1]) - scaled.C * np.diff(stretch) / h  # of the pull, forward
         pull = v * h * float(np.sum(force))
         damper = scaled.C * float(np.sum(np.diff(stretch) ** 2)) / h
         shake = float(force @ np.diff(scaled.far_end)) if at_pull else shake
-    viscous = unit_x * sums[kernels.SHEAR_VISCOUS] + unit_z * sums[kernels.NORMAL_VISCOUS]
+    viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(
         pull_work=unit_x * pull,
-        normal_work=unit_z * float(sums[kernels.NORMAL_WORK]),
+        normal_work=unit_z * float(sums[NORMAL_WORK]),
         shake_work=unit_x * shake,
-        friction_loss=unit_x * float(sums[kernels.FRICTION_LOSS]),
+        friction_loss=unit_x * float(sums[FRICTION_LOSS]),
         viscous_loss=float(viscous),
         damper_loss=unit_x * damper,
         stored_change=unit_x * (account.stored[1] - account.stored[0]),

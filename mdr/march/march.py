@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.march import kernels
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.orbit_search import (
     FULL,
@@ -30,6 +29,7 @@ from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.march.theorems import outside
 from mdr.march.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
+from mdr.spring.step import CONTACT_TIME, LEAST_SLIP, STICK_TIME
 from mdr.tools.checks import FieldError, finite
 from mdr.tools.memoise import remembered
 
@@ -103,7 +103,7 @@ class Steady:
     def off_load(self) -> float:
         """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
         load, scaled = self.case.oscillation.load, self.scaled
-        return 0.0 if load is None else abs(scaled.normal.load * scaled.stiffness_z * scaled.length_z / load.F_z0 - 1)
+        return 0.0 if load is None else abs(scaled.normal.mean * scaled.stiffness_z * scaled.length_z / load.F_z0 - 1)
 
     @property
     def missing_load(self) -> float:
@@ -152,7 +152,7 @@ class March:
         scaled = self.end.scaled
         if self.end.v_0 != 0:
             return False
-        x, z = self.account.y[3:] + scaled.x[1:], scaled.z[1:]
+        x, z = self.account.y[1:] + scaled.x[1:], scaled.z[1:]
         both = np.fft.rfft([z - x, z + x]) * scaled.rheology.response(np.arange(scaled.steps // 2 + 1))
         return float(np.fft.irfft(both, scaled.steps).min(axis=1).sum()) > 2 * float(scaled.gap.min())
 
@@ -160,15 +160,15 @@ class March:
     def sees_contact(self) -> bool:
         """Whether any spring presses for longer than an instant between two steps."""
         sums = self.account.seen.sums
-        return bool(sums[kernels.CONTACT_TIME] > 0 and np.isfinite(sums[kernels.LEAST_SLIP]))
+        return bool(sums[CONTACT_TIME] > 0 and np.isfinite(sums[LEAST_SLIP]))
 
     @property
     def least_slip(self) -> float:
         """Least slip velocity in contact over v_0, or that of a shake, of a run in full slip; zero of any other."""
         sums = self.account.seen.sums
-        full = float(sums[kernels.STICK_TIME]) == 0 and abs(1 - self.cof) < FULL
+        full = float(sums[STICK_TIME]) == 0 and abs(1 - self.cof) < FULL
         stepper = self.end.stepper
-        return float(sums[kernels.LEAST_SLIP]) / stepper.scaled.pace(stepper.v) if full else 0.0
+        return float(sums[LEAST_SLIP]) / stepper.scaled.pace(stepper.v) if full else 0.0
 
 
 def steady(
@@ -178,12 +178,11 @@ def steady(
     n_periods: int | None = None,
     near: Steady | None = None,
     most: int | None = None,
-) -> Steady | None:
+) -> Steady:
     """March until settled, or exactly n_periods.
 
     near: a march of the case at other resolution or velocity, whose periodic state is a good one to search from. most:
-    periods after which a march that does not settle ends; None is the most of any; with 0 it only searches for its
-    periodic state, and there is no answer where it finds none.
+    periods after which a march that does not settle ends; None is the most of any.
     """
     springs, scaled = at_hand(case, knobs)
     if not scaled.normal.mean > 0:
@@ -193,7 +192,7 @@ def steady(
     orbit = waiting = None
     if n_periods is None:
         orbit = _searched(stepper, from_full_slip, near)
-    if orbit is None and most != 0:
+    if orbit is None:
         start = stepper.full_slip() if from_full_slip else stepper.rest()
         waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
         if n_periods is None:
@@ -202,15 +201,12 @@ def steady(
             waiting.advance(n_periods)
     if orbit is not None:
         state, settling, periods = orbit.state, orbit.settling, orbit.period
-    elif waiting is not None:
+    else:
+        assert waiting is not None
         settling = waiting.assess() if waiting.n else Settling(0.0, UNKNOWN, False, "unsettled")
         state, periods = waiting.state, waiting.periods
-    else:
-        return None
     if not np.isfinite(periods.cof).all():
         raise out_of_range(v_0)
-    if not periods.as_one and knobs.lump:  # the core did not move as one after all: every spring for itself
-        return steady(case, v_0, knobs._replace(lump=False), n_periods, near, most)
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
     waited, seen = (waiting, None) if orbit is None else (None, orbit.seen)
     before = stepper.n_periods - (seen is not None)
@@ -226,13 +222,6 @@ def looked_at(end: Steady) -> March:
         records.append(record)
     if not all(np.isfinite(record.period.cof).all() for record in records):
         raise out_of_range(end.v_0)
-    if knobs.lump and not all(record.period.as_one for record in records):
-        again = steady(end.case, end.v_0, knobs._replace(lump=False), None if end.waited is None else end.waited.n)
-        assert again is not None
-        march = looked_at(again)
-        if settling.settled or end.waited is not None:
-            return march
-        return replace(march, settling=replace(march.settling, settled=False, kind="unsettled", why=settling.why))
     if end.waited is not None:
         waited = copy(end.waited)
         for record in records:
@@ -248,9 +237,7 @@ def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None 
     """March until settled, or exactly n_periods, the last ones of which are looked at closely."""
     check(case, v_0)
     before = None if n_periods is None else n_periods - max(1, knobs.record)
-    end = steady(case, v_0, knobs, before)
-    assert end is not None
-    return looked_at(end)
+    return looked_at(steady(case, v_0, knobs, before))
 
 
 def check(case: SlidingContact, v_0: float) -> None:
@@ -296,13 +283,13 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     at the limit of friction, and the spring with it.
     """
     state, periods = stepper.advance(stepper.full_slip(), 2)
-    last = Periods(periods.cof[-1:], periods.swing[-1:], periods.as_one)
+    last = Periods(periods.cof[-1:], periods.swing[-1:])
     return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0))
 
 
 def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
     """Why the COF that a march has settled at cannot be one; nothing if it can."""
-    least = -1.0 if stepper.scaled.is_shaken else float(account.seen.F_z.min()) / stepper.mean_F_z
+    least = -1.0 if stepper.scaled.is_shaken else float(account.seen.F[:, 1].min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
     return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.h**2)
 
@@ -310,12 +297,6 @@ def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) 
 def out_of_range(v_0: float) -> ValueError:
     """The error of a run whose numbers are too large or too small."""
     return ValueError(f"the run left the range of floats at v_0 = {v_0:g} m/s: use units nearer to one")
-
-
-def touches(case: SlidingContact, knobs: Knobs) -> bool:
-    """Whether any spring presses at the instants of these steps."""
-    scaled = at_hand(case, knobs)[1]
-    return scaled.n_core > 0 or scaled.normal.mean > 0
 
 
 def too_coarse(steps: int) -> ValueError:

@@ -10,12 +10,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mdr.march import kernels
+from mdr.march import loop
 from mdr.march import periodic_orbit as periodic
+from mdr.march.body import N_BODY, RATE, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import UNKNOWN, Settling
 from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
-from mdr.materials.operator import L_RATIO
+from mdr.spring.step import LEAST_SLIP, STICK_TIME
 from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
@@ -105,17 +106,17 @@ def _by_anderson(
     stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
-    at, left, ended = how.by_anderson(start.x, norm.of(start.x)), how.most, False
+    at, left, ended = how.by_anderson(start.x), how.most, False
     at_once = max(1, UNWATCHED // (start.e.size * stepper.scaled.steps))
     while left > 0 and not ended:
         if time_is_over():
             raise _OutOfTime
         ended, last = stepper.search(at, start, norm.roots, min(left, at_once))
         left -= at_once
-    change = float(at.changes[kernels.BEST])
+    change = float(at.changes[loop.BEST])
     if not np.isfinite(change):
         return None
-    is_last = at.counts[kernels.SINCE] == at.counts[kernels.PERIODS] - 1
+    is_last = at.counts[loop.SINCE] == at.counts[loop.PERIODS] - 1
     return periodic.Iterate(at.best, change, last if is_last else None)
 
 
@@ -132,16 +133,11 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
 
 def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
     """A state of a march with other springs or steps, on the springs and steps of this one."""
-    step, e, moved = on.h / of.h, state.e, 0.0
+    e = state.e
     if not np.array_equal(on.gap, of.gap):
         order = np.argsort(of.gap, kind="stable")
         e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
-        moved = float(e[0] @ on.w - state.e[0] @ of.w)
-    (y, y_old, y_older), (S, S_old) = state.body.y, state.body.S + moved
-    rate, bend = 1.5 * y - 2 * y_old + 0.5 * y_older, y - 2 * y_old + y_older  # per step of the other, and its step
-    at = -step * np.arange(3)
-    body = kernels.BodyState(y + rate * at + 0.5 * bend * at**2, np.array([S, S + step * (S_old - S)]), state.body.arms)
-    return MarchState.of(e, on.normal.s, body)
+    return MarchState.of(e, on.normal.s, state.body)
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
@@ -163,7 +159,7 @@ def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm:
     sums = record.seen.sums
     change = near.change * float(np.linalg.norm(norm.of(near.x)))
     drift = change / np.sqrt(scaled.M or (1.0 if scaled.rigid else scaled.K))  # under a rigid pull that of the springs
-    if sums[kernels.STICK_TIME] > 0 or not AGES * drift < sums[kernels.LEAST_SLIP] < np.inf:
+    if sums[STICK_TIME] > 0 or not AGES * drift < sums[LEAST_SLIP] < np.inf:
         return None
     cof = float(record.period.cof[-1])
     return Orbit(state, record.period, Settling(cof, 0.0, True, "periodic", gain=np.inf), record)
@@ -189,18 +185,15 @@ class EnergyNorm:
     def __init__(self, scaled: ScaledContact) -> None:
         self.scaled = scaled
         self.n_e = (1 + scaled.n_arms) * scaled.gap.size
-        self.n_x = self.n_e + 5 + 2 * scaled.n_arms
+        self.n_x = self.n_e + N_BODY
         self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
-        self.roots[: self.n_e] = np.sqrt(np.outer(scaled.table[L_RATIO], scaled.w)).ravel()
+        self.roots[: self.n_e] = np.sqrt(np.outer(np.concatenate([[1.0], scaled.rheology.rho]), scaled.w)).ravel()
         if not scaled.rigid:
-            self.roots[self.n_e : self.n_e + 2] = np.sqrt(scaled.K), np.sqrt(scaled.M or scaled.K) / scaled.h
+            self.roots[self.n_e + Y], self.roots[self.n_e + RATE] = np.sqrt(scaled.K), np.sqrt(scaled.M)
 
     def of(self, x: Array) -> Array:
         """State vectors (n_x,) or (k, n_x), measured: vectors of the same shape whose squares are energies."""
-        out = np.empty_like(x)
-        for one, measured in ((x, out),) if x.ndim == 1 else zip(x, out, strict=True):
-            kernels.measure(one, self.roots, self.n_e, measured)
-        return out
+        return np.asarray(x * self.roots)
 
     def pushes(self) -> tuple[Array, ...]:
         """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body; of
@@ -213,12 +206,12 @@ class EnergyNorm:
             arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = 1 / np.sqrt(rho)
             pushes.append(arm)
         if not scaled.rigid:
-            position, velocity = np.zeros((2, self.n_x))
-            position[n : n + 3] = 1 / np.sqrt(scaled.K)
-            velocity[n : n + 3] = np.array([0, -1, -2]) * scaled.h / np.sqrt(scaled.M or scaled.K)
-            pushes += [position, velocity]
+            for part in (Y, RATE) if scaled.M else (Y,):
+                push = np.zeros(self.n_x)
+                push[n + part] = 1 / self.roots[n + part]
+                pushes.append(push)
         elif not pushes:
             springs = np.zeros(self.n_x)
-            springs[: scaled.gap.size] = springs[n + 3] = 1.0
+            springs[: scaled.gap.size] = 1.0
             pushes.append(springs)
         return tuple(pushes)

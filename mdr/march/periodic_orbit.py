@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mdr.march import kernels
+from mdr.march import loop
 from mdr.march.stepper import Periods
 from mdr.tools.arrays import Array
 
@@ -120,19 +120,18 @@ class Options:
         """Periods after which Anderson's method gives up."""
         return MOST + A_TIME[1] * len(self.slow)
 
-    def by_anderson(self, x: Array, measured: Array) -> kernels.Search:
-        """Anderson's method at its beginning, from a state (n,) and the same measured."""
-        memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # ways between so many images
-        (start, image, moved, best), (ways, turns) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
-        return kernels.Search(
+    def by_anderson(self, x: Array) -> loop.Search:
+        """Anderson's method at its beginning, from a state (n,)."""
+        memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # differences between so many images
+        (start, image, moved, best), (d_image, d_moved) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
+        return loop.Search(
             x=x.copy(),
-            measured=measured.copy(),
             start=start,
             image=image,
             moved=moved,
             best=best,
-            ways=ways,
-            turns=turns,
+            d_image=d_image,
+            d_moved=d_moved,
             counts=np.zeros(3, dtype=np.int64),
             changes=np.array([np.inf, np.inf]),
             close=self.closest,

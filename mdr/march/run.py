@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march import kernels
 from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.march import March, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
+from mdr.spring import step
 from mdr.tools.arrays import Array
 from mdr.tools.csv_table import csv_text
 from mdr.tools.records import ArrayRecord
@@ -33,10 +33,10 @@ HOLDS = (
 class State(IntEnum):
     """Mode of a spring."""
 
-    FREE = kernels.FREE  #: out of contact
-    STICK = kernels.STICK  #: its foot rests on the plane
-    SLIP = kernels.SLIP  #: slides forward, friction holds the indenter back
-    SLIP_BACK = kernels.SLIP_BACK  #: slides backward, friction drives the indenter on
+    FREE = step.FREE  #: out of contact
+    STICK = step.STICK  #: its foot rests on the plane
+    SLIP = step.SLIP  #: slides forward, friction holds the indenter back
+    SLIP_BACK = step.SLIP_BACK  #: slides backward, friction drives the indenter on
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -46,10 +46,8 @@ class SlidingRun(Summarised, ArrayRecord):
     A run at v_0 = 0 whose contact holds may come to rest in many states (`kind` "holds"): `cof` is that of one of them,
     and `cof_error` does not bound how far the others are from it; `holding_band` tells all.
 
-    `cof` may be extrapolated to steps of no length (`slide`); recorded forces and energies are those of the run itself.
-    Recorded forces are those at the end of a step; `cof` also counts what happens between two of them, so that mean F_x
-    over mean F_z of the record differs from it by 1e-6 to 1e-5 at 256 steps, falling with their square, and by up to
-    1e-4 where dashpots make forces jump within a step, as under a Kelvin punch that loses contact.
+    Recorded forces are those at the end of a step; `cof` is of their exact mean over each step, so that mean F_x over
+    mean F_z of the record differs from it, by less the more steps there are.
     """
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
@@ -163,10 +161,8 @@ def _turned(values: Any) -> Any:
     return None if values is None else 0.0 - values  # no -0.0
 
 
-def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = "") -> SlidingRun:
-    """From scaled form to SI. error: bound on that of the COF, over mu_0; missing: what steps and springs are known to
-    miss of it.
-    """
+def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
+    """From scaled form to SI. error: bound on that of the COF, over mu_0."""
     open_account = does_not_close(march.end.stepper, march.account, error + march.settling.spread)
     if march.settling.settled and open_account:
         march = march.contradicted(open_account)
@@ -175,10 +171,10 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
     force_z = scaled.stiffness_z * scaled.length_z
     if not march.sees_contact:
         raise too_coarse(scaled.steps)
-    mean_F_z = scaled.normal.load * force_z
+    mean_F_z = scaled.normal.mean * force_z
     error += march.end.missing_load
-    cof = max(min(settling.mean + missing, 1.0), -1.0) if missing else settling.mean
-    sticks = float(sums[kernels.STICK_TIME] / sums[kernels.CONTACT_TIME])
+    cof = settling.mean
+    sticks = float(sums[step.STICK_TIME] / sums[step.CONTACT_TIME])
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     if settling.settled and march.may_rest_elsewhere:
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
@@ -189,7 +185,7 @@ def finish(march: March, error: float = 0.0, missing: float = 0.0, why: str = ""
         kind=kind,
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
-        least_slip=float(sums[kernels.LEAST_SLIP]) * scaled.speed,
+        least_slip=float(sums[step.LEAST_SLIP]) * scaled.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=energy_balance(march.end.stepper, march.account),
@@ -222,7 +218,7 @@ def _why_not(march: March) -> str:
 
 
 def _recorded(march: March) -> dict[str, Any]:
-    """The last periods in SI, the lumped core spread over the springs it stands for."""
+    """The last periods in SI, springs that stand alike each for itself."""
     scaled, springs = march.end.scaled, march.end.springs
     F_x, F_z, y, e, s, f_x, f_z, mode = (
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
@@ -233,9 +229,7 @@ def _recorded(march: March) -> dict[str, Any]:
     ) * scaled.h / scaled.omega
     n = scaled.n_lumped
     if n > 1:
-        core = springs.gap[:n] / scaled.length_z - scaled.gap[0]
-        e, s, f_x, f_z = (np.concatenate([one[:, :1] - core, one[:, 1:]], axis=1) for one in (e, s, f_x, f_z))
-        mode = np.concatenate([np.repeat(mode[:, :1], n, axis=1), mode[:, 1:]], axis=1)
+        e, s, f_x, f_z, mode = (np.repeat(one, n, axis=1) for one in (e, s, f_x, f_z, mode))
     phase = np.arange(1, n_steps + 1) % scaled.steps
     share = springs.width / springs.width.sum()
     return {
@@ -257,4 +251,4 @@ def _recorded(march: March) -> dict[str, Any]:
 def _arrays(record: PeriodRecord) -> tuple[Array | NDArray[np.uint8], ...]:
     """What is kept of a period, at the ends of its steps."""
     seen = record.seen
-    return seen.F_x, seen.F_z, record.y[3:], record.e, record.s, seen.f_x, seen.f_z, seen.mode
+    return seen.F[:, 0], seen.F[:, 1], record.y[1:], seen.e, seen.s, seen.f_x, seen.f_z, seen.mode.astype(np.uint8)

@@ -7,7 +7,7 @@ from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, Knobs, accuracy_of, check, march, steady
-from mdr.march.refinement import check_size, default_springs, default_steps, that_touch, within
+from mdr.march.refinement import check_size, default_springs, default_steps, within
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, finite, positive
@@ -164,18 +164,16 @@ def slide_without_bound(
     case: SlidingContact, v_0: float, *, n_springs: int, steps_per_period: int, start: str
 ) -> SlidingRun:
     """A run without companions: its error is that of settling."""
-    knobs = Knobs(n_springs, steps_per_period, start, lump=True)
-    return finish(march(case, v_0, that_touch(case, knobs, free=False)))
+    return finish(march(case, v_0, Knobs(n_springs, steps_per_period, start, lump=True)))
 
 
 def cofs_without_bound(
     case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int
 ) -> Iterator[float]:
     """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
-    knobs, near = that_touch(case, Knobs(n_springs, steps, "full_slip", lump=True), free=False), None
+    knobs, near = Knobs(n_springs, steps, "full_slip", lump=True), None
     for v_0 in velocities:
         check(case, v_0)
         end = steady(case, v_0, knobs, near=near)
-        assert end is not None
         near = end if end.settling.solved else None
         yield case.mu_0 * end.cof

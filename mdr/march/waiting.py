@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mdr.march.body import Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.orbit_search import Orbit, search
 from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
@@ -31,7 +32,7 @@ class Waiting:
 
     def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
         self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
-        self.periods = Periods(np.empty(0), np.empty(0), True)
+        self.periods = Periods(np.empty(0), np.empty(0))
 
     @property
     def n(self) -> int:
@@ -54,7 +55,7 @@ class Waiting:
             return self._ended(replace(self.assess(), settled=False, kind="unsettled"))
         self.advance(max(self.scaled.first_look, int(self.on_the_way)))
         solve_at = self.n
-        while not (settling := self.assess()).settled and self.periods.as_one:
+        while not (settling := self.assess()).settled:
             if not self.scaled.rigid and self.n >= solve_at:
                 solve_at = SOLVE_AGAIN * self.n
                 if (orbit := search(self.stepper, (self.state,))) is not None:
@@ -146,7 +147,7 @@ class Waiting:
             return 0.0
         late, early = smooth_mean(swings[n // 2 :]), smooth_mean(swings[n // 4 : n // 2])
         # a swing that is rounding of the position does not count
-        return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.state.body.y[0]) else 0.0
+        return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.state.body[Y]) else 0.0
 
 
 def way_from_rest(scaled: ScaledContact, v: float) -> float:

@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.materials.operator import Rheology
-from mdr.normal.spring_grid import cells
+from mdr.normal.spring_grid import nodes
 from mdr.spring.law import law_of
 from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-N_EDGE = 512  #: springs
+N_EDGE = 128  #: springs
 N_STEPS = 2048  #: of the period
 
 
@@ -51,7 +51,7 @@ def normal_cycle(
     beside: another operator, whose springs stand at the same places, so that the two differ by the material alone.
     """
     kept = min(cycle.kept_gap(one.response) for one in (rheology, beside or rheology))
-    x, gap, width, n_core = cells(shape, cycle, kept, n_edge)
+    x, gap, width, n_core = nodes(shape, cycle, kept, n_edge)
     gap = gap / cycle.unit
     F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
     if n_core:

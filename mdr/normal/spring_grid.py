@@ -1,10 +1,12 @@
 """Where the springs stand, how deep their feet lie, how wide they are.
 
-The accuracy is decided in the *edge band*, between the contact radii at the least and the greatest depth, where springs
-touch and leave. For a slow material the band reaches out to the gap below which contact is never lost. The row is cut
-at exactly these radii, and at the kinks of the shape. Each stretch between two cuts has springs of its own, however
-thin it is. Each spring stands for one cell of its stretch, at the mean depth of the cell. Sums over the springs then
-equal k_zc and F_N exactly at the mean depth and at both extremes of the motion.
+A sum over the springs is an integral over x. Its integrand is smooth but at places that are known from the normal
+motion, the edge of the contact at its greatest depth and the place up to which springs never lose contact, at kinks of
+the shape, and where the order of modes changes, which is not known beforehand: there its second derivative jumps.
+The row is cut at the known places, and each stretch between two cuts, however thin, has springs of its own: the nodes
+of Fejer's first rule, which are as dense at both ends as those of Gauss and do as well (Trefethen 2008), their weights
+being known. What is left is of third order, of the jumps between the cuts. The mean gap of a stretch is exact. So are
+k_zc and F_N at the depth of each cut, and all sums over springs that move alike, being linear in the gap.
 
 Symbols: x position [m], gap = g(x) - u_z0 depth of a spring's foot relative to the mean depth [m], kept_gap the gap, in
 du_z, below which springs never lose contact.
@@ -15,27 +17,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.tools.arrays import EPS, Array
 
-_NODES, _WEIGHTS = (0.5 * (leggauss(4)[0] + 1), 0.5 * leggauss(4)[1])
+LEAST = 2  #: springs of a stretch
+LEVEL = 1e-9  #: of the unit of the depth, over which a stretch rises whose springs stand alike
+AS_ONE = 1 / 8  #: of the springs of another stretch, that one gets whose springs move alike
 
 
-AS_ONE = 1 / 8  #: share of the springs that the core gets where its springs move alike
-EACH_ITS_OWN = 1 / 2  #: the same where every spring of it has modes of its own, as under a shake in the plane
-
-
-def cells(
-    shape: Indenter, cycle: Cycle, kept_gap: float, n_springs: int, core_share: float = AS_ONE
+def nodes(
+    shape: Indenter, cycle: Cycle, kept_gap: float, n_springs: int, alike: bool = True
 ) -> tuple[Array, Array, Array, int]:
-    """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact."""
+    """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact.
+
+    alike: whether those do the same but for their gap; under a shake in the plane each has modes of its own.
+    """
     if shape.least_depth > 0:
         return _complete(shape, cycle.u_z0, n_springs)
     stretches = _stretches(shape, cycle, kept_gap)
-    counts = _share_out(stretches, n_springs, core_share)
+    counts = _share_out(stretches, n_springs, cycle.unit, alike)
     parts = [_springs_of(shape, cycle.u_z0, stretch, n) for stretch, n in zip(stretches, counts, strict=True)]
     x, gap, width = (np.concatenate(part) for part in zip(*parts, strict=True))
     return x, gap, width, sum(n for stretch, n in zip(stretches, counts, strict=True) if stretch.permanent)
@@ -61,10 +63,10 @@ class _Stretch:
 
 
 def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]:
-    """The row, cut at the depths where a spring begins to lose or to gain contact, and at the kinks of the shape."""
+    """The row, cut where springs begin to lose contact and where contact ends, and at the kinks of the shape."""
     u_z0, du_z = cycle.u_z0, cycle.unit
     kept = du_z * kept_gap
-    gaps = [gap for gap in (kept, du_z * cycle.least, 0.0, du_z * cycle.greatest) if u_z0 + gap > 0]
+    gaps = [gap for gap in (kept, du_z * cycle.greatest) if u_z0 + gap > 0]
     radii = shape.contact_radius(u_z0 + np.array(gaps))
     marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]
@@ -77,34 +79,34 @@ def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]
     ]
 
 
-def _share_out(stretches: list[_Stretch], n_springs: int, core_share: float) -> list[int]:
-    """Number of springs of each stretch: a share of all for the core, the rest equally for the band."""
-    n_permanent = sum(stretch.permanent for stretch in stretches)
-    n_band = len(stretches) - n_permanent
-    if n_springs < 2 * len(stretches):
-        raise ValueError(
-            f"n_springs must be at least {2 * len(stretches)} for this shape with its kinks, got {n_springs}"
-        )
-    core = n_springs if n_band == 0 else max(2, int(n_springs * core_share / max(n_permanent, 1))) * n_permanent
-    counts = []
-    for group, total in ((True, core), (False, n_springs - core)):
-        n = n_permanent if group else n_band
-        counts.append(iter([total // n + (i < total % n) for i in range(n)]))
-    return [next(counts[0] if stretch.permanent else counts[1]) for stretch in stretches]
+def _share_out(stretches: list[_Stretch], n_springs: int, unit: float, alike: bool) -> list[int]:
+    """Number of springs of each stretch: the same, but for those where all move alike."""
+    least = LEAST * len(stretches)
+    if n_springs < least:
+        raise ValueError(f"n_springs must be at least {least} for this shape with its kinks, got {n_springs}")
+    level = np.array([stretch.gap_hi - stretch.gap_lo <= LEVEL * unit for stretch in stretches])
+    as_one = [alike and stretch.permanent for stretch in stretches]
+    shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(as_one, AS_ONE, 1.0)))
+    more = np.rint((n_springs - least) * shares / shares[-1])
+    return (LEAST + np.diff(more, prepend=0).astype(int)).tolist()  # type: ignore[no-any-return]
 
 
 def _springs_of(shape: Indenter, u_z0: float, stretch: _Stretch, n: int) -> tuple[Array, Array, Array]:
-    """Centres, mean gaps and widths of the n cells of a stretch."""
+    """Places, gaps and widths of the n springs of a stretch."""
     span = stretch.x_hi - stretch.x_lo
-    edges = np.arange(n + 1) / n  # shares of the stretch
-    if stretch.x_lo == 0 and not stretch.permanent:
-        edges = edges**2  # the tip leaves: the instant of its touch counts
-    part = np.diff(edges)
-    share = edges[:-1, None] + part[:, None] * _NODES  # (n, 4)
-    rise = _rise(shape, stretch, share, u_z0)
-    gap = stretch.gap_lo + (stretch.gap_hi - stretch.gap_lo) * (rise @ _WEIGHTS)
+    share, part = _fejer(n)
+    gap = stretch.gap_lo + (stretch.gap_hi - stretch.gap_lo) * _rise(shape, stretch, share, u_z0)
     gap += _missing_mean(u_z0, stretch, float(part @ gap))
-    return stretch.x_lo + span * (edges[:-1] + 0.5 * part), gap, 2 * span * part
+    return stretch.x_lo + span * share, gap, 2 * span * part
+
+
+def _fejer(n: int) -> tuple[Array, Array]:
+    """Nodes and weights on 0 to 1, (n,): (1 - cos theta)/2 at midpoints of theta; a sum of all Chebyshev moments."""
+    from scipy.fft import dct
+
+    moments = np.zeros(n)
+    moments[::2] = 1 / (1 - np.arange(0.0, n, 2) ** 2)
+    return np.sin(np.pi / 2 * (np.arange(n) + 0.5) / n) ** 2, dct(moments, type=3) / n
 
 
 def _rise(shape: Indenter, stretch: _Stretch, share: Array, u_z0: float) -> Array:

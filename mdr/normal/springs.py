@@ -1,9 +1,9 @@
 """SpringArray: where the springs stand under the indenter and how stiff each one is.
 
 The half-space becomes a row of independent elements dk_z = E* dx, dk_x = G* dx (Popov and Heß 2015). A spring
-here stands for the pair of cells at +x and -x, so its width counts twice.
+here stands for the pair at +x and -x, so its width, the weight of a rule of integration, counts twice.
 
-Where they stand is the matter of spring_grid.py: finely where springs touch and leave.
+Where they stand is the matter of spring_grid.py: most where springs touch and leave.
 
 Symbols: x position [m], gap = g(x) - u_z0 depth of a spring's foot relative to the mean depth [m] (kept in this
 form because u_z0 may be many orders larger than du_z), width 2 dx [m].
@@ -17,7 +17,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.resolved import resolved
-from mdr.normal.spring_grid import AS_ONE, EACH_ITS_OWN, cells
+from mdr.normal.spring_grid import nodes
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.records import ArrayRecord
@@ -40,16 +40,16 @@ class SpringArray(Summarised, ArrayRecord):
     0.0802 N, in closed form 0.0802 N
     """
 
-    x: Array  #: positions of the cell centres [m]
-    gap: Array  #: mean of g over the cell, less u_z0 [m]
-    width: Array  #: 2 dx, both sides of the contact [m]
+    x: Array  #: positions [m]
+    gap: Array  #: g(x) - u_z0 [m]
+    width: Array  #: weight 2 dx, both sides of the contact [m]
     E_star: float  #: normal modulus [Pa]
     G_star: float  #: tangential modulus [Pa]
     n_core: int  #: the first n_core springs never lose contact
 
     @classmethod
     def of(cls, case: SlidingContact, n_springs: int = 512) -> SpringArray:
-        """The springs of a sliding contact, placed finely where they touch and leave.
+        """The springs of a sliding contact, most of them where they touch and leave.
 
         Parameters
         ----------
@@ -69,8 +69,7 @@ class SpringArray(Summarised, ArrayRecord):
             For fewer than 16 springs.
         """
         case, n_springs = resolved(case), count("n_springs", n_springs, MIN_SPRINGS)
-        share = EACH_ITS_OWN if case.is_shaken else AS_ONE
-        x, gap, width, n_core = cells(case.indenter, case.cycle, case.kept_gap, n_springs, share)
+        x, gap, width, n_core = nodes(case.indenter, case.cycle, case.kept_gap, n_springs, alike=not case.is_shaken)
         return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
 
     def _summary(self) -> Summary:

@@ -19,7 +19,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import followed_springs
-from mdr.normal.spring_grid import cells
+from mdr.normal.spring_grid import nodes
 from mdr.spring.law import law_of
 from mdr.tools.memoise import remembered
 
@@ -34,7 +34,7 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     A deviation grows by this factor in a period: above 1 the depth is unstable.
     """
     rheology, h = Rheology.of(material, load.omega), 2 * np.pi / N_STEPS
-    _, gap, width, n_core = cells(shape, cycle, cycle.kept_gap(rheology.response), N_BAND)
+    _, gap, width, n_core = nodes(shape, cycle, cycle.kept_gap(rheology.response), N_BAND)
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
     band = followed_springs(rheology, gap[n_core:] / cycle.unit, width[n_kept:], cycle, N_STEPS)

@@ -303,7 +303,7 @@ def test_eq_15_holds_for_a_flat_punch_and_a_body():
     assert verdict.measured == verdict.measurement.v_c
     assert verdict.good
     text = str(verdict)
-    assert text.startswith("Eq. (15) is good to 1 % here (0.")
+    assert text.startswith("Eq. (15) is good to 1 % here (")
     assert "the difference is no more than the measurement leaves open" in text
     assert f"{verdict.eq_15:.6g} m/s" in text
     assert "All springs stop sticking at the velocity that the formula gives for one spring" in text

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr.friction.cof_curve import friction_without_bound
 from mdr.friction.shaken import band_of_pull
+from mdr.march.body import Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.stepper import Stepper
 
@@ -210,12 +211,12 @@ def creeping(case, load, e_share, n_periods):
     state = stepper.full_slip()
     state.e[:] = e_share * scaled.normal.s
     start = -load / MU_0 * scaled.normal.mean / spring  # y of a spring that pulls with the load
-    state.body.y[:] = start
+    state.body[:] = start, 0.0
     stepper.within_friction(state)
     state, _ = stepper.advance(state, 5 * n_periods)  # until it rests, but for a swing within the period
-    before = state.body.y[0]
+    before = state.body[Y]
     state, _ = stepper.advance(state, n_periods)
-    return (state.body.y[0] - before) / (2 * np.pi * n_periods) / np.abs(scaled.x_dot).max()
+    return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.x_dot).max()
 
 
 @pytest.mark.parametrize("side", ["low", "high"])

@@ -58,13 +58,13 @@ def test_the_bound_holds_where_two_runs_agree_by_chance():
     check(rows)
 
 
-@pytest.mark.parametrize(("T", "order"), [(0.0, 2.8), (1.0, 2.15)])
+@pytest.mark.parametrize("T", [0.0, 1.0])
 @pytest.mark.parametrize("shape", ["flat", "paraboloid"])
-def test_the_scheme_is_of_second_order_in_the_step_and_of_third_where_every_kink_is_known(shape, T, order):
+def test_the_scheme_is_of_third_order_in_the_step(shape, T):
     """Slope of a least-squares line over a factor of 16: single ratios are erratic, as kinks cross the nodes."""
     case = contact(shape, 1 / 0.9, T)
     n = SHAPES[shape][1]
-    steps, v_hats = 64 * 2 ** np.arange(5), (0.21, 0.37, 0.63)
+    steps, v_hats = 16 * 2 ** np.arange(5), (0.21, 0.37, 0.63)
     errors = np.zeros(steps.size)
     for v_hat in v_hats:
         truth = (
@@ -77,7 +77,8 @@ def test_the_scheme_is_of_second_order_in_the_step_and_of_third_where_every_kink
             errors[i] += abs(run.cof / case.mu_0 - truth)
     slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
     # three velocities average out some of the scatter; what is left of it tilts a line over 16 by 0.45 at most
-    assert abs(slope + order) < 0.45, errors
+    assert slope < -2.5, errors
+    assert errors[-1] < 3e-7
 
 
 @pytest.mark.parametrize("T", [0.0, 1.0])

@@ -10,7 +10,7 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march import kernels, periodic_orbit
+from mdr.march import loop, periodic_orbit
 from mdr.march.march import Knobs, march
 
 RNG = np.random.default_rng(11)
@@ -25,13 +25,13 @@ def itself(x):
 def find(step, x):
     """The fixed point by the march's own method, on a map of which the march knows nothing."""
     how = periodic_orbit.Options()
-    at = how.by_anderson(x, x)
+    at = how.by_anderson(x)
     for _ in range(how.most):
+        at.start[:] = at.x
         image = step(at.x.copy())
-        if kernels.combine(at, image, image):
+        if loop.combine(at, image, np.ones_like(image)):
             break
-        at.measured[:] = at.x
-    change = at.changes[kernels.BEST]
+    change = at.changes[loop.BEST]
     near = periodic_orbit.Iterate(at.best, change) if math.isfinite(change) else None
     return periodic_orbit.find(periodic_orbit.PeriodMap(step), near, itself, lambda: PUSHES, how)
 

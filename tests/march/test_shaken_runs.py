@@ -249,13 +249,9 @@ def test_the_scheme_is_of_second_order(T, alpha, chi, body):
 @pytest.mark.parametrize("T", [0.0, 0.4])
 def test_energy_has_three_drives(T, body, at):
     case = contact("paraboloid", alpha=0.4, T=T, chi=1.5, body=body, at=at)
-    residuals = []
-    for steps in (256, 1024):
-        account = mdr.slide(case, 1e-3, n_springs=64, steps_per_period=steps).energy_balance
-        residuals.append(abs(account.relative))
-        assert account.shake_work > 0.1 * account.friction_loss
-    assert residuals[1] < 1e-4
-    assert residuals[1] < residuals[0] / 8
+    account = mdr.slide(case, 1e-3, n_springs=64, steps_per_period=64).energy_balance
+    assert abs(account.relative) < 1e-9
+    assert account.shake_work > 0.1 * account.friction_loss
 
 
 def test_from_either_start_friction_is_one():
@@ -268,9 +264,9 @@ def test_from_either_start_friction_is_one():
 
 def test_at_rest_the_start_decides_where_a_contact_can_hold():
     case = contact("flat", chi=0.5)
-    forward, rest = (mdr.slide(case, 0.0, start=start).cof for start in ("full_slip", "rest"))
-    assert forward == pytest.approx(0.5 * MU_0, rel=1e-8)
-    assert abs(rest) < 0.5 * MU_0 - 1e-6
+    forward, rest = (mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest"))
+    assert abs(forward.cof - 0.5 * MU_0) <= forward.cof_error
+    assert abs(rest.cof) < 0.5 * MU_0 - 1e-6
 
 
 def test_without_a_shake_a_velocity_is_positive():

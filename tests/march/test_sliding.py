@@ -105,48 +105,13 @@ def test_records_have_their_shapes(case):
 # --- the lumped core ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "body elastic", "body Kelvin", "massless Kelvin"])
-def test_the_lumped_core_equals_the_full_array(name):
-    lumped, full = (coarse(CONTACTS[name], 0.43, 40, record=1, lump=lump) for lump in (True, False))
-    assert mdr.SpringArray.of(CONTACTS[name], 96).n_core > 1
-    # sums in another order: 1e-16 a step, which the march of a body neither damps nor blows up within 40 periods
-    assert_allclose(lumped.cof, full.cof, rtol=1e-11)
-    assert_allclose(lumped.e, full.e, rtol=0, atol=1e-9 * np.max(np.abs(full.e)))
-    same = lumped.state == full.state
-    assert np.mean(same) > 0.999  # where a force meets its bound to rounding, the mode is a toss-up
-    assert_allclose(lumped.stick_share, full.stick_share, atol=1e-3)
-
-
-def test_a_core_that_slips_back_is_computed_spring_by_spring(monkeypatch):
-    """Slipping backward is not slipping as one: the outer springs of the core turn first."""
-    case = contact(**BACKWARD)
-    lumps = []
-    steady = march.steady
-    monkeypatch.setattr(march, "steady", lambda *args: lumps.append(args[2].lump) or steady(*args))
-    run = coarse(case, 21.6, 40, record=1)
-    assert lumps == [True, False], "the lumped march was taken back"
-    full = coarse(case, 21.6, 40, record=1, lump=False)
-    n_core = mdr.SpringArray.of(case, 96).n_core
-    back = np.any(full.state[:, :n_core] == State.SLIP_BACK, axis=0)
-    assert back.any(), "the case is to show backward slip of the core"
-    for name in SCALARS:
-        assert getattr(run, name) == getattr(full, name), name
-    assert_array_equal(run.e, full.e)
-
-    begin = Stepper.__init__
-
-    def unwatched(self, *args, **knobs):
-        begin(self, *args, **knobs)
-        self.springs = self.springs._replace(lump_margin=-np.inf)
-
-    monkeypatch.setattr(Stepper, "__init__", unwatched)
-    trusting = coarse(case, 21.6, 40, record=1)
-    assert np.max(np.abs(trusting.e - full.e)) > 1e-6 * np.max(np.abs(full.e)), "without the watch it would be wrong"
-
-
-def test_from_rest_no_core_is_lumped():
-    one, other = (coarse(CONTACTS["rigid elastic"], 0.43, start="rest", lump=lump, record=1) for lump in (True, False))
-    assert_array_equal(one.e, other.e)
+def test_springs_that_stand_alike_are_marched_as_one():
+    """Nothing tells one spring of a flat punch from another; the records have all of them."""
+    for case in (contact("flat"), contact("flat", 1 / 1.3, 1.0, **BODY)):
+        one, all_of_them = (coarse(case, 0.43, 40, record=1, lump=lump) for lump in (True, False))
+        assert_allclose(one.cof, all_of_them.cof, rtol=1e-11)
+        assert_allclose(one.e, all_of_them.e, rtol=0, atol=1e-9 * np.max(np.abs(one.e)))
+        assert np.mean(one.state == all_of_them.state) > 0.99  # where a force meets its limit to rounding: a toss-up
 
 
 # --- start --------------------------------------------------------------------------------------------------
@@ -228,9 +193,9 @@ def test_above_v_c_nothing_sticks_and_friction_is_full(name):
     assert run.stick_share == 0
     # in full slip e = s spring by spring, to rounding
     assert_allclose(run.cof, case.mu_0, rtol=1e-9)
-    # the slip velocity exceeds v_0 - v_c; a chord over a step misses its minimum by slip'' h²/24 and, with a
-    # dashpot, a share of the step in which the springs touch
-    assert_allclose(run.least_slip, 0.02 * v_c, rtol=0, atol=2e-3 * v_c)
+    # the slip velocity exceeds v_0 - v_c; its minimum is missed by slip'' h²/8 between two nodes at most. A spring
+    # that touches throws a body without mass by its share of the force, 1/32, of which others soften a part
+    assert_allclose(run.least_slip, 0.02 * v_c, rtol=0, atol=(1e-2 if name == "massless Kelvin" else 5e-4) * v_c)
     below = mdr.slide(case, 0.97 * v_c)
     assert below.stick_share > 0
     assert case.mu_0 - below.cof > 10 * below.cof_error
@@ -312,10 +277,10 @@ def check_forces(case, run, normal, shear):
     assert stick.any()
     assert slip.any()
     assert np.all(np.abs(shear[stick]) < bound[stick])
-    assert_allclose(shear[slip], bound[slip], rtol=1e-9)
-    assert_allclose(shear[back], -bound[back], rtol=1e-9)
-    assert_array_equal(normal[free], 0)
-    assert_array_equal(shear[free], 0)
+    assert_allclose(shear[slip], bound[slip], rtol=1e-9, atol=1e-14 * bound.max())
+    assert_allclose(shear[back], -bound[back], rtol=1e-9, atol=1e-14 * bound.max())
+    assert_allclose(normal[free], 0, atol=1e-14 * bound.max())
+    assert_allclose(shear[free], 0, atol=1e-14 * bound.max())
     assert_allclose(run.F_x, shear.sum(axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
     assert_allclose(run.F_z, normal.sum(axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
     # stick goes with the body: from node to node the foot rests
@@ -325,10 +290,14 @@ def check_forces(case, run, normal, shear):
 
 
 def test_stick_share_is_the_force_weighted_share_of_time():
-    case = CONTACTS["rigid elastic"]
-    run, springs = coarse(case, 0.43, 24, record=1), mdr.SpringArray.of(case, 96)
-    normal = springs.dk_z * np.maximum(run.u_z[:, None] - case.oscillation.u_z0 - springs.gap, 0)
-    assert_allclose(run.stick_share, np.sum(normal[run.state == State.STICK]) / np.sum(normal), rtol=1e-9)
+    """Of the modes at the nodes that is a sum of first order; the share itself is exact."""
+    case, off = CONTACTS["rigid elastic"], []
+    for steps in (256, 4096):
+        run, springs = coarse(case, 0.43, 8, record=1, steps_per_period=steps), mdr.SpringArray.of(case, 96)
+        normal = springs.dk_z * np.maximum(run.u_z[:, None] - case.oscillation.u_z0 - springs.gap, 0)
+        off.append(abs(run.stick_share - np.sum(normal[run.state == State.STICK]) / np.sum(normal)))
+    assert off[0] < 1 / 128
+    assert off[1] < off[0] / 4
 
 
 # --- energy -------------------------------------------------------------------------------------------------
@@ -336,30 +305,16 @@ def test_stick_share_is_the_force_weighted_share_of_time():
 
 @on_all
 def test_energy_is_conserved(case):
-    balance = run_at(case, 0.43).energy_balance
-    # each term has its own quadrature of second order: (2 pi/1024)² times a few tens, erratic where contact is lost
-    assert abs(balance.relative) < 1e-3
-    for name in ("pull_work", "friction_loss"):
-        assert getattr(balance, name) > 0
-    assert (balance.viscous_loss > 0) == (case.T > 0)
-    damped = isinstance(case.pull, mdr.SpringPull) and case.pull.c_x > 0
-    assert (balance.damper_loss > 0) == damped
-
-
-@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "body elastic", "body Kelvin"])
-def test_the_energy_residual_falls_with_the_square_of_the_step(name):
-    case, steps = CONTACTS[name], 64 * 2 ** np.arange(6)
-    residual = [
-        np.mean(
-            [
-                abs(coarse(case, v_hat, 24, steps_per_period=int(n)).energy_balance.relative)
-                for v_hat in (0.3, 0.43, 0.7)
-            ]
-        )
-        for n in steps
-    ]
-    slope = np.polyfit(np.log(steps), np.log(residual), 1)[0]
-    assert slope < -1.7, residual  # single ratios are erratic, as kinks cross the nodes
+    """Each term from its own definition: exact but for the damper and the motion of a body between two nodes."""
+    for steps in (64, 256):
+        balance = coarse(case, 0.43, 24, steps_per_period=steps).energy_balance
+        bound = 1e-9 if isinstance(case.pull, mdr.RigidPull) else 1e-3 if case.pull.m else 1e-2
+        assert abs(balance.relative) < (bound if bound == 1e-9 else bound * (64 / steps) ** 2)
+        for name in ("pull_work", "friction_loss"):
+            assert getattr(balance, name) > 0
+        assert (balance.viscous_loss > 0) == (case.T > 0)
+        damped = isinstance(case.pull, mdr.SpringPull) and case.pull.c_x > 0
+        assert (balance.damper_loss > 0) == damped
 
 
 @pytest.mark.parametrize("name", ["rigid elastic", "body Kelvin"])
@@ -419,7 +374,6 @@ def test_default_knobs_refine_until_the_budget_is_met():
     assert run.cof_error <= 1e-5 * run.mu_0
     given = run_at(contact("cone", 0.7), 0.05, n_springs=32, steps_per_period=64)
     assert (given.n_springs, given.steps_per_period) == (32, 64)
-    assert given.cof_error > 1e-5 * given.mu_0
     assert abs(given.cof - run.cof) <= given.cof_error + run.cof_error
 
 
@@ -522,19 +476,19 @@ def test_a_slip_velocity_that_falls_with_every_finer_step_is_not_clear_of_stick(
     assert run.steps_per_period > 1024  # at the first it slips throughout
 
 
-def test_a_contact_that_begins_and_ends_within_a_step_is_refused_and_by_default_resolved():
+@pytest.mark.parametrize("pull", [mdr.RigidPull(), mdr.SpringPull(2e3, 0.02, 1.0)], ids=["rigid", "body"])
+def test_a_contact_that_begins_and_ends_within_a_step_has_a_friction_too(pull):
     """It presses for 2e-3 of phase about the instant at which it is deepest."""
     phase = 0.01  # between the instants of coarse steps
     cos, sin = 2e-6 * math.cos(phase), 2e-6 * math.sin(phase)
     motion = mdr.PeriodicMotion(300.0, -2e-6 * math.cos(1e-3), (cos,), (sin,))
-    case = mdr.SlidingContact(SHAPES["paraboloid"][0], mdr.Elastic(3e6, 0.4), 0.4, motion)
-    for knobs in ({"n_springs": 32, "steps_per_period": 64}, {"n_springs": 32, "steps_per_period": 64, "n_periods": 4}):
-        with pytest.raises(ValueError, match="steps_per_period = 64 is too coarse: the contact begins and ends within"):
-            mdr.slide(case, case.unit_velocity, **knobs)
-    run = mdr.slide(case, case.unit_velocity, n_springs=32)
-    assert run.steps_per_period > 1024
-    assert math.isfinite(run.stick_share)
-    assert math.isfinite(run.least_slip)
+    case = mdr.SlidingContact(SHAPES["paraboloid"][0], mdr.Elastic(3e6, 0.4), 0.4, motion, pull)
+    for v_0 in (0.2 * case.unit_velocity, case.unit_velocity):
+        given, run = mdr.slide(case, v_0, n_springs=32, steps_per_period=64), mdr.slide(case, v_0, n_springs=32)
+        assert run.settled
+        assert abs(run.cof - given.cof) <= run.cof_error + given.cof_error
+        assert math.isfinite(run.stick_share)
+        assert math.isfinite(run.least_slip)
 
 
 def test_a_swing_that_rings_for_ages_is_not_settled_however_steady_friction_is(monkeypatch):

@@ -1,0 +1,108 @@
+"""The body: a linear oscillator between the pull and the springs, over one step under their force.
+
+M y'' + C y' + K y = -F(t), with its motion y relative to the pull. A step gives the area and the moment of F, and the
+body answers a force that is linear in the step, with this area and moment, exactly. So it has no dispersion of its own,
+and right impulses whatever happens within a step.
+
+A *light* body, without mass or one whose oscillation on the contact the steps do not resolve, follows the springs at
+once. It too moves on a parabola in a step, from where it is, such that the impulse of all forces over the step is zero
+and their sum at its end too: Radau's method of third order. What it does not resolve dies out at once.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.spring.law import Law, fill_phi
+from mdr.tools.arrays import Array
+
+RESOLVED = 16  #: steps per oscillation of the body on the contact, from which on it counts as resolved
+Y, RATE = range(2)  #: parts of a state of the body
+N_BODY = 2
+
+
+class Body(NamedTuple):
+    """The body over steps of h."""
+
+    rigid: bool  #: whether it moves as it is pulled, whatever the force
+    light: bool
+    M: float
+    C: float
+    K: float
+    h: float
+    free: Array  #: (2, 2) motion without force, of (y, y')
+    area: Array  #: (2,) what the area of the force takes off
+    moment: Array  #: (2,) what its moment takes off
+    stuck: Array  #: (2, 2) derivative of what the force takes off by (y, y') at the end, if all springs stick
+
+
+def body_of(M: float, C: float, K: float, law: Law, h: float, light: bool) -> Body:
+    """The body of these groups over steps of h; K is infinite under a rigid pull."""
+    none, square = np.zeros(2), np.zeros((2, 2))
+    if np.isinf(K):
+        return Body(True, False, 0.0, 0.0, 0.0, h, square, none, none, square)
+    if light:
+        return Body(False, True, M, C, K, h, square, none, none, square)
+    from scipy.linalg import expm
+
+    # the response to a force f + g t, beside the free motion: y'' = (-K y - C y' - f - g t)/M
+    A = np.zeros((4, 4))
+    A[0, 1], A[1] = 1.0, [-K / M, -C / M, -1 / M, 0.0]
+    A[2, 3] = 1.0
+    move = expm(h * A)
+    free, constant, linear = move[:2, :2], move[:2, 2], move[:2, 3]
+    # f = 4 a/h - 6 b/h², g = 12 b/h³ - 6 a/h² has the area a and the moment b
+    area = -(4 / h * constant - 6 / h**2 * linear)
+    moment = -(12 / h**3 * linear - 6 / h**2 * constant)
+    return Body(False, False, M, C, K, h, free, area, moment, _stuck(law, h, area, moment))
+
+
+def _stuck(law: Law, h: float, area: Array, moment: Array) -> Array:
+    """Derivative of what the force takes off, if all springs stick: they move by p t + q t², p and q of (y, y')."""
+    T = law.T
+    a = np.array([h**2 / 2 + T * h, h**3 / 3 + T * h**2])  # of the area by p and q
+    b = np.array([h**3 / 3 + T * h**2 / 2, h**4 / 4 + 2 * T * h**3 / 3])
+    phi = np.empty(5)
+    for rho, theta in zip(*(law.arms or ((), ())), strict=True):
+        fill_phi(h / theta, phi)
+        a += rho * np.array([h**2 * phi[2], 2 * h**3 * phi[3]])
+        b += rho * np.array([h**3 * (phi[2] - phi[3]), 2 * h**4 * (phi[3] - phi[4])])
+    of_ends = np.array([[1 / h, -0.5], [0.0, 0.5 / h]])  # p and q by y and y' at the end
+    return np.asarray((np.outer(area, a) + np.outer(moment, b)) @ of_ends)
+
+
+def harmonics_of(
+    body: Body, areas: NDArray[np.complex128], moments: NDArray[np.complex128]
+) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
+    """Periodic motion (2, N) of y and y' at the begin of steps, over harmonics (N,) of areas and moments of the force
+    (as of rfft), and which of them are undamped resonances, where it is zero.
+    """
+    n = areas.size
+    turn = np.exp(2j * np.pi * np.arange(n) / (2 * (n - 1)))
+    matrix = turn[:, None, None] * np.eye(2) - body.free
+    resonant = np.abs(np.linalg.det(matrix)) < max(1e-9 * body.h**2, 2e-15)
+    matrix[resonant] = np.eye(2)
+    pushed = -(np.outer(areas, body.area) + np.outer(moments, body.moment))
+    pushed[resonant] = 0
+    return np.linalg.solve(matrix, pushed[:, :, None])[:, :, 0].T, resonant
+
+
+def light_harmonics_of(
+    body: Body, areas: NDArray[np.complex128], ends: NDArray[np.complex128]
+) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
+    """The same of a light body, by harmonics of areas and of the force at the end of each step."""
+    n, h, (M, C, K) = areas.size, body.h, (body.M, body.C, body.K)
+    turn = np.exp(2j * np.pi * np.arange(n) / (2 * (n - 1)))
+    # y' at the end is (y_1 - y_0)/h + q h, of y_0 and the curvature q
+    rate_y, rate_q = (turn - 1) / h, h
+    momentum = M * (1 - 1 / turn)
+    matrix = np.empty((n, 2, 2), dtype=complex)
+    matrix[:, 0, 0] = momentum * rate_y + C * (turn - 1) + K * h * (turn + 1) / 2
+    matrix[:, 0, 1] = momentum * rate_q - K * h**3 / 6
+    matrix[:, 1, 0] = C * rate_y + K * turn
+    matrix[:, 1, 1] = C * rate_q + 2 * M
+    y, q = np.linalg.solve(matrix, -np.array([areas, ends]).T[:, :, None])[:, :, 0].T
+    return np.array([y, (rate_y * y + rate_q * q) / turn]), np.zeros(n, dtype=bool)

@@ -1,0 +1,369 @@
+"""The compiled march: springs and body step by step, period by period, and the search for a state that returns.
+
+Scaled form (dimensionless.py): time is omega t, normal lengths are in du_z, tangential ones in mu_0 kappa du_z,
+stiffnesses in that of the array. A state is one vector: extensions (1 + J, n) of the springs and their arms, then the
+body (body.py). The compressions go beside it, as friction has no part in them.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.march.body import RATE, Y
+from mdr.spring.step import SHEAR_WORK, Look, Path, Tools, fill, press, row
+from mdr.tools.anderson import shares
+from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
+
+_jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+
+SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
+MOST_TURNS = 16  #: of the solution of a step
+CLOSE = 1e-14  #: of a step of the body, over its motion
+
+
+class Motion(NamedTuple):
+    """The way of the indenter over one period of n_t steps, without the body."""
+
+    z: Array  #: (n_t + 1,) normal motion
+    z_dot: Array  #: (n_t + 1,) its rate
+    v: float  #: steady velocity of the pull
+    x: Array  #: (n_t + 1,) way of a shake in the plane
+    x_dot: Array  #: (n_t + 1,) its rate
+
+
+class Springs(NamedTuple):
+    """The row of springs."""
+
+    gap: Array  #: (n,) depth of each foot below the mean surface position
+    w: Array  #: (n,) share of each spring in the stiffness
+
+
+class Trace(NamedTuple):
+    """What a march leaves of each of its steps."""
+
+    area: Array  #: (n_steps,) of the tangential force
+    moment: Array  #: (n_steps,) of it
+    y: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
+    rate: Array  #: (n_steps,) its rate there
+
+
+class Seen(NamedTuple):
+    """What a close look at a period fills, of n_t steps and n springs."""
+
+    sums: Array  #: (N_SUMS,)
+    F: Array  #: (n_t, 3) at the end of each step: tangential and normal force, least slip velocity
+    mode: Array  #: (n_t or 0, n) of each spring
+    f_x: Array  #: (n_t or 0, n) its force over its stiffness
+    f_z: Array  #: (n_t or 0, n)
+    e: Array  #: (n_t or 0, n)
+    s: Array  #: (n_t or 0, n)
+
+
+@_jit
+def put(x, out):
+    """Copy x into out, of the same shape (k, n)."""
+    for j in range(x.shape[0]):
+        for i in range(x.shape[1]):
+            out[j, i] = x[j, i]
+
+
+@_jit
+def path_of(motion, k, h, y_0, rate_0, y_1, rate_1):
+    """The parabolas of a step, with the body from y_0 to y_1 and its rates at both ends."""
+    z, zd, x, xd = motion.z, motion.z_dot, motion.x, motion.x_dot
+    z_2 = (zd[k + 1] - zd[k]) / (2.0 * h)
+    x_2 = (xd[k + 1] - xd[k] + rate_1 - rate_0) / (2.0 * h)
+    x_1 = motion.v + (x[k + 1] - x[k] + y_1 - y_0) / h - x_2 * h
+    return Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, x_1, x_2)
+
+
+@_jit
+def later(path, t):
+    """The same motion from a time in the step on."""
+    z_0 = path.z_0 + t * (path.z_1 + t * path.z_2)
+    return Path(z_0, path.z_1 + 2.0 * path.z_2 * t, path.z_2, path.x_1 + 2.0 * path.x_2 * t, path.x_2)
+
+
+@_jit
+def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, seen):
+    """March n_steps from step `first` of the period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
+
+    seen: None, or what a close look at a whole period fills. Returns whether every step was solved for.
+    """
+    h, n_t, solved = tools.h, motion.z.size - 1, True
+    e_0, s_0 = np.empty_like(e), np.empty_like(s)
+    gained = 0.0  # change of the rate in the step before, as a guess
+    for j in range(n_steps):
+        k = (first + j) % n_t
+        if k == 0:  # the same guess however many periods are marched at once
+            gained = 0.0
+        rate_0, flown, now = held[RATE], 0.0, tools
+        path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
+        if body.light:
+            flown = flight_of(s, springs.gap, path, law, tools)
+            if flown > 0.0:  # a step of its own: the body is thrown as the first spring touches
+                now = tools_of(flown, law, tools)
+                put(e, e_0)
+                put(s, s_0)
+                whole = path
+                path, _, _, _ = balance(e, s, e_0, s_0, held, body, springs, path, law, now)
+                if seen is not None:
+                    look_at(s_0, e_0, s, e, springs, path, law, now, k, seen)
+                path, now = later(whole, flown), tools_of(h - flown, law, tools)
+        put(e, e_0)
+        put(s, s_0)
+        if body.rigid:
+            found = True
+            area, moment, _, _, _, _ = row(
+                s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
+            )
+        elif body.light:
+            path, area, moment, found = balance(e, s, e_0, s_0, held, body, springs, path, law, now)
+        else:
+            path, area, moment, found = answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools)
+        solved = solved and found
+        gained = held[RATE] - rate_0
+        if seen is not None:
+            look_at(s_0, e_0, s, e, springs, path, law, now, k, seen)
+        trace.area[j], trace.moment[j] = area, moment + flown * area
+        trace.y[j], trace.rate[j] = held[Y], held[RATE]
+    return solved
+
+
+@_jit
+def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
+    """A step of a body with mass: it moves as area and moment of the force make it, and the springs move with it.
+
+    Newton's method on its motion at the end, by the stiffness of what sticks. gained: change of its velocity in the
+    step before. Returns path, area, moment and whether this was solved; e, s, held are updated.
+    """
+    h, free, y_0, rate_0 = tools.h, body.free, held[Y], held[RATE]
+    y_free, rate_free = free[0, 0] * y_0 + free[0, 1] * rate_0, free[1, 0] * y_0 + free[1, 1] * rate_0
+    y, rate, found = y_0 + h * (rate_0 + 0.5 * gained), rate_0 + gained, False
+    for turn in range(MOST_TURNS):
+        if turn > 0:
+            put(e_0, e)
+            put(s_0, s)
+        path = path_of(motion, k, h, y_0, rate_0, y, rate)
+        area, moment, stuck, _, _, _ = row(
+            s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
+        )
+        off = y - y_free + body.area[0] * area + body.moment[0] * moment
+        off_rate = rate - rate_free + body.area[1] * area + body.moment[1] * moment
+        found = abs(off) + h * abs(off_rate) <= CLOSE * (abs(y) + h * (abs(rate) + motion.v) + h * h)
+        if found:
+            break
+        share = stuck / h
+        a, b = 1.0 + share * body.stuck[0, 0], share * body.stuck[0, 1]
+        c, d = share * body.stuck[1, 0], 1.0 + share * body.stuck[1, 1]
+        det = a * d - b * c
+        y, rate = y - (d * off - b * off_rate) / det, rate - (a * off_rate - c * off) / det
+    held[Y], held[RATE] = y, rate
+    return path, area, moment, found
+
+
+@_jit
+def balance(e, s, e_0, s_0, held, body, springs, here, law, tools):
+    """A step of a light body: no impulse of all forces is left over it, and no force at its end.
+
+    here: motion of the indenter. Newton's method on y at the end and u = y'' h²/2, by the stiffness of what
+     sticks, and half a step of it where that leads away. Returns path, area, moment and whether this was solved;
+    e, s, held are updated.
+    """
+    h, T, M, C, K, y_0, rate_0 = tools.h, law.T, body.M, body.C, body.K, held[Y], held[RATE]
+    stiff = 1.0 + glassy(law.arms)
+    zd, xd, found = here.z_1 + 2.0 * here.z_2 * h, here.x_1 + 2.0 * here.x_2 * h, False
+    y, u, y_was, u_was, least = y_0 + h * rate_0, 0.0, y_0, 0.0, np.inf
+    for turn in range(MOST_TURNS):
+        if turn > 0:
+            put(e_0, e)
+            put(s_0, s)
+        path = Path(here.z_0, here.z_1, here.z_2, here.x_1 + (y - y_0 - u) / h, here.x_2 + u / (h * h))
+        rate = (y - y_0 + u) / h
+        area, moment, stuck, when, end, sticking = row(
+            s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd + rate, None
+        )
+        impulse = M * (rate - rate_0) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
+        force = 2.0 * M * u / (h * h) + C * rate + K * y + end
+        size = abs(K * y) + abs(end) + (M / (h * h) + C / h + K) * (abs(y - y_0) + abs(u))
+        off = abs(impulse) + abs(force)
+        found = off <= CLOSE * size
+        if found:
+            break
+        if off > least:  # too far, as other springs stick there
+            y, u = 0.5 * (y + y_was), 0.5 * (u + u_was)
+            continue
+        y_was, u_was, least = y, u, off
+        share, inertia = stuck / h, M / (h * h) + C / h
+        a = inertia + 0.5 * (K + share * stiff) + T * share / h
+        b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * when / h - stuck) / (h * h)
+        c, d = C / h + K + sticking * (stiff + T / h), 2.0 * M / (h * h) + (C + sticking * T) / h
+        det = a * d - b * c
+        y, u = y - (d * impulse - b * force) / det, u - (a * force - c * impulse) / det
+    held[Y], held[RATE] = y, rate
+    return path, area, moment, found
+
+
+@_jit
+def glassy(arms):
+    """Sum of the moduli of the arms."""
+    total = 0.0
+    if arms is not None:
+        for j in range(arms.rho.size):
+            total += arms.rho[j]
+    return total
+
+
+@_jit
+def tools_of(h, law, tools):
+    """The tools of another step."""
+    one = Tools(h, np.empty_like(tools.phi), np.empty_like(tools.decay), *tools[3:])
+    fill(h, law.modes, law.arms, one, 0)
+    return one
+
+
+@_jit
+def flight_of(s, gap, path, law, tools):
+    """How long the first spring is in flight from the start of a step; zero if it presses there, or if it does not
+    touch within the step.
+    """
+    if s[0, 0] <= path.z_0 - gap[0]:
+        return 0.0
+    first, since = s[:, :1].copy(), np.zeros(1)
+    press(first, gap[:1], np.ones(1), path, law.T, law.modes, law.arms, tools, since)
+    return tools.h * (1.0 - since[0]) if SHORTEST < since[0] < 1.0 - SHORTEST else 0.0
+
+
+@_jit
+def look_at(s_0, e_0, s, e, springs, path, law, tools, k, seen):
+    """A close look at a step from s_0, e_0 (which it uses up) to s, e; fills place k of seen."""
+    keeps = seen.mode.shape[0] > 0
+    n, h = springs.gap.size, tools.h
+    mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.zeros(3)
+    look = Look(seen.sums, F, mode, f_x, f_z)
+    zd, xd = path.z_1 + 2.0 * path.z_2 * h, path.x_1 + 2.0 * path.x_2 * h
+    area, moment, _, _, _, _ = row(
+        s_0, e_0, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd, look
+    )
+    seen.sums[SHEAR_WORK] += path.x_1 * area + 2.0 * path.x_2 * moment
+    for m in range(3):
+        seen.F[k, m] = F[m]
+    if keeps:
+        for i in range(n):
+            seen.mode[k, i], seen.f_x[k, i], seen.f_z[k, i] = mode[i], f_x[i], f_z[i]
+            seen.e[k, i], seen.s[k, i] = e[0, i], s[0, i]
+
+
+# --- the periodic state ---------------------------------------------------------------------------
+
+PERIODS, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
+LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
+
+
+class Search(NamedTuple):
+    """Anderson's method on its way to a state that returns after a period, updated in place. Measured is a state as a
+    vector whose length is the root of its energy.
+    """
+
+    x: Array  #: (n_x,) the state that the next period starts from
+    start: Array  #: (n_x,) the one that the last period started from
+    image: Array  #: (n_x,) what it came to
+    moved: Array  #: (n_x,) how far that was, measured
+    best: Array  #: (n_x,) the image that moved least
+    d_image: Array  #: (memory, n_x) from image to image, oldest first
+    d_moved: Array  #: (memory, n_x) from move to move, measured
+    counts: NDArray[np.int64]  #: (3,)
+    changes: Array  #: (2,)
+    close: float  #: change at which the search ends
+    plain: int  #: periods before the first combination, while springs find their modes
+    patience: int  #: periods without a smaller change, after which it ends as well
+    growth: float  #: of the change over the least, at which combinations start anew
+
+
+@_jit
+def combine(at, image, roots):
+    """Take into a search what a period has made of at.x; whether the search has come to its end. If not, at.x is the
+    state to go on from.
+    """
+    counts, changes = at.counts, at.changes
+    size = change = 0.0
+    for i in range(image.size):
+        size += (roots[i] * image[i]) ** 2
+        change += (roots[i] * (image[i] - at.start[i])) ** 2
+    if not np.isfinite(size):
+        changes[BEST] = np.nan
+        return True
+    change = np.sqrt(change) / (np.sqrt(size) + 1e-300)
+    period = counts[PERIODS]
+    counts[PERIODS] += 1
+    if change < changes[BEST]:
+        at.best[:] = image
+        changes[BEST], counts[SINCE] = change, period
+    if change <= at.close or period - counts[SINCE] > at.patience:
+        return True
+    if change > at.growth * changes[LEAST] or period == 0:
+        counts[KEPT], changes[LEAST] = 0, np.inf
+    else:
+        if counts[KEPT] == at.d_image.shape[0]:
+            for j in range(1, counts[KEPT]):
+                at.d_image[j - 1] = at.d_image[j]
+                at.d_moved[j - 1] = at.d_moved[j]
+            counts[KEPT] -= 1
+        for i in range(image.size):
+            at.d_image[counts[KEPT], i] = image[i] - at.image[i]
+            at.d_moved[counts[KEPT], i] = roots[i] * (image[i] - at.start[i]) - at.moved[i]
+        counts[KEPT] += 1
+    changes[LEAST] = min(changes[LEAST], change)
+    for i in range(image.size):
+        at.image[i] = at.x[i] = image[i]
+        at.moved[i] = roots[i] * (image[i] - at.start[i])
+    if period >= at.plain and counts[KEPT] > 0:
+        share = shares(at.d_moved[: counts[KEPT]], at.moved, 1e-10)
+        for j in range(share.size):
+            for i in range(image.size):
+                at.x[i] -= share[j] * at.d_image[j, i]
+    return False
+
+
+@_jit
+def within_friction(x, s):
+    """Bring the extensions of a state x into the cone of friction: combinations may leave it."""
+    for i in range(s.shape[1]):
+        x[i] = max(min(x[i], s[0, i]), -s[0, i])
+
+
+@_jit
+def settle_in(states, s, body, springs, motion, law, tools, n_periods, trace, before, after):
+    """March states (k, n_x) for some periods and one more, each on its own: fills before and after, of that shape."""
+    now, n_e, n_t = np.empty_like(s), s.size, motion.z.size - 1
+    for j in range(states.shape[0]):
+        x = after[j]
+        x[:] = states[j]
+        for turn in range(n_periods + 1):
+            if turn == n_periods:
+                before[j] = x
+            put(s, now)
+            within_friction(x, s)
+            march(x[:n_e].reshape(s.shape), now, x[n_e:], body, springs, motion, law, tools, 0, n_t, trace, None)
+
+
+@_jit
+def search(at, s, roots, body, springs, motion, law, tools, n_periods, trace):
+    """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
+
+    s: (1 + J, n) compressions at the start of a period. trace: of the last period.
+    """
+    now, image, n_e, n_t, ended = np.empty_like(s), np.empty_like(at.x), s.size, motion.z.size - 1, False
+    while n_periods > 0 and not ended:
+        n_periods -= 1
+        image[:] = at.x
+        put(s, now)
+        within_friction(image, s)
+        at.start[:] = image
+        march(image[:n_e].reshape(s.shape), now, image[n_e:], body, springs, motion, law, tools, 0, n_t, trace, None)
+        ended = combine(at, image, roots)
+    return ended

@@ -1,0 +1,123 @@
+"""The body over a step: the oscillator itself under a force that is linear in a step, and its harmonics."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from mdr.march.body import body_of, harmonics_of, light_harmonics_of
+from mdr.spring.law import law_of
+
+N = 64
+H = 2 * np.pi / N
+#: M, C, K
+BODIES = {
+    "undamped": (0.3, 0.0, 0.7),
+    "damped": (0.3, 0.15, 0.7),
+    "overdamped": (2.0, 9.0, 0.7),
+    "soft": (0.3, 0.01, 0.05),
+    "free": (0.3, 0.0, 0.0),
+}
+
+
+def answered(body, state, area, moment):
+    """The state a step later."""
+    return body.free @ state - body.area * area - body.moment * moment
+
+
+@pytest.mark.parametrize(("M", "C", "K"), BODIES.values(), ids=BODIES)
+def test_a_force_that_is_linear_in_the_step_is_answered_exactly(M, C, K):
+    body, (f, g), start = body_of(M, C, K, law_of(0.0), H, light=False), (0.8, -3.0), [0.2, -0.5]
+
+    def rate(t, x):
+        return [x[1], -(f + g * t + C * x[1] + K * x[0]) / M]
+
+    exact = solve_ivp(rate, (0, H), start, rtol=1e-12, atol=1e-14, method="DOP853").y[:, -1]
+    now = answered(body, start, f * H + g * H**2 / 2, f * H**2 / 2 + g * H**3 / 3)
+    assert_allclose(now, exact, rtol=1e-11)
+
+
+@pytest.mark.parametrize("at", [0.0, 0.3, 1.0])
+def test_an_impulse_changes_the_momentum_wherever_in_the_step_it_acts(at):
+    """And the way by what is left of the step: of a free mass area and moment tell all."""
+    M = 0.3
+    body = body_of(M, 0.0, 0.0, law_of(0.0), H, light=False)
+    assert_allclose(answered(body, [0.0, 0.0], 1.0, at * H), [-(1 - at) * H / M, -1 / M], atol=1e-14)
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+@pytest.mark.parametrize("arm", [(), (2.0,)])
+def test_the_stiffness_of_springs_that_stick_is_the_derivative_of_what_they_take(T, arm):
+    """Newton's method of a step rests on it: from ends (y, y') springs are held on a parabola, and answer by L."""
+    law = law_of(T, arm, (0.4,) * len(arm))
+    body = body_of(0.3, 0.1, 0.7, law, H, light=False)
+    t, weight = np.polynomial.legendre.leggauss(24)
+    t, weight = H * (t + 1) / 2, H * weight / 2
+    for column, (y, rate) in enumerate(((1.0, 0.0), (0.0, 1.0))):
+        q = rate / (2 * H)
+        p = y / H - q * H
+        force = p * t + q * t**2 + T * (p + 2 * q * t)
+        for rho in arm:  # x_j' = x' - x_j/theta, from rest
+            u, w = np.polynomial.legendre.leggauss(24)
+            for k, end in enumerate(t):
+                past, share = end * (u + 1) / 2, end * w / 2
+                force[k] += rho * float(share @ ((p + 2 * q * past) * np.exp(-(end - past) / 0.4)))
+        taken = body.area * (weight @ force) + body.moment * (weight @ (t * force))
+        assert_allclose(body.stuck[:, column], taken, rtol=1e-9)
+
+
+@pytest.mark.parametrize(("M", "C", "K"), list(BODIES.values())[1:4], ids=list(BODIES)[1:4])
+def test_harmonics_repeat_themselves_under_the_steps(M, C, K):
+    rng = np.random.default_rng(3)
+    area, moment = H * rng.normal(size=N), H**2 / 2 * rng.normal(size=N)
+    body = body_of(M, C, K, law_of(0.0), H, light=False)
+    motion, resonant = harmonics_of(body, np.fft.rfft(area), np.fft.rfft(moment))
+    assert not resonant.any()
+    y = np.fft.irfft(motion, N)
+    for k in range(N):
+        assert_allclose(answered(body, y[:, k], area[k], moment[k]), y[:, (k + 1) % N], atol=1e-12 * np.abs(y).max())
+
+
+@pytest.mark.parametrize("n", [1, 3])
+def test_an_undamped_resonance_is_named(n):
+    body = body_of(0.3, 0.0, 0.3 * n**2, law_of(0.0), H, light=False)
+    force = np.fft.rfft(H * np.cos(n * H * np.arange(N)))
+    motion, resonant = harmonics_of(body, force, H / 2 * force)
+    assert np.flatnonzero(resonant).tolist() == [n]
+    assert np.all(np.isfinite(motion))
+    assert_allclose(motion[:, n], 0)
+
+
+def light_motion(M, C, K, n, harmonic=1):
+    """Amplitude of a light body under cos(harmonic t), in n steps."""
+    h = 2 * np.pi / n
+    body, t, i = body_of(M, C, K, law_of(0.0), h, light=True), h * np.arange(n), harmonic
+    areas, ends = (np.sin(i * (t + h)) - np.sin(i * t)) / i, np.cos(i * (t + h))
+    motion, resonant = light_harmonics_of(body, np.fft.rfft(areas), np.fft.rfft(ends))
+    assert not resonant.any()
+    return motion[:, harmonic] / (n / 2)
+
+
+@pytest.mark.parametrize("C", [0.0, 0.4, 5.0])
+def test_a_body_without_mass_is_of_third_order(C):
+    K, errors = 0.7, []
+    for n in (N, 4 * N):
+        exact = -1 / (K + 3j * C) * np.array([1, 3j])
+        errors.append(np.abs(light_motion(0.0, C, K, n, 3) - exact) / np.abs(exact))
+    assert errors[1][0] < 1e-14 or errors[1][0] < errors[0][0] / 50  # 64, less a little for the next order
+    assert errors[1][1] < errors[0][1] / 14  # its rate is of second order
+    assert errors[1][0] < 1e-5
+
+
+def test_a_mass_that_is_not_resolved_goes_with_the_force():
+    """Its own oscillation, of two steps here, dies out; the response to the drive is right."""
+    M, K = 1e-4, 0.7
+    assert_allclose(light_motion(M, 0.0, K, N)[0], -1 / (K - M), rtol=1e-5)
+
+
+def test_a_rigid_pull_has_no_body():
+    body = body_of(0.0, 0.0, math.inf, law_of(0.5), H, light=False)
+    assert body.rigid
+    assert not (body.free.any() or body.area.any() or body.moment.any() or body.stuck.any())

@@ -1,0 +1,164 @@
+"""The scaled form: groups are all that is left, and the full-slip start repeats itself."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import SHAPES, contact
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.march import loop
+from mdr.march.body import RATE, Y
+from mdr.march.dimensionless import ScaledContact, fast_ratio
+from mdr.spring.settle import tools_for
+
+STEPS = 256
+BODIES = {
+    "undamped": {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.0},
+    "damped": {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15},
+    "overdamped": {"k_ratio": 0.7, "omega_0_ratio": 0.6, "c_ratio": 9.0},
+    "soft": {"k_ratio": 0.05, "omega_0_ratio": 0.4, "c_ratio": 0.01},
+}
+
+
+def scaled_of(*groups, steps=STEPS, n_springs=32, lump=False, **knobs):
+    case = contact(*groups, **knobs)
+    return ScaledContact.of(case, mdr.SpringArray.of(case, n_springs), steps, lump)
+
+
+# --- what the groups are ---
+
+
+def test_scaled_motion_and_springs():
+    case = contact("paraboloid", 3.0, 0.5)
+    springs = mdr.SpringArray.of(case, 40)
+    scaled = ScaledContact.of(case, springs, STEPS, lump=False)
+    t = scaled.h * np.arange(STEPS + 1) / case.oscillation.omega
+    u_z = case.oscillation.u_z0 + scaled.z * scaled.length_z
+    assert_allclose(u_z, case.oscillation.u_z(t), rtol=1e-14)
+    assert_allclose(
+        scaled.z_dot * scaled.length_z * scaled.omega, case.oscillation.u_z_dot(t), rtol=0, atol=1e-14 * 6e-4
+    )
+    assert_allclose(scaled.gap * scaled.length_z, springs.gap, rtol=1e-15)
+    assert_allclose(scaled.w.sum(), 1, rtol=1e-14)
+    assert_allclose(scaled.w * scaled.stiffness_z, springs.dk_z, rtol=1e-13)
+    assert_allclose(scaled.w * scaled.stiffness_x, springs.dk_x, rtol=1e-13)
+    nu = case.material.nu
+    assert_allclose(
+        scaled.speed, case.mu_0 * (2 - nu) / (2 * (1 - nu)) * case.oscillation.omega * case.oscillation.du_z, rtol=1e-14
+    )  # Eq. (1)
+    assert scaled.steps == STEPS
+
+
+def test_body_groups_are_those_of_the_oscillator():
+    case = contact("paraboloid", 3.0, 0.5, 0.7, 1.6, 0.15)
+    scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 32), STEPS, lump=False)
+    omega, unit = case.oscillation.omega, scaled.stiffness_x
+    assert_allclose(
+        [scaled.M, scaled.C, scaled.K], np.array([case.pull.m * omega**2, case.pull.c_x * omega, case.pull.k_x]) / unit
+    )
+    assert_allclose(math.sqrt(scaled.K / scaled.M), 1.6, rtol=1e-13)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_friction_and_moduli_drop_out(shape):
+    groups = shape, 3.0, 0.5, 0.7, 1.6, 0.15
+    one = scaled_of(*groups)
+    for change in ({"mu_0": 0.01}, {"E": 3e11}, {"nu": 0.1}, {"omega": 1e6}):
+        other = scaled_of(*groups, **change)
+        for name in ("gap", "w", "z", "z_dot", "T", "M", "C", "K"):
+            assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-11, err_msg=name)
+        assert_allclose(other.body.free, one.body.free, rtol=1e-11)
+
+
+def test_springs_that_stand_alike_are_one():
+    flat = scaled_of("flat", 3.0, 0.5, lump=True)
+    assert (flat.gap.size, flat.n_lumped, flat.n_core) == (1, 32, 1)
+    assert flat.w.sum() == 1
+    assert scaled_of("paraboloid", 3.0, 0.5, lump=True).gap.size == 32
+
+
+def test_fast_ratio():
+    assert fast_ratio(contact("paraboloid")) == 0
+    assert math.isinf(fast_ratio(contact("paraboloid", 3.0, 0.0, 0.7, math.inf)))
+    # flat punch: omega_1**2/omega_0**2 = (k_x + k_xc)/k_x
+    assert_allclose(fast_ratio(contact("flat", 3.0, 0.0, 0.7, 1.6)), 1.6 * math.sqrt(1.7 / 0.7), rtol=1e-13)
+
+
+def on_an_arm(ratio, time):
+    """A flat punch on an arm of `ratio` times the static stiffness that relaxes within `time` of 1/omega; M = K = 1."""
+    arm = mdr.StandardLinearSolid(3e6, ratio * 3e6, time / 300.0, 0.4)
+    case = mdr.SlidingContact(SHAPES["flat"][0], arm, 0.4, mdr.NormalOscillation(6e-6, 2e-6, 300.0))
+    return replace(case, pull=mdr.SpringPull(case.k_xc, case.k_xc / 300.0**2))
+
+
+@pytest.mark.parametrize("ratio", [2.0, 1e4, 1e6])
+def test_fast_ratio_has_the_arms_that_do_not_relax_in_that_oscillation(ratio):
+    assert_allclose(fast_ratio(on_an_arm(ratio, 1e3)), math.sqrt(2 + ratio), rtol=1e-6)
+    assert_allclose(fast_ratio(on_an_arm(ratio, 1e-3 / ratio)), math.sqrt(2), rtol=1e-6)
+
+
+@pytest.mark.parametrize("time", [0.01, 0.1, 1.0])
+def test_fast_ratio_is_a_resonance_on_the_storage_modulus(time):
+    case = on_an_arm(30.0, time)
+    fast = fast_ratio(case)
+    assert_allclose(fast**2, 1 + case.rheology.response(fast).real, rtol=1e-6)
+
+
+# --- the start ---
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5, 3.0])
+@pytest.mark.parametrize(
+    "body", [*BODIES.values(), {"k_ratio": 0.7, "omega_0_ratio": math.inf}], ids=[*BODIES, "no mass"]
+)
+@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
+def test_full_slip_repeats_itself_under_the_march(shape, body, T):
+    scaled = scaled_of(shape, 4.0, T, **body)
+    s, start = scaled.normal.s, scaled.full_slip_state()
+    e, held, trace = s.copy(), start.copy(), scaled.trace(3)
+    parts = scaled.springs, scaled.motion(1e3), scaled.law, tools_for(scaled.law, scaled.h)
+    assert loop.march(e, s.copy(), held, scaled.body, *parts, 0, 3 * STEPS, trace, None)
+    area, y = trace.area, trace.y
+    # the rate of a light body takes a rounding of the force 1/h times
+    size = np.abs(y).max() + np.abs(start).max()
+    assert_allclose(held, start, rtol=0, atol=(1e-11 if scaled.light else 1e-15 * STEPS) * size)
+    assert_allclose(e, s, rtol=0, atol=1e-12 * (1 + s.max()))
+    assert_allclose(area[:STEPS], scaled.normal.area, rtol=0, atol=1e-12 * np.abs(area).max())  # as known beforehand
+    assert_allclose(area[:STEPS], area[-STEPS:], rtol=0, atol=1e-11 * np.abs(area).max())
+
+
+@pytest.mark.parametrize("multiple", [1, 2])
+def test_the_resonant_harmonic_is_left_out(multiple):
+    """omega_0 = multiple * omega without damper: no periodic motion answers that harmonic."""
+    scaled = scaled_of("paraboloid", 3.0, 0.0, 0.7, float(multiple), 0.0)
+    area = np.fft.rfft(scaled.normal.area)
+    assert abs(area[multiple]) > 1e-4 * abs(area[0])  # it is driven
+    assert scaled.end_of_full_slip == math.inf
+    start = scaled.full_slip_state()
+    assert np.abs(start).max() < 100
+    # the other harmonics: off the resonance by a little they are the same, and this one is all the difference
+    near = scaled_of("paraboloid", 3.0, 0.0, 0.7, multiple * (1 + 1e-6), 0.0)
+    y = np.fft.irfft(np.where(np.arange(area.size) == multiple, 0, near._full_slip_motion[0][0]), STEPS)
+    assert_allclose(start[Y], y[0], rtol=1e-4)
+
+
+def test_a_little_damping_brings_the_harmonic_back():
+    """Under F_1 sin(phase + psi) y is F_1 cos(phase + psi)/C, far more than all other harmonics make."""
+    scaled = scaled_of("paraboloid", 3.0, 0.0, 0.7, 1.0, 1e-6)
+    first = 2 * np.fft.rfft(scaled.normal.area)[1] / (scaled.h * STEPS)  # of the mean force of each step
+    first *= np.exp(-0.5j * scaled.h)  # which is that of its middle
+    expected = -first / (1j * scaled.C)
+    # beside it, the mean force over K
+    assert_allclose(scaled.full_slip_state()[[Y, RATE]], [expected.real, (1j * expected).real], rtol=1e-3, atol=10)
+
+
+def test_rest_is_rest():
+    """The body stands still: its motion relative to the pull runs backward at v."""
+    v = 0.3
+    body = scaled_of("paraboloid", 3.0, 0.5, **BODIES["damped"]).rest_state(v)
+    assert body.tolist() == [0.0, -v]
+    assert not scaled_of("paraboloid").rest_state(v).any()
+    assert not scaled_of("paraboloid").full_slip_state().any()
