@@ -263,15 +263,14 @@ def check(case: SlidingContact, v_0: float) -> None:
 def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Orbit | None:
     """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
-    simple = scaled.rigid and not scaled.n_arms and from_full_slip and not scaled.is_shaken
-    if simple and not scaled.remembers:
+    if scaled.rigid and not scaled.remembers and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
     if near is not None and near.settling.solved and not (from_full_slip and near.slips_fully):
         start = at_other_resolution(near.state, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else None
         orbit = search(stepper, (start,), gain_at_other_resolution(gain, near.scaled, scaled), near=True)
     if from_full_slip and (orbit is None or not orbit.settling.settled):
-        again = search_from_full_slip(stepper) if scaled.n_arms or not scaled.rigid or simple else None
+        again = search_from_full_slip(stepper)
         orbit = again if orbit is None or (again is not None and again.settling.settled) else orbit
     return orbit
 

@@ -1,15 +1,11 @@
 """A run as accurate as is asked for: its companions, the bound on its error, more springs and steps until that is met.
 
-A step is exact but for the parabolas that motion and body take in it, and a sum over Gauss nodes but for places where
-the pattern of modes bends. Both errors fall by a factor of four and more where numbers are doubled, though not evenly.
-So beside a run go two companions with half and with three quarters of its steps, and two more with half and with three
-quarters of its springs. What they differ by bounds the error: the first by as much, the second by twice as much, so
-that a companion that agrees by chance misleads no one. Where the bound is more than is asked for, steps or springs are
-doubled.
-
-A body without mass whose springs have dashpots is thrown as each of them touches, so that it needs several springs that
-touch in a step. If all touch at once the error is of first order, and depends on where in a step that is: companions of
-steps in no simple ratio are added.
+A step is exact but for the parabolas that motion and body take in it, and a sum over the nodes of Fejer's rule but for
+places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
+though they do not fall evenly, as events come at any place in a step. So beside a run go two companions, with half and
+with three quarters of both numbers. At second order the run differs from them by 3 and by 0.8 times its own error; the
+bound is the greater of 1.5 and 3 times these differences, so that one companion that agrees by chance misleads no one.
+Where the bound is more than is asked for, a run of half the steps and all springs tells which to double.
 
 Each run begins in the periodic state of one before it.
 """
@@ -42,32 +38,34 @@ from mdr.tools.progress import Ticker, time_is_over
 
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
-N_SPRINGS, N_SPRINGS_SHAKEN = 32, 64  #: first choice; doubled while cof_error exceeds the accuracy asked for
-N_STEPS = 64  #: the same of the steps of each period of the motion
-N_STEPS_LIGHT = 128  #: the same of a body without mass
-N_SPRINGS_JOLTS, N_STEPS_JOLTS = 128, 256  #: and of one on dashpots that lose contact
+N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
-MOST_JOLTS = 4096  #: steps of a motion whose error falls at first order only
-COMPANIONS = ((0.5, 1.0), (0.75, 2.0))  #: share of steps or springs; what a difference to them counts as error
-UNEVEN = (0.53, 0.61, 0.69, 0.83, 0.91)  #: shares of the steps of more companions where all springs touch at once
+COMPANIONS = ((0.5, 1.5), (0.75, 3.0))  #: share of steps and springs; what a difference to them counts as error
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 
 
 def default_springs(case: SlidingContact) -> int:
     """Springs with which a search for the accuracy begins: half of them still serve all pieces of a kinked shape."""
-    first = N_SPRINGS_JOLTS if _jolts(case) else N_SPRINGS_SHAKEN if case.is_shaken else N_SPRINGS
-    return max(first, 4 * (len(case.indenter.kinks) + CUTS))
+    return max(N_SPRINGS * _harder(case)[0], 4 * (len(case.indenter.kinks) + CUTS))
 
 
 def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: their half still resolves the oscillation of the
     body on the contact, if that can be afforded.
     """
-    fast, plain = fast_ratio(case), min(N_STEPS * _oscillations(case), MOST_STEPS)
-    if np.isinf(fast):
-        return max(N_STEPS_JOLTS if _jolts(case) else N_STEPS_LIGHT, plain)
-    return int(min(max(64 * np.ceil(2 * RESOLVED * fast * 1.01 / 64), plain), MOST_STEPS))
+    plain, fast = N_STEPS * _harder(case)[1] * _oscillations(case), fast_ratio(case)
+    resolved = 0 if np.isinf(fast) else N_STEPS * int(np.ceil(2.02 * RESOLVED * fast / N_STEPS))
+    return min(max(plain, resolved), MOST_STEPS)
+
+
+def _harder(case: SlidingContact) -> tuple[int, int]:
+    """How many times the springs and steps of a plain contact a search begins with."""
+    if _jolts(case):
+        return 4, 4
+    if case.is_shaken:  # springs slip both ways
+        return 2, 2
+    return (1, 2) if np.isinf(fast_ratio(case)) else (1, 1)
 
 
 def _oscillations(case: SlidingContact) -> int:
@@ -86,7 +84,7 @@ class _Runs:
 
     def __init__(self, case: SlidingContact, v_0: float, near: Steady | None) -> None:
         self.case, self.v_0, self.near = case, v_0, near
-        self.fast, self.jolts = fast_ratio(case), _jolts(case)
+        self.fast = fast_ratio(case)
         self.ends: dict[Knobs, Steady] = {}
         self.ticker = Ticker("slide", parts="runs")
 
@@ -106,6 +104,10 @@ class _Runs:
     def beside(self, main: Steady, knobs: Knobs) -> Steady:
         """The end of a companion: solved for by itself if the main run was, else of as many periods."""
         return self._at(knobs, None if main.settling.solved else main.n_periods, MOST_BESIDE)
+
+    def half(self, main: Steady) -> Steady:
+        """The companion with half of the steps and springs."""
+        return self.beside(main, main.knobs.coarser(main.knobs.steps // 2, main.knobs.n_springs // 2))
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
         knobs = knobs._replace(record=0) if knobs.record else knobs
@@ -165,30 +167,38 @@ def within(
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
             best = best or _Bounded(main, 0.0)
             return best.finished(knobs.record), best.main
-        share, off_load = knobs.accuracy / 2, main.off_load
-        if main.slips_fully and (off_load <= share or not any(free)) and (march := _clear_of_stick(runs, main)):
+        share = knobs.accuracy / 2
+        if main.slips_fully and (main.off_load <= share or not any(free)) and (march := _clear_of_stick(runs, main)):
             return _Bounded(main, 0.0).finished(knobs.record) if knobs.record else finish(march), main
-        of_steps, of_springs = _of_steps(runs, main), _of_springs(runs, main)
+        error = _difference(runs, main) + _of_unresolved(runs, main)
         if time_is_over():
             if best is None:
                 why = "the time limit is over before the runs beside it, which bound cof_error, were done"
                 unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
                 best = _Bounded(replace(main, settling=unknown), 0.0)
             return best.finished(knobs.record), best.main
-        best = _Bounded(main, of_steps + of_springs)
-        most_steps = MOST_JOLTS if runs.jolts else MOST_STEPS
-        hidden = runs.jolts and main.slips_fully  # a jump of the force stops the body in steps that are short enough
-        more_springs = free[0] and knobs.n_springs < MOST_SPRINGS and max(of_springs, off_load) > share
-        more_steps = free[1] and knobs.steps < most_steps and (of_steps > share or hidden)
-        met = best.error + main.settling.spread + main.missing_load <= knobs.accuracy
+        best = _Bounded(main, error)
+        met = error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
-        repeats = main.settling.spread <= max(knobs.accuracy, best.error) / 4  # else finer runs bound no better
-        if (met and not (hidden and more_steps)) or awaited or not (more_springs or more_steps) or not repeats:
+        repeats = main.settling.spread <= max(knobs.accuracy, error) / 4  # else finer runs bound no better
+        finer = knobs if met or awaited or not repeats else _finer(runs, main, free)
+        if finer == knobs:
             return best.finished(knobs.record), main
-        if more_springs:
-            knobs = knobs._replace(n_springs=min(2 * knobs.n_springs, MOST_SPRINGS))
-        if more_steps:
-            knobs = knobs._replace(steps=min(2 * knobs.steps, most_steps))
+        knobs = finer
+
+
+def _finer(runs: _Runs, main: Steady, free: tuple[bool, bool]) -> Knobs:
+    """Twice the steps or springs, or both: what a run of half the steps and all springs tells to miss too much."""
+    knobs, share = main.knobs, main.knobs.accuracy / 2
+    between = runs.beside(main, knobs.coarser(knobs.steps // 2, knobs.n_springs))
+    of_steps, of_springs = _missed(main, between), max(_missed(between, runs.half(main)), main.off_load)
+    both = max(of_steps, of_springs) <= share  # the error is that of the other companion
+    n_springs, steps = knobs.n_springs, knobs.steps
+    if free[0] and (both or of_springs > share):
+        n_springs = max(n_springs, min(2 * n_springs, MOST_SPRINGS))
+    if free[1] and (both or of_steps > share):
+        steps = max(steps, min(2 * steps, MOST_STEPS))
+    return knobs._replace(n_springs=n_springs, steps=steps)
 
 
 def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
@@ -200,26 +210,14 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
     return knobs
 
 
-def _of_steps(runs: _Runs, main: Steady) -> float:
-    """Bound on what the steps miss of the COF, over mu_0."""
-    steps = main.knobs.steps
-    at_once = runs.jolts and main.scaled.gap.size == 1
-    companions = (*COMPANIONS, *((share, 2.0) for share in UNEVEN)) if at_once else COMPANIONS
-    beside = [(runs.beside(main, main.knobs.coarser(int(share * steps))), weight) for share, weight in companions]
-    return max(weight * _missed(main, one) for one, weight in beside) + _of_unresolved(runs, main)
-
-
-def _of_springs(runs: _Runs, main: Steady) -> float:
-    """Bound on what the springs miss of the COF, over mu_0, from runs of half of the steps, where that will do."""
-    knobs = main.knobs if main.scaled.light else main.knobs.coarser(main.knobs.steps // 2)
-    every = runs.beside(main, knobs)
-    if every.scaled.gap.size == 1:  # springs that all stand alike are one
-        return 0.0
+def _difference(runs: _Runs, main: Steady) -> float:
+    """Bound on what steps and springs miss of the COF, over mu_0."""
+    knobs = main.knobs
     beside = [
-        (runs.beside(main, knobs.coarser(n_springs=int(share * knobs.n_springs))), weight)
+        (runs.beside(main, knobs.coarser(int(share * knobs.steps), int(share * knobs.n_springs))), weight)
         for share, weight in COMPANIONS
     ]
-    return max(weight * _missed(every, one) for one, weight in beside)
+    return max(weight * _missed(main, one) for one, weight in beside)
 
 
 def _of_unresolved(runs: _Runs, main: Steady) -> float:
@@ -237,7 +235,7 @@ def _of_unresolved(runs: _Runs, main: Steady) -> float:
 def _clear_of_stick(runs: _Runs, main: Steady) -> March | None:
     """A close look at a run that slips, where no finer step would stick either, so that F_x is mu_0 F_z without error.
 
-    It and its companion of half the steps must slip throughout, by more than a tenth of v_0 and ten times what doubling
+    It and its companion of half the size must slip throughout, by more than a tenth of v_0 and ten times what doubling
     the steps changed. And this change must be small beside v_0 less the slip velocity, which is v_c, so that it
     converges: the velocity of a light body may jump by more with every finer step. That of one without mass and damper,
     on dashpots, has no bound at all.
@@ -245,7 +243,7 @@ def _clear_of_stick(runs: _Runs, main: Steady) -> March | None:
     scaled = main.scaled
     if scaled.T and not scaled.rigid and not scaled.M and not scaled.C:
         return None
-    march, half = looked_at(main), looked_at(runs.beside(main, main.knobs.coarser(main.knobs.steps // 2)))
+    march, half = looked_at(main), looked_at(runs.half(main))
     least, moved = min(march.least_slip, half.least_slip), abs(march.least_slip - half.least_slip)
     return march if least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12 else None
 

@@ -54,7 +54,16 @@ N_SUMS = 9
     NORMAL_VISCOUS,
     LEAST_SLIP,
 ) = range(N_SUMS)
-GAUSS = tuple((0.5 + 0.5 * float(x), 0.5 * float(w)) for x, w in zip(*np.polynomial.legendre.leggauss(8), strict=True))
+
+
+def gauss(n: int) -> Array:
+    """Nodes and weights (n, 2) of Gauss's rule on 0 to 1."""
+    x, w = np.polynomial.legendre.leggauss(n)
+    return np.column_stack([0.5 + 0.5 * x, 0.5 * w])
+
+
+OF_CUBES = gauss(2)  #: exact for the powers of an elastic spring, which are cubic in time
+OF_DECAYS = gauss(8)  #: to rounding for decays, on parts of the time that double in length
 
 
 class Path(NamedTuple):
@@ -237,12 +246,14 @@ def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
 @_call
 def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
     """Energies of a stretch of a step in one mode, each from its own definition, by Gauss's rule."""
-    J, K, fastest = 0, 0, 0.0
+    if modes is None and mode == FREE:
+        return
+    J, K, fastest, nodes = 0, 0, 0.0, OF_CUBES
     press, lag = tools.more[0], tools.more[1]
     sign = -1.0 if mode == SLIP_BACK else 1.0
     z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
     if modes is not None:
-        K = modes.mu.size
+        K, nodes = modes.mu.size, OF_DECAYS
         for k in range(K):
             press[k] = lag[k] = 0.0
             for j in range(s.shape[0]):
@@ -259,8 +270,8 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
     for part in range(n):
         start = 0.0 if part == 0 else t * 0.5 ** (n - part)
         length = (t * 0.5 ** (n - 1 - part)) - start
-        for node, weight in GAUSS:
-            u = start + length * node
+        for g in range(nodes.shape[0]):
+            u, weight = start + length * nodes[g, 0], w * length * nodes[g, 1]
             s_rate, x_rate = z_1 + 2.0 * z_2 * u, x_1 + 2.0 * x_2 * u
             e_rate = x_rate
             normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
@@ -292,7 +303,6 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
                         e_j = sign * (s_j - of_lag)
                     shear += arms.rho[j] / arms.theta[j] * e_j * e_j
                     pressure += arms.rho[j] / arms.theta[j] * s_j * s_j
-            weight *= w * length
             sums[SHEAR_VISCOUS] += weight * shear
             sums[NORMAL_VISCOUS] += weight * pressure
             if mode != FREE:
