@@ -101,7 +101,7 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
         k = (first + j) % n_t
         if k == 0:  # the same guess however many periods are marched at once
             gained = 0.0
-        rate_0, flown, now = held[RATE], 0.0, tools
+        rate_0, flown, now, zd, xd = held[RATE], 0.0, tools, motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
         path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
         if body.light:
             flown = flight_of(s, springs.gap, path, law, tools)
@@ -109,11 +109,11 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
                 now = tools_of(flown, law, tools)
                 put(e, e_0)
                 put(s, s_0)
-                whole = path
-                path, _, _, _ = balance(e, s, e_0, s_0, held, body, springs, path, law, now)
+                rest = later(path, flown)
+                path, _, _, _ = balance(e, s, e_0, s_0, held, body, springs, path, rest.z_1, rest.x_1, law, now)
                 if seen is not None:
-                    look_at(s_0, e_0, s, e, springs, path, law, now, k, seen)
-                path, now = later(whole, flown), tools_of(h - flown, law, tools)
+                    look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, k, seen)
+                path, now = rest, tools_of(h - flown, law, tools)
         put(e, e_0)
         put(s, s_0)
         if body.rigid:
@@ -122,13 +122,13 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
                 s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
             )
         elif body.light:
-            path, area, moment, found = balance(e, s, e_0, s_0, held, body, springs, path, law, now)
+            path, area, moment, found = balance(e, s, e_0, s_0, held, body, springs, path, zd, xd, law, now)
         else:
             path, area, moment, found = answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools)
         solved = solved and found
         gained = held[RATE] - rate_0
         if seen is not None:
-            look_at(s_0, e_0, s, e, springs, path, law, now, k, seen)
+            look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, now, k, seen)
         trace.area[j], trace.moment[j] = area, moment + flown * area
         trace.y[j], trace.rate[j] = held[Y], held[RATE]
     return solved
@@ -167,16 +167,16 @@ def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
 
 
 @_jit
-def balance(e, s, e_0, s_0, held, body, springs, here, law, tools):
+def balance(e, s, e_0, s_0, held, body, springs, here, zd, xd, law, tools):
     """A step of a light body: no impulse of all forces is left over it, and no force at its end.
 
-    here: motion of the indenter. Newton's method on y at the end and u = y'' h²/2, by the stiffness of what
-     sticks, and half a step of it where that leads away. Returns path, area, moment and whether this was solved;
-    e, s, held are updated.
+    here: motion of the indenter; zd, xd: its rates at the end. Newton's method on y at the end and u = y'' h²/2, by the
+    stiffness of what sticks, and half a step of it where that leads away. Returns path, area, moment and whether this
+    was solved; e, s, held are updated.
     """
     h, T, M, C, K, y_0, rate_0 = tools.h, law.T, body.M, body.C, body.K, held[Y], held[RATE]
     stiff = 1.0 + glassy(law.arms)
-    zd, xd, found = here.z_1 + 2.0 * here.z_2 * h, here.x_1 + 2.0 * here.x_2 * h, False
+    found = False
     y, u, y_was, u_was, least = y_0 + h * rate_0, 0.0, y_0, 0.0, np.inf
     for turn in range(MOST_TURNS):
         if turn > 0:
@@ -239,13 +239,14 @@ def flight_of(s, gap, path, law, tools):
 
 
 @_jit
-def look_at(s_0, e_0, s, e, springs, path, law, tools, k, seen):
-    """A close look at a step from s_0, e_0 (which it uses up) to s, e; fills place k of seen."""
+def look_at(s_0, e_0, s, e, springs, path, zd, xd, law, tools, k, seen):
+    """A close look at a step from s_0, e_0 (which it uses up) to s, e; fills place k of seen. zd, xd: rates of the top
+    at the end, of which those of the parabolas are off by h²/12 of a third derivative.
+    """
     keeps = seen.mode.shape[0] > 0
-    n, h = springs.gap.size, tools.h
+    n = springs.gap.size
     mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.zeros(3)
     look = Look(seen.sums, F, mode, f_x, f_z)
-    zd, xd = path.z_1 + 2.0 * path.z_2 * h, path.x_1 + 2.0 * path.x_2 * h
     area, moment, _, _, _, _ = row(
         s_0, e_0, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd, look
     )

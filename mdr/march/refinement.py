@@ -4,7 +4,7 @@ A step is exact but for the parabolas that motion and body take in it, and a sum
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
 though they do not fall evenly, as events come at any place in a step. So beside a run go two companions, with half and
 with three quarters of both numbers. At second order the run differs from them by 3 and by 0.8 times its own error; the
-bound is the greater of 1.5 and 3 times these differences, so that one companion that agrees by chance misleads no one.
+bound is the greater of 2 and 4 times these differences, so that one companion that agrees by chance misleads no one.
 Where the bound is more than is asked for, a run of half the steps and all springs tells which to double.
 
 Each run begins in the periodic state of one before it.
@@ -41,7 +41,8 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
-COMPANIONS = ((0.5, 1.5), (0.75, 3.0))  #: share of steps and springs; what a difference to them counts as error
+COMPANIONS = ((0.5, 2.0), (0.75, 4.0))  #: share of steps and springs; what a difference to them counts as error
+MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled; a bound that falls by more is luck
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 
 
@@ -63,8 +64,8 @@ def _harder(case: SlidingContact) -> tuple[int, int]:
     """How many times the springs and steps of a plain contact a search begins with."""
     if _jolts(case):
         return 4, 4
-    if case.is_shaken:  # springs slip both ways
-        return 2, 2
+    if case.is_shaken:  # springs slip both ways, and those that do so little are few
+        return 4, 2
     return (1, 2) if np.isinf(fast_ratio(case)) else (1, 1)
 
 
@@ -110,7 +111,6 @@ class _Runs:
         return self.beside(main, main.knobs.coarser(main.knobs.steps // 2, main.knobs.n_springs // 2))
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
-        knobs = knobs._replace(record=0) if knobs.record else knobs
         if knobs not in self.ends:
             end = steady(self.case, self.v_0, knobs, n_periods, self.near, most)
             self.ends[knobs] = end
@@ -160,30 +160,32 @@ def within(
     within knobs.accuracy. near: the end of a run at a velocity close by.
     """
     check(case, v_0)
-    runs, best = _Runs(case, v_0, near), None
-    knobs = _that_touch(case, knobs, free[1])
+    runs, best, record = _Runs(case, v_0, near), None, knobs.record
+    knobs = _that_touch(case, knobs._replace(record=0), free[1])
     while True:
         main = runs.main(knobs, None if best is None or case.pull.is_rigid else MOST_BESIDE)
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
             best = best or _Bounded(main, 0.0)
-            return best.finished(knobs.record), best.main
+            return best.finished(record), best.main
         share = knobs.accuracy / 2
         if main.slips_fully and (main.off_load <= share or not any(free)) and (march := _clear_of_stick(runs, main)):
-            return _Bounded(main, 0.0).finished(knobs.record) if knobs.record else finish(march), main
+            return _Bounded(main, 0.0).finished(record) if record else finish(march), main
         error = _difference(runs, main) + _of_unresolved(runs, main)
         if time_is_over():
             if best is None:
                 why = "the time limit is over before the runs beside it, which bound cof_error, were done"
                 unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
                 best = _Bounded(replace(main, settling=unknown), 0.0)
-            return best.finished(knobs.record), best.main
+            return best.finished(record), best.main
+        if best is not None:
+            error = max(error, best.error / MOST_GAINED)
         best = _Bounded(main, error)
         met = error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(knobs.accuracy, error) / 4  # else finer runs bound no better
         finer = knobs if met or awaited or not repeats else _finer(runs, main, free)
         if finer == knobs:
-            return best.finished(knobs.record), main
+            return best.finished(record), main
         knobs = finer
 
 

@@ -62,8 +62,9 @@ def gauss(n: int) -> Array:
     return np.column_stack([0.5 + 0.5 * x, 0.5 * w])
 
 
-OF_CUBES = gauss(2)  #: exact for the powers of an elastic spring, which are cubic in time
-OF_DECAYS = gauss(8)  #: to rounding for decays, on parts of the time that double in length
+OF_CUBES = gauss(2)  #: exact for what elastic or sticking springs do, which is cubic in time
+OF_SLOW_DECAYS = gauss(4)  #: to rounding for decays by less than a factor of exp(1/4)
+OF_DECAYS = gauss(8)  #: to rounding for any, on parts of the time that double in length
 
 
 class Path(NamedTuple):
@@ -253,7 +254,7 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
     sign = -1.0 if mode == SLIP_BACK else 1.0
     z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
     if modes is not None:
-        K, nodes = modes.mu.size, OF_DECAYS
+        K = modes.mu.size
         for k in range(K):
             press[k] = lag[k] = 0.0
             for j in range(s.shape[0]):
@@ -264,6 +265,8 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
         J = arms.rho.size
         for j in range(J):
             fastest = max(fastest, 1.0 / arms.theta[j])
+    if arms is not None or (modes is not None and mode != STICK):
+        nodes = OF_SLOW_DECAYS if fastest * t < 0.25 else OF_DECAYS
     n = 1
     while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
         n += 1
