@@ -2,9 +2,11 @@
 
 A step is exact but for the parabolas that motion and body take in it, and a sum over the nodes of Fejer's rule but for
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
-though they do not fall evenly, as events come at any place in a step. So beside a run go two companions, with half and
+though they do not fall evenly, as events come at any place in a step. So beside a run go companions, with a half and
 with three quarters of both numbers. At second order the run differs from them by 3 and by 0.8 times its own error; the
-bound is the greater of 2 and 4 times these differences, so that one companion that agrees by chance misleads no one.
+bound is the greater of 1.5 and 3 times these differences. A companion may agree by chance. So one with a quarter bounds
+the error of that with a half likewise, and an eighth of this is the least bound, as errors fall by no more; where its
+steps are too few to tell, it is left out.
 Where the bound is more than is asked for, a run of half the steps and all springs tells which to double.
 
 Each run begins in the periodic state of one before it.
@@ -41,8 +43,9 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
-COMPANIONS = ((0.5, 2.0), (0.75, 4.0))  #: share of steps and springs; what a difference to them counts as error
-MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled; a bound that falls by more is luck
+HALF, THREE_QUARTERS = 1.5, 3.0  #: times the difference to a companion with so much of both numbers: the bound
+MOST_GAINED = 8.0  #: by which an error of third order falls where numbers are doubled
+RESOLVES = 32  #: steps of a companion from which on its error falls like that of finer ones
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 
 
@@ -55,7 +58,7 @@ def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: their half still resolves the oscillation of the
     body on the contact, if that can be afforded.
     """
-    plain, fast = N_STEPS * _harder(case)[1] * _oscillations(case), fast_ratio(case)
+    plain, fast = N_STEPS * _harder(case)[1] * int(np.ceil(_oscillations(case) - 1e-9)), fast_ratio(case)
     resolved = 0 if np.isinf(fast) else N_STEPS * int(np.ceil(2.02 * RESOLVED * fast / N_STEPS))
     return min(max(plain, resolved), MOST_STEPS)
 
@@ -65,14 +68,14 @@ def _harder(case: SlidingContact) -> tuple[int, int]:
     if _jolts(case):
         return 4, 4
     if case.is_shaken:  # springs slip both ways, and those that do so little are few
-        return 4, 2
+        return 4, 1
     return (1, 2) if np.isinf(fast_ratio(case)) else (1, 1)
 
 
-def _oscillations(case: SlidingContact) -> int:
-    """Of the depth or of the shake in the period of the case, by the strongest harmonic."""
-    motions = case.cycle.harmonics, case.shake_harmonics
-    return max(1 + int(np.abs(motion).argmax()) for motion in motions if motion.size)
+def _oscillations(case: SlidingContact) -> float:
+    """Frequency over omega by which the third derivative of depth or shake exceeds the motion: a parabola misses it."""
+    motions = [np.abs(motion) for motion in (case.cycle.harmonics, case.shake_harmonics) if motion.any()]
+    return max(float((a @ np.arange(1.0, a.size + 1) ** 3 / a.sum()) ** (1 / 3)) for a in motions)
 
 
 def _jolts(case: SlidingContact) -> bool:
@@ -177,8 +180,6 @@ def within(
                 unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
                 best = _Bounded(replace(main, settling=unknown), 0.0)
             return best.finished(record), best.main
-        if best is not None:
-            error = max(error, best.error / MOST_GAINED)
         best = _Bounded(main, error)
         met = error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
@@ -214,12 +215,10 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
 
 def _difference(runs: _Runs, main: Steady) -> float:
     """Bound on what steps and springs miss of the COF, over mu_0."""
-    knobs = main.knobs
-    beside = [
-        (runs.beside(main, knobs.coarser(int(share * knobs.steps), int(share * knobs.n_springs))), weight)
-        for share, weight in COMPANIONS
-    ]
-    return max(weight * _missed(main, one) for one, weight in beside)
+    knobs, half = main.knobs, runs.half(main)
+    more = runs.beside(main, knobs.coarser(3 * knobs.steps // 4, 3 * knobs.n_springs // 4))
+    least = HALF * _missed(half, runs.half(half)) / MOST_GAINED if knobs.steps >= 4 * RESOLVES else 0.0
+    return max(HALF * _missed(main, half), THREE_QUARTERS * _missed(main, more), least)
 
 
 def _of_unresolved(runs: _Runs, main: Steady) -> float:
