@@ -28,9 +28,7 @@ def specification(work: Work) -> dict[str, Any]:
         "axes": {axis.path: described(axis.values) for axis in work.axes},
         "order of axes": [axis.path for axis in work.axes],
         "quantities": [_quantity(one) for one in work.quantities],
-        "n_springs": work.n_springs,
-        "steps_per_period": work.steps_per_period,
-        "accuracy": work.accuracy,
+        **work.knobs,
         "version of mdr": version.__version__,
         "code of mdr": code(),
     }

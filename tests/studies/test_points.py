@@ -16,7 +16,7 @@ from mdr.studies.work import Work
 
 
 def work(case, axes, quantities, **knobs):
-    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), **knobs)
+    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), knobs)
 
 
 def test_values_are_those_of_direct_calls():
@@ -121,11 +121,11 @@ def test_the_work_ends_soon_after_it_is_asked_to():
 
     given = work(RIGID, {"mu_0": [0.2, 0.4, 0.6]}, [Quantity("own", "-", of)])
     with pytest.raises(Ended):
-        compute(given, 0, 3, ended)
+        compute(given, range(3), ended)
     assert seen == [0.2]
 
 
 def test_nothing_inside_speaks(capsys, monkeypatch):
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
-    compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), 0, 1)
+    compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), range(1))
     assert capsys.readouterr().err == ""
