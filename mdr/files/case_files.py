@@ -41,7 +41,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from inspect import isabstract
 from os import PathLike, fsdecode
 from types import ModuleType
@@ -55,7 +55,7 @@ from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
 from mdr.normal.doubts import warn_outside
-from mdr.normal.rig import OPEN, SETTINGS
+from mdr.normal.rig import OPEN, settings_of
 from mdr.normal.vary import contact_of, fields_of, fields_set
 from mdr.tools.fields import checked
 from mdr.tools.messages import nearest, offer, short
@@ -205,13 +205,11 @@ def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
     parts, held, of_tables = _read_tables(content)
     faults += [fault for found in of_tables.values() for fault in found]
     given = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
-    refused = _field_faults(SlidingContact, {**_HARMLESS, **given})
-    case: Any = None
-    whole: list[str] = []
-    if not faults:  # whether the parts fit each other shows whatever mu_0 is
-        case, whole = tried(contact_of, parts, {**({"mu_0": 1.0} if refused else given), **held})
-    if faults := [*faults, *refused, *whole]:
-        raise CaseFileError.of(faults)
+    refused = _field_faults(SlidingContact, {**_HARMLESS, **given}, {})
+    above = {"mu_0": 1.0} if refused else given  # whether the parts fit each other shows whatever mu_0 is
+    case, whole = (None, []) if faults else tried(contact_of, parts, {**above, **held})
+    if case is None or refused:
+        raise CaseFileError.of([*faults, *refused, *whole])
     _ask_for_masses(case, content, axes if isinstance(axes, dict) else {})
     return Said(case, held)
 
@@ -279,12 +277,20 @@ class _Table:
     def records(self) -> dict[str, type[Any]]:
         """Public records by name; for a new one it is enough to be public in its module."""
         kind = KINDS[self.name] if self.choice else SpringPull
-        found = {name: getattr(self.module, name) for name in self.module.__all__} | own_records(kind)
-        return {name: one for name, one in sorted(found.items()) if issubclass(one, kind) and _is_record(one)}
+        known = {name: getattr(self.module, name) for name in self.module.__all__} | own_records(kind)
+        return {
+            name: known[name]
+            for name in sorted(known)
+            if issubclass(known[name], kind) and is_dataclass(known[name]) and not isabstract(known[name])
+        }
 
     def writable(self) -> dict[str, type[Any]]:
         """The records that a file can carry."""
-        return {name: record for name, record in self.records().items() if _fits_a_file(record)}
+        return {
+            name: record
+            for name, record in self.records().items()
+            if not any("Callable" in str(field.type) for field in fields(record))
+        }
 
     def keys(self, record: type[Any]) -> list[str]:
         """Keys of the table when it describes this record."""
@@ -305,10 +311,10 @@ class _Table:
 
     def _choose(self, table: Mapping[str, Any]) -> type[Any]:
         """The record that the table names."""
-        if self.unnamed and self.choice not in table:
+        if self.unnamed and (not self.choice or self.choice not in table):
             return self.told_by(table)
         names, name = self.writable(), table.get(self.choice)
-        if name in names:
+        if isinstance(name, str) and name in names:
             return names[name]
         others = f"choose one of {', '.join(names)}"
         if self.choice not in table:
@@ -323,18 +329,18 @@ class _Table:
     def told_by(self, table: Mapping[str, Any]) -> type[Any]:
         """The record of a table that does not name it; a load without du_z is that of a LoadOscillation."""
         *special, usual = self.unnamed
-        told = {*table, *(("F_z0",) if "load" in table and "du_z" not in table else ())} - {*self.keys(usual)}
-        return next((record for record in special if told.intersection(self.keys(record))), usual)
+        telling = {*table, *(("F_z0",) if "load" in table and "du_z" not in table else ())} - {*self.keys(usual)}
+        return next((record for record in special if telling.intersection(self.keys(record))), usual)
 
     def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
         """The record made of the keys of the table, and what is held."""
-        known, settings = self.keys(record), SETTINGS.get(self.name, {})
+        known, settings = self.keys(record), settings_of(self.name)
         given: dict[str, Any] = {}
         held: dict[str, Any] = {}
         faults: list[str] = []
         for key, value in table.items():
             setting = settings.get(key)
-            field = setting.field_of(record) if setting else key
+            field = setting.field_of(self.name, record) if setting else key
             if field not in known:
                 faults.append(self._unknown(key, record))
             elif setting is None:
@@ -353,20 +359,20 @@ class _Table:
             raise CaseFileError.of(faults)
         return made, held
 
-    def _ways_out(self, record: type[Any]) -> dict[str, str]:
+    def _ways_out(self, record: type[Any]) -> dict[str | None, str]:
         """What else may be given, or left out, in the place of a field that is missing."""
         if record is SpringPull:
             return {"k_x": "leave [pull] out for a rigid pull"}
-        known = {alias: (one, one.field_of(record)) for alias, one in SETTINGS.get(self.name, {}).items()}
-        return {field: f"or give {alias} [{one.unit}]" for alias, (one, field) in known.items() if field}
+        settings = settings_of(self.name)
+        return {one.field_of(self.name, record): f"or give {alias} [{one.unit}]" for alias, one in settings.items()}
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""
         known, whose = self.keys(record), f"{_bare(key)} is no key of {record.__name__}"
-        settings = SETTINGS.get(self.name, {})
+        settings = settings_of(self.name)
         if key in settings:
-            return f"{whose}; it stands for {' or '.join(settings[key].fields)} of other records"
-        aliases = [alias for alias, one in settings.items() if one.field_of(record)]
+            return f"{whose}; it stands for {' or '.join(settings[key].paths)} of other records"
+        aliases = [alias for alias, one in settings.items() if one.field_of(self.name, record)]
         if meant := nearest(_MEANT.get(key.casefold(), key), aliases):
             return f"{whose}; did you mean {meant}?"
         if key.casefold() not in {one.casefold() for one in known}:
@@ -396,21 +402,8 @@ _HARMLESS = {
 HARMLESS = 0.5  # within the rule of every field that a setting stands for
 TOP = fields_of(SlidingContact)
 _MEANT = {"hz": "frequency"}  # what is not spelt like it
-_NONE: Mapping[str, str] = {}
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
-
-
-def _is_record(one: type[Any]) -> bool:
-    return is_dataclass(one) and not isabstract(one)
-
-
-def _is_required(field: Field[Any]) -> bool:
-    return field.default is MISSING and field.default_factory is MISSING
-
-
-def _fits_a_file(record: type[Any]) -> bool:
-    return not any("Callable" in str(field.type) for field in fields(record))
 
 
 def _homes(key: str, here: _Table | None = None) -> str:
@@ -438,11 +431,12 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
-def _field_faults(record: type[Any], given: Mapping[str, Any], ways_out: Mapping[str, str] = _NONE) -> list[str]:
+def _field_faults(record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str]) -> list[str]:
     """What is missing, then what each field refuses by its rule."""
     asked = [one for one in fields(record) if one.init]
-    absent = [one.name for one in asked if _is_required(one) and one.name not in given]
+    required = [one.name for one in asked if one.default is MISSING and one.default_factory is MISSING]
     refused = [tried(checked, one, given[one.name])[1] for one in asked if one.name in given]
+    absent = [name for name in required if name not in given]
     missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
     return missing + [fault for found in refused for fault in found]
 
@@ -460,8 +454,8 @@ def _written(table: _Table, record: Any, held: Mapping[str, float]) -> str:
         raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
     values = {field: getattr(record, field) for field in fields_of(record)}
     spelt = {key: alias for alias in held for key in values if f"{table.name}.{key}" in fields_set(alias)}
-    told = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
-    lines = [f"{key} = {toml_value(value)}" for key, value in told.items() if value is not None]
+    given = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
+    lines = [f"{key} = {toml_value(value)}" for key, value in given.items() if value is not None]
     named = not table.unnamed or table.told_by(values) is not type(record)
     choice = [f"{table.choice} = {toml_value(name)}"] if named else []
     return "\n".join([f"[{table.name}]", *choice, *lines])

@@ -9,6 +9,8 @@ from dataclasses import fields
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 from mdr import indenters, materials
 from mdr.case import in_plane
 from mdr.case import motion as motions
@@ -92,11 +94,11 @@ def _written(value: Any) -> str:
     """A value as one writes it: 3e6, not 3000000.0."""
     if isinstance(value, tuple):
         return "[" + ", ".join(_written(one) for one in value) + "]"
-    short_one = f"{value:.9g}".replace("e+0", "e").replace("e-0", "e-") if isinstance(value, float) else ""
-    if value and isinstance(value, float) and not 1e-3 <= abs(value) < 1e5:
-        digits, power = f"{value:.9e}".split("e")
-        short_one = f"{digits.rstrip('0').rstrip('.')}e{int(power)}"
-    return short_one if short_one and float(short_one) == value else toml_value(value)
+    if not isinstance(value, float):
+        return toml_value(value)
+    if value == 0 or 1e-3 <= abs(value) < 1e5:
+        return np.format_float_positional(value, trim="-")
+    return np.format_float_scientific(value, trim="-", exp_digits=1).replace("e+", "e")
 
 
 def _named(kind: str, name: str, known: Any) -> str:

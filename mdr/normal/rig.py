@@ -24,7 +24,7 @@ from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.doubts import GRAVITY, edge, warn_outside
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import angular, contact_of, fields_of
+from mdr.normal.vary import RIG, angular, contact_of, fields_of
 from mdr.tools.checks import instance, not_negative, positive
 
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
@@ -33,33 +33,34 @@ LONG = 10.0  #: wavelength over the width of the contact, from which on it is qu
 class Setting(NamedTuple):
     """What a file may give in the place of a field."""
 
-    fields: tuple[str, ...]  #: it stands for the first of these that a record has
+    paths: tuple[str, ...]  #: it stands for the first of these that a record has
     unit: str
     convert: Callable[[Any], float]
     of: type[Any] = object  #: record that alone has it
 
-    def field_of(self, record: type[Any]) -> str | None:
-        """The field that it stands for in such a record."""
-        known = fields_of(record) if issubclass(record, self.of) else ()
-        return next((field for field in self.fields if field in known), None)
+    def field_of(self, part: str, record: type[Any]) -> str | None:
+        """The field that it stands for in such a part of a case."""
+        known = [f"{part}.{field}" for field in fields_of(record)] if issubclass(record, self.of) else []
+        return next((path.partition(".")[2] for path in self.paths if path in known), None)
 
 
-FREQUENCY = Setting(("omega",), "Hz", angular)
-SETTINGS: dict[str, dict[str, Setting]] = {
-    "indenter": {
-        "theta_deg": Setting(("theta",), "deg", lambda angle: math.radians(positive("theta_deg", angle, "in degrees")))
-    },
-    "material": {
-        "tan_delta": Setting(("tau",), "-", lambda tan: not_negative("tan_delta", tan, "loss tangent"), KelvinVoigt)
-    },
-    "oscillation": {
-        "frequency": FREQUENCY,
-        "load": Setting(("F_z0", "u_z0"), "N", lambda load: positive("load", load, "load in N")),
-    },
-    "shake": {"frequency": FREQUENCY},
+SETTINGS = {
+    "theta_deg": Setting(
+        ("indenter.theta",), "deg", lambda angle: math.radians(positive("theta_deg", angle, "angle in degrees"))
+    ),
+    "tan_delta": Setting(
+        RIG["tan_delta"], "-", lambda value: not_negative("tan_delta", value, "loss tangent"), KelvinVoigt
+    ),
+    "frequency": Setting(RIG["frequency"], "Hz", angular),
+    "load": Setting(RIG["load"], "N", lambda load: positive("load", load, "load in N")),
 }
 #: fields that other parts of the case decide about too: load and tan_delta hold for them in every case of a study
 OPEN = ("u_z0", "tau")
+
+
+def settings_of(part: str) -> dict[str, Setting]:
+    """What a file may give for the fields of a part."""
+    return {name: one for name, one in SETTINGS.items() if any(path.startswith(f"{part}.") for path in one.paths)}
 
 
 def rig(
@@ -199,7 +200,7 @@ def _load(load: float | None, load_grams: float | None) -> float:
     if (load is None) == (load_grams is None):
         raise ValueError("give the load once: load in N, or load_grams, the mass in g whose weight it is")
     if load is not None:
-        return SETTINGS["oscillation"]["load"].convert(load)
+        return SETTINGS["load"].convert(load)
     return 1e-3 * GRAVITY * positive("load_grams", load_grams, "in g")
 
 

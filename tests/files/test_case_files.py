@@ -246,7 +246,10 @@ REFUSED = [
     ({"slope": "theta_deg = 1.5\ntheta = 0.02"}, "theta_deg and theta say the same"),
     ({"slope": "theta_deg = 100"}, "theta must lie between 0 and 1.5708"),
     ({"slope": ""}, "theta is missing; or give theta_deg [deg]"),
-    ({"shape": "Paraboloid", "slope": "theta_deg = 2"}, "theta_deg is no key of Paraboloid; it stands for theta"),
+    (
+        {"shape": "Paraboloid", "slope": "theta_deg = 2"},
+        "theta_deg is no key of Paraboloid; it stands for indenter.theta",
+    ),
     ({"model": "Prony", "loss": "E_inf = 1e6\narms = [[2e6, 1e-3]]\ntan_delta = 0.2"}, "tan_delta is no key of Prony"),
     ({"motion": "omega=300\nu_z0=1e-5\ndu_z=1e-6\n[shake]\nomega=200\ndu_x=1e-6", "loss": "tan_delta=0.2"}, "have two"),
     ({"motion": "omega=300\ndu_z=1e-6\ndF_z=1e-6\nload=1"}, "du_z is no key of LoadOscillation; did you mean dF_z"),
