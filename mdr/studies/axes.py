@@ -20,7 +20,7 @@ refused at once; one that some of them lack is a failure of those points.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -48,9 +48,11 @@ class Axis(ArrayRecord):
     labels: tuple[str, ...] = ()  #: what values that are no numbers are called
 
     @classmethod
-    def labelled(cls, path: str, labels: Iterable[str]) -> Axis:
-        """An axis of records of which the labels are known alone."""
-        return cls(path, tuple(labels), tuple(labels))
+    def known(cls, path: str, values: Sequence[Any] | Array) -> Axis:
+        """An axis of numbers, or of records of which the labels are known alone."""
+        if isinstance(values[0], str):
+            return cls(path, tuple(values), tuple(values))
+        return cls(path, np.array(values, dtype=float))
 
     def _values(self) -> tuple[Any, ...]:
         return self.path, self.values if self.is_numeric else None, self.labels

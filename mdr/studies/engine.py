@@ -6,28 +6,28 @@ import os
 import sys
 import time
 import warnings
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Generator, Sequence
+from contextlib import closing
 from dataclasses import replace
 from itertools import islice
+from random import Random
 from threading import Event
 from typing import Any
 
+from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.studies.formats import packed
 from mdr.studies.points import Points, Status, compute
 from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
 from mdr.studies.study import Frame, Study, study_of_points
 from mdr.studies.work import Work, units_of
-from mdr.tools.progress import Meter
+from mdr.tools.progress import progress
 
 TRIAL = 1.0  #: s in which units are timed
 MOST_TRIALS = 32
 LEAST_CHUNKS = 32  #: where there are so many units, so that several workers share them evenly
 IN_MEMORY = 256  #: chunks of a study without a store
-COARSE = 32  #: springs and steps of the run that compiles
 MOST_IN_FLIGHT = 1024  #: chunks that an executor of the user is given at a time
-
-GOLDEN = 0.6180339887498949
 
 
 class Call:
@@ -125,16 +125,14 @@ class Call:
         """Compute chunks and keep each as soon as it is finished."""
         if not chunks:
             return
-        meter = Meter("sweep", total, "chunks", done=total - len(chunks))
-
-        def take(chunk: int, points: Points) -> None:
-            if self.store is not None:
-                self.store.write(chunk, self.identity, points)
-            self.points[self.work.layout.points(units_of(cut, chunk))].put(points)
-            meter.tick()
-
+        finished = run(self.work, cut, chunks, self.executor)
+        meter = progress(finished, "sweep", "chunks", total, done=total - len(chunks))
         try:
-            run(self.work, cut, chunks, self.executor, take)
+            with closing(finished):
+                for chunk, points in meter:
+                    if self.store is not None:
+                        self.store.write(chunk, self.identity, points)
+                    self.points[self.work.layout.points(units_of(cut, chunk))].put(points)
         except Exception as error:
             if _lost(error):
                 what = f"the workers were lost, as when one is killed or runs out of memory ({error})"
@@ -142,14 +140,12 @@ class Call:
             if "pickle" in str(error) or "local object" in str(error):
                 error.add_note("what is sent to other processes must be defined at the top of a module")
             raise
-        finally:
-            meter.close()
 
 
-def run(work: Work, cut: range, chunks: Sequence[int], executor: Any, take: Callable[[int, Points], None]) -> None:
-    """Compute chunks in any order, by own threads or an executor; `take(chunk, part)` is called for each finished one.
+def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generator[tuple[int, Points], None, None]:
+    """Compute chunks in any order, by own threads or an executor; yields each with its points as it is finished.
 
-    What `take`, the executor or the work itself raises ends the run.
+    What the executor or the work itself raises ends the run; so does closing the generator.
     """
     from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
@@ -167,7 +163,7 @@ def run(work: Work, cut: range, chunks: Sequence[int], executor: Any, take: Call
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                take(waiting.pop(future), future.result())
+                yield waiting.pop(future), future.result()
     finally:
         ended.set()
         for future in waiting:
@@ -195,8 +191,8 @@ def timed(work: Work, seconds: float) -> range:
     most = n // LEAST_CHUNKS
     if most < 2:
         return range(n)
-    trials = [int((0.5 + k * GOLDEN) % 1 * n) for k in range(MOST_TRIALS)]
-    coarse = {"n_springs": COARSE, "steps_per_period": COARSE}
+    trials = Random(0).sample(range(n), MOST_TRIALS)
+    coarse = {"n_springs": LEAST_KNOB, "steps_per_period": LEAST_KNOB}
     compute(replace(work, knobs={**work.knobs, **coarse}), range(trials[0], trials[0] + 1))
     lasted, begin = [0.0], time.perf_counter()
     for unit in trials:

@@ -72,13 +72,9 @@ class Frame:
     @classmethod
     def from_head(cls, head: Mapping[str, Any]) -> Frame:
         """The frame in the head of a store, with labels for records."""
-        tree, numbers = head["frame"], head["specification"]["axes"]
-        grid = tuple(
-            Axis.labelled(path, tree["labels"][path])
-            if path in tree["labels"]
-            else Axis(path, np.array(numbers[path], dtype=float))
-            for path in head["specification"]["order of axes"]
-        )
+        tree, known = head["frame"], head["specification"]
+        values = {**known["axes"], **tree["labels"]}
+        grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
         columns = tuple(Column(**column) for column in tree["columns"])
         return cls(grid, columns, tree["case"], tree["version"], head["identity"])
 
@@ -326,7 +322,7 @@ class Study(Printed, ArrayRecord):
     def _most_frequent(self) -> list[str]:
         """Lines with the most frequent reasons; reasons that differ in their numbers alone count as one."""
         kinds: dict[str, list[str]] = {}
-        for why in filter(None, self.why.ravel().tolist()):
+        for why in filter(None, np.ravel(self.why).tolist()):
             kinds.setdefault(_NUMBERS.sub("#", why), []).append(why)
         ranked = sorted(kinds.values(), key=len, reverse=True)
         lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_REASONS]]

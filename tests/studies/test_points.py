@@ -5,18 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from grids import BODY, COARSE, RIGID, SHAPES
+from grids import BODY, COARSE, RIGID, SHAPES, work
 from numpy.testing import assert_array_equal
 
 import mdr
-from mdr.studies.axes import read_axes
 from mdr.studies.points import Ended, Status, compute, reason_of
-from mdr.studies.quantities import Quantity, read_quantities
-from mdr.studies.work import Work
-
-
-def work(case, axes, quantities, **knobs):
-    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), knobs)
+from mdr.studies.quantities import Quantity
 
 
 def test_values_are_those_of_direct_calls():

@@ -199,7 +199,7 @@ def test_a_store_is_of_one_version_and_of_the_sources_that_can_move_a_value(part
         monkeypatch.setitem(texts(), f"mdr.{name}", "")
         assert (specification.code() != known) == bool(counts)
     monkeypatch.setattr("mdr.tools.version.__version__", "9.9")
-    words = f'mdr is "0.1.0" there and "9.9" here; code of mdr is "{known}" there and "{specification.code()}"'
+    words = f"mdr is 0.1.0 there and 9.9 here; code of mdr is {known} there and {specification.code()} here"
     with pytest.raises(mdr.StudyError, match=words):
         small(part_done)
 

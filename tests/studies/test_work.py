@@ -5,18 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from grids import BODY, RIGID
+from grids import BODY, RIGID, work
 from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.studies import engine
-from mdr.studies.axes import read_axes
 from mdr.studies.engine import MOST_TRIALS, timed
 from mdr.studies.points import compute
-from mdr.studies.quantities import read_quantities
 from mdr.studies.specification import described, identity_of, specification
 from mdr.studies.store import Store
-from mdr.studies.work import IN_CLOSED_FORM, MARCHED, Layout, Work, units_of
+from mdr.studies.work import IN_CLOSED_FORM, MARCHED, Layout, units_of
 
 LAYOUTS = [
     Layout((3,), None, 64),
@@ -29,10 +27,6 @@ LAYOUTS = [
 ]
 N = (4, 8, 100)
 SQUARES = [{"mu_0": np.linspace(0.1, 0.9, n), "indenter.R": np.linspace(1e-3, 9e-3, n)} for n in N]
-
-
-def work(case, axes, quantities=("v_c",)):
-    return Work(case, read_axes(case, axes), read_quantities(quantities, axes))
 
 
 FEW, SOME, MANY = (work(RIGID, axes) for axes in SQUARES)
@@ -119,7 +113,7 @@ def test_a_million_points_are_planned_by_a_few_cases(tmp_path, monkeypatch):
     real = mdr.SlidingContact.__post_init__
     monkeypatch.setattr(mdr.SlidingContact, "__post_init__", lambda case: (built.append(1), real(case))[1])
 
-    def run(work, cut, chunks, executor, take):
+    def run(work, cut, chunks, executor):
         compute(work, range(1))
         raise RuntimeError("planned")
 
@@ -153,8 +147,9 @@ def test_a_study_is_told_by_what_was_asked():
         for kind, row in ((float, list), (np.float64, np.array))
     )
     assert one == other
-    prony, bowl = mdr.Prony(1e6, [(1e6, 1e-3)], 0.5), Bowl(100.0)
-    assert described(prony) == {"record": "Prony", "E_inf": 1e6, "arms": [[1e6, 1e-3]], "nu": 0.5, "tau": 0.0}
-    assert described((np.float64(0.1), np.arange(2), None, "a", True, bowl)) == [
-        0.1, [0, 1], None, "a", True, {"record": f"{__name__}.Bowl", "curvature": 100.0},
+    assert described(mdr.Prony(1e6, [(1e6, 1e-3)], 0.5)) == (
+        "Prony(E_inf=1000000.0, arms=[[1000000.0, 0.001]], nu=0.5, tau=0.0)"
+    )
+    assert described((np.float64(0.1), np.arange(2), None, "a", True, Bowl(100.0))) == [
+        0.1, [0, 1], None, "a", True, f"{__name__}.Bowl(curvature=100.0)",
     ]  # fmt: skip
