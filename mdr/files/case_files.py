@@ -373,8 +373,8 @@ class _Table:
         if key in settings:
             return f"{whose}; it stands for {' or '.join(settings[key].paths)} of other records"
         aliases = [alias for alias, one in settings.items() if one.field_of(self.name, record)]
-        if meant := nearest(_MEANT.get(key.casefold(), key), aliases):
-            return f"{whose}; did you mean {meant}?"
+        if key.casefold() in FREQUENCY and "frequency" in aliases:
+            return f"{whose}; did you mean frequency?"
         if key.casefold() not in {one.casefold() for one in known}:
             if key in TOP and key not in KINDS:
                 return f"{whose}; write it at the top of the file, above the first table"
@@ -401,7 +401,7 @@ _HARMLESS = {
 }
 HARMLESS = 0.5  # within the rule of every field that a setting stands for
 TOP = fields_of(SlidingContact)
-_MEANT = {"hz": "frequency"}  # what is not spelt like it
+FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 
