@@ -6,7 +6,6 @@ import os
 import re
 import shutil
 import warnings
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import pytest
 from grids import BODY, RIGID, SHAPES, depth
 
 import mdr
-from mdr.studies import specification
+from mdr.studies import engine, specification
 from mdr.studies.points import Points, Status
 from mdr.studies.store import Store, _packed
 from mdr.tools.sources import texts
@@ -250,23 +249,19 @@ LOCKED = r"chunks cannot be written \(.*\); make the folder writable, or give an
 )  # fmt: skip
 def test_a_disk_that_fails(part_done, whole, monkeypatch, code, after, words):
     """The system refuses every file after the first ones."""
-    real, calls, computed = os.fsync, [], []
+    sync, compute, calls, computed = os.fsync, engine.compute, [], []
 
     def fsync(descriptor):
         calls.append(1)
         if len(calls) > after:
             raise OSError(code, os.strerror(code))
-        real(descriptor)
+        sync(descriptor)
 
-    class Counting(ThreadPoolExecutor):
-        def submit(self, task, *args):
-            computed.append(args)
-            return super().submit(task, *args)
-
+    monkeypatch.setattr(engine, "compute", lambda work, *units: (computed.append(units), compute(work, *units))[1])
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", fsync)
         with pytest.raises(mdr.StudyError, match=words) as caught:
-            small(part_done, executor=Counting(1))
+            small(part_done)
     kept = len(list(part_done.glob("chunks/*.npz")))
     if after:
         assert re.search(NO_ROOM, str(caught.value))[1] == str(kept)
@@ -275,7 +270,7 @@ def test_a_disk_that_fails(part_done, whole, monkeypatch, code, after, words):
         assert computed == []  # found out before any work
     assert not list(part_done.rglob("*.part"))
     computed.clear()
-    assert small(part_done, executor=Counting(1)) == whole
+    assert small(part_done) == whole
     assert len(computed) == 48 - kept
 
 
