@@ -66,14 +66,13 @@ class Store:
             if self.folder.exists() and not self.folder.is_dir():
                 raise StudyError(f"{self.folder}: is a file; give a folder for the store")
             self.folder.mkdir(parents=True, exist_ok=True)
-            known = self.head()
-            if known is None:
+            if self.head() is None:
                 self._refuse_strangers()
                 text = json.dumps(head, indent=1, ensure_ascii=False, allow_nan=False)
                 write_once(self.folder / "study.json", text.encode("utf-8"))
-                known = self.head()
-        if known is None or known["identity"] != head["identity"]:
-            what = differences((known or {}).get("specification", {}), head["specification"])
+            known = self.head() or {}
+        if known.get("identity") != head["identity"]:
+            what = differences(known.get("specification", {}), head["specification"])
             raise StudyError(f"{self.folder}: is the store of another study: {what}; give another folder")
 
     def head(self) -> dict[str, Any] | None:
@@ -83,12 +82,7 @@ class Store:
 
     def merged(self) -> Study | None:
         """The finished study; None while chunks are missing."""
-        try:
-            return unpacked(self.file.read_bytes())
-        except (FileNotFoundError, NotADirectoryError):
-            return None
-        except ValueError as fault:
-            raise StudyError(f"{self.file}: is {fault}; move it away and repeat the call") from fault
+        return _read_file(self.file, "; move it away and repeat the call") if self.file.exists() else None
 
     def merge(self, data: bytes) -> None:
         """Put the finished study in the place of its chunks."""
@@ -221,13 +215,13 @@ def read_study(path: str | PathLike[str]) -> Study:
     return _read_store(Store(place)) if place.is_dir() else _read_file(place)
 
 
-def _read_file(path: Path) -> Study:
+def _read_file(path: Path, way_out: str = "") -> Study:
     try:
         return unpacked(path.read_bytes())
     except OSError as error:
         raise StudyError(f"{path}: cannot be read: {error.strerror or error}") from None
     except ValueError as error:
-        raise StudyError(f"{path}: is {error}") from None
+        raise StudyError(f"{path}: is {error}{way_out}") from None
 
 
 def _read_store(store: Store) -> Study:

@@ -71,7 +71,7 @@ class Layout:
 
     def case(self, unit: int) -> tuple[int, ...]:
         """Index of the case of a unit along each axis but the velocity."""
-        return tuple(int(i) for i in np.unravel_index(unit // self.blocks, self.of_cases))
+        return tuple(map(int, np.unravel_index(unit // self.blocks, self.of_cases)))
 
     def velocities(self, unit: int) -> slice:
         """The velocities of a unit, as a part of their axis."""
