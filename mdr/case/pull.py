@@ -22,6 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.tools.checks import finite_array, not_negative
 from mdr.tools.fields import Record, facts
 
+__all__ = ["Pull", "RigidPull", "SpringPull"]
+
 STIFFNESS = "stiffness in N/m; for a rigid pull use RigidPull()"  #: what a refused one is told
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from os import PathLike, fsdecode
 from typing import Any
 
 import numpy as np
 
-from mdr.files.toml_text import parse_toml, read_text
-from mdr.materials import Prony
+from mdr.files.case_files import record_of
+from mdr.files.toml_text import parse_toml, read_text, tried
 from mdr.tools.csv_table import Column, fault, table_of
 from mdr.tools.messages import short
 
@@ -19,10 +18,10 @@ ARMS = (Column("E_j", unit="Pa", bare=True), Column("tau_j", unit="s", bare=True
 def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
     """The fields of a Prony in a file."""
     name = fsdecode(path)
-    if not name.lower().endswith((".csv", ".toml")):
-        raise fault(name, "a table of arms must end in .csv or .toml")
     if name.lower().endswith(".toml"):
         return _from_toml(read_text(path), name, nu)
+    if not name.lower().endswith(".csv"):
+        raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
     return {**_from_csv(read_text(path), name), "nu": nu}
@@ -43,21 +42,14 @@ def _from_csv(text: str, name: str) -> dict[str, Any]:
 
 
 def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
+    """The fields in a table [material], or in one without a name."""
     content = parse_toml(text, name)
     table = content.get("material", content)
-    if not isinstance(table, dict):
-        raise fault(name, f"material must be a table of keys, got {short(str(table))}")
-    table = dict(table)
-    model = table.pop("model", "Prony")
-    known = [one.name for one in fields(Prony)]
-    unknown = [key for key in table if key not in known]
-    if model != "Prony" or unknown:
-        other = f'model "{short(str(model))}" is not Prony'
-        what = other if model != "Prony" else f"{short(unknown[0])} is no key of Prony"
-        raise fault(name, f"{what}; there are {', '.join(known)}")
-    if nu is not None:
-        table["nu"] = nu
-    missing = [key for key in ("E_inf", "arms", "nu") if key not in table]
-    if missing:
-        raise fault(name, f"{missing[0]} is missing")
-    return table
+    if isinstance(table, dict):
+        table = {"model": "Prony", **table, **({} if nu is None else {"nu": nu})}
+        if table["model"] != "Prony":
+            raise fault(name, f'model "{short(str(table["model"]))}" is not Prony')
+    material, faults = tried(record_of, "material", table)
+    if faults:
+        raise fault(name, "; ".join(faults))
+    return dict(vars(material))

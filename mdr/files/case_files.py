@@ -29,6 +29,9 @@ else a NormalOscillation.
 list of amplitudes is given, and else an InPlaneOscillation.
 A Prony material has arms = [[E_j, tau_j], ...].
 
+In the place of a field a file may give what a rig is set to, `mdr.normal.rig.SETTINGS`: frequency [Hz], load [N],
+tan_delta, theta_deg. Files are written in the fields of the records.
+
 A file that is wrong is refused with every fault at once: what is missing, what is no key, each value that the rule of
 its field refuses; and, of a record whose values are all sound, what they are refused for together.
 """
@@ -36,30 +39,26 @@ its field refuses; and, of a record whose values are all sound, what they are re
 from __future__ import annotations
 
 import json
-import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from inspect import isabstract
 from os import PathLike, fsdecode
 from types import ModuleType
 from typing import Any, NamedTuple
 
 from mdr import indenters, materials
-from mdr.case import in_plane, motion
-from mdr.case.contact import SlidingContact, as_given
-from mdr.case.in_plane import Shake
-from mdr.case.motion import LoadOscillation, Motion, NormalOscillation
+from mdr.case import in_plane, motion, pull
+from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.motion import LoadOscillation, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
-from mdr.files.spellings import SPELLINGS, as_written, left_open, meant, other_spellings, respelled
-from mdr.files.toml_text import NESTED, CaseFileError, fault_error, parse_toml, read_text, toml_value
-from mdr.indenters import Indenter, Paraboloid
-from mdr.materials import Elastic, Material
+from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
 from mdr.normal.doubts import warn_outside
-from mdr.normal.vary import contact_of, fields_set
+from mdr.normal.rig import OPEN, settings_of
+from mdr.normal.vary import contact_of, fields_of, fields_set
 from mdr.tools.fields import checked
-from mdr.tools.messages import nearest, offer, one_line, short
+from mdr.tools.messages import nearest, offer, short
 
 # --- public ---
 
@@ -143,11 +142,9 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
 
 
 def _said(text: str, source: str) -> Said:
-    try:
-        content = parse_toml(text, source)
-        return Said(case_of(content, source), left_open(content))
-    except RecursionError:
-        raise fault_error(source, [NESTED]) from None
+    content = parse_toml(text, source)
+    with told(f"{source}: "):
+        return case_of(content)
 
 
 def write_case(case: SlidingContact) -> str:
@@ -189,37 +186,32 @@ def written(case: SlidingContact, held: Mapping[str, float]) -> str:
     """The same, with loads, frequencies and loss tangents for the fields that they set."""
     top, tables = [], []
     case = as_given(case)
-    for field in _inputs(SlidingContact):
-        value = getattr(case, field.name)
-        if field.name not in _TABLES:
-            top.append(f"{field.name} = {toml_value(value)}")
+    for name in fields_of(case):
+        value = getattr(case, name)
+        if name not in KINDS:
+            top.append(f"{name} = {toml_value(value)}")
         elif value is not None and not isinstance(value, RigidPull):
-            tables.append(_written(_TABLES[field.name], value, held))
+            tables.append(_written(_TABLES[name], value, held))
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
 
-def case_of(content: Mapping[str, Any], source: str = "<string>", beside: Sequence[str] = ()) -> SlidingContact:
-    """The case in tables already parsed; keys `beside` it are left alone. Raises CaseFileError with every fault."""
-    known = _top_level()
+def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
+    """What tables already parsed say; keys `beside` them are left alone. Raises CaseFileError with every fault."""
     axes = content.get("axes")
-    axes = axes if isinstance(axes, dict) else {}
     content = {key: value for key, value in content.items() if key not in beside}
     if "axes" in content:
-        raise fault_error(source, [STUDY])
-    faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in known]
-    parts, of_tables = _read_tables(content)
+        raise CaseFileError(STUDY)
+    faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in TOP]
+    parts, held, of_tables = _read_tables(content)
     faults += [fault for found in of_tables.values() for fault in found]
-    given = {key: _number(value) for key, value in content.items() if key in known and key not in _TABLES}
-    refused = _field_faults(SlidingContact, {**_HARMLESS, **given})
-    case: Any = None
-    whole: list[str] = []
-    if not faults:  # whether the parts fit each other shows whatever mu_0 is
-        case, whole = _tried(contact_of, parts, {**({"mu_0": 1.0} if refused else given), **left_open(content)})
-    if faults := [*faults, *refused, *whole]:
-        raise fault_error(source, faults)
-    assert isinstance(case, SlidingContact)
-    _ask_for_masses(case, content, axes)
-    return case
+    given = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
+    refused = _field_faults(SlidingContact, {**_HARMLESS, **given}, {})
+    above = {"mu_0": 1.0} if refused else given  # whether the parts fit each other shows whatever mu_0 is
+    case, whole = (None, []) if faults else tried(contact_of, parts, {**above, **held})
+    if case is None or refused:
+        raise CaseFileError.of([*faults, *refused, *whole])
+    _ask_for_masses(case, content, axes if isinstance(axes, dict) else {})
+    return Said(case, held)
 
 
 def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapping[str, Any]) -> None:
@@ -242,32 +234,27 @@ def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str
 
     To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
     """
-    parts, faults = _read_tables(content)
-    sound = {name: part for name, part in parts.items() if name not in faults}
-    said = left_open({name: table for name, table in content.items() if name in sound})
-    return _tried(contact_of, {**_HARMLESS, **sound}, {"mu_0": 1.0, **said})[0], set(faults)
+    parts, held, faults = _read_tables(content)
+    return tried(contact_of, {**_HARMLESS, **parts}, {"mu_0": 1.0, **held})[0], set(faults)
 
 
-def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, list[str]]]:
-    """The parts that the tables describe, and the faults of those tables that have some."""
+def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], dict[str, list[str]]]:
+    """The parts that sound tables describe, what is held for their fields, and the faults of the other tables."""
     tables = {**_meant(content), **content}
-    parts: dict[str, Any] = {}
-    wrong: dict[str, list[str]] = {}
-    for name, table in _TABLES.items():
-        part, faults = table.read(tables)
-        if faults:
-            wrong[name] = faults
-        elif part is not None:
-            parts[name] = part
-    return parts, wrong
+    asked = [name for name in _TABLES if name in tables or name in _HARMLESS]
+    read = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
+    sound = {name: found for name, (found, faults) in read.items() if not faults}
+    parts = {name: part for name, (part, _) in sound.items()}
+    held = {key: value for _, own in sound.values() for key, value in own.items()}
+    return parts, held, {name: faults for name, (_, faults) in read.items() if faults}
 
 
-def record_of(name: str, table: Any) -> tuple[Any, list[str]]:
-    """The record that a table [name] of a list describes, or None; and the faults."""
-    for alias in left_open({name: table}):
-        fields = " or ".join(fields_set(alias))
-        return None, [f"[{name}] {alias} cannot stand in a list of tables: give {fields}"]
-    return _TABLES[name].read({name: table})
+def record_of(name: str, table: Any) -> Any:
+    """The record that a table [name] of a list describes. Raises CaseFileError with every fault."""
+    record, held = _TABLES[name].read(table)
+    for key in held:
+        raise CaseFileError(f"[{name}] {key} cannot stand in a list of tables: give {' or '.join(fields_set(key))}")
+    return record
 
 
 def nameable() -> dict[str, dict[str, type[Any]]]:
@@ -284,135 +271,139 @@ class _Table:
 
     name: str
     choice: str  #: the key that names the record; empty where there is one record only
-    module: ModuleType | None
-    kind: type[Any]
+    module: ModuleType
     unnamed: tuple[type[Any], ...] = ()  #: records that need no name: the first with a key that the last has not
 
     def records(self) -> dict[str, type[Any]]:
         """Public records by name; for a new one it is enough to be public in its module."""
-        if self.module is None:
-            return {self.kind.__name__: self.kind}
-        public = [name for name in vars(self.module) if not name.startswith("_")]
-        found = {name: getattr(self.module, name) for name in getattr(self.module, "__all__", public)}
-        found |= own_records(self.kind)
-        return {name: found[name] for name in sorted(found) if self._is_record(found[name])}
-
-    def _is_record(self, one: Any) -> bool:
-        is_class = isinstance(one, type) and is_dataclass(one)
-        return is_class and issubclass(one, self.kind) and not isabstract(one)
+        kind = KINDS[self.name] if self.choice else SpringPull
+        known = {name: getattr(self.module, name) for name in self.module.__all__} | own_records(kind)
+        return {
+            name: known[name]
+            for name in sorted(known)
+            if issubclass(known[name], kind) and is_dataclass(known[name]) and not isabstract(known[name])
+        }
 
     def writable(self) -> dict[str, type[Any]]:
         """The records that a file can carry."""
-        return {name: record for name, record in self.records().items() if _fits_a_file(record)}
+        return {
+            name: record
+            for name, record in self.records().items()
+            if not any("Callable" in str(field.type) for field in fields(record))
+        }
 
     def keys(self, record: type[Any]) -> list[str]:
         """Keys of the table when it describes this record."""
-        return [*([self.choice] if self.choice else []), *(field.name for field in _inputs(record))]
+        return [*([self.choice] if self.choice else []), *fields_of(record)]
 
     def all_keys(self) -> set[str]:
         """Keys of the table whatever it describes."""
         return {key for record in self.writable().values() for key in self.keys(record)}
 
-    def read(self, content: Mapping[str, Any]) -> tuple[Any, list[str]]:
-        """The record described, or None; and the faults."""
-        if self.name not in content:
-            needed = any(field.name == self.name and _is_required(field) for field in fields(SlidingContact))
-            return None, [f"[{self.name}] is missing"] if needed else []
-        if not isinstance(content[self.name], dict):
-            return None, [f"[{self.name}] must be one table of keys, got {_kind(content[self.name])}"]
-        table, misspelt = respelled(self.name, content)
-        record, fault = self._choose(table)
-        if record:
-            table = as_written(self.name, table, content, self.keys(record))
-        made, faults = self._describe(record, table) if record else (None, [fault])
-        return None if misspelt else made, [f"[{self.name}] {one}" for one in [*misspelt, *faults]]
+    def read(self, table: Any) -> tuple[Any, dict[str, Any]]:
+        """The record described, and what holds for its fields that other tables decide about too."""
+        with told(f"[{self.name}] "):
+            if table is None:
+                raise CaseFileError("is missing")
+            if not isinstance(table, dict):
+                raise CaseFileError(f"must be one table of keys, got {_kind(table)}")
+            return self._describe(self._choose(table), table)
 
-    def _choose(self, table: Mapping[str, Any]) -> tuple[type[Any] | None, str]:
-        """The record that the table names, or what is wrong with the name."""
+    def _choose(self, table: Mapping[str, Any]) -> type[Any]:
+        """The record that the table names."""
         if self.unnamed and (not self.choice or self.choice not in table):
-            return self._told_by(table), ""
+            return self.told_by(table)
         names, name = self.writable(), table.get(self.choice)
+        if isinstance(name, str) and name in names:
+            return names[name]
         others = f"choose one of {', '.join(names)}"
         if self.choice not in table:
             near = nearest(self.choice, [key for key in table if key not in self.all_keys()])
-            return None, f"{self.choice} is missing{f', and {_bare(near)} unknown' if near else ''}; {others}"
+            raise CaseFileError(f"{self.choice} is missing{f', and {_bare(near)} unknown' if near else ''}; {others}")
         if not isinstance(name, str):
-            return None, f"{self.choice} must be a name in quotes, got {_kind(name)}; {others}"
-        if name not in names and name in self.records():
-            return None, f'{self.choice} "{name}": {_CALLABLE}; {others}'
-        return names.get(name), f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}"
+            raise CaseFileError(f"{self.choice} must be a name in quotes, got {_kind(name)}; {others}")
+        if name in self.records():
+            raise CaseFileError(f'{self.choice} "{name}": {_CALLABLE}; {others}')
+        raise CaseFileError(f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}")
 
-    def _told_by(self, keys: Iterable[str]) -> type[Any]:
-        """The record of a table that does not name it."""
+    def told_by(self, table: Mapping[str, Any]) -> type[Any]:
+        """The record of a table that does not name it; a load without du_z is that of a LoadOscillation."""
         *special, usual = self.unnamed
-        telling = set(keys).difference(self.keys(usual))
+        telling = {*table, *(("F_z0",) if "load" in table and "du_z" not in table else ())} - {*self.keys(usual)}
         return next((record for record in special if telling.intersection(self.keys(record))), usual)
 
-    def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, list[str]]:
-        """The record made of the keys of the table, or None; and the faults."""
-        known = self.keys(record)
-        unknown = [self._unknown(key, record) for key in table if key not in known]
-        given = {key: _number(table[key]) for key in table if key in known and key != self.choice}
-        faults = _field_faults(record, given, self._ways_out(record))
-        made, together = (None, []) if faults else _tried(record, **given)
-        return made, [*unknown, *faults, *together]
+    def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
+        """The record made of the keys of the table, and what is held."""
+        known, settings = self.keys(record), settings_of(self.name)
+        given: dict[str, Any] = {}
+        held: dict[str, Any] = {}
+        faults: list[str] = []
+        for key, value in table.items():
+            setting = settings.get(key)
+            field = setting.field_of(self.name, record) if setting else key
+            if field not in known:
+                faults.append(self._unknown(key, record))
+            elif setting is None:
+                given[key] = value
+            elif field in table:
+                faults.append(f"{key} and {field} say the same: give one of them")
+            else:
+                said, wrong = tried(setting.convert, value)
+                faults += wrong
+                given[field] = HARMLESS if wrong or field in OPEN else said
+                held |= {key: said} if field in OPEN else {}
+        given.pop(self.choice, None)
+        refused = _field_faults(record, given, self._ways_out(record))
+        made, together = (None, []) if refused else tried(record, **given)
+        if faults := [*faults, *refused, *together]:
+            raise CaseFileError.of(faults)
+        return made, held
 
-    def _ways_out(self, record: type[Any]) -> dict[str, str]:
+    def _ways_out(self, record: type[Any]) -> dict[str | None, str]:
         """What else may be given, or left out, in the place of a field that is missing."""
         if record is SpringPull:
             return {"k_x": "leave [pull] out for a rigid pull"}
-        known = SPELLINGS.get(self.name, {})
-        depth = {"u_z0": "or give load [N]"} if record is NormalOscillation else {}
-        return {one.key: f"or give {alias} [{one.unit}]" for alias, one in known.items()} | depth
+        settings = settings_of(self.name)
+        return {one.field_of(self.name, record): f"or give {alias} [{one.unit}]" for alias, one in settings.items()}
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""
         known, whose = self.keys(record), f"{_bare(key)} is no key of {record.__name__}"
-        if usual := meant(self.name, key):
-            return f"{whose}; did you mean {usual}?"
-        known += other_spellings(self.name, known)
+        settings = settings_of(self.name)
+        if key in settings:
+            return f"{whose}; it stands for {' or '.join(settings[key].paths)} of other records"
+        aliases = [alias for alias, one in settings.items() if one.field_of(self.name, record)]
+        if key.casefold() in FREQUENCY and "frequency" in aliases:
+            return f"{whose}; did you mean frequency?"
         if key.casefold() not in {one.casefold() for one in known}:
-            if key in _top_level() and key not in _TABLES:
+            if key in TOP and key not in KINDS:
                 return f"{whose}; write it at the top of the file, above the first table"
             if homes := _homes(key, self):
                 return f"{whose}; it belongs to {homes}"
-        return f"{whose}; {offer(key, known)}"
+        return f"{whose}; {offer(key, [*known, *aliases])}"
 
 
 _TABLES = {
     table.name: table
     for table in (
-        _Table("indenter", "shape", indenters, Indenter),
-        _Table("material", "model", materials, Material),
-        _Table("oscillation", "motion", motion, Motion, motion.UNNAMED),
-        _Table("pull", "", None, SpringPull, (SpringPull,)),
-        _Table("shake", "motion", in_plane, Shake, in_plane.UNNAMED),
+        _Table("indenter", "shape", indenters),
+        _Table("material", "model", materials),
+        _Table("oscillation", "motion", motion, motion.UNNAMED),
+        _Table("pull", "", pull, (SpringPull,)),
+        _Table("shake", "motion", in_plane, in_plane.UNNAMED),
     )
 }
+#: a sound record for each part that a case cannot do without
 _HARMLESS = {
-    "indenter": Paraboloid(R=1.0),
-    "material": Elastic(E=1.0, nu=0.5),
+    "indenter": indenters.Paraboloid(R=1.0),
+    "material": materials.Elastic(E=1.0, nu=0.5),
     "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
 }
-_NONE: Mapping[str, str] = {}
+HARMLESS = 0.5  # within the rule of every field that a setting stands for
+TOP = fields_of(SlidingContact)
+FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
-
-
-def _inputs(record: type[Any]) -> list[Field[Any]]:
-    return [field for field in fields(record) if field.init]
-
-
-def _is_required(field: Field[Any]) -> bool:
-    return field.default is MISSING and field.default_factory is MISSING
-
-
-def _fits_a_file(record: type[Any]) -> bool:
-    return not any("Callable" in str(field.type) for field in fields(record))
-
-
-def _top_level() -> list[str]:
-    return [field.name for field in _inputs(SlidingContact)]
 
 
 def _homes(key: str, here: _Table | None = None) -> str:
@@ -426,7 +417,7 @@ def _unknown_top(key: str, value: Any, beside: Sequence[str]) -> str:
         near = nearest(key, [*_TABLES, *beside])
         there = f"did you mean [{near}]?" if near else f"there are {', '.join(f'[{name}]' for name in _TABLES)}"
         return f"[{_bare(key)}] is no table of a case; {there}"
-    keys = [*(name for name in _top_level() if name not in _TABLES), *beside]
+    keys = [*(name for name in TOP if name not in KINDS), *beside]
     homes = _homes(key)
     return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else offer(key, keys))
 
@@ -440,32 +431,14 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
-def _field_faults(record: type[Any], given: Mapping[str, Any], ways_out: Mapping[str, str] = _NONE) -> list[str]:
+def _field_faults(record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str]) -> list[str]:
     """What is missing, then what each field refuses by its rule."""
-    absent = [one.name for one in _inputs(record) if _is_required(one) and one.name not in given]
-    refused = [_tried(checked, one, given[one.name])[1] for one in _inputs(record) if one.name in given]
+    asked = [one for one in fields(record) if one.init]
+    required = [one.name for one in asked if one.default is MISSING and one.default_factory is MISSING]
+    refused = [tried(checked, one, given[one.name])[1] for one in asked if one.name in given]
+    absent = [name for name in required if name not in given]
     missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
     return missing + [fault for found in refused for fault in found]
-
-
-def _tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:
-    """What is made, or None and the words of the refusal."""
-    try:
-        return make(*given, **named), []
-    except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
-        return None, [one_line(str(refusal) or type(refusal).__name__)]
-
-
-def _number(value: Any) -> Any:
-    """The value; an integer beyond the range of floats becomes infinite, which every record refuses by name."""
-    if isinstance(value, list):
-        return [_number(one) for one in value]
-    if isinstance(value, int) and not isinstance(value, bool):
-        try:
-            float(value)
-        except OverflowError:
-            return math.inf if value > 0 else -math.inf
-    return value
 
 
 # --- from records to text ---
@@ -479,13 +452,13 @@ def _written(table: _Table, record: Any, held: Mapping[str, float]) -> str:
     if name not in writable:
         way_out = f"keep the case in a script, or use one of {', '.join(writable)}"
         raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
-    values = {field.name: getattr(record, field.name) for field in _inputs(type(record))}
+    values = {field: getattr(record, field) for field in fields_of(record)}
     spelt = {key: alias for alias in held for key in values if f"{table.name}.{key}" in fields_set(alias)}
-    told = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
-    lines = [f"{key} = {toml_value(value)}" for key, value in told.items() if value is not None]
-    named = table._told_by(values) is not type(record) if table.unnamed else True
-    head = [f"[{table.name}]", *([f"{table.choice} = {toml_value(name)}"] if named else [])]
-    return "\n".join(head + lines)
+    given = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
+    lines = [f"{key} = {toml_value(value)}" for key, value in given.items() if value is not None]
+    named = not table.unnamed or table.told_by(values) is not type(record)
+    choice = [f"{table.choice} = {toml_value(name)}"] if named else []
+    return "\n".join([f"[{table.name}]", *choice, *lines])
 
 
 # --- messages ---

@@ -5,20 +5,29 @@ Every example is a small body of rubber some 20 µm deep, which touches over a d
 
 from __future__ import annotations
 
-from dataclasses import Field, fields
+from dataclasses import fields
 from types import ModuleType
 from typing import Any
+
+import numpy as np
 
 from mdr import indenters, materials
 from mdr.case import in_plane
 from mdr.case import motion as motions
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.files.case_files import write_case
 from mdr.files.toml_text import toml_value
 from mdr.tools.fields import example_of, facts_of, has_example
 from mdr.tools.messages import offer, short
 
 WIDEST = 44  # characters of a line before its comment
+TITLES = {
+    "indenter": "the shape that is pressed in; its fields follow",
+    "material": "the half-space",
+    "pull": "what drags it; a rigid pull without this table",
+    "shake": "motion in the plane besides the pull",
+}
 
 
 def _examples(module: ModuleType) -> dict[str, Any]:
@@ -58,49 +67,38 @@ def example(
 def example_file(case: SlidingContact) -> str:
     """The TOML text of a case, each key with its unit and meaning."""
     case = as_given(case)
-    said = type(case.oscillation).__doc__ or ""
-    tables: list[tuple[str, str, str, Any]] = [
-        ("indenter", "shape", "the shape that is pressed in; its fields follow", case.indenter),
-        ("material", "model", "the half-space", case.material),
-        ("oscillation", _choice(case.oscillation), said.partition("\n")[0].rstrip("."), case.oscillation),
-        ("pull", "", "what drags it; a rigid pull without this table", case.pull),
-        ("shake", "", "motion in the plane besides the pull", case.shake),
-    ]
-    lines = [_line(one, case) for one in fields(case) if one.name == "mu_0"]
-    for name, choice, meaning, record in tables:
-        if isinstance(record, RigidPull):
-            lines += ["", "# no [pull]: a rigid pull; give k_x [N/m], m [kg] and c_x [N s/m] for a body on a spring"]
-            continue
-        if record is None:
-            continue
-        lines += ["", f"{f'[{name}]':<{WIDEST}}# {meaning}"]
-        if choice:
-            lines.append(f'{choice} = "{type(record).__name__}"')
-        lines += [_line(one, record) for one in fields(record) if one.init and getattr(record, one.name) is not None]
-    return "\n".join(lines) + "\n"
+    blocks = write_case(case).rstrip("\n").split("\n\n")
+    if isinstance(case.pull, RigidPull):
+        blocks.insert(4, "# no [pull]: a rigid pull; give k_x [N/m], m [kg] and c_x [N s/m] for a body on a spring")
+    return "\n\n".join(_commented(case, block) for block in blocks) + "\n"
 
 
-def _choice(motion: motions.Motion) -> str:
-    """The key that names a motion, which those that a file need not name do without."""
-    return "" if type(motion) in motions.UNNAMED else "motion"
-
-
-def _line(field: Field[Any], record: Any) -> str:
-    """A key with its value, unit and meaning."""
-    unit, meaning, *_ = facts_of(field)
-    comment = f"# {f'[{unit}] ' if unit else ''}{meaning}" if unit or meaning else ""
-    return f"{f'{field.name} = {_written(getattr(record, field.name))}':<{WIDEST}}{comment}".rstrip()
+def _commented(case: SlidingContact, block: str) -> str:
+    """The lines of one table, or of what stands above the tables, each with a comment."""
+    title, lines = block.partition("\n")[0].strip("[]"), block.split("\n")
+    record = getattr(case, title, case)
+    known = {one.name: one for one in fields(record)}
+    for i, line in enumerate(lines):
+        key, comment = line.partition(" = ")[0], ""
+        if line == f"[{title}]":
+            comment = TITLES.get(title) or (type(record).__doc__ or "").partition("\n")[0].rstrip(".")
+        elif key in known:
+            line = f"{key} = {_written(getattr(record, key))}"
+            unit, meaning, *_ = facts_of(known[key])
+            comment = f"[{unit}] {meaning}" if unit else meaning
+        lines[i] = f"{line:<{WIDEST}}# {comment}" if comment else line
+    return "\n".join(lines)
 
 
 def _written(value: Any) -> str:
     """A value as one writes it: 3e6, not 3000000.0."""
     if isinstance(value, tuple):
         return "[" + ", ".join(_written(one) for one in value) + "]"
-    short_one = f"{value:.9g}".replace("e+0", "e").replace("e-0", "e-") if isinstance(value, float) else ""
-    if value and isinstance(value, float) and not 1e-3 <= abs(value) < 1e5:
-        digits, power = f"{value:.9e}".split("e")
-        short_one = f"{digits.rstrip('0').rstrip('.')}e{int(power)}"
-    return short_one if short_one and float(short_one) == value else toml_value(value)
+    if not isinstance(value, float):
+        return toml_value(value)
+    if value == 0 or 1e-3 <= abs(value) < 1e5:
+        return np.format_float_positional(value, trim="-")
+    return np.format_float_scientific(value, trim="-", exp_digits=1).replace("e+", "e")
 
 
 def _named(kind: str, name: str, known: Any) -> str:

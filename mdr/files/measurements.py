@@ -105,9 +105,9 @@ def read_moduli(
     if loss is None and "tan_delta" not in found:
         raise table.fault("the header names neither E'' nor tan delta; write f [Hz], E' [MPa], tan delta")
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
-        require_rows(table, values > 0, f"{name} must be positive")
+        _require_rows(table, values > 0, f"{name} must be positive")
     loss = storage * found["tan_delta"] if loss is None else loss
-    require_rows(table, loss >= 0, "loss must not be negative")
+    _require_rows(table, loss >= 0, "loss must not be negative")
     order = np.argsort(found["omega"], kind="stable")
     return DynamicModuli(found["omega"][order], stretch * storage[order], stretch * loss[order])
 
@@ -167,7 +167,7 @@ def force_points(path: str | PathLike[str], units: Words, columns: Words, touch:
     return d, F
 
 
-def require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
+def _require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
     """Refuse the first row that is not good."""
     if not np.all(good):
         i = int(np.argmin(good))

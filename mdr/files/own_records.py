@@ -8,14 +8,11 @@ from typing import Any, TypeVar
 
 from mdr import indenters, materials
 from mdr.case import in_plane, motion
-from mdr.case.in_plane import Shake
-from mdr.case.motion import Motion
-from mdr.indenters import Indenter
-from mdr.materials import Material
+from mdr.case.contact import KINDS
 
 Record = TypeVar("Record", bound=type[Any])
 
-_KINDS = (Indenter, Material, Motion, Shake)
+_KINDS = tuple(kind for part, kind in KINDS.items() if part != "pull")
 _OWN: dict[str, type[Any]] = {}
 
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from os import PathLike, fsdecode
 from typing import Any
 
@@ -31,26 +32,42 @@ class CaseFileError(ValueError):
         """The lines of the message."""
         return tuple(str(self).splitlines())
 
+    @classmethod
+    def of(cls, faults: Iterable[str]) -> CaseFileError:
+        """The error that tells these faults, one a line."""
+        return cls("\n".join(one_line(fault) for fault in faults))
+
+
+@contextmanager
+def told(where: str) -> Iterator[None]:
+    """Tell the faults that are found inside with the place where they are: a file, or a table of it."""
+    try:
+        yield
+    except RecursionError:
+        raise CaseFileError(f"{where}{NESTED}") from None
+    except CaseFileError as refusal:
+        raise CaseFileError.of(where + fault for fault in refusal.faults) from None
+
 
 def read_text(path: str | PathLike[str]) -> str:
     """The text of a file, or of standard input. Raises CaseFileError where there is none."""
-    source = fsdecode(path)
-    try:
-        if isinstance(path, StandardInput):
-            data = _read_standard_input()
-        else:
-            with open(path, "rb") as file:
-                data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        raise fault_error(source, [f"cannot be read: {getattr(fault, 'strerror', None) or fault}"]) from None
-    if len(data) > MAX_BYTES:
-        raise fault_error(source, [f"is larger than {MAX_BYTES // 2**20} MiB: no case file"])
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
-        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
-        raise fault_error(source, [what]) from None
+    with told(f"{fsdecode(path)}: "):
+        try:
+            if isinstance(path, StandardInput):
+                data = _read_standard_input()
+            else:
+                with open(path, "rb") as file:
+                    data = file.read(MAX_BYTES + 1)
+        except (OSError, ValueError) as fault:
+            raise CaseFileError(f"cannot be read: {getattr(fault, 'strerror', None) or fault}") from None
+        if len(data) > MAX_BYTES:
+            raise CaseFileError(f"is larger than {MAX_BYTES // 2**20} MiB: no case file")
+        try:
+            return data.decode("utf-8-sig")
+        except UnicodeDecodeError as fault:
+            line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
+            what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
+            raise CaseFileError(what) from None
 
 
 def _read_standard_input() -> bytes:
@@ -59,23 +76,27 @@ def _read_standard_input() -> bytes:
     return sys.stdin.buffer.read(MAX_BYTES + 1)
 
 
-def fault_error(source: str, faults: Iterable[str]) -> CaseFileError:
-    """The error that tells these faults, one a line."""
-    return CaseFileError("\n".join(one_line(f"{source}: {fault}") for fault in faults))
+def tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:
+    """What is made, or None and the words of the refusal, one or several."""
+    try:
+        return make(*given, **named), []
+    except CaseFileError as refusal:
+        return None, [*refusal.faults]
+    except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
+        return None, [one_line(str(refusal) or type(refusal).__name__)]
 
 
 def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:
     """The tables of a TOML text. Raises CaseFileError with the line that is no TOML."""
     import tomllib
 
-    if _DEEP.search(text):
-        raise fault_error(source, [NESTED])
-    try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise fault_error(source, [NESTED]) from None
-    except ValueError as fault:
-        raise fault_error(source, [_syntax_fault(text, str(fault))]) from None
+    with told(f"{source}: "):
+        if _DEEP.search(text):
+            raise CaseFileError(NESTED)
+        try:
+            return tomllib.loads(text)
+        except ValueError as fault:
+            raise CaseFileError.of([_syntax_fault(text, str(fault))]) from None
 
 
 def toml_value(value: Any) -> str:

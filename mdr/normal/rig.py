@@ -1,13 +1,19 @@
 """From a rig to a case: what is set and read at an experiment, turned into the fields of a `SlidingContact`.
 
 Rigs have a load, a frequency in hertz, a loss tangent and a sled; a case has a depth, an angular frequency, a
-relaxation time, and one mass for each direction.
+relaxation time, and one mass for each direction. `SETTINGS` are those that a case file may give in the place of fields:
+
+    [indenter]     theta_deg = 1.5     for theta [rad]
+    [material]     tan_delta = 0.2     for tau [s] of a KelvinVoigt: the loss tangent at the frequency of the case
+    [oscillation]  frequency = 50      for omega [rad/s], in Hz; so in [shake]
+    [oscillation]  load = 1.0          for F_z0 [N]; of a prescribed depth for u_z0, at which this load rests
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
 from mdr.case.in_plane import Shake
@@ -17,11 +23,44 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.doubts import GRAVITY, edge, warn_outside
-from mdr.normal.load_control import static_depth
 from mdr.normal.resolved import at_rest
+from mdr.normal.vary import RIG, angular, contact_of, fields_of
 from mdr.tools.checks import instance, not_negative, positive
 
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
+
+
+class Setting(NamedTuple):
+    """What a file may give in the place of a field."""
+
+    paths: tuple[str, ...]  #: it stands for the first of these that a record has
+    unit: str
+    convert: Callable[[Any], float]
+    of: type[Any] = object  #: record that alone has it
+
+    def field_of(self, part: str, record: type[Any]) -> str | None:
+        """The field that it stands for in such a part of a case."""
+        known = [f"{part}.{field}" for field in fields_of(record)] if issubclass(record, self.of) else []
+        return next((path.partition(".")[2] for path in self.paths if path in known), None)
+
+
+SETTINGS = {
+    "theta_deg": Setting(
+        ("indenter.theta",), "deg", lambda angle: math.radians(positive("theta_deg", angle, "angle in degrees"))
+    ),
+    "tan_delta": Setting(
+        RIG["tan_delta"], "-", lambda value: not_negative("tan_delta", value, "loss tangent"), KelvinVoigt
+    ),
+    "frequency": Setting(RIG["frequency"], "Hz", angular),
+    "load": Setting(RIG["load"], "N", lambda load: positive("load", load, "load in N")),
+}
+#: fields that other parts of the case decide about too: load and tan_delta hold for them in every case of a study
+OPEN = ("u_z0", "tau")
+
+
+def settings_of(part: str) -> dict[str, Setting]:
+    """What a file may give for the fields of a part."""
+    return {name: one for name, one in SETTINGS.items() if any(path.startswith(f"{part}.") for path in one.paths)}
 
 
 def rig(
@@ -115,7 +154,7 @@ def rig(
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
     0.00215 m/s
     """
-    omega = 2 * math.pi * positive("frequency", frequency, "in Hz")
+    omega = angular(frequency)
     material = _lossy(material, tan_delta, omega)
     instance("indenter", indenter, Indenter)
     F_z0 = _load(load, load_grams)
@@ -130,8 +169,14 @@ def rig(
             f"nothing vibrates at the frequency of {frequency:.6g} Hz: give one of {', '.join(given)}, or a shake in "
             f"the plane with omega = 2 pi frequency = {omega:.9g} rad/s"
         )
-    motion = _motion(indenter, material, F_z0, amplitudes, omega, m_z)
-    case = SlidingContact(indenter, material, mu_0, motion, pull, shake)
+    motion: Motion = ConstantLoad(F_z0)
+    if load_amplitude is not None:
+        motion = LoadOscillation(F_z0, load_amplitude, omega, m_z)
+    elif amplitudes:
+        du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
+        motion = NormalOscillation(0.0, du_z, omega)
+    parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
+    case = contact_of(parts, {"mu_0": mu_0, "load": F_z0})
     if density is not None:
         _warn_of_waves(case, positive("density", density, "in kg/m³"))
     return case
@@ -155,7 +200,7 @@ def _load(load: float | None, load_grams: float | None) -> float:
     if (load is None) == (load_grams is None):
         raise ValueError("give the load once: load in N, or load_grams, the mass in g whose weight it is")
     if load is not None:
-        return positive("load", load, "load in N")
+        return SETTINGS["load"].convert(load)
     return 1e-3 * GRAVITY * positive("load_grams", load_grams, "in g")
 
 
@@ -189,18 +234,6 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
             "the load is all that presses, the weight of the sled included"
         )
     return moved if rides else 0.0
-
-
-def _motion(
-    indenter: Indenter, material: Material, F_z0: float, amplitudes: Mapping[str, float], omega: float, m_z: float
-) -> Motion:
-    """The normal motion: a load, or a depth about the one at which the load rests."""
-    if not amplitudes:
-        return ConstantLoad(F_z0)
-    if "load_amplitude" in amplitudes:
-        return LoadOscillation(F_z0, amplitudes["load_amplitude"], omega, m_z)
-    du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
-    return NormalOscillation(static_depth(indenter, material, F_z0), du_z, omega)
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:

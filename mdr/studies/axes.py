@@ -20,7 +20,7 @@ refused at once; one that some of them lack is a failure of those points.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -48,9 +48,11 @@ class Axis(ArrayRecord):
     labels: tuple[str, ...] = ()  #: what values that are no numbers are called
 
     @classmethod
-    def labelled(cls, path: str, labels: Iterable[str]) -> Axis:
-        """An axis of records of which the labels are known alone."""
-        return cls(path, tuple(labels), tuple(labels))
+    def known(cls, path: str, values: Sequence[Any] | Array) -> Axis:
+        """An axis of numbers, or of records of which the labels are known alone."""
+        if isinstance(values[0], str):
+            return cls(path, tuple(values), tuple(values))
+        return cls(path, np.array(values, dtype=float))
 
     def _values(self) -> tuple[Any, ...]:
         return self.path, self.values if self.is_numeric else None, self.labels
@@ -155,8 +157,8 @@ def _axis(path: str, values: Any, parts: Mapping[str, tuple[Any, ...]]) -> Axis:
 
 def _numbers(path: str, values: Any, signed: bool) -> Array:
     unit = facts_at(path).unit
-    listed = values if isinstance(values, np.ndarray) else _listed(path, values)
-    if not isinstance(listed, np.ndarray) and any(isinstance(one, bool) for one in listed):
+    listed = _listed(path, values)
+    if any(isinstance(one, bool) for one in listed):
         raise TypeError(f"{path} must be real numbers, got {short(repr(values))}")
     try:
         numbers = np.array(finite_array(path, listed, "" if unit == "-" else unit))  # a copy: the study keeps it
@@ -164,8 +166,6 @@ def _numbers(path: str, values: Any, signed: bool) -> Array:
         raise type(refusal)(short(str(refusal), 160)) from None
     if numbers.ndim != 1:
         raise ValueError(f"{path} must be a plain list of values, got an array of shape {numbers.shape}")
-    if numbers.size == 0:
-        raise ValueError(f"{path} has no values: give at least one, or leave the axis out")
     ordered = np.sort(numbers)
     if twice := ordered[1:][ordered[1:] == ordered[:-1]].tolist():
         raise ValueError(f"{path} has the value {twice[0]!r} twice; give each once")
@@ -213,17 +213,14 @@ def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
 
 def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     """Refuse a path that no case of the study has."""
-    if path in VELOCITIES or path == "mu_0" or path in parts:
+    of_parts = dict.fromkeys(f"{slot}.{one}" for slot, has in parts.items() for part in has for one in fields_of(part))
+    if path in (*VELOCITIES, "mu_0", *parts) or any(field in of_parts for field in fields_set(path)):
         return
-    for sets in fields_set(path):
-        slot, _, field = sets.partition(".")
-        if any(field in fields_of(part) for part in parts.get(slot, ())):
-            return
+    slot, _, field = fields_set(path)[-1].partition(".")
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
-    of_parts = [f"{slot}.{field}" for slot, having in parts.items() for part in having for field in fields_of(part)]
-    known = [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *dict.fromkeys(of_parts)]
+    known = [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *of_parts]
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)
     whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""

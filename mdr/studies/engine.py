@@ -6,29 +6,28 @@ import os
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Collection, Generator, Sequence
+from contextlib import closing
 from dataclasses import replace
 from itertools import islice
-from statistics import fmean
+from random import Random
 from threading import Event
 from typing import Any
 
-from mdr.studies.formats import packed, unpacked
-from mdr.studies.points import SLOW, Part, compute
+from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.studies.formats import packed
+from mdr.studies.points import Points, Status, compute
 from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
-from mdr.studies.study import Frame, Results, Study
-from mdr.studies.work import Cut, Work
-from mdr.tools.progress import Meter, in_words
+from mdr.studies.study import Frame, Study, study_of_points
+from mdr.studies.work import Work, units_of
+from mdr.tools.progress import progress
 
 TRIAL = 1.0  #: s in which units are timed
 MOST_TRIALS = 32
 LEAST_CHUNKS = 32  #: where there are so many units, so that several workers share them evenly
 IN_MEMORY = 256  #: chunks of a study without a store
-COARSE = 32  #: springs and steps of the run that compiles
 MOST_IN_FLIGHT = 1024  #: chunks that an executor of the user is given at a time
-
-GOLDEN = 0.6180339887498949
 
 
 class Call:
@@ -36,7 +35,7 @@ class Call:
 
     def __init__(self, work: Work, store: Store | None, executor: Any) -> None:
         self.work, self.store, self.executor = work, store, executor
-        self.results = Results(work.layout, len(work.quantities))
+        self.points = Points.blank(len(work.quantities), work.layout.n_points, Status.MISSING)
         self.specification: dict[str, Any] = {}
         self.identity = ""
         try:
@@ -49,8 +48,13 @@ class Call:
 
     def study(self, chunk_seconds: float, shard: tuple[int, int]) -> Study:
         """The study; what is missing of this shard in the store is computed before."""
+        n = self.work.layout.n_units
         try:
-            return self._in_memory() if self.store is None else self._in_store(self.store, chunk_seconds, shard)
+            if self.store is not None:
+                return self._in_store(self.store, chunk_seconds, shard)
+            cut = range(0, n, max(1, n // IN_MEMORY))
+            self._compute(range(len(cut)), cut, len(cut))
+            return self._found()
         except KeyboardInterrupt:
             print(f"sweep: interrupted; {self._kept}", file=sys.stderr)
             raise
@@ -61,11 +65,8 @@ class Call:
             return "nothing is kept, as there is no store (store=, --store)"
         return f"{self.store.kept or 'nothing is computed yet'}; the same call goes on from there"
 
-    def _in_memory(self) -> Study:
-        n = self.work.layout.n_units
-        cut = Cut(n, max(1, n // IN_MEMORY))
-        self._compute(range(cut.n_chunks), cut, cut.n_chunks)
-        return self.results.study(self.frame)
+    def _found(self) -> Study:
+        return study_of_points(self.frame, self.work.layout, self.points)
 
     def _in_store(self, store: Store, chunk_seconds: float, shard: tuple[int, int]) -> Study:
         head = {"identity": self.identity, "specification": self.specification, "frame": self.frame.tree()}
@@ -82,70 +83,56 @@ class Call:
 
     def _merged(self, store: Store) -> Study | None:
         """The finished study, with the records of the axes in the place of their labels."""
-        data = store.merged()
-        if data is None:
+        study = store.merged()
+        if study is None:
             return None
-        try:
-            study = unpacked(data)
-        except ValueError as fault:
-            raise StudyError(f"{store.file}: is {fault}; move it away and repeat the call") from fault
         if study.identity != self.identity:
             raise StudyError(f"{store.file}: is of another study than study.json beside it; give another folder")
         store.clear()
         return replace(study, frame=self.frame)
 
-    def _cut(self, store: Store, chunk_seconds: float) -> Cut:
+    def _cut(self, store: Store, chunk_seconds: float) -> range:
         """As the store has it, or as a trial finds; all processes on a store cut alike."""
         cut = store.plan() or store.settle(timed(self.work, chunk_seconds))
-        if cut.n_units != self.work.layout.n_units:
+        if cut.stop != self.work.layout.n_units:
             raise StudyError(f"{store.chunks}: its plan is of another study; remove that folder, repeat the call")
         return cut
 
-    def _completed(self, store: Store, cut: Cut, shard: tuple[int, int]) -> Study:
+    def _completed(self, store: Store, cut: range, shard: tuple[int, int]) -> Study:
         """The study once the chunks of the shard are there; merged if none is missing then."""
         k, n = shard
-        own = range(k - 1, cut.n_chunks, n)
-        missing, others = self._load(store, own, cut), [i for i in range(cut.n_chunks) if i not in own]
-        self._compute(missing, cut, len(own))
+        own = range(k - 1, len(cut), n)
+        others = set(range(len(cut))).difference(own)
+        self._compute(self._missing(store, own, cut), cut, len(own))
         if others and store.finished().issuperset(others):
-            self._compute(self._load(store, others, cut), cut, cut.n_chunks)  # what turns out to be damaged of these
-        study = self.results.study(self.frame)
+            self._compute(self._missing(store, others, cut), cut, len(cut))  # what is damaged of these
+        study = self._found()
         if study.complete:
             store.merge(packed(study))
         return study
 
-    def _load(self, store: Store, chunks: Sequence[int], cut: Cut) -> list[int]:
-        """Put chunks that are in the store into the results; the others."""
-        finished, missing = store.finished(), []
-        store.n_kept, store.n_chunks = len(finished), cut.n_chunks
-        for chunk in chunks:
-            units = cut.units(chunk)
-            part = store.read(chunk, self.identity, self.results.shape_of(units)) if chunk in finished else None
-            if part is not None:
-                self.results.put(units[0], part)
-                continue
-            missing.append(chunk)
-            if chunk in finished:
-                store.n_kept -= 1
-                warnings.warn(f"{store.chunks}: chunk {chunk} is damaged and is computed again", stacklevel=6)
-        return missing
+    def _missing(self, store: Store, chunks: Collection[int], cut: range) -> list[int]:
+        """Take over the chunks that are in the store; returns the others."""
+        finished = store.finished()
+        kept = [chunk for chunk in chunks if chunk in finished]
+        damaged = store.load(kept, cut, self.work.layout, self.identity, self.points)
+        for chunk in damaged:
+            warnings.warn(f"{store.chunks}: chunk {chunk} is damaged and is computed again", stacklevel=6)
+        store.n_kept, store.n_chunks = len(finished) - len(damaged), len(cut)
+        return [chunk for chunk in chunks if chunk not in finished or chunk in damaged]
 
-    def _compute(self, chunks: Sequence[int], cut: Cut, total: int) -> None:
+    def _compute(self, chunks: Sequence[int], cut: range, total: int) -> None:
         """Compute chunks and keep each as soon as it is finished."""
         if not chunks:
             return
-        meter = Meter("sweep", total, "chunks", done=total - len(chunks))
-        slow: list[float] = []
-
-        def take(chunk: int, part: Part) -> None:
-            if self.store is not None:
-                self.store.write(chunk, self.identity, part)
-            self.results.put(cut.units(chunk)[0], part)
-            slow.extend(part.slow)
-            meter.tick()
-
+        finished = run(self.work, cut, chunks, self.executor)
+        meter = progress(finished, "sweep", "chunks", total, done=total - len(chunks))
         try:
-            run(self.work, cut, chunks, self.executor, take)
+            with closing(finished):
+                for chunk, points in meter:
+                    if self.store is not None:
+                        self.store.write(chunk, self.identity, points)
+                    self.points[self.work.layout.points(units_of(cut, chunk))].put(points)
         except Exception as error:
             if _lost(error):
                 what = f"the workers were lost, as when one is killed or runs out of memory ({error})"
@@ -153,17 +140,12 @@ class Call:
             if "pickle" in str(error) or "local object" in str(error):
                 error.add_note("what is sent to other processes must be defined at the top of a module")
             raise
-        finally:
-            meter.close()
-        if slow:
-            cases = "1 case" if len(slow) == 1 else f"{len(slow)} cases"
-            print(f"sweep: {cases} took more than {SLOW:g} s, at most {in_words(max(slow))}", file=sys.stderr)
 
 
-def run(work: Work, cut: Cut, chunks: Sequence[int], executor: Any, take: Callable[[int, Part], None]) -> None:
-    """Compute chunks in any order, by own threads or an executor; `take(chunk, part)` is called for each finished one.
+def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generator[tuple[int, Points], None, None]:
+    """Compute chunks in any order, by own threads or an executor; yields each with its points as it is finished.
 
-    What `take`, the executor or the work itself raises ends the run.
+    What the executor or the work itself raises ends the run; so does closing the generator.
     """
     from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
@@ -172,16 +154,16 @@ def run(work: Work, cut: Cut, chunks: Sequence[int], executor: Any, take: Callab
     pool = threads or executor
     most = n_threads + 2 if threads else MOST_IN_FLIGHT
     stop = (ended,) if isinstance(pool, ThreadPoolExecutor) else ()  # an event cannot be sent to other processes
-    waiting: dict[Future[Part], int] = {}
+    waiting: dict[Future[Points], int] = {}
     remaining = iter(chunks)
     try:
         while True:
             for chunk in islice(remaining, most - len(waiting)):
-                waiting[pool.submit(compute, work, *cut.units(chunk), *stop)] = chunk
+                waiting[pool.submit(compute, work, units_of(cut, chunk), *stop)] = chunk
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                take(waiting.pop(future), future.result())
+                yield waiting.pop(future), future.result()
     finally:
         ended.set()
         for future in waiting:
@@ -192,9 +174,7 @@ def run(work: Work, cut: Cut, chunks: Sequence[int], executor: Any, take: Callab
 
 def cores() -> int:
     """How many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _lost(error: Exception) -> bool:
@@ -205,25 +185,20 @@ def _lost(error: Exception) -> bool:
     return isinstance(error, BrokenExecutor | CancelledError) or type(error).__name__ == "KilledWorker"
 
 
-def timed(work: Work, seconds: float) -> Cut:
-    """Chunks of about so many seconds, estimated from trial units spread over the grid."""
+def timed(work: Work, seconds: float) -> range:
+    """Chunks of about so many seconds, estimated from trial units spread over the grid, after compilation."""
     n = work.layout.n_units
     most = n // LEAST_CHUNKS
     if most < 2:
-        return Cut(n, 1)
-    return Cut(n, max(1, min(most, int(seconds / max(fmean(_times(work)), 1e-9)))))
-
-
-def _times(work: Work) -> Iterator[float]:
-    """Computing times of trial units [s], after compilation."""
-    trials = [int((0.5 + k * GOLDEN) % 1 * work.layout.n_units) for k in range(MOST_TRIALS)]
-    coarse = replace(work, n_springs=COARSE, steps_per_period=COARSE)
-    compute(coarse, trials[0], trials[0] + 1)
-    begin = now = time.perf_counter()
+        return range(n)
+    trials = Random(0).sample(range(n), MOST_TRIALS)
+    coarse = {"n_springs": LEAST_KNOB, "steps_per_period": LEAST_KNOB}
+    compute(replace(work, knobs={**work.knobs, **coarse}), range(trials[0], trials[0] + 1))
+    lasted, begin = [0.0], time.perf_counter()
     for unit in trials:
-        if now - begin > TRIAL:
-            return
-        start = now
-        compute(work, unit, unit + 1)
-        now = time.perf_counter()
-        yield now - start
+        if lasted[-1] > TRIAL:
+            break
+        compute(work, range(unit, unit + 1))
+        lasted.append(time.perf_counter() - begin)
+    each = max(lasted[-1] / (len(lasted) - 1), 1e-9)
+    return range(0, n, max(1, min(most, int(seconds / each))))

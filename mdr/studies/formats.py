@@ -83,14 +83,11 @@ def table(study: Study) -> str:
     named = [(axis.path, axis.unit) for axis in grid]
     named += [(column.name, column.unit) for column in study.frame.columns]
     writer.writerow([*(f"{name} [{unit}]" if unit else name for name, unit in named), "status", "why"])
-    names = {int(status): status.name.lower() for status in Status}
-    told = [[axis.told(i) for i in range(len(axis))] for axis in grid]
-    values = study.values.reshape(len(study.frame.columns), -1)
-    fates = zip(study.status.ravel().tolist(), study.reason.ravel().tolist(), strict=True)
-    for k, (where, (status, reason)) in enumerate(zip(np.ndindex(study.shape), fates, strict=True)):
-        coordinates = [texts[i] for texts, i in zip(told, where, strict=True)]
-        numbers = [repr(value) for value in values[:, k].tolist()]
-        writer.writerow([*coordinates, *numbers, names[status], study.reasons[reason]])
+    values = study.values.reshape(len(study.frame.columns), -1).T.tolist()
+    ends = zip(study.status.ravel().tolist(), np.ravel(study.why).tolist(), strict=True)
+    for where, numbers, (status, why) in zip(np.ndindex(study.shape), values, ends, strict=True):
+        coordinates = [axis.told(i) for axis, i in zip(grid, where, strict=True)]
+        writer.writerow([*coordinates, *map(repr, numbers), Status(status).name.lower(), why])
     return out.getvalue()
 
 
@@ -149,10 +146,7 @@ def _study(file: Any) -> Study:
 
 
 def _axis(variable: Any) -> Axis:
-    path = _text(variable, "path")
-    if variable.typecode() == "c":
-        return Axis.labelled(path, _texts(variable))
-    return Axis(path, _native(variable, "f8"))
+    return Axis.known(_text(variable, "path"), _texts(variable) if variable.typecode() == "c" else variable.data)
 
 
 def _native(variable: Any, kind: str) -> NDArray[Any]:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from enum import IntEnum
 from threading import Event
 from typing import Any
@@ -22,11 +21,9 @@ from mdr.studies.work import Work
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
 from mdr.tools.progress import silent
-from mdr.tools.records import ArrayRecord
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)
-SLOW = 60.0  #: seconds from which on a case, at all its velocities, is said to have taken long
 LONGEST_REASON = 240  #: characters
 
 
@@ -43,45 +40,109 @@ class Ended(Exception):
     """Raised to end a sweep before its work is done."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Part(ArrayRecord):
-    """The outcome of n consecutive points."""
+@dataclass
+class Points:
+    """Values of n points, how each ended, and why."""
 
     values: Array  #: (n_quantities, n), NaN where there is none
     status: NDArray[np.uint8]  #: (n,), see Status
-    reason: NDArray[np.int32]  #: (n,), which of the reasons
-    reasons: tuple[str, ...]  #: distinct; the first is "", none
-    slow: tuple[float, ...] = ()  #: seconds of each unit of work that took more than SLOW; not kept in a store
+    why: NDArray[np.object_]  #: (n,), "" where there is nothing to say
+
+    @classmethod
+    def blank(cls, n_quantities: int, n: int, status: Status) -> Points:
+        """Points without values that all ended in one way."""
+        return cls(np.full((n_quantities, n), np.nan), np.full(n, status, np.uint8), np.full(n, "", object))
+
+    def __getitem__(self, part: slice) -> Points:
+        """Some of the points; what is written there is written here."""
+        return Points(self.values[:, part], self.status[part], self.why[part])
+
+    def put(self, other: Points) -> None:
+        """Take over other points, or one point for all."""
+        self.values[:], self.status[:], self.why[:] = other.values, other.status, other.why
+
+    def end(self, status: Status, why: str) -> None:
+        """Say how they ended; a worse end stands."""
+        self.status[:] = np.maximum(self.status, status)
+        self.why[:] = [one_line(f"{known}; {why}" if known else why, LONGEST_REASON) for known in self.why]
+
+    @contextmanager
+    def failing(self, name: str = "") -> Iterator[None]:
+        """What is done inside fails these points alone, with the quantity's name ahead of the reason."""
+        try:
+            yield
+        except OF_THE_POINT as error:
+            self.end(Status.FAILED, f"{name}: {reason_of(error)}" if name else reason_of(error))
 
 
-def compute(work: Work, start: int, stop: int, ended: Event | None = None) -> Part:
-    """The points of units start <= unit < stop. Raises Ended soon after the event is set."""
+def compute(work: Work, units: range, ended: Event | None = None) -> Points:
+    """The points of some units. Raises Ended soon after the event is set."""
 
     def watch() -> None:
         if ended is not None and ended.is_set():
             raise Ended
 
-    seconds: list[float] = []
-    parts: list[_Points] = []
+    layout = work.layout
+    where = layout.points(units)
+    found = Points.blank(len(work.quantities), where.stop - where.start, Status.DONE)
+    case, known, n = None, found, 0
     with silent(watch):
-        case: _Case | None = None
-        for unit in range(start, stop):
+        for unit in units:
             watch()
-            begin = time.monotonic()
-            if case is None or unit % work.layout.blocks == 0:
-                case = _Case.of(work, unit)
-            parts.append(case.points(work.layout.velocities(unit)))
-            seconds.append(time.monotonic() - begin)
-    reasons = {"": 0}
-    whys = [one_line("; ".join(of_point), LONGEST_REASON) for points in parts for of_point in points.whys]
-    codes = [reasons.setdefault(why, len(reasons)) for why in whys]
-    return Part(
-        values=np.concatenate([points.values for points in parts], axis=1),
-        status=np.concatenate([points.status for points in parts]),
-        reason=np.array(codes, dtype=np.int32),
-        reasons=tuple(reasons),
-        slow=tuple(one for one in seconds if one > SLOW),
-    )
+            velocities = layout.velocities(unit)
+            if unit == units.start or velocities.start == 0:
+                case, known = _known(work, unit)
+            points = found[n : n + velocities.stop - velocities.start]
+            n += points.status.size
+            points.put(known)
+            if case is not None and work.velocity_axis is not None:
+                _fill(work, case, np.asarray(work.velocity_axis.values)[velocities], points)
+    return found
+
+
+def _known(work: Work, unit: int) -> tuple[SlidingContact | None, Points]:
+    """The case of a unit, None where it cannot be built, and what is the same at all its velocities."""
+    case, known = None, Points.blank(len(work.quantities), 1, Status.DONE)
+    with known.failing():
+        case = work.case_of(unit)
+        for row, one in enumerate(work.quantities):
+            if isinstance(one, Quantity) and not one.per_velocity:
+                with known.failing(one.name):
+                    known.values[row] = _number(one.of(case))
+    return case, known
+
+
+def _fill(work: Work, case: SlidingContact, velocities: Array, points: Points) -> None:
+    """The quantities that depend on the velocity: of curves at all of them together; if one fails, at each."""
+    moving = [(row, one) for row, one in enumerate(work.quantities) if one.per_velocity]
+    assert work.velocity_axis is not None
+    if not moving:
+        return
+    with points.failing():
+        v_0 = velocities_of(case, work.velocity_axis.path, velocities)
+        each = [(v_0[j : j + 1], points[j : j + 1]) for j in range(v_0.size)]
+        try:
+            _fill_curves(work, case, v_0, points)
+        except OF_THE_POINT:
+            for v, point in each:
+                with point.failing():
+                    _fill_curves(work, case, v, point)
+        for row, one in moving:
+            if isinstance(one, Quantity):
+                for v, point in each:
+                    with point.failing(one.name):
+                        point.values[row] = _number(one.of(case, v.item()))
+
+
+def _fill_curves(work: Work, case: SlidingContact, v_0: Array, points: Points) -> None:
+    wanted = [(row, one) for row, one in enumerate(work.quantities) if isinstance(one, CurveQuantity)]
+    if not wanted:
+        return
+    curve = cof_curve(case, v_0, **work.knobs)
+    for row, one in wanted:
+        points.values[row] = one.of(case, curve)
+    for j in np.flatnonzero(~curve.settled).tolist():
+        points[j : j + 1].end(Status.UNSETTLED, curve.why[j] or "the run did not settle")
 
 
 def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
@@ -93,96 +154,6 @@ def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
         what = "zero" if v_c == 0 else "infinite, as on an undamped resonance"
         raise ValueError(f"v_0/v_c: the critical velocity of this case is {what}, so that its multiples say nothing")
     return values * v_c
-
-
-class _Points:
-    """The points of one unit while they are filled in."""
-
-    def __init__(self, quantities: tuple[Quantity | CurveQuantity, ...], n: int) -> None:
-        self.values = np.full((len(quantities), n), np.nan)
-        self.rows = {one.name: row for one, row in zip(quantities, self.values, strict=True)}
-        self.status = np.full(n, Status.DONE, dtype=np.uint8)
-        self.whys: list[list[str]] = [[] for _ in range(n)]
-
-    def end(self, part: slice, status: Status, why: str) -> None:
-        """Say how points ended; a worse end stands."""
-        self.status[part] = np.maximum(self.status[part], status)
-        for whys in self.whys[part]:
-            whys.append(why)
-
-    def failing(self, part: slice, name: str = "") -> AbstractContextManager[None]:
-        """What is done inside fails these points alone, with the quantity's name ahead of the reason."""
-        return _caught(lambda why: self.end(part, Status.FAILED, why), name)
-
-
-@dataclass
-class _Case:
-    """One case, and what is the same at all its velocities."""
-
-    work: Work
-    case: SlidingContact | None = None  #: None where it cannot be built
-    constants: dict[str, float] = field(default_factory=dict)
-    whys: list[str] = field(default_factory=list)  #: what keeps it, or one of these, from being there
-
-    @classmethod
-    def of(cls, work: Work, unit: int) -> _Case:
-        made = cls(work)
-        with _caught(made.whys.append):
-            made.case = case = work.case_of(unit)
-            for one in work.quantities:
-                if isinstance(one, Quantity) and not one.per_velocity:
-                    with _caught(made.whys.append, one.name):
-                        made.constants[one.name] = _number(one.of(case))
-        return made
-
-    def points(self, part: slice) -> _Points:
-        """The points at a part of the velocities."""
-        points = _Points(self.work.quantities, part.stop - part.start)
-        for why in self.whys:
-            points.end(slice(None), Status.FAILED, why)
-        for name, value in self.constants.items():
-            points.rows[name][:] = value
-        axis = self.work.velocity_axis
-        if self.case is not None and axis is not None and any(one.per_velocity for one in self.work.quantities):
-            with points.failing(slice(None)):
-                v_0 = velocities_of(self.case, axis.path, np.asarray(axis.values)[part])
-                self._fill(self.case, v_0, points)
-        return points
-
-    def _fill(self, case: SlidingContact, v_0: Array, points: _Points) -> None:
-        """The quantities that depend on the velocity: of curves at all of them together; if one fails, at each."""
-        try:
-            self._fill_curves(case, v_0, slice(0, v_0.size), points)
-        except OF_THE_POINT:
-            for j in range(v_0.size):
-                with points.failing(slice(j, j + 1)):
-                    self._fill_curves(case, v_0, slice(j, j + 1), points)
-        for one in self.work.quantities:
-            if isinstance(one, Quantity) and one.per_velocity:
-                for j, v in enumerate(v_0.tolist()):
-                    with points.failing(slice(j, j + 1), one.name):
-                        points.rows[one.name][j] = _number(one.of(case, v))
-
-    def _fill_curves(self, case: SlidingContact, v_0: Array, part: slice, points: _Points) -> None:
-        wanted = [one for one in self.work.quantities if isinstance(one, CurveQuantity)]
-        if not wanted:
-            return
-        knobs = {name: getattr(self.work, name) for name in ("n_springs", "steps_per_period", "accuracy")}
-        curve = cof_curve(case, v_0[part], **knobs)
-        for one in wanted:
-            points.rows[one.name][part] = one.of(case, curve)
-        for j in np.flatnonzero(~curve.settled).tolist():
-            own = slice(part.start + j, part.start + j + 1)
-            points.end(own, Status.UNSETTLED, curve.why[j] or "the run did not settle")
-
-
-@contextmanager
-def _caught(tell: Callable[[str], None], name: str = "") -> Iterator[None]:
-    """An error that ends a point alone is told, with a name ahead of it, and goes no further."""
-    try:
-        yield
-    except OF_THE_POINT as error:
-        tell(f"{name}: {reason_of(error)}" if name else reason_of(error))
 
 
 def reason_of(error: BaseException) -> str:

@@ -24,13 +24,11 @@ MOST_TOLD = 4  #: differences
 def specification(work: Work) -> dict[str, Any]:
     """All that the values of a study depend on, as a tree for JSON. ValueError for what cannot be told by its data."""
     return {
-        "case": {**described(work.case), **work.held},
+        "case": {one.name: described(getattr(work.case, one.name)) for one in fields(work.case)} | dict(work.held),
         "axes": {axis.path: described(axis.values) for axis in work.axes},
         "order of axes": [axis.path for axis in work.axes],
         "quantities": [_quantity(one) for one in work.quantities],
-        "n_springs": work.n_springs,
-        "steps_per_period": work.steps_per_period,
-        "accuracy": work.accuracy,
+        **work.knobs,
         "version of mdr": version.__version__,
         "code of mdr": code(),
     }
@@ -48,44 +46,30 @@ def identity_of(tree: Mapping[str, Any]) -> str:
 
 
 def described(value: Any) -> Any:
-    """A value as a tree for JSON, the same for equal values."""
-    if isinstance(value, np.ndarray):
+    """A value as JSON, the same for equal values; a record as the call that makes it."""
+    if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
-    if isinstance(value, np.generic):
-        return value.item()
     if value is None or isinstance(value, bool | int | float | str):
         return value
     if isinstance(value, tuple | list):
         return [described(one) for one in value]
     if is_dataclass(value) and not isinstance(value, type):
-        return _record(value)
+        return _call(value)
     what = without_addresses(short(repr(value)))
     raise ValueError(f"{what} cannot be told by its data, as a store must; build the case from the records of mdr")
 
 
-def differences(known: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
-    """What differs between two specifications, in words."""
-    found = [line for name in dict.fromkeys([*known, *asked]) for line in _differing(name, known, asked)]
-    rest = len(found) - MOST_TOLD
-    return "; ".join(found[:MOST_TOLD]) + (f"; and {rest} more" if rest > 0 else "")
-
-
-def _record(record: Any) -> dict[str, Any]:
+def _call(record: Any) -> str:
     kind = type(record)
     own = "" if kind.__module__.partition(".")[0] == "mdr" else f"{kind.__module__}."
-    tree: dict[str, Any] = {"record": own + kind.__qualname__}
-    for one in fields(record):
-        value = getattr(record, one.name)
-        if not one.init:
-            continue
-        if not callable(value):
-            tree[one.name] = described(value)
-        elif not getattr(record, "name", None):
-            raise ValueError(
-                f"{kind.__name__} holds a function, which a store cannot compare when the study is resumed: "
-                f'name it, {kind.__name__}(..., name="..."), a new name for every function'
-            )
-    return tree
+    values = {one.name: getattr(record, one.name) for one in fields(record) if one.init}
+    if any(callable(value) for value in values.values()) and not values.get("name"):
+        raise ValueError(
+            f"{kind.__name__} holds a function, which a store cannot compare when the study is resumed: "
+            f'name it, {kind.__name__}(..., name="..."), a new name for every function'
+        )
+    given = [f"{name}={json.dumps(described(value))}" for name, value in values.items() if not callable(value)]
+    return f"{own}{kind.__qualname__}({', '.join(given)})"
 
 
 def _quantity(one: Quantity | CurveQuantity) -> Any:
@@ -95,21 +79,22 @@ def _quantity(one: Quantity | CurveQuantity) -> Any:
     return {"name": one.name, "unit": one.unit, "meaning": one.meaning, "per_velocity": one.per_velocity}
 
 
-def _differing(name: str, known: Any, asked: Any) -> list[str]:
-    """The differences below one branch."""
-    old, new = known.get(name), asked.get(name)
-    if old == new:
-        return []
-    if isinstance(old, dict) and isinstance(new, dict) and old.get("record") == new.get("record"):
-        return [f"{name}.{line}" for key in dict.fromkeys([*old, *new]) for line in _differing(key, old, new)]
-    if name not in known or name not in asked:
-        where = "the store" if name in known else "this call"
-        return [f"{name} is in {where} only"]
-    return [f"{name} is {_told(old)} there and {_told(new)} here"]
+def differences(known: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
+    """What differs between two specifications, in words."""
+    found = _differing(known, asked)
+    rest = len(found) - MOST_TOLD
+    return "; ".join(found[:MOST_TOLD]) + (f"; and {rest} more" if rest > 0 else "")
 
 
-def _told(tree: Any) -> str:
-    if isinstance(tree, dict) and "record" in tree:
-        inside = ", ".join(f"{key}={_told(value)}" for key, value in tree.items() if key != "record")
-        return short(f"{tree['record']}({inside})")
-    return short(json.dumps(tree))
+def _differing(known: Mapping[str, Any], asked: Mapping[str, Any]) -> list[str]:
+    found = []
+    for name in dict.fromkeys([*known, *asked]):
+        old, new = known.get(name), asked.get(name)
+        if isinstance(old, dict) and isinstance(new, dict):
+            found += [f"{name}.{line}" for line in _differing(old, new)]
+        elif name not in known or name not in asked:
+            found.append(f"{name} is in {'the store' if name in known else 'this call'} only")
+        elif old != new:
+            there, here = (short(one if isinstance(one, str) else json.dumps(one)) for one in (old, new))
+            found.append(f"{name} is {there} there and {here} here")
+    return found

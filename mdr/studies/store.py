@@ -4,7 +4,7 @@
 
     study.json            specification and identity
     chunks/plan.json      how the work is cut
-    chunks/000012.npz     a finished chunk, with its checksum
+    chunks/000012.npz     a finished chunk, with checksums
     study.nc              all of it, once no chunk is missing; the chunks are then removed
 
 Every file appears whole or not at all, so that a kill at any instant costs only the chunks in flight. Several
@@ -17,10 +17,8 @@ import errno
 import json
 import os
 import shutil
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import asdict
-from hashlib import sha256
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -29,10 +27,10 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mdr.studies.formats import unpacked
-from mdr.studies.points import Part
+from mdr.studies.points import Points, Status
 from mdr.studies.specification import differences
-from mdr.studies.study import Frame, Results, Study
-from mdr.studies.work import Cut, Layout
+from mdr.studies.study import Frame, Study, study_of_points
+from mdr.studies.work import Layout, units_of
 from mdr.tools.atomic_write import is_partial, write_once, write_whole
 
 HEAD = ("identity", "specification", "frame", "block")  #: what study.json says
@@ -68,14 +66,13 @@ class Store:
             if self.folder.exists() and not self.folder.is_dir():
                 raise StudyError(f"{self.folder}: is a file; give a folder for the store")
             self.folder.mkdir(parents=True, exist_ok=True)
-            known = self.head()
-            if known is None:
+            if self.head() is None:
                 self._refuse_strangers()
                 text = json.dumps(head, indent=1, ensure_ascii=False, allow_nan=False)
                 write_once(self.folder / "study.json", text.encode("utf-8"))
-                known = self.head()
-        if known is None or known["identity"] != head["identity"]:
-            what = differences((known or {}).get("specification", {}), head["specification"])
+            known = self.head() or {}
+        if known.get("identity") != head["identity"]:
+            what = differences(known.get("specification", {}), head["specification"])
             raise StudyError(f"{self.folder}: is the store of another study: {what}; give another folder")
 
     def head(self) -> dict[str, Any] | None:
@@ -83,12 +80,9 @@ class Store:
         path = self.folder / "study.json"
         return _known(path, lambda head: {name: head[name] for name in HEAD}, "move the store away and repeat the call")
 
-    def merged(self) -> bytes | None:
+    def merged(self) -> Study | None:
         """The finished study; None while chunks are missing."""
-        try:
-            return self.file.read_bytes()
-        except (FileNotFoundError, NotADirectoryError):
-            return None
+        return _read_file(self.file, "; move it away and repeat the call") if self.file.exists() else None
 
     def merge(self, data: bytes) -> None:
         """Put the finished study in the place of its chunks."""
@@ -113,17 +107,16 @@ class Store:
             write_whole(self.chunks / "plan.try", b"")
             (self.chunks / "plan.try").unlink(missing_ok=True)
 
-    def plan(self) -> Cut | None:
+    def plan(self) -> range | None:
         """How the work is cut; None before that is settled."""
-        way_out = f"remove the folder {self.chunks} and repeat the call"
-        return _known(
-            self.chunks / "plan.json", lambda plan: Cut(int(plan["n_units"]), int(plan["units_per_chunk"])), way_out
-        )
+        path, way_out = self.chunks / "plan.json", f"remove the folder {self.chunks} and repeat the call"
+        return _known(path, lambda plan: range(0, int(plan["n_units"]), int(plan["units_per_chunk"])), way_out)
 
-    def settle(self, cut: Cut) -> Cut:
+    def settle(self, cut: range) -> range:
         """Write down how the work is cut, unless another process has done so meanwhile; returns the cut that holds."""
         with self._told("plan.json"):
-            write_once(self.chunks / "plan.json", json.dumps(asdict(cut)).encode("ascii"))
+            plan = {"n_units": cut.stop, "units_per_chunk": cut.step}
+            write_once(self.chunks / "plan.json", json.dumps(plan).encode("ascii"))
         return self.plan() or cut
 
     def finished(self) -> set[int]:
@@ -134,20 +127,26 @@ class Store:
             return set()
         return {int(name[:-4]) for name in names if name.endswith(".npz") and name[:-4].isdigit()}
 
-    def write(self, number: int, identity: str, part: Part) -> None:
+    def write(self, number: int, identity: str, points: Points) -> None:
         """Keep a finished chunk."""
-        self._put(self._path(number), _packed(number, identity, part))
+        self._put(self._path(number), _packed(number, identity, points))
         self.n_kept += 1
 
-    def read(self, number: int, identity: str, shape: tuple[int, int]) -> Part | None:
-        """A chunk of (n_quantities, n_points); None for one that is damaged."""
-        try:
-            part = _unpacked(number, identity, self._path(number).read_bytes())
-        except FileNotFoundError:
-            raise
-        except Exception:  # whatever a reader of archives meets in bytes that are none
-            return None
-        return part if part.values.shape == shape else None
+    def load(self, chunks: Iterable[int], cut: range, layout: Layout, identity: str, points: Points) -> list[int]:
+        """Put finished chunks in the place of their points; returns those that are damaged.
+
+        Raises FileNotFoundError where another process has removed them, as it has merged.
+        """
+        damaged = []
+        for chunk in chunks:
+            own = points[layout.points(units_of(cut, chunk))]
+            try:
+                own.put(_unpacked(chunk, identity, self._path(chunk).read_bytes(), own.values.shape))
+            except FileNotFoundError:
+                raise
+            except Exception:  # whatever a reader of archives meets in bytes that are none
+                damaged.append(chunk)
+        return damaged
 
     def _put(self, path: Path, data: bytes) -> None:
         """Write a file, unless another process has merged meanwhile, and cleared away what is written here."""
@@ -216,31 +215,28 @@ def read_study(path: str | PathLike[str]) -> Study:
     return _read_store(Store(place)) if place.is_dir() else _read_file(place)
 
 
-def _read_file(path: Path) -> Study:
+def _read_file(path: Path, way_out: str = "") -> Study:
     try:
         return unpacked(path.read_bytes())
     except OSError as error:
         raise StudyError(f"{path}: cannot be read: {error.strerror or error}") from None
     except ValueError as error:
-        raise StudyError(f"{path}: is {error}") from None
+        raise StudyError(f"{path}: is {error}{way_out}") from None
 
 
 def _read_store(store: Store) -> Study:
     """The study of a store, with what is there of it."""
-    if store.file.exists():
-        return _read_file(store.file)
+    if (done := store.merged()) is not None:
+        return done
     head = store.head()
     if head is None:
         raise StudyError(f"{store.folder}: holds no study: there is no study.json")
-    frame = Frame.from_head(head)
-    results, cut = Results(Layout.of(frame.grid, head["block"]), len(frame.columns)), store.plan()
+    frame, cut = Frame.from_head(head), store.plan()
+    layout = Layout.of(frame.grid, head["block"])
+    points = Points.blank(len(frame.columns), layout.n_points, Status.MISSING)
     if cut is not None:
-        for chunk in sorted(store.finished()):
-            units = cut.units(chunk)
-            part = store.read(chunk, frame.identity, results.shape_of(units))
-            if part is not None:
-                results.put(units[0], part)
-    return results.study(frame)
+        store.load(sorted(store.finished()), cut, layout, frame.identity, points)
+    return study_of_points(frame, layout, points)
 
 
 def _known(path: Path, check: Callable[[Any], T], way_out: str) -> T | None:
@@ -253,32 +249,18 @@ def _known(path: Path, check: Callable[[Any], T], way_out: str) -> T | None:
         raise StudyError(f"{path}: is damaged ({fault!r}); {way_out}") from None
 
 
-def _packed(number: int, identity: str, part: Part) -> bytes:
-    """The bytes of a chunk, with a checksum over all that it says."""
-    buffer, reasons = BytesIO(), json.dumps(part.reasons).encode("ascii")
-    np.savez(
-        buffer,
-        values=part.values,
-        status=part.status,
-        reason=part.reason,
-        reasons=np.frombuffer(reasons, dtype=np.uint8),
-        checksum=np.frombuffer(_checksum(number, identity, part), dtype=np.uint8),
-    )
+def _packed(number: int, identity: str, points: Points) -> bytes:
+    """The bytes of a chunk, an archive with checksums."""
+    buffer = BytesIO()
+    head = json.dumps([identity, number, points.why.tolist()]).encode("ascii")
+    np.savez(buffer, values=points.values, status=points.status, head=np.frombuffer(head, dtype=np.uint8))
     return buffer.getvalue()
 
 
-def _unpacked(number: int, identity: str, data: bytes) -> Part:
+def _unpacked(number: int, identity: str, data: bytes, shape: tuple[int, ...]) -> Points:
     with np.load(BytesIO(data), allow_pickle=False) as file:
-        reasons = tuple(json.loads(file["reasons"].tobytes()))
-        part = Part(file["values"], file["status"], file["reason"], reasons)
-        checksum = file["checksum"].tobytes()
-    if checksum != _checksum(number, identity, part):
-        raise ValueError("the checksum is another")
-    return part
-
-
-def _checksum(number: int, identity: str, part: Part) -> bytes:
-    seal = sha256(json.dumps([number, identity, part.values.shape, part.reasons]).encode("ascii"))
-    for array in (part.values, part.status, part.reason):
-        seal.update(np.ascontiguousarray(array).tobytes())
-    return seal.digest()
+        *place, why = json.loads(file["head"].tobytes())
+        points = Points(file["values"], file["status"], np.array(why, dtype=object))
+    if place != [identity, number] or points.values.shape != shape:
+        raise ValueError("it is of another place")
+    return points

@@ -19,12 +19,12 @@ from mdr.case.contact import SlidingContact
 from mdr.files.case_files import written
 from mdr.files.toml_text import CaseFileError
 from mdr.studies.axes import Axis, without_addresses
-from mdr.studies.points import Part, Status
+from mdr.studies.points import Points, Status
 from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.messages import nearest, short
+from mdr.tools.messages import offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
 
@@ -72,13 +72,9 @@ class Frame:
     @classmethod
     def from_head(cls, head: Mapping[str, Any]) -> Frame:
         """The frame in the head of a store, with labels for records."""
-        tree, numbers = head["frame"], head["specification"]["axes"]
-        grid = tuple(
-            Axis.labelled(path, tree["labels"][path])
-            if path in tree["labels"]
-            else Axis(path, np.array(numbers[path], dtype=float))
-            for path in head["specification"]["order of axes"]
-        )
+        tree, known = head["frame"], head["specification"]
+        values = {**known["axes"], **tree["labels"]}
+        grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
         columns = tuple(Column(**column) for column in tree["columns"])
         return cls(grid, columns, tree["case"], tree["version"], head["identity"])
 
@@ -100,9 +96,7 @@ class Study(Printed, ArrayRecord):
     def __getitem__(self, name: str) -> Array:
         """The values of a quantity, in its unit."""
         if name not in self.quantities:
-            meant = nearest(name, self.quantities) if isinstance(name, str) else None
-            hint = f"did you mean {meant}?" if meant else f"there are {', '.join(self.quantities)}"
-            raise KeyError(f"the study has no quantity {name!r}; {hint}")
+            raise KeyError(f"the study has no quantity {name!r}; {offer(str(name), self.quantities)}")
         values: Array = self.values[self.quantities.index(name)]
         return values
 
@@ -191,7 +185,7 @@ class Study(Printed, ArrayRecord):
         told = tuple((axis.path, axis.told(fixed[axis.path])) for axis in self.frame.grid if axis.path in fixed)
         grid = tuple(axis for axis in self.frame.grid if axis.path not in fixed)
         frame = replace(self.frame, grid=grid, selected=self.frame.selected + told)
-        return study_of(frame, self.values[(slice(None), *where)], self.status[where], self.reason[where], self.reasons)
+        return study_of(frame, self.values[(slice(None), *where)], self.status[where], self.why[where])
 
     def to_netcdf(self, path: str | PathLike[str]) -> None:
         """Write NetCDF (classic, 64-bit offsets), with labelled axes, units, status and reasons.
@@ -327,64 +321,26 @@ class Study(Printed, ArrayRecord):
 
     def _most_frequent(self) -> list[str]:
         """Lines with the most frequent reasons; reasons that differ in their numbers alone count as one."""
-        codes, counts = np.unique(self.reason[self.reason > 0], return_counts=True)
-        kinds: dict[str, tuple[int, str]] = {}
-        for code, count in zip(codes.tolist(), counts.tolist(), strict=True):
-            kind = _NUMBERS.sub("#", self.reasons[code])
-            known, example = kinds.get(kind, (0, self.reasons[code]))
-            kinds[kind] = (known + count, example)
-        ranked = sorted(kinds.values(), key=lambda one: -one[0])
-        lines = [f"    {count}: {example}" for count, example in ranked[:MOST_REASONS]]
-        rest = sum(count for count, _ in ranked[MOST_REASONS:])
+        kinds: dict[str, list[str]] = {}
+        for why in filter(None, np.ravel(self.why).tolist()):
+            kinds.setdefault(_NUMBERS.sub("#", why), []).append(why)
+        ranked = sorted(kinds.values(), key=len, reverse=True)
+        lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_REASONS]]
+        rest = sum(map(len, ranked[MOST_REASONS:]))
         return lines + ([f"    {rest}: for {len(ranked) - MOST_REASONS} other reasons"] if rest else [])
 
 
-class Results:
-    """All points, in the order of the work. They are missing at first; parts are put in their place, in any order."""
-
-    def __init__(self, layout: Layout, n_quantities: int) -> None:
-        self.layout = layout
-        self.values = np.full((n_quantities, layout.n_points), np.nan)
-        self.status = np.full(layout.n_points, Status.MISSING, dtype=np.uint8)
-        self.reason = np.zeros(layout.n_points, dtype=np.int32)
-        self.reasons = {"": 0}
-
-    def shape_of(self, units: tuple[int, int]) -> tuple[int, int]:
-        """Shape of the values of units first <= unit < last."""
-        first, last = (self.layout.first_point(unit) for unit in units)
-        return len(self.values), last - first
-
-    def put(self, first_unit: int, part: Part) -> None:
-        """Put the points of a part where its first unit begins."""
-        first = self.layout.first_point(first_unit)
-        where = slice(first, first + part.status.size)
-        codes = np.array([self.reasons.setdefault(why, len(self.reasons)) for why in part.reasons], dtype=np.int32)
-        self.values[:, where] = part.values
-        self.status[where] = part.status
-        self.reason[where] = codes[part.reason]
-
-    def study(self, frame: Frame) -> Study:
-        """The study of the points that are there, its arrays in the order of the axes."""
-        place = self.layout.in_place
-        return study_of(frame, place(self.values), place(self.status), place(self.reason), tuple(self.reasons))
+def study_of_points(frame: Frame, layout: Layout, points: Points) -> Study:
+    """The study of all points in the order of the work."""
+    return study_of(frame, *(layout.in_place(each) for each in (points.values, points.status, points.why)))
 
 
-def study_of(
-    frame: Frame, values: Array, status: NDArray[Any], reason: NDArray[Any], reasons: tuple[str, ...]
-) -> Study:
-    """A study whose reasons are those of its own points, in their order."""
-    flat = np.ravel(reason)
-    codes, first = np.unique(flat[flat > 0], return_index=True)
-    kept = codes[np.argsort(first)]
-    new = np.zeros(len(reasons), dtype=np.int32)
-    new[kept] = np.arange(1, kept.size + 1)
-    return Study(
-        frame,
-        np.array(values, order="C"),
-        np.array(status, dtype=np.uint8, order="C"),
-        np.array(new[reason], order="C"),
-        ("", *(reasons[code] for code in kept.tolist())),
-    )
+def study_of(frame: Frame, values: Array, status: NDArray[np.uint8], why: Any) -> Study:
+    """A study of these arrays in the order of its axes, with its reasons in the order of its points."""
+    why = np.asarray(why, dtype=object)
+    codes = {reason: code for code, reason in enumerate(dict.fromkeys(["", *why.flat]))}
+    reason = np.array([codes[one] for one in why.flat], dtype=np.int32).reshape(why.shape)
+    return Study(frame, np.array(values, order="C"), np.array(status, dtype=np.uint8, order="C"), reason, tuple(codes))
 
 
 def _text(case: SlidingContact, held: Mapping[str, float]) -> str:

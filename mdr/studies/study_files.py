@@ -19,7 +19,7 @@ A file that is wrong is refused with every fault at once.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from os import PathLike, fsdecode
 from typing import Any
@@ -29,8 +29,7 @@ import numpy as np
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.files.case_files import case_of, record_of, stand_in
-from mdr.files.spellings import left_open
-from mdr.files.toml_text import NESTED, CaseFileError, fault_error, parse_toml, read_text
+from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, tried
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.vary import fields_set
@@ -63,31 +62,31 @@ def read_study_file(path: str | PathLike[str]) -> StudyFile:
 
 def parse_study(text: str, source: str = "<string>") -> StudyFile:
     """The study in a TOML text; messages call it `source`. Raises CaseFileError with every fault."""
-    try:
-        return _study_of(parse_toml(text, source), source)
-    except RecursionError:
-        raise fault_error(source, [NESTED]) from None
+    content = parse_toml(text, source)
+    with told(f"{source}: "):
+        return study_from(content)
 
 
-def _study_of(content: Mapping[str, Any], source: str) -> StudyFile:
+def study_from(content: Mapping[str, Any]) -> StudyFile:
+    """The study in tables already parsed. Raises CaseFileError with every fault."""
     axes, faults = _read_axes(content.get("axes"))
     quantities = content.get("quantities", ["cof"])
     faults += _faults_of_names(quantities)
     knobs = {name: content.get(name) for name in ("n_springs", "steps_per_period")}
     for name, knob in knobs.items():
-        faults += _tried(count, name, knob, LEAST_KNOB) if knob is not None else []
+        faults += tried(count, name, knob, LEAST_KNOB)[1] if knob is not None else []
     accuracy = content.get("accuracy", BUDGET)
-    faults += _tried(accuracy_of, accuracy)
+    faults += tried(accuracy_of, accuracy)[1]
     try:
-        case = case_of(content, source, beside=KEYS)
+        case, held = case_of(content, beside=KEYS)
     except CaseFileError as of_case:
         faults += _faults_behind(content, axes)
-        raise CaseFileError("\n".join([*of_case.faults, *fault_error(source, faults).faults])) from None
+        raise CaseFileError.of([*of_case.faults, *faults]) from None
     faults += _faults_of_axes(case, axes)
-    faults = faults or _tried(read_quantities, quantities, axes)
+    faults = faults or tried(read_quantities, quantities, axes)[1]
     if faults:
-        raise fault_error(source, faults)
-    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy, held=left_open(content))
+        raise CaseFileError.of(faults)
+    return StudyFile(case, axes, tuple(quantities), **knobs, accuracy=accuracy, held=held)
 
 
 # --- axes ---
@@ -99,33 +98,28 @@ def _read_axes(table: Any) -> tuple[dict[str, Any], list[str]]:
         return {}, ['[axes] is missing; a study varies something, such as "v_0/v_c" = [0.5, 0.9]']
     if not isinstance(table, dict) or not table:
         return {}, ["[axes] must be a table of paths and their values"]
-    axes: dict[str, Any] = {}
-    faults: list[str] = []
-    for path, written in table.items():
-        values, found = _read_values(path, written)
-        faults += [f"[axes] {fault}" for fault in found]
-        if not found:
-            axes[path] = values
-    return axes, faults
+    read = {path: tried(_read_values, path, written) for path, written in table.items()}
+    faults = [f"[axes] {fault}" for _, found in read.values() for fault in found]
+    return {path: values for path, (values, found) in read.items() if not found}, faults
 
 
-def _read_values(path: str, written: Any) -> tuple[Any, list[str]]:
+def _read_values(path: str, written: Any) -> Any:
+    """The values of an axis; CaseFileError or ValueError for what is wrong with them."""
     if isinstance(written, dict) and not set(written) & set(_RANGE) and path in KINDS:
         example = next(iter(written), "...")
-        return None, [f'{path}.{example} must be in quotes, "{path}.{example}" = [...]; {path} itself a list of tables']
+        raise ValueError(
+            f'{path}.{example} must be in quotes, "{path}.{example}" = [...]; {path} itself a list of tables'
+        )
     if isinstance(written, dict):
         return _range(path, written)
     if not isinstance(written, list):
-        return None, [f"{path} must be a list of values or {{ from = , to = , n = }}, got {short(str(written))}"]
+        raise ValueError(f"{path} must be a list of values or {{ from = , to = , n = }}, got {short(str(written))}")
     if path not in KINDS:
-        return written, []
-    records: list[Any] = []
-    faults: list[str] = []
-    for one in written:
-        record, found = (RigidPull(), []) if path == "pull" and one == {} else record_of(path, one)
-        records.append(record)
-        faults += found
-    return records, faults
+        return written
+    read = [(RigidPull(), []) if path == "pull" and one == {} else tried(record_of, path, one) for one in written]
+    if faults := [fault for _, found in read for fault in found]:
+        raise CaseFileError.of(faults)
+    return [record for record, _ in read]
 
 
 def _number_of_values(name: str, value: Any) -> None:
@@ -138,24 +132,25 @@ def _spacing(name: str, value: Any) -> None:
         raise ValueError(f'{name} must be "linear" or "log", got {short(str(value))}')
 
 
-_RANGE = {"from": finite, "to": finite, "n": _number_of_values, "spacing": _spacing}  # keys, and what each must be
+#: keys of a range, and what each must be
+_RANGE: dict[str, Callable[..., Any]] = {"from": finite, "to": finite, "n": _number_of_values, "spacing": _spacing}
 
 
-def _range(path: str, written: Mapping[str, Any]) -> tuple[Any, list[str]]:
+def _range(path: str, written: Mapping[str, Any]) -> Any:
     """Equidistant values, or values in equal ratios."""
     known = list(_RANGE)
     faults = [f"{path}: {short(key)} is no key of a range; {offer(key, known)}" for key in written if key not in known]
     faults += [f"{path}: {key} is missing from the range" for key in known[:3] if key not in written]
     for key, must in _RANGE.items():
-        faults += _tried(must, f"{path}: {key}", written[key]) if key in written else []
+        faults += tried(must, f"{path}: {key}", written[key])[1] if key in written else []
     if faults:
-        return None, faults
+        raise CaseFileError.of(faults)
     low, high, n = float(written["from"]), float(written["to"]), written["n"]
     if written.get("spacing") != "log":
-        return np.linspace(low, high, n), []
+        return np.linspace(low, high, n)
     if min(low, high) <= 0:
-        return None, [f'{path}: a range with spacing = "log" must be positive, got {low:g} to {high:g}']
-    return np.geomspace(low, high, n), []
+        raise ValueError(f'{path}: a range with spacing = "log" must be positive, got {low:g} to {high:g}')
+    return np.geomspace(low, high, n)
 
 
 # --- faults that only the case tells ---
@@ -164,9 +159,9 @@ def _range(path: str, written: Mapping[str, Any]) -> tuple[Any, list[str]]:
 def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
     """Faults of each axis together with those of records, then of all axes together."""
     records = {path: axes[path] for path in axes if path in KINDS}
-    alone = [_tried(read_axes, case, {**records, path: axes[path]}) for path in axes]
+    alone = [tried(read_axes, case, {**records, path: axes[path]})[1] for path in axes]
     found = list(dict.fromkeys(fault for faults in alone for fault in faults))
-    return [f"[axes] {fault}" for fault in found or (_tried(read_axes, case, axes) if axes else [])]
+    return [f"[axes] {fault}" for fault in found or (tried(read_axes, case, axes)[1] if axes else [])]
 
 
 def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[str]:
@@ -181,12 +176,4 @@ def _faults_of_names(quantities: Any) -> list[str]:
     """Faults of each quantity, as if there were an axis of velocity."""
     if not isinstance(quantities, list):
         return [f'quantities must be a list of names, ["cof"], got {short(str(quantities))}']
-    return [fault for one in quantities for fault in _tried(read_quantities, [one], ["v_0"])]
-
-
-def _tried(check: Any, *arguments: Any) -> list[str]:
-    try:
-        check(*arguments)
-    except (ValueError, TypeError) as fault:
-        return [str(fault)]
-    return []
+    return [fault for one in quantities for fault in tried(read_quantities, [one], ["v_0"])[1]]

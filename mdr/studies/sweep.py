@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from numbers import Integral
 from os import PathLike, fsdecode
 from typing import Any
 
@@ -100,11 +100,12 @@ def sweep(
     with suppress(ValueError):  # the base case may be one that cannot be; its points say so themselves
         at_rest(case)  # warns of what is unlikely
     axes_read, held = read_axes(case, axes), still_held(held or {}, axes)
-    for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
+    knobs: dict[str, Any] = {"n_springs": n_springs, "steps_per_period": steps_per_period}
+    for name, knob in knobs.items():
         if knob is not None:
             count(name, knob, LEAST_KNOB)
-    named = read_quantities(quantities, axes)
-    work = Work(case, axes_read, named, n_springs, steps_per_period, accuracy_of(accuracy), held)
+    knobs["accuracy"] = accuracy_of(accuracy)
+    work = Work(case, axes_read, read_quantities(quantities, axes), knobs, held)
     _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
     _require_executor(executor)
@@ -128,15 +129,12 @@ def _shard(shard: Any) -> tuple[int, int]:
     """k and n; 1 and 1 for all of it."""
     if shard is None:
         return 1, 1
-    rule = f"shard must be k/n with k from 1 to n, such as 3/16, got {short(repr(shard))}"
-    parts = shard
-    if isinstance(shard, str):
-        parts = [int(part) if part.isascii() and part.isdigit() and len(part) < 10 else 0 for part in shard.split("/")]
-    if not isinstance(parts, tuple | list) or len(parts) != 2:
-        raise ValueError(rule)
-    if any(isinstance(part, bool) or not isinstance(part, Integral) for part in parts) or not 1 <= parts[0] <= parts[1]:
-        raise ValueError(rule)
-    return int(parts[0]), int(parts[1])
+    text = "/".join(map(str, shard)) if isinstance(shard, tuple | list) else str(shard)
+    found = re.fullmatch(r"(\d{1,9})/(\d{1,9})", text, re.ASCII)
+    k, n = map(int, found.groups()) if found else (0, 0)
+    if not 1 <= k <= n:
+        raise ValueError(f"shard must be k/n with k from 1 to n, such as 3/16, got {short(repr(shard))}")
+    return k, n
 
 
 def _require_executor(executor: Any) -> None:

@@ -2,7 +2,8 @@
 
 Points are computed in units, blocks of the velocities of one case, numbered from 0. The velocity is innermost whatever
 the order of the axes, so that a case is built once for all its velocities. A unit is computed in one piece and alike
-wherever it is, so that no result depends on how the units are dealt out. A chunk is some consecutive units.
+wherever it is, so that no result depends on how the units are dealt out. A chunk is some consecutive units, equally
+many but in the last; how a study is cut is told by the first unit of each, as range(0, n_units, units_per_chunk).
 """
 
 from __future__ import annotations
@@ -17,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.march.march import BUDGET
 from mdr.normal.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.quantities import CurveQuantity, Quantity
@@ -64,14 +64,14 @@ class Layout:
         """Number of units."""
         return prod(self.of_cases) * self.blocks
 
-    def first_point(self, unit: int) -> int:
-        """The first point of a unit; that of n_units is n_points."""
-        case, block = divmod(unit, self.blocks)
-        return case * self.n_velocities + block * self.block
+    def points(self, units: range) -> slice:
+        """The points of consecutive units."""
+        cases, blocks = np.divmod((units.start, units.stop), self.blocks)
+        return slice(*(cases * self.n_velocities + blocks * self.block).tolist())
 
     def case(self, unit: int) -> tuple[int, ...]:
         """Index of the case of a unit along each axis but the velocity."""
-        return tuple(int(i) for i in np.unravel_index(unit // self.blocks, self.of_cases)) if self.of_cases else ()
+        return tuple(map(int, np.unravel_index(unit // self.blocks, self.of_cases)))
 
     def velocities(self, unit: int) -> slice:
         """The velocities of a unit, as a part of their axis."""
@@ -87,26 +87,9 @@ class Layout:
         return np.moveaxis(grid, -1, len(ahead) + self.velocity)
 
 
-@dataclass(frozen=True)
-class Cut:
-    """Chunks of equally many units; the last may have fewer."""
-
-    n_units: int
-    units_per_chunk: int
-
-    def __post_init__(self) -> None:
-        if min(self.n_units, self.units_per_chunk) < 1:
-            raise ValueError("nothing is planned")
-
-    @property
-    def n_chunks(self) -> int:
-        """Number of chunks."""
-        return -(-self.n_units // self.units_per_chunk)
-
-    def units(self, chunk: int) -> tuple[int, int]:
-        """First unit of a chunk, and the first unit after it."""
-        start = chunk * self.units_per_chunk
-        return start, min(start + self.units_per_chunk, self.n_units)
+def units_of(cut: range, chunk: int) -> range:
+    """The units of a chunk."""
+    return range(cut[chunk], min(cut[chunk] + cut.step, cut.stop))
 
 
 @dataclass(frozen=True)
@@ -116,9 +99,7 @@ class Work:
     case: SlidingContact  #: what the axes vary
     axes: tuple[Axis, ...]
     quantities: tuple[Quantity | CurveQuantity, ...]
-    n_springs: int | None = None  #: knobs of runs, None: chosen to meet the accuracy budget
-    steps_per_period: int | None = None
-    accuracy: float = BUDGET
+    knobs: Mapping[str, Any] = field(default_factory=dict)  #: of runs: n_springs, steps_per_period and accuracy
     held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
 
     @property

@@ -54,24 +54,25 @@ def finite(name: str, value: Any, note: str = "") -> float:
 def positive(name: str, value: Any, note: str = "") -> float:
     """A number above zero."""
     number = finite(name, value)
-    if number <= 0:
-        raise FieldError(f"{name} must be positive, got {number!r}{_noted(note)}", name)
-    return number
+    return _ruled(name, number, number > 0, "be positive", note)
 
 
 def not_negative(name: str, value: Any, note: str = "") -> float:
     """A number at or above zero."""
     number = finite(name, value)
-    if number < 0:
-        raise FieldError(f"{name} must not be negative, got {number!r}{_noted(note)}", name)
-    return number
+    return _ruled(name, number, number >= 0, "not be negative", note)
 
 
 def between(name: str, value: Any, low: float, high: float, note: str = "") -> float:
     """A number strictly between low and high."""
     number = finite(name, value)
-    if not low < number < high:
-        raise FieldError(f"{name} must lie between {low:.6g} and {high:.6g}, got {number!r}{_noted(note)}", name)
+    return _ruled(name, number, low < number < high, f"lie between {low:.6g} and {high:.6g}", note)
+
+
+def _ruled(name: str, number: float, holds: bool, rule: str, note: str) -> float:
+    """The number, for which a rule holds."""
+    if not holds:
+        raise FieldError(f"{name} must {rule}, got {number!r}{f' ({note})' if note else ''}", name)
     return number
 
 
@@ -118,10 +119,6 @@ def plain(values: Any) -> Array:
     """The answer in the form of the question: a float for a plain number, else a float64 array."""
     answer: Array = np.asarray(values, dtype=np.float64)[()]
     return answer
-
-
-def _noted(note: str) -> str:
-    return f" ({note})" if note else ""
 
 
 def _in(unit: str) -> str:

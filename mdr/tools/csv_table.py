@@ -63,7 +63,7 @@ def table_of(
     lines = _lines(text, source, columns)
     separator = max(",;\t", key=lines[0][1].count)
     rows = [cells_of(line, f"{source}: line {number}", separator) for number, line in lines]
-    found = _Header(source, rows[0], columns, dict(units or {}), dict(called or {})).places()
+    found = _places(source, rows[0], columns, units or {}, called or {})
     values: dict[str, list[float]] = {column.name: [] for column, _, _ in found}
     for (number, _), row in zip(lines[1:], rows[1:], strict=True):
         where = f"{source}: line {number}"
@@ -123,61 +123,48 @@ def _example(columns: Sequence[Column]) -> str:
 # --- the header ---
 
 
-class _Header(NamedTuple):
-    source: str
-    cells: list[str]
-    columns: Sequence[Column]
-    units: dict[str, str]  # given beside the file
-    called: dict[str, str]
+def _places(
+    source: str, cells: list[str], columns: Sequence[Column], units: Mapping[str, str], called: Mapping[str, str]
+) -> list[tuple[Column, int, float]]:
+    """Each column that is there, where it stands, and its unit in that of the library."""
+    heads, found = [_split(cell.strip()) for cell in cells], []
+    text = short(", ".join(cell.strip() for cell in cells), 120)
+    for column in columns:
+        own = called.get(column.name)
+        wanted = {_plain(one) for one in ((own,) if own else (column.name, *column.names))}
+        places = [i for i, (name, _, whole) in enumerate(heads) if {_plain(name), _plain(whole)} & wanted]
+        if len(places) > 1:
+            raise fault(source, f"the header names {column.name} twice: {text}")
+        if places:
+            name, unit, _ = heads[places[0]]
+            written = unit if _plain(name) in wanted else ""
+            found.append((column, places[0], _scale(source, column, written, units.get(column.name))))
+        elif column.needed or own:
+            way_out = "columns= must name one of these" if own else f"write {_example(columns)}"
+            if len(cells) == 1 and not own:
+                way_out = f"columns are separated by commas, semicolons or tabs; {way_out}"
+            raise fault(source, f"the header names no {own or column.name}: {text}; {way_out}")
+    return found
 
-    def places(self) -> list[tuple[Column, int, float]]:
-        """Each column that is there, where it stands, and its unit in that of the library."""
-        heads = [_split(cell.strip()) for cell in self.cells]
-        found = []
-        for column in self.columns:
-            wanted = {_plain(one) for one in self._names(column)}
-            places = [i for i, (name, _, whole) in enumerate(heads) if {_plain(name), _plain(whole)} & wanted]
-            if len(places) > 1:
-                raise fault(self.source, f"the header names {column.name} twice: {self._text}")
-            if places:
-                name, unit, _ = heads[places[0]]
-                found.append((column, places[0], self._scale(column, "" if _plain(name) not in wanted else unit)))
-            elif column.needed or column.name in self.called:
-                raise self._missing(column)
-        return found
 
-    def _names(self, column: Column) -> tuple[str, ...]:
-        return (self.called[column.name],) if column.name in self.called else (column.name, *column.names)
-
-    def _scale(self, column: Column, written: str) -> float:
-        known, given = UNITS[column.unit], self.units.get(column.name)
-        if given is not None and given not in known:
-            raise fault(self.source, f"units: {column.name} = {short(repr(given))} is none of {_listed(known)}")
-        if written not in known and column.unit == "-":
-            hint = ": divide by 100, and leave the unit out" if written == "%" else ""
-            raise fault(self.source, f"{column.name} is a pure number, got the unit {short(written)!r}{hint}")
-        if written and written not in known:
-            what = f"the unit {short(written)!r} of {column.name} is none of {_listed(known)}"
-            raise fault(self.source, f"{what}: {_example([column])}")
-        if written and given is not None and known[written] != known[given]:
-            raise fault(self.source, f"the header gives {column.name} in {written}, units= in {given}; give one")
-        if not written and given is None and not column.bare and column.unit != "-":
-            what = f"{column.name} needs a unit in its header, one of {_listed(known)}: {_example([column])}"
-            raise fault(self.source, what)
-        return known[written or given or column.unit]
-
-    def _missing(self, column: Column) -> ValueError:
-        called = self.called.get(column.name)
-        what = f"the header names no {called or column.name}: {self._text}; "
-        if called:
-            return fault(self.source, what + "columns= must name one of these")
-        if len(self.cells) == 1:
-            what += "columns are separated by commas, semicolons or tabs; "
-        return fault(self.source, what + f"write {_example(self.columns)}")
-
-    @property
-    def _text(self) -> str:
-        return short(", ".join(cell.strip() for cell in self.cells), 120)
+def _scale(source: str, column: Column, written: str, given: str | None) -> float:
+    """The unit in the header, or the one given beside the file, in that of the library."""
+    name, known = column.name, UNITS[column.unit]
+    what = ""
+    if given is not None and given not in known:
+        what = f"units: {name} = {short(repr(given))} is none of {_listed(known)}"
+    elif column.unit == "-" and written not in known:
+        hint = ": divide by 100, and leave the unit out" if written == "%" else ""
+        what = f"{name} is a pure number, got the unit {short(written)!r}{hint}"
+    elif written and written not in known:
+        what = f"the unit {short(written)!r} of {name} is none of {_listed(known)}: {_example([column])}"
+    elif written and given is not None and known[written] != known[given]:
+        what = f"the header gives {name} in {written}, units= in {given}; give one"
+    elif not (written or given or column.bare or column.unit == "-"):
+        what = f"{name} needs a unit in its header, one of {_listed(known)}: {_example([column])}"
+    if what:
+        raise fault(source, what)
+    return known[written or given or column.unit]
 
 
 def _split(head: str) -> tuple[str, str, str]:

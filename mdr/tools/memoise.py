@@ -2,20 +2,21 @@
 
 A record that holds a function, such as a Profile, equals another one with the same function, although the function may
 since return something else. Results are kept for that very object alone. Nothing is kept for a record that can be
-changed: a shape, a material, a motion, a pull or a shake that is no frozen dataclass.
+changed, such as a shape or a motion that is no frozen dataclass, nor for a case that has such a part.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
 from typing import Any, TypeVar
 
+import numpy as np
+
 T = TypeVar("T")
 
-PARTS = "indenter", "material", "oscillation", "pull", "shake"
-PLAIN = int, float, str, tuple, type(None)
+PLAIN = int, float, complex, str, tuple, type(None), np.generic, np.ndarray  #: what holds no record
 
 
 class _Itself:
@@ -32,7 +33,7 @@ class _Itself:
 
 
 def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
-    """Decorator: lru_cache for a function of records, the parts of a case among them, and plain values."""
+    """Decorator: lru_cache for a function of records and plain values."""
 
     def wrap(function: Callable[..., T]) -> Callable[..., T]:
         @lru_cache(maxsize=maxsize)
@@ -55,13 +56,12 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
     return wrap
 
 
-def _records(args: tuple[Any, ...]) -> Iterator[Any]:
-    """The records among the arguments; of a case its parts."""
-    for one in args:
-        if not isinstance(one, PLAIN):
-            names = _kind(type(one))[1]  # type: ignore[arg-type]
-            parts = [getattr(one, name) for name in PARTS] if set(PARTS) <= set(names) else [one]
-            yield from (part for part in parts if not isinstance(part, PLAIN))
+def _records(values: Iterable[Any]) -> Iterator[Any]:
+    """The records among some values, and within these."""
+    for one in values:
+        if not isinstance(one, PLAIN) and not callable(one):
+            yield one
+            yield from _records(getattr(one, name) for name in _kind(type(one))[1])  # type: ignore[arg-type]
 
 
 def is_frozen(record: type[Any]) -> bool:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, TypeVar
+from typing import TypeVar
 
 T = TypeVar("T")
 
@@ -21,15 +21,23 @@ _deadline: ContextVar[float] = ContextVar("deadline", default=float("inf"))
 _watch: ContextVar[Callable[[], None] | None] = ContextVar("watch", default=None)
 
 
-def progress(items: Sequence[T], what: str, parts: str = "") -> Iterator[T]:
-    """Loop over items with progress: a bar on a terminal, plain lines elsewhere; parts: what the items are called."""
-    meter = Meter(what, len(items), parts)
-    try:
-        for item in items:
-            yield item
-            meter.tick()
-    finally:
-        meter.close()
+def progress(items: Iterable[T], what: str, parts: str = "", total: int | None = None, done: int = 0) -> Iterator[T]:
+    """Loop over items with progress: a bar on a terminal, plain lines elsewhere; parts: what the items are called.
+
+    total: how many there are with those that are `done` before; None asks the items.
+    """
+    if total is None:
+        total = len(items)  # type: ignore[arg-type]
+    if sys.stderr.isatty() and _watch.get() is None:
+        from tqdm import tqdm
+
+        unit = f" {parts or 'it'}"
+        yield from tqdm(items, desc=what, total=total, initial=done, unit=unit, delay=PATIENCE, leave=False)
+        return
+    ticker = Ticker(what, total, parts, done)
+    for item in items:
+        yield item
+        ticker.tick()
 
 
 @contextmanager
@@ -55,30 +63,6 @@ def time_limit(seconds: float | None) -> Iterator[None]:
 def time_is_over() -> bool:
     """True once the time limit of this work has passed."""
     return time.monotonic() > _deadline.get()
-
-
-class Meter:
-    """Progress of a known number of parts: a bar on a terminal, plain lines elsewhere."""
-
-    def __init__(self, what: str, total: int, parts: str = "", done: int = 0) -> None:
-        self.bar: Any = None
-        if sys.stderr.isatty() and _watch.get() is None:
-            from tqdm import tqdm
-
-            self.bar = tqdm(desc=what, total=total, initial=done, unit=f" {parts or 'it'}", delay=PATIENCE, leave=False)
-        self.ticker = Ticker(what, total, parts, done)
-
-    def tick(self) -> None:
-        """One more part is done."""
-        if self.bar is None:
-            self.ticker.tick()
-        else:
-            self.bar.update()
-
-    def close(self) -> None:
-        """Take the bar off the terminal."""
-        if self.bar is not None:
-            self.bar.close()
 
 
 class Ticker:

@@ -1,6 +1,8 @@
 """Case files: what is written reads back, and what is wrong is named, all of it at once."""
 
+import math
 import re
+import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -37,32 +39,20 @@ def test_a_key_left_out_takes_the_default_of_the_record():
     assert parse_case(GOOD.split("[pull]")[0]).pull == mdr.RigidPull()
 
 
+OSCILLATION = re.compile(r"\[oscillation\][^[]*")
 MOTIONS = {
     "load": mdr.LoadOscillation(0.1, 0.02, 300.0, 0.1),
-    "load without mass": mdr.LoadOscillation(0.1, 0.02, 300.0),
     "series": mdr.PeriodicMotion(300.0, 2e-5, (1e-6, 2e-6), (0.0, 1e-6)),
     "Eq. (3)": mdr.NormalOscillation(2e-5, 1e-6, 300.0),
 }
 
 
-def test_the_keys_of_the_oscillation_tell_what_it_is():
-    table = "[oscillation]\nF_z0 = 0.1\ndFz = 0.01\nomega = 300.0\n"
-    with pytest.raises(mdr.CaseFileError) as caught:
-        parse_case(re.sub(r"\[oscillation\][^[]*", table, GOOD))
-    assert [fault.split(": ", 1)[1] for fault in caught.value.faults] == [
-        "[oscillation] dFz is no key of LoadOscillation; did you mean dF_z?",
-        "[oscillation] dF_z is missing",
-    ]
-
-
-OSCILLATION = re.compile(r"\[oscillation\][^[]*")
-
-
 @pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
-def test_an_oscillation_may_be_named(motion):
+def test_an_oscillation_is_told_by_its_keys_or_named(motion):
     text = write_case(case(oscillation=motion))
+    assert "motion =" not in text
     named = text.replace("[oscillation]\n", f'[oscillation]\nmotion = "{type(motion).__name__}"\n')
-    assert parse_case(named) == parse_case(text)
+    assert parse_case(named) == parse_case(text) == case(oscillation=motion)
 
 
 def test_a_named_oscillation_is_held_to_its_name():
@@ -80,13 +70,11 @@ class Beat(mdr.PeriodicMotion):
     """A motion of later, with the keys of an old one."""
 
 
-def test_a_motion_of_later_is_named_in_its_file_and_old_files_keep_their_meaning(monkeypatch):
+def test_a_motion_of_later_is_named_in_its_file(monkeypatch):
     monkeypatch.setitem(own_records._OWN, "Beat", Beat)
     beat = case(oscillation=Beat(300.0, 2e-5, (1e-6,)))
     assert 'motion = "Beat"' in write_case(beat)
     assert parse_case(write_case(beat)) == beat
-    series = case(oscillation=MOTIONS["series"])
-    assert parse_case(write_case(series)) == series
 
 
 def test_what_a_file_cannot_carry_is_refused_with_the_reason():
@@ -170,7 +158,7 @@ SINGLE = {
     "function": (SHAPE, 'shape = "Profile"', '[indenter] shape "Profile": its shape is a Python function, which'),
     "shape no string": (SHAPE, "shape = 3", "[indenter] shape must be a name in quotes, got 3; choose one of"),
     "array of tables": ("[indenter]", "[[indenter]]", "[indenter] must be one table of keys, got an array"),
-    "integer past floats": (R, f"R = {10**400}", "[indenter] R must be a finite number, got inf"),
+    "integer past floats": (R, f"R = {10**400}", "[indenter] R must be a finite number, got a whole number beyond"),
 }  # fmt: skip
 
 
@@ -208,6 +196,103 @@ def test_a_stand_in_for_a_wrong_value_raises_no_fault_of_its_own(monkeypatch):
     assert faults(text) == ["[indenter] R must be positive, got -1.0 (radius of curvature in m)"]
     # refused with every stand-in, but in words that tell of the stand-in: kept back until R is right
     assert len(faults(text.replace("inner = 3", "inner = -3"))) == 1
+
+
+# --- what a rig is set to ---
+
+FILE = """
+mu_0 = 0.5
+[indenter]
+shape = "{shape}"
+{slope}
+[material]
+model = "{model}"
+E = 3e6
+nu = 0.5
+{loss}
+[oscillation]
+{motion}
+"""
+PLAIN = {"model": "KelvinVoigt", "shape": "Cone", "slope": "theta = 0.02", "loss": "tau = 1e-3",
+         "motion": "u_z0=2e-5\ndu_z=2e-6\nomega=300"}  # fmt: skip
+OMEGA = 2 * math.pi * 50
+
+
+def read(**parts):
+    return parse_case(FILE.format(**{**PLAIN, **parts}))
+
+
+def test_degrees_hertz_and_loss_tangents():
+    found = read(slope="theta_deg = 1.5", loss="tan_delta = 0.2", motion="frequency = 50\nu_z0 = 2e-5\ndu_z = 2e-6")
+    assert found.indenter.theta == math.radians(1.5)
+    assert found.oscillation.omega == OMEGA
+    assert float(found.material.loss_tangent(OMEGA)) == pytest.approx(0.2, rel=1e-15)
+    shaken = 'motion="ConstantLoad"\nload=1.0\n[shake]\nfrequency=50\ndu_x=1e-6'
+    found = read(motion=shaken, loss="tan_delta = 0.2")
+    assert (found.oscillation, found.shake.omega) == (mdr.ConstantLoad(1.0), OMEGA)
+    assert found.material.tau == 0.2 / OMEGA  # of the shake, where the load is constant
+
+
+def test_a_load_is_that_of_an_oscillating_load_or_of_the_depth_at_which_it_rests():
+    assert read(motion="frequency=50\nload=1.0\ndF_z=0.1").oscillation == mdr.LoadOscillation(1.0, 0.1, OMEGA)
+    found = read(motion="frequency=50\nload=1.0\ndu_z=2e-6")
+    depth = mdr.static_depth(found.indenter, found.material, 1.0)
+    assert found.oscillation == mdr.NormalOscillation(depth, 2e-6, OMEGA)
+    assert found == mdr.rig(found.indenter, found.material, 0.5, frequency=50, load=1.0, depth_amplitude=2e-6)
+    assert parse_case(write_case(found)) == found
+
+
+REFUSED = [
+    ({"slope": "theta_deg = 1.5\ntheta = 0.02"}, "theta_deg and theta say the same"),
+    ({"slope": "theta_deg = 100"}, "theta must lie between 0 and 1.5708"),
+    ({"slope": ""}, "theta is missing; or give theta_deg [deg]"),
+    (
+        {"shape": "Paraboloid", "slope": "theta_deg = 2"},
+        "theta_deg is no key of Paraboloid; it stands for indenter.theta",
+    ),
+    ({"model": "Prony", "loss": "E_inf = 1e6\narms = [[2e6, 1e-3]]\ntan_delta = 0.2"}, "tan_delta is no key of Prony"),
+    ({"motion": "omega=300\nu_z0=1e-5\ndu_z=1e-6\n[shake]\nomega=200\ndu_x=1e-6", "loss": "tan_delta=0.2"}, "have two"),
+    ({"motion": "omega=300\ndu_z=1e-6\ndF_z=1e-6\nload=1"}, "du_z is no key of LoadOscillation; did you mean dF_z"),
+    ({"motion": "omega=300\ndu_z=1e-6"}, "u_z0 is missing; or give load [N]"),
+    ({"loss": ""}, "tau is missing; or give tan_delta"),
+    ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "omega is missing; or give frequency"),
+    ({"motion": "f = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "f is no key of NormalOscillation; did you mean frequency"),
+    ({"motion": "frequency = 50\nload = 1\nu_z0 = 1e-5\ndu_z = 2e-6"}, "load and u_z0 say the same"),
+    ({"motion": "frequency = 50\nload = -1\ndu_z = 2e-6"}, "load must be positive"),
+]
+
+
+@pytest.mark.parametrize(("parts", "words"), REFUSED)
+def test_a_setting_is_refused_in_its_own_words_and_once(parts, words):
+    with pytest.raises(CaseFileError) as refused:
+        read(**parts)
+    assert [one for one in refused.value.faults if words in one], refused.value
+    assert len(refused.value.faults) <= 2
+
+
+def test_a_load_waits_for_a_sound_shape():
+    """Of a refused shape no depth is asked; the shape's own fault is told, and no other."""
+    with pytest.raises(CaseFileError) as refused:
+        read(slope="theta = 7", motion="frequency=50\nload=1.0\ndu_z=2e-6")
+    assert ["theta must lie" in one for one in refused.value.faults] == [True]
+
+
+LOADED = "F_z0 = 1.0\ndF_z = 0.1\nomega = 300\n{}\n[pull]\nk_x = 2e4\nm = 0.2"
+MASSES = {
+    "of the load": (LOADED.format(""), LOADED.format("m_z = 0"), r"m_z = 0\.2 if it presses on the body itself"),
+    "of the pull": (PLAIN["motion"] + "\n[pull]\nk_x = 2e4", PLAIN["motion"] + "\n[pull]\nk_x = 2e4\nm = 0",
+                    r"\[pull\] says no mass: give m in kg"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("silent", "said", "words"), MASSES.values(), ids=MASSES)
+def test_a_mass_that_is_not_said_is_asked_for(silent, said, words):
+    with pytest.warns(mdr.PlausibilityWarning, match=words) as warned:
+        asked = read(motion=silent)
+    assert [one.filename for one in warned] == [__file__]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert read(motion=said) == asked == parse_case(write_case(asked))
 
 
 def test_the_example_gives_a_unit_to_every_number():

@@ -6,6 +6,9 @@ import time
 import numpy as np
 
 import mdr
+from mdr.studies.axes import read_axes
+from mdr.studies.quantities import read_quantities
+from mdr.studies.work import Work
 
 RUBBER = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
 MOTION = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
@@ -24,6 +27,11 @@ RUNS = {
 
 LOG = "MDR_TEST_LOG"  # the file that computed units are written to
 LONG = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 240).tolist()}
+
+
+def work(case, axes, quantities=("v_c",), **knobs):
+    """The work of a study."""
+    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), knobs)
 
 
 def slow_and_logged(case):

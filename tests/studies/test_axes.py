@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from grids import RIGID, SHAPES
+from grids import RIGID
 
 import mdr
-from mdr.studies.axes import Axis, label_of, read_axes
+from mdr.studies.axes import label_of, read_axes
 
 
 def test_numbers_of_any_kind_are_taken():
@@ -39,17 +39,6 @@ def test_labels_are_distinct_and_know_no_places_in_memory():
     made = read_axes(RIGID, {"indenter": curves})[0].labels
     assert len(set(made)) == 2
     assert " at 0x" not in label_of(mdr.Profile(lambda r: r**2, name="bowl"))
-
-
-def test_axes_are_equal_by_path_and_values_records_by_label():
-    (one,), (two,) = read_axes(RIGID, {"indenter": SHAPES}), read_axes(RIGID, {"indenter": SHAPES[:2]})
-    again = Axis("indenter", one.labels, one.labels)
-    assert one == again
-    assert hash(one) == hash(again)
-    assert one != two
-    assert one != "indenter"
-    assert Axis("v_0", np.array([1.0])) != Axis("v_0", np.array([2.0]))
-    assert Axis("v_0", np.array([1.0])) == Axis("v_0", np.array([1.0]))
 
 
 def test_a_shaken_case_varies_its_shake_and_is_pulled_both_ways():

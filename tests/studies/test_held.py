@@ -2,7 +2,6 @@
 
 import copy
 import itertools
-import json
 import re
 
 import numpy as np
@@ -10,8 +9,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.files.case_files import case_of
 from mdr.studies import CATALOGUE
-from mdr.studies.study_files import parse_study
+from mdr.studies.study_files import study_from
 
 TABLES = {
     "mu_0": 0.3,
@@ -23,22 +23,12 @@ CONSTANTS = ("mean_F_N", "v_c", "k_zc", "T", "static_cof")
 N_STUDIES, N_RUN = 30, 4
 
 
-def inline(value):
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {inline(one)}" for key, one in value.items()) + "}"
-    return "[" + ", ".join(map(inline, value)) + "]" if isinstance(value, list) else json.dumps(value)
-
-
-def text(tables, axes=None, quantities=CONSTANTS):
-    lines = [] if axes is None else [f"quantities = {inline(list(quantities))}"]
-    for name, table in {**tables, **({} if axes is None else {"axes": axes})}.items():
-        keys = table.items() if isinstance(table, dict) else {}
-        lines += [f"[{name}]", *(f'"{k}" = {inline(v)}' for k, v in keys)] if keys else [f"{name} = {table}"]
-    return "\n".join(lines)
+def file(tables, axes, quantities=CONSTANTS):
+    return vars(study_from({**tables, "axes": axes, "quantities": list(quantities)}))
 
 
 def study(tables, axes, quantities=CONSTANTS):
-    return mdr.sweep(**vars(parse_study(text(tables, axes, quantities))))
+    return mdr.sweep(**file(tables, axes, quantities))
 
 
 def single(tables, values):
@@ -56,7 +46,7 @@ def single(tables, values):
         else:
             tables[slot].pop({"omega": "frequency", "theta": "theta_deg"}.get(key), None)
             tables[slot][key] = value
-    return mdr.parse_case(text(tables))
+    return case_of(tables).case
 
 
 def agrees(tables, axes, runs=False):
@@ -136,18 +126,18 @@ def test_a_point_with_two_frequencies_says_why_it_has_no_loss_tangent():
 
 
 def test_a_store_knows_the_load_and_goes_on(tmp_path):
-    file = vars(parse_study(text(TABLES, {"material.E": [2e9, 3e9, 4e9]}, ("mean_F_N",))))
-    part = mdr.sweep(**file, store=tmp_path, shard="1/2", chunk_seconds=1e-6)
-    whole = mdr.sweep(**file, store=tmp_path)
+    asked = file(TABLES, {"material.E": [2e9, 3e9, 4e9]}, ("mean_F_N",))
+    part = mdr.sweep(**asked, store=tmp_path, shard="1/2", chunk_seconds=1e-6)
+    whole = mdr.sweep(**asked, store=tmp_path)
     assert (whole.identity, whole.complete) == (part.identity, True)
     assert {"load = 5.0", "tan_delta = 0.03"} < set(whole.case.splitlines())
     assert not re.search("u_z0|tau", whole.case)
-    assert mdr.parse_case(whole.case) == file["case"]
-    np.testing.assert_array_equal(mdr.sweep(**file)["mean_F_N"], whole["mean_F_N"])
+    assert mdr.parse_case(whole.case) == asked["case"]
+    np.testing.assert_array_equal(mdr.sweep(**asked)["mean_F_N"], whole["mean_F_N"])
     for other in ({"load": 6.0, "tan_delta": 0.03}, {"load": 5.0, "tan_delta": 0.04}, {}):
-        assert mdr.sweep(**{**file, "held": other}).identity != whole.identity
+        assert mdr.sweep(**{**asked, "held": other}).identity != whole.identity
     with pytest.raises(mdr.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
-        mdr.sweep(**{**file, "held": {**file["held"], "load": 6}}, store=tmp_path)
+        mdr.sweep(**{**asked, "held": {**asked["held"], "load": 6}}, store=tmp_path)
 
 
 def test_in_python_what_is_held_is_named():

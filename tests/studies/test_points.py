@@ -5,18 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from grids import BODY, COARSE, RIGID, SHAPES
+from grids import BODY, COARSE, RIGID, SHAPES, work
 from numpy.testing import assert_array_equal
 
 import mdr
-from mdr.studies.axes import read_axes
 from mdr.studies.points import Ended, Status, compute, reason_of
-from mdr.studies.quantities import Quantity, read_quantities
-from mdr.studies.work import Work
-
-
-def work(case, axes, quantities, **knobs):
-    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), **knobs)
+from mdr.studies.quantities import Quantity
 
 
 def test_values_are_those_of_direct_calls():
@@ -121,11 +115,11 @@ def test_the_work_ends_soon_after_it_is_asked_to():
 
     given = work(RIGID, {"mu_0": [0.2, 0.4, 0.6]}, [Quantity("own", "-", of)])
     with pytest.raises(Ended):
-        compute(given, 0, 3, ended)
+        compute(given, range(3), ended)
     assert seen == [0.2]
 
 
 def test_nothing_inside_speaks(capsys, monkeypatch):
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
-    compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), 0, 1)
+    compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), range(1))
     assert capsys.readouterr().err == ""

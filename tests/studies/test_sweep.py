@@ -22,6 +22,7 @@ import mdr
 from mdr.studies import engine
 from mdr.studies.points import Status
 from mdr.studies.store import Store
+from mdr.studies.work import units_of
 
 HERE = Path(__file__).parent
 MANY = {"mu_0": [0.1 + 0.001 * k for k in range(100)]}
@@ -152,37 +153,27 @@ def test_a_function_that_cannot_be_sent_is_told_where_to_be():
 
 def test_no_more_than_so_many_chunks_are_in_flight(monkeypatch):
     monkeypatch.setattr(engine, "MOST_IN_FLIGHT", 5)
-    flying = []
+    submitted = []
 
     class Recorder(ThreadPoolExecutor):
-        def submit(self, task, *args):
-            future = super().submit(task, *args)
-            flying.append(sum(not one.done() for one in submitted) + 1)
-            submitted.append(future)
-            return future
+        def submit(self, *task):
+            submitted.append(task)
+            return super().submit(*task)
 
-    submitted = []
     with Recorder(1) as executor:
-        mdr.sweep(RIGID, MANY, executor=executor, quantities=["v_c"])
-    assert len(flying) == 100
-    assert max(flying) <= 5
-
-
-def test_cores_are_those_of_the_process(monkeypatch):
-    assert engine.cores() >= 1
-    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
-    monkeypatch.setattr(os, "cpu_count", lambda: None)
-    assert engine.cores() == 1
+        for ended, _ in enumerate(engine.run(grids.work(RIGID, MANY), range(100), range(100), executor)):
+            assert len(submitted) <= ended + 5
+    assert len(submitted) == 100
 
 
 # --- kills and interrupts ---
 
 
-def units_of(store, chunks=None):
+def logged_of(store, chunks=None):
     """What the log says of the units of chunks, by default of the finished ones."""
     store = Store(store)
     cut, chunks = store.plan(), store.finished() if chunks is None else chunks
-    units = [unit for chunk in chunks for unit in range(*cut.units(chunk))]
+    units = [unit for chunk in chunks for unit in units_of(cut, chunk)]
     return {repr(LONG["oscillation.u_z0"][unit]) for unit in units}
 
 
@@ -211,7 +202,7 @@ def test_a_study_that_is_killed_goes_on_where_it_was(tmp_path, monkeypatch):
     rng, store, log = np.random.default_rng(7), tmp_path / "store", tmp_path / "log"
     killed, finished = [], set()
     for lifetime in (0.0, *rng.uniform(0.02, 0.15, 3)):
-        known, seen = units_of(store), len(lines(log))
+        known, seen = logged_of(store), len(lines(log))
         assert Store(store).finished() == finished  # nothing finished was lost
         killed.append(live(store, log, lifetime))
         assert not known & set(lines(log)[seen:])  # nor computed again
@@ -219,7 +210,7 @@ def test_a_study_that_is_killed_goes_on_where_it_was(tmp_path, monkeypatch):
     assert all(killed)  # as its pauses alone take longer
     lost, seen = max(finished), len(lines(log))
     (store / "chunks" / f"{lost:06d}.npz").unlink()  # the log would tell
-    known, again = units_of(store), units_of(store, [lost])
+    known, again = logged_of(store), logged_of(store, [lost])
     assert not live(store, log, 60.0)
     assert again <= set(lines(log)[seen:])
     assert not known & set(lines(log)[seen:])
@@ -256,26 +247,19 @@ def test_ctrl_c_says_what_is_kept_and_ends_soon(tmp_path, capsys, monkeypatch):
     assert 0 < kept < 60
     words = rf"sweep: interrupted; (\d+) of \d+ chunks are safe in {store}; the same call goes on from there"
     assert int(re.search(words, capsys.readouterr().err)[1]) in (kept - 1, kept)  # or between writing and counting it
-    known, seen = units_of(store), len(lines(log))
+    known, seen = logged_of(store), len(lines(log))
     assert long_study(store).complete
     assert not known & set(lines(log)[seen:])
 
 
-@pytest.mark.parametrize(
-    ("name", "stored", "words"),
-    [
-        ("run", False, "nothing is kept, as there is no store"),
-        ("compute", True, "nothing is computed yet; the same"),
-    ],
-)
-def test_ctrl_c_where_nothing_is_kept(tmp_path, capsys, monkeypatch, name, stored, words):
+def test_an_interrupt_before_the_first_chunk_says_so(tmp_path, capsys, monkeypatch):
     def interrupted(*args):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(engine, name, interrupted)
+    monkeypatch.setattr(engine, "compute", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        mdr.sweep(RIGID, LONG, tmp_path if stored else None, quantities=["v_c"])
-    assert f"sweep: interrupted; {words}" in capsys.readouterr().err
+        mdr.sweep(RIGID, LONG, tmp_path, quantities=["v_c"])
+    assert "sweep: interrupted; nothing is computed yet; the same" in capsys.readouterr().err
 
 
 # --- what it says meanwhile ---
@@ -288,9 +272,3 @@ def test_progress_counts_from_what_was_there(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
     mdr.sweep(RIGID, {"mu_0": MANY["mu_0"][:40]}, **options)
     assert re.match(r"sweep: 21 of 40 chunks, about \d+ s left\n", capsys.readouterr().err)
-
-
-def test_cases_that_take_long_are_counted(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.studies.points.SLOW", -1.0)
-    mdr.sweep(RIGID, {"mu_0": [0.2, 0.4]}, quantities=("v_c",))
-    assert re.fullmatch(r"sweep: 2 cases took more than .* s, at most 0 s\n", capsys.readouterr().err)

@@ -5,18 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from grids import BODY, RIGID
+from grids import BODY, RIGID, work
 from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.studies import engine
-from mdr.studies.axes import read_axes
 from mdr.studies.engine import MOST_TRIALS, timed
 from mdr.studies.points import compute
-from mdr.studies.quantities import read_quantities
 from mdr.studies.specification import described, identity_of, specification
 from mdr.studies.store import Store
-from mdr.studies.work import IN_CLOSED_FORM, MARCHED, Cut, Layout, Work
+from mdr.studies.work import IN_CLOSED_FORM, MARCHED, Layout, units_of
 
 LAYOUTS = [
     Layout((3,), None, 64),
@@ -31,10 +29,6 @@ N = (4, 8, 100)
 SQUARES = [{"mu_0": np.linspace(0.1, 0.9, n), "indenter.R": np.linspace(1e-3, 9e-3, n)} for n in N]
 
 
-def work(case, axes, quantities=("v_c",), **knobs):
-    return Work(case, read_axes(case, axes), read_quantities(quantities, axes), **knobs)
-
-
 FEW, SOME, MANY = (work(RIGID, axes) for axes in SQUARES)
 
 
@@ -43,15 +37,14 @@ def test_units_cover_every_point_once_and_in_order(layout):
     places = np.arange(layout.n_points).reshape(layout.shape)
     flat = np.full((2, layout.n_points), -1)  # of two quantities
     for unit in range(layout.n_units):
-        part = layout.velocities(unit)
-        first, end = layout.first_point(unit), layout.first_point(unit + 1)
-        assert end - first == part.stop - part.start <= layout.block
+        part, own = layout.velocities(unit), layout.points(range(unit, unit + 1))
+        assert own.stop - own.start == part.stop - part.start <= layout.block
         where = list(layout.case(unit))
         if layout.velocity is not None:
             where.insert(layout.velocity, part)
-        flat[:, first:end] = np.atleast_1d(places[tuple(where)])
+        flat[:, own] = np.atleast_1d(places[tuple(where)])
     assert_array_equal(layout.in_place(flat), [places, places])
-    assert layout.first_point(layout.n_units) == layout.n_points
+    assert layout.points(range(layout.n_units)) == slice(0, layout.n_points)
 
 
 def test_a_study_is_many_units_of_one_case_each():
@@ -65,8 +58,8 @@ def test_a_study_is_many_units_of_one_case_each():
         layout = work(case, {"v_0": v_0} | ({"pull": pulls} if pulls else {})).layout
         assert (layout.block, layout.n_units) == (block, -(-130 // block) * len(pulls or [1]))
     given = work(RIGID, {"v_0": v_0, "T": [0.1, 1.0, 2.0]}, ["cof", "v_c"])
-    parts = [compute(given, unit, unit + 1).values for unit in range(9)]
-    assert_array_equal(np.concatenate(parts, axis=1), compute(given, 0, 9).values)
+    parts = [compute(given, range(unit, unit + 1)).values for unit in range(9)]
+    assert_array_equal(np.concatenate(parts, axis=1), compute(given, range(9)).values)
 
 
 # --- chunks ---
@@ -77,8 +70,8 @@ def clock(monkeypatch):
     """Every unit takes a quarter of a second."""
     now, units = [0.0], []
 
-    def compute(work, start, stop):
-        units.append(start)
+    def compute(work, chunk):
+        units.append(chunk.start)
         now[0] += 0.25
 
     monkeypatch.setattr(engine, "compute", compute)
@@ -87,30 +80,31 @@ def clock(monkeypatch):
 
 
 def test_a_chunk_lasts_as_long_as_it_is_told(clock):
-    assert [Cut(10, 4).units(i) for i in range(Cut(10, 4).n_chunks)] == [(0, 4), (4, 8), (8, 10)]
-    assert timed(MANY, 5.0) == Cut(10_000, 20)
+    cut = range(0, 10, 4)
+    assert [units_of(cut, i) for i in range(len(cut))] == [range(4), range(4, 8), range(8, 10)]
+    assert timed(MANY, 5.0) == range(0, 10_000, 20)
     warm_up, *units = clock
     assert len(units) == 5  # until more than a second is over
     assert warm_up == units[0]
     assert max(units) - min(units) > 5000
-    assert timed(MANY, 0.1) == Cut(10_000, 1)
+    assert timed(MANY, 0.1) == range(10_000)
 
 
 def test_there_are_chunks_enough_to_share(clock):
-    assert timed(SOME, 1e6).n_chunks == 32
+    assert len(timed(SOME, 1e6)) == 32
     clock.clear()
-    assert timed(FEW, 5.0) == Cut(16, 1)
+    assert timed(FEW, 5.0) == range(16)
     assert clock == []
 
 
 def test_all_processes_on_a_store_cut_as_the_first(tmp_path):
     store = Store(tmp_path)
     store.require_writable()
-    assert store.settle(Cut(64, 7)) == store.settle(Cut(64, 9)) == Cut(64, 7)
+    assert store.settle(range(0, 64, 7)) == store.settle(range(0, 64, 9)) == range(0, 64, 7)
     mdr.sweep(RIGID, SQUARES[1], tmp_path / "of a study", quantities=["v_c"], chunk_seconds=1e9, shard="1/2")
     first = Store(tmp_path / "of a study").plan()
     mdr.sweep(RIGID, SQUARES[1], tmp_path / "of a study", quantities=["v_c"], chunk_seconds=1e-9, shard="1/2")
-    assert Store(tmp_path / "of a study").plan() == first == Cut(64, 2)
+    assert Store(tmp_path / "of a study").plan() == first == range(0, 64, 2)
 
 
 def test_a_million_points_are_planned_by_a_few_cases(tmp_path, monkeypatch):
@@ -119,8 +113,8 @@ def test_a_million_points_are_planned_by_a_few_cases(tmp_path, monkeypatch):
     real = mdr.SlidingContact.__post_init__
     monkeypatch.setattr(mdr.SlidingContact, "__post_init__", lambda case: (built.append(1), real(case))[1])
 
-    def run(work, cut, chunks, executor, take):
-        compute(work, 0, 1)
+    def run(work, cut, chunks, executor):
+        compute(work, range(1))
         raise RuntimeError("planned")
 
     monkeypatch.setattr(engine, "run", run)
@@ -153,8 +147,9 @@ def test_a_study_is_told_by_what_was_asked():
         for kind, row in ((float, list), (np.float64, np.array))
     )
     assert one == other
-    prony, bowl = mdr.Prony(1e6, [(1e6, 1e-3)], 0.5), Bowl(100.0)
-    assert described(prony) == {"record": "Prony", "E_inf": 1e6, "arms": [[1e6, 1e-3]], "nu": 0.5, "tau": 0.0}
-    assert described((np.float64(0.1), np.arange(2), None, "a", True, bowl)) == [
-        0.1, [0, 1], None, "a", True, {"record": f"{__name__}.Bowl", "curvature": 100.0},
+    assert described(mdr.Prony(1e6, [(1e6, 1e-3)], 0.5)) == (
+        "Prony(E_inf=1000000.0, arms=[[1000000.0, 0.001]], nu=0.5, tau=0.0)"
+    )
+    assert described((np.float64(0.1), np.arange(2), None, "a", True, Bowl(100.0))) == [
+        0.1, [0, 1], None, "a", True, f"{__name__}.Bowl(curvature=100.0)",
     ]  # fmt: skip
