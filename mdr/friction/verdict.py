@@ -14,7 +14,7 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
+from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
@@ -187,17 +187,12 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         deviation = (found.v_c - eq_15) / scale
         holds = found.contains(eq_15) or max(eq_15, found.v_c) < scale
     reasons = list(_reasons(case, eq_15, full, found))
-    if holds and found.kind == "end of stick":
+    if holds and found.v_c is not None:
         reasons = ["all springs stop sticking at the velocity that the formula gives for one spring"]
-    elif holds and found.v_c is not None:
-        reasons = [found.why]
-    if found.v_c is None or not reasons:
+    elif found.v_c is None or not reasons:
         reasons.append(found.why)
-    if found.nearly_full is not None and found.why not in reasons:
-        reasons.append(f"the COF is within {NEARLY_FULL:g} of mu_0 from {found.nearly_full:.3g} m/s on already")
-    formula = formula_of(case)
     why = "; ".join([*reasons, *_left_out(case)])
-    return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula, within, least)
+    return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
 
 
 def _tolerance(within: float) -> float:
@@ -218,17 +213,10 @@ def _two_digits(number: float) -> str:
 
 def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> bool | None:
     """Whether the formula holds where runs found no velocity: friction stays reduced for ever on a resonance alone."""
-    resonance = not np.isfinite(full) and _has_mass(case)
-    if not resonance:
+    resonance = not np.isfinite(full) and np.isfinite(case.pull.omega_0)
+    if not resonance or HIGHEST * case.pace < eq_15 < np.inf:  # beyond that no run has looked
         return None
-    if not np.isfinite(eq_15):
-        return True
-    return None if eq_15 > HIGHEST * case.pace else False  # beyond that no run has looked
-
-
-def _has_mass(case: SlidingContact) -> bool:
-    """True if a harmonic of the force can meet a natural frequency of the body."""
-    return bool(np.isfinite(case.pull.omega_0))
+    return bool(np.isinf(eq_15))
 
 
 def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVelocity) -> Iterator[str]:
@@ -237,7 +225,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
     if not np.isfinite(full) and np.isfinite(eq_15):
         yield (
             "a harmonic of the normal force drives the body at its undamped natural frequency"
-            if _has_mass(case)
+            if np.isfinite(case.pull.omega_0)
             else "dashpots that touch again throw the body, which has no inertia, at unbounded velocity for an instant"
         )
     if not case.keeps_contact:
@@ -251,8 +239,6 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
             f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
             "with them the full-slip condition gives the measured value"
         )
-    if found.kind == "lock-in":
-        yield found.why
 
 
 def _left_out(case: SlidingContact) -> Iterator[str]:

@@ -143,27 +143,31 @@ def test_on_resonance_there_is_no_critical_velocity():
     assert found.n_runs > 1
 
 
-def test_the_free_oscillation_of_an_undamped_body_is_named_and_is_no_hysteresis():
+def test_the_free_oscillation_of_an_undamped_body_is_no_hysteresis():
     """Its free oscillation, from rest, is trimmed until slip just grazes zero, while friction is full."""
     case = contact("flat", 10.0, 0.0, 0.3, 0.6)
     found = mdr.measure_critical_velocity(case)
-    assert found.kind == "free oscillation"
-    assert "keeps a free oscillation from rest" in found.why
+    assert found.kind == "end of stick"
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)  # flat, contact kept: Eq. (15) is exact
     above = mdr.slide(case, 1.3 * found.v_c, start="rest", record=40, n_springs=64, n_periods=600)
     assert 0 < np.mean(above.state == mdr.State.STICK) < 0.01  # without the free oscillation none sticks
     assert abs(above.mu_0 - above.cof) <= above.cof_error
 
 
-def test_a_light_body_on_a_slow_curved_contact_is_judged_by_friction():
-    """Without mass or damper the body jumps as single springs touch; the COF has to speak."""
-    case = contact("paraboloid", 10 / 3, 0.3, 0.7, math.inf)
-    found = mdr.measure_critical_velocity(case)
-    assert found.kind == "end of friction reduction"
-    assert "without inertia" in found.why
-    # extrapolated over three points a per cent apart: the twin has no massless body, so the library's own value
-    assert_allclose(found.v_c, mdr.full_slip_critical_velocity(case), rtol=1e-2)
-    assert found.low < found.v_c < found.high
+@pytest.mark.parametrize(
+    ("case", "reason"),
+    [
+        (contact("paraboloid", 10 / 3, 0.3, 0.7, math.inf), "the velocity of a body without inertia jumps"),
+        (by_groups("flat", 0.5, 0.0, 0.3, 2.0, 1.0), "the undamped body has omega_0 = 2 omega"),
+        (by_groups("flat", 0.5, 1.0, 0.3, 3.0, 1.0), "the undamped body has omega_0 = 3 omega"),
+    ],
+    ids=["without mass on dashpots", "in step", "in step, Kelvin"],
+)
+def test_where_stick_does_not_tell_the_end_of_friction_reduction_the_physics_is_named(case, reason):
+    told = mdr.verdict(case)
+    assert (told.measured, told.holds, told.measurement.kind) == (None, None, "unsettled")
+    assert reason in told.measurement.why
+    assert reason in told.why
 
 
 # --- the curve --------------------------------------------------------------------------------------------------
@@ -255,38 +259,12 @@ def test_beside_a_resonance_there_is_a_critical_velocity(name):
     assert below.stick_share > 0.01
 
 
-@pytest.mark.parametrize(("T", "n"), [(0.0, 2), (0.0, 3), (0.0, 4), (0.0, 8), (1.0, 2), (1.0, 3), (1.0, 4)])
-def test_a_free_oscillation_in_step_with_the_drive_ends_friction_reduction_early(T, n):
-    """omega_0 = n omega, which the force of a punch does not drive: v + B cos(n phase) can keep off stick from
-    cos(pi/2n) of Eq. (15) on, the least maximum of sin(phase) + b sin(n phase)."""
-    case = by_groups("flat", 0.5, T, 0.3, float(n), 1.0)
-    eq_15 = mdr.critical_velocity(case)
-    told = mdr.verdict(case)
-    found = told.measurement
-    assert found.kind == "lock-in"
-    assert found.contains(math.cos(math.pi / (2 * n)) * eq_15)
-    assert_allclose(found.v_c / eq_15, math.cos(math.pi / (2 * n)), rtol=1e-3)  # read off the COF, by a fit
-    assert f"would stick up to {eq_15:.3g}"[:-1] in found.why
-    assert "in step with the drive" in told.why
-
-
 @pytest.mark.parametrize("pull", [mdr.RigidPull(), mdr.SpringPull(2e4, 0.02, 4.0)], ids=["rigid", "body"])
 def test_an_oscillation_that_takes_next_to_nothing_away_has_a_critical_velocity(pull):
     motion = mdr.NormalOscillation(2e-5, 2e-10, 300.0)
     case = mdr.SlidingContact(mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.5), 0.5, motion, pull)
     found = mdr.measure_critical_velocity(case)
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
-    assert found.nearly_full is None
-
-
-def test_where_little_friction_is_missing_below_the_end_of_stick_both_velocities_are_named():
-    case = by_groups("flat", 0.5, 0.0, 0.3, 2.0, 1.0, 1e-5)
-    told = mdr.verdict(case)
-    found = told.measurement
-    assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
-    assert 0.7 < found.nearly_full / found.v_c < 0.85
-    assert "within 0.0001 of mu_0" in found.why
-    assert "within 0.0001 of mu_0" in told.why
 
 
 # --- the verdict ------------------------------------------------------------------------------------------------
@@ -399,15 +377,6 @@ def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():
     found = mdr.measure_critical_velocity(contact("flat", 10.0, 0.0, 0.5, math.sqrt(1 / 3)))
     assert 0 <= found.low <= found.v_c <= found.high <= 1.1e-4 * unit_of_velocity(contact("flat", 10.0))
     assert "not told from zero" in found.why
-
-
-@pytest.mark.parametrize(("shape", "depth_ratio"), [("cone", 1e4), ("paraboloid", 100.0)])
-def test_the_wide_bracket_of_a_light_body_decides(shape, depth_ratio):
-    """The COF alone reads v_c low by a few tenths of a per cent; the bracket knows, so Eq. (15) is not called false."""
-    verdict = mdr.verdict(contact(shape, depth_ratio, 1.0, 0.7, math.inf, nu=0.5))
-    assert verdict.holds
-    assert verdict.measurement.contains(verdict.eq_15)
-    assert "read off the COF" in verdict.why
 
 
 @pytest.mark.parametrize("n", [2, 3])
