@@ -14,7 +14,8 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.friction.cof_curve import cof_curve, has_closed_form
+from mdr.closed_forms.shaken_pull import has_closed_form
+from mdr.friction.cof_curve import cof_curve
 from mdr.march.march import MOST_ACCURATE
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved

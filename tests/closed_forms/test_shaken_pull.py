@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.closed_forms import rigid_pull, shaken_pull, shaken_spring
 from mdr.closed_forms.full_slip import static_cof
-from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, band
+from mdr.closed_forms.shaken_pull import ShakenPull, average_friction
 
 UNIT, ERROR = 2e-6, 1e-9
 NONE, COS = np.zeros(0, complex), np.ones(1, complex)
@@ -30,8 +30,21 @@ def shaken(amplitude, phase=0.0):
     return np.array([amplitude * np.exp(1j * phase)])
 
 
+def both_ways(pull, v):
+    """Friction, error and share of stick at velocities of either sign: that of the mirrored pull the other way."""
+    v = np.atleast_1d(v)
+    there, back = (average_friction(one, np.abs(v)) for one in (pull, pull.mirrored))
+    friction, error, sticks = np.where(v < 0, back, there)
+    return np.where(v < 0, -friction, friction), error, sticks
+
+
 def cof(pull, v):
-    return average_friction(pull, np.atleast_1d(v))[0]
+    return both_ways(pull, v)[0]
+
+
+def band(pull):
+    """Friction in the limits v -> -0 and v -> +0."""
+    return -average_friction(pull.mirrored, [0.0])[0][0], average_friction(pull, [0.0])[0][0]
 
 
 # --- the twin: small steps through many periods, the springs of all cases at once -------------------------------
@@ -91,7 +104,7 @@ def marched(cases, steps, periods, n_panels=12):
 
 
 def assert_agree(cases, twin, atol):
-    found = np.array([[row[0] for row in average_friction(pull, [v])] for pull, v in cases])
+    found = np.array([[row[0] for row in both_ways(pull, v)] for pull, v in cases])
     assert np.all(found[:, 1] < ERROR)
     assert_allclose(found[:, 0], twin, rtol=0, atol=atol)
     assert np.mean(np.abs(twin) < 0.97) > 0.6  # most of them stick for a while
@@ -126,7 +139,7 @@ def test_sixty_elastic_springs_against_the_twin():
 def test_a_period_tells_what_more_extension_makes_of_it():
     """Newton's method rests on the one derivative, and its last step on the other."""
     for pull, v in some_springs(24, (0.05, 0.3, 0.8)):
-        motion, gap, none = pull._motion(1 if v > 0 else -1), -pull.u_z0 / pull.unit, np.empty(0)
+        motion, gap, none = (pull if v > 0 else pull.mirrored)._motion, -pull.u_z0 / pull.unit, np.empty(0)
         cuts, points, _ = shaken_spring._cuts(motion, abs(v))
         law = motion.rows, motion.T, abs(v), gap
         n, _, _ = shaken_spring._follow(*law, cuts, points, none)
@@ -224,7 +237,7 @@ def test_what_moves_depth_and_place_alike_takes_no_friction(T):
 
 def test_the_mirror_of_the_motion():
     Z, X, v = TWO, np.array([1.5 + 0.3j, 0.2j]), np.array([0.1, 0.7, 2.0])
-    there, back = (average_friction(pull_of("cone", 0.8, Z, side * X), side * v) for side in (1, -1))
+    there, back = (both_ways(pull_of("cone", 0.8, Z, side * X), side * v) for side in (1, -1))
     assert np.array_equal(there[0], -back[0])
     assert np.array_equal(there[2], back[2])
     # an x that is its own mirror half a period later
@@ -253,7 +266,7 @@ def test_the_origin_of_time_does_not_count(T):
 def test_a_sawtooth_of_many_harmonics():
     """Twenty harmonics at constant depth; the error that it states is that against finer intervals."""
     saw = -1j / np.arange(1, 21)
-    found, error, _ = average_friction(pull_of("paraboloid", 1.0, NONE, saw), np.array([-0.6, 0.4, 3.0]))
+    found, error, _ = both_ways(pull_of("paraboloid", 1.0, NONE, saw), [-0.6, 0.4, 3.0])
     assert np.all(error < ERROR)
     twin = marched([(pull_of("paraboloid", 1.0, NONE, saw), v) for v in (-0.6, 0.4, 3.0)], 8000, 2)
     assert_allclose(found, twin, rtol=0, atol=2e-5)

@@ -219,6 +219,26 @@ def test_the_march_can_be_forced_and_a_number_is_a_list_of_one():
     assert_allclose(forced.cof[0] / case.mu_0, expected, rtol=0, atol=1e-5)
 
 
+PERIODIC = {
+    "two harmonics, elastic": ("cone", 0.0, mdr.PeriodicMotion(300.0, 6e-6, (2e-6, 5e-7), (0.0, 7e-7))),
+    "two harmonics, lost, Kelvin": ("paraboloid", 0.5, mdr.PeriodicMotion(300.0, 1e-6, (2e-6, 5e-7), (0.0, 7e-7))),
+}
+
+
+@pytest.mark.parametrize("name", PERIODIC)
+def test_any_periodic_depth_under_a_rigid_pull_has_a_closed_form(monkeypatch, name):
+    shape, T, motion = PERIODIC[name]
+    case = replace(contact(shape, 3.0, T), oscillation=motion)
+    v_0 = case.unit_velocity * np.array([0.0, 0.1, 0.5, 0.9])
+    marched = mdr.cof_curve(case, v_0, method="march")
+    monkeypatch.setattr("mdr.friction.cof_curve.slides", None)  # no run
+    closed = mdr.cof_curve(case, v_0)
+    assert np.all(np.abs(closed.cof - marched.cof) <= closed.cof_error + marched.cof_error)
+    assert np.all(closed.cof_error < 1e-7)
+    assert_allclose(closed.stick_share, marched.stick_share, atol=0.01)
+    assert closed.cof[0] == closed.static_cof == mdr.static_cof(case)
+
+
 def test_any_order_and_repeats_are_kept():
     case = contact("cone", 3.0)
     v_0 = mdr.critical_velocity(case) * np.array([0.7, 0.0, 0.3, 0.7])
