@@ -45,7 +45,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
-from mdr.closed_forms.shaken_spring import Complex, Motion, all_changes, all_springs
+from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
@@ -91,7 +91,7 @@ class ShakenPull(ArrayRecord):
         return replace(self, X=-np.asarray(self.X))
 
     @property
-    def _motion(self) -> Motion:
+    def _harmonics(self) -> Harmonics:
         """The motion from the greatest z on."""
         N = max(len(self.Z), len(self.X))
         n = np.arange(1, N + 1)
@@ -102,7 +102,7 @@ class ShakenPull(ArrayRecord):
         lag = 1 + T * rate
         rows = np.array([Z, X, lag * Z, lag * A, lag * B, T * rate * A, T * rate * B])
         rates = np.array([rate * lag * A, rate * lag * B])
-        return Motion(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
+        return Harmonics(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
 
 
 def has_closed_form(case: SlidingContact) -> bool:
@@ -123,15 +123,15 @@ def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> 
     v = np.asarray(v, dtype=float)
     if np.any(v < 0):
         raise ValueError(f"v must not be negative, got {float(v.min())!r}: ask the mirrored pull")
-    motion = pull._motion
+    harmonics = pull._harmonics
     marks = _marks(pull)
     gaps = _gaps(pull, marks)
-    changes = all_changes(motion, v, gaps.min(), gaps.max(), _SCAN)
+    changes = all_changes(harmonics, v, gaps.min(), gaps.max(), _SCAN)
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
     allowed = max(tolerance, TOLERANCE) * _compression(pull, marks)
     for halving in range(HALVINGS + 1):
-        sums, missed = _integrals(pull, motion, v, owner, low, high, allowed)
+        sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
         done = missed <= allowed
         done |= halving == HALVINGS or np.sum(~done) > MOST_INTERVALS + 20 * v.size
         for row, found in zip(total, sums, strict=True):
@@ -196,7 +196,7 @@ def _radius(pull: ShakenPull, marks: Array, gaps: Array, c: Array) -> Array:
 
 
 def _integrals(
-    pull: ShakenPull, motion: Motion, v: Array, owner: NDArray[np.intp], low: Array, high: Array, allowed: float
+    pull: ShakenPull, harmonics: Harmonics, v: Array, owner: NDArray[np.intp], low: Array, high: Array, allowed: float
 ) -> tuple[Array, Array]:
     """Integrals of e, s and the force in stick over the intervals (3, n), and a bound of the error of the first.
 
@@ -207,7 +207,7 @@ def _integrals(
     for rule in _RULES:
         width = (high - low)[left]
         x = np.minimum(low[left, None] + width[:, None] * rule.share, high[left, None])
-        more = all_springs(motion, v, np.repeat(owner[left], rule.share.size), _gaps(pull, x.ravel()))
+        more = all_springs(harmonics, v, np.repeat(owner[left], rule.share.size), _gaps(pull, x.ravel()))
         means = np.concatenate([means, more.reshape(3, *x.shape)], axis=2)
         found[:, left] = (means @ rule.weight) * width
         last = np.abs(means[:2] @ rule.tail).max(axis=2).sum(axis=0)

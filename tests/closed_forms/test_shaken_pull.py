@@ -139,14 +139,12 @@ def test_sixty_elastic_springs_against_the_twin():
 def test_a_period_tells_what_more_extension_makes_of_it():
     """Newton's method rests on the one derivative, and its last step on the other."""
     for pull, v in some_springs(24, (0.05, 0.3, 0.8)):
-        motion, gap, none = (pull if v > 0 else pull.mirrored)._motion, -pull.u_z0 / pull.unit, np.empty(0)
-        cuts, points, _ = shaken_spring._cuts(motion, abs(v))
-        law = motion.rows, motion.T, abs(v), gap
-        n, _, _ = shaken_spring._follow(*law, cuts, points, none)
+        given, gap = (pull if v > 0 else pull.mirrored)._harmonics, -pull.u_z0 / pull.unit
+        motion, cuts, points = shaken_spring._cuts(given, abs(v))
+        law = motion, gap
+        n, _, _ = shaken_spring._follow(*law, cuts, points)
         top = cuts[0, 1] - gap
-        low, at, high = (
-            shaken_spring._period(*law, points, n, top * (0.3 + off), True, none) for off in (-1e-6, 0.0, 1e-6)
-        )
+        low, at, high = (shaken_spring._period(*law, points, n, top * (0.3 + off)) for off in (-1e-6, 0.0, 1e-6))
         rate = (np.array(high[:2]) - low[:2]) / (2e-6 * top)
         assert_allclose([1 - at[3], at[4]], rate, rtol=0, atol=1e-5)
 
