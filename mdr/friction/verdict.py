@@ -15,7 +15,7 @@ from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlik
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
-from mdr.friction.shaken import band_of_pull, no_load_velocity
+from mdr.friction.shaken import ONE, band_of_pull, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, positive
@@ -24,10 +24,7 @@ from mdr.tools.summary import Printed
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
-NOTHING = 1e-8  #: a push over the load that is called none
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
-DIFFERENCE = {True: "no more", False: "more"}
-WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the strict answer
 
 
 @dataclass(frozen=True)
@@ -68,7 +65,7 @@ class Verdict(Printed):
             said = (
                 f"{self._use(self.measured)}. Measured in runs, v_c = {self.measured:.6g} m/s (between {found.low:.8g} "
                 f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the difference is "
-                f"{DIFFERENCE[bool(self.holds)]} than the measurement leaves open"
+                f"{'no more' if self.holds else 'more'} than the measurement leaves open"
             )
         sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
         if self.other_way is None:
@@ -97,9 +94,10 @@ class Verdict(Printed):
         """What can be said where runs found no critical velocity: without a resonance, nothing about v_c."""
         if np.isfinite(self.full_slip):
             full = f"no settled run confirmed the full-slip value {self.full_slip:.6g} m/s"
-            return f"{WORDS[None]}: {full}, against {self.eq_15:.6g} m/s by the formula"
-        none = "no critical velocity was found" if self.holds is None else "no critical velocity"
-        return f"{WORDS[self.holds]}: {none}, against {self.eq_15:.6g} m/s"
+            return f"cannot be judged: {full}, against {self.eq_15:.6g} m/s by the formula"
+        if self.holds is None:
+            return f"cannot be judged: no critical velocity was found, against {self.eq_15:.6g} m/s"
+        return f"{'holds' if self.holds else 'fails'}: no critical velocity, against {self.eq_15:.6g} m/s"
 
 
 def verdict(
@@ -161,14 +159,13 @@ def _at_rest(case: SlidingContact) -> str:
     if band.contains(0.0) and not band.is_one_number:
         held = f"up to {band.high:.3g} of the load pulled forward and {-band.low:.3g} the other way"
         return f"At rest it holds {held}, of mu_0 = {case.mu_0:.6g}"
-    push = 0.5 * (band.low + band.high)
-    way = "forward" if push < 0 else "backward"
+    push = abs(band.low + band.high) / 2
+    if band.is_one_number and push <= 2 * band.error + ONE:
+        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
+    held = f"held, it pushes with {push:.3g} of the load"
     if not band.is_one_number:
         held = f"held, it pushes with {abs(band.low):.3g} to {abs(band.high):.3g} of the load, by how it came to rest"
-        return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
-    if abs(push) <= 2 * band.error + NOTHING:
-        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
-    held = f"held, it pushes with {abs(push):.3g} of the load"
+    way = "forward" if band.low + band.high < 0 else "backward"
     return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
 
 
