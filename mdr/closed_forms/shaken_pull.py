@@ -129,7 +129,7 @@ def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> 
     changes = all_changes(harmonics, v, gaps.min(), gaps.max(), _SCAN)
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
-    allowed = max(tolerance, TOLERANCE) * _compression(pull, marks)
+    allowed = max(tolerance, TOLERANCE) * _compression(pull)
     for halving in range(HALVINGS + 1):
         sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
         done = missed <= allowed
@@ -158,13 +158,11 @@ def _marks(pull: ShakenPull) -> Array:
     return np.array([0.0, *sorted({x for x in shape.joints if 0 < x < a}), a])
 
 
-def _compression(pull: ShakenPull, marks: Array) -> float:
-    """Sum of the mean compressions of elastic springs [m], to some per cent: what errors are measured by."""
-    u, w = _GAUSS
-    half = 0.5 * np.diff(marks)[:, None]
-    c = _gaps(pull, 0.5 * (marks[1:] + marks[:-1])[:, None] + half * u)
+def _compression(pull: ShakenPull) -> float:
+    """Sum over elastic springs of their mean compression [m]: half of the mean force over E* and the unit."""
     z = harmonic_sum(np.asarray(pull.Z, dtype=complex), np.linspace(0, 2 * np.pi, 64, endpoint=False))
-    return float(np.sum(half * w * np.mean(np.maximum(z - c[..., None], 0), axis=-1)))
+    force = pull.shape.force(np.maximum(pull.u_z0 + pull.unit * z, 0), 1.0)
+    return float(np.mean(force)) / (2 * pull.unit)
 
 
 def _gaps(pull: ShakenPull, x: Array) -> Array:
@@ -240,7 +238,6 @@ class _Rule(NamedTuple):
         return cls(share[1::2] if nested else share, (moments @ coefficients)[nodes], tail)
 
 
-_GAUSS = leggauss(_ORDER)
 _RULES = (_Rule.of(_ORDER // 2, False), _Rule.of(_ORDER, True))
 _SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 16)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
 

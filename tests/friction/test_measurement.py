@@ -214,13 +214,6 @@ def test_without_a_free_run_a_finite_full_slip_value_is_not_denied(world):
     assert told.measurement.why in told.why
 
 
-def test_a_friction_that_stays_low_from_rest_denies_no_full_slip_value(world):
-    world(lambda start, *_: 1e9 if start == "rest" else 0.83)
-    told = mdr.verdict(CASE)
-    assert (told.measured, told.holds) == (None, None)
-    assert "a run from rest keeps friction reduced" in told.why
-
-
 def test_only_a_resonance_may_say_that_there_is_no_critical_velocity(world):
     world(lambda *_: 1e9)
     told = mdr.verdict(RESONANT)
