@@ -198,14 +198,10 @@ def _tolerance(within: float) -> float:
 
 def _off(ratio: float) -> str:
     """How far the formula is from the measured value, by their ratio: in per cent, or as a factor from 2 on."""
-    which = "high" if ratio > 1 else "low"
-    if 0.5 < ratio < 2:
-        return f"{_two_digits(100 * abs(ratio - 1))} % too {which}"
-    return f"too {which} by a factor of {_two_digits(max(ratio, 1 / ratio))}"
-
-
-def _two_digits(number: float) -> str:
-    return f"{float(f'{number:.2g}'):g}"
+    which, by_factor = "high" if ratio > 1 else "low", not 0.5 < ratio < 2
+    size = max(ratio, 1 / ratio) if by_factor else 100 * abs(ratio - 1)
+    digits = f"{float(f'{size:.2g}'):g}"
+    return f"too {which} by a factor of {digits}" if by_factor else f"{digits} % too {which}"
 
 
 def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> bool | None:

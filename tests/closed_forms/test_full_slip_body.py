@@ -240,15 +240,6 @@ def test_a_motion_written_in_another_way_has_the_same_static_limit(way):
         assert_allclose(mdr.static_cof(way(case)), mdr.static_cof(case), rtol=0, atol=1e-8)
 
 
-@pytest.mark.parametrize("kind", [KINDS["rigid"], DAMPED, KINDS["light"]], ids=["rigid", "damped", "light"])
-def test_a_light_arm_changes_little(kind):
-    for shape, depth_ratio, T in [("cone", 4.0, 0.0), ("paraboloid", 8.0, 1.2), ("cone", 0.6, 0.3)]:
-        case = contact(shape, depth_ratio, T, **kind)
-        assert_allclose(
-            mdr.full_slip_critical_velocity(with_arm(case, 1e-3)), mdr.full_slip_critical_velocity(case), rtol=5e-3
-        )
-
-
 def test_the_shake_of_a_cone_is_fastest_between_the_last_and_the_first_phase():
     """Always in contact: the greatest of one cosine, |mu_0 kappa du_z - du_x exp(i phi_x)| omega."""
     case = contact("cone", 1 / 0.13293341054260277)
