@@ -258,10 +258,8 @@ class _Search:
         guess, unsettled = self.scale, None
         for times in FAR:
             far = self.quick_run(times * self.scale, "full_slip")  # from rest it would swing as fast
-            if _is_free(far):
-                guess = far.v_0 - far.least_slip
-                break
             if far.settled:
+                guess = far.v_0 - far.least_slip if _is_free(far) else guess
                 break
         v_0 = 1.37 * max(guess, LEAST * self.scale)
         while v_0 < HIGHEST * max(guess, self.scale):
