@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from table_of_theorems import drawn
 
 import mdr
-from mdr.friction.measured_velocity import GRAZING
 
 NEAR = 1e-4  #: of v_c, to which it is measured away from resonances
 LONGEST = 120.0  #: seconds for one measurement
@@ -60,12 +59,10 @@ def _against(case, found, full):
         above = mdr.slide(case, 1.03 * max(found.v_c, found.high), start=start, limit_s=LONGEST)
         if above.settled and case.mu_0 - above.cof > above.cof_error + 1e-9:
             yield f"above, from {start}: {above.mu_0 - above.cof:.2g} +- {above.cof_error:.1g} is missing"
-    ends_stick = found.kind in ("end of stick", "free oscillation")
     for start in ("full_slip", "rest"):
         below = mdr.slide(case, 0.97 * min(found.v_c, found.low), start=start, limit_s=LONGEST)
-        grazes = below.stick_share == 0 if ends_stick else below.stick_share < GRAZING
-        if below.settled and grazes and case.mu_0 - below.cof <= below.cof_error:
+        if below.settled and below.stick_share == 0 and case.mu_0 - below.cof <= below.cof_error:
             yield f"below, from {start}: nothing sticks, and friction is full"
     width = max(NEAR * found.v_c, found.high - found.low)
-    if ends_stick and math.isfinite(full) and abs(found.v_c - full) > width:
+    if math.isfinite(full) and abs(found.v_c - full) > width:
         yield f"{found.v_c:.8g} is not the full-slip value"

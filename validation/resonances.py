@@ -38,6 +38,7 @@ from validation.words import listed, percent
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
 MULTIPLES = (1, 2, 3, 4, 5)
 FAST = (5, 20, 100)  # velocities over Eq. (15), on its own pole over Eq. (1)
+BESIDE = (0.98, 1.005)  # velocities over the law of lock-in, at which friction is reduced, and full
 LEAST = 5e-6  # share of F_0 that a harmonic must have for its reduction of the COF to stand out of the error of a run
 LOOKS = {"flat punch": (COLOURS[0], "s"), "paraboloid": (COLOURS[2], "o")}
 
@@ -83,10 +84,10 @@ def claim(effort: str) -> Claim:
     driven = [knobs for knobs in known if share(*knobs) > LEAST]
     idle = [knobs for knobs in known if share(*knobs) < 1e-12]
     faint = [knobs for knobs in known if 1e-12 <= share(*knobs) <= LEAST]
-    ends = {knobs: _end(*knobs, 0.0) for knobs in progress([*driven, *idle], "resonances")}
+    ends = {knobs: _end(*knobs, 0.0) for knobs in progress(driven, "resonances")}
     damped = {knobs: _end(*knobs, 0.01) for knobs in known if knobs[2] <= 3}
     speeds = FAST[1:2] if effort == "quick" else FAST
-    checks = [*_end_checks(driven, idle, ends, damped), *_plateau_checks(driven, speeds)]
+    checks = [*_end_checks(driven, ends, damped), *_lock_in_checks(idle), *_plateau_checks(driven, speeds)]
     far = max(damped.items(), key=lambda item: abs(item[1][0] or np.nan))
     growing = [f"{_name(knobs)} at {v} v_c" for knobs in driven for v in speeds if np.isnan(reduction(*knobs, v)[0])]
     unseen = "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: |F_n|/F_0 = {share(s, T, n):.1e}" for s, T, n in faint)
@@ -111,7 +112,7 @@ def claim(effort: str) -> Claim:
         f" harmonics; it is off Eq. (15) by up to {100 * ((far[1][0] or np.nan) - 1):+.0f} % ({_name(far[0])})."
         + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
         " drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on"
-        f" ({'; '.join(f'{_name(knobs)}: {ends[knobs][0] or np.nan:.4f}' for knobs in idle)})."
+        f" ({'; '.join(f'{_name(knobs)}: {laws.lock_in(knobs[2]):.4f}' for knobs in idle)})."
         + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
         + (f" Too faint to be told from the error of a run: {unseen}." if unseen else ""),
         verdict="fails when ω_0 is a whole multiple nω of ω, n ≥ 2",
@@ -136,22 +137,27 @@ def _end(shape: str, T: float, n: int, damping_ratio: float) -> tuple[float | No
     return found.v_c / mdr.critical_velocity(case), found.v_c / mdr.full_slip_critical_velocity(case)
 
 
-def _end_checks(driven: list[Any], idle: list[Any], ends: dict[Any, Any], damped: dict[Any, Any]) -> Checks:
+def _end_checks(driven: list[Any], ends: dict[Any, Any], damped: dict[Any, Any]) -> Checks:
     found = sum(ends[knobs][0] is not None for knobs in driven)
     why = "the harmonic drives the body up to stick at any velocity"
     yield Check(f"resonances of {len(driven)} driven ones on which a v_c was found", found, 0, 0, why)
     whole = sum(not np.isinf(mdr.full_slip_critical_velocity(system(*knobs))) for knobs in driven)
     yield Check(f"driven resonances of {len(driven)} with a finite full-slip value", whole, 0, 0, why)
-    for knobs in idle:
-        why = "law of lock-in; read off the COF, by a fit through three velocities"
-        law = laws.lock_in(knobs[2])
-        yield Check(f"v_c over Eq. (15), no damper: {_name(knobs)}", ends[knobs][0], law, 2e-3, why)
-    locked = sum((ends[knobs][0] or 1.0) < 0.99 for knobs in idle)
-    name = f"of {len(idle)} undriven resonances those with full friction below Eq. (15)"
-    yield Check(name, locked, len(idle), 0, "law of lock-in")
     name = f"v_c over the full-slip value, damper of 1 %, worst of {len(damped)} resonances"
     why = "bracket 2e-5 of the measurement and (2π/1024)², second order in its step"
     yield Check(name, worst((end[1] for end in damped.values()), 1), 1.0, TOLERANCE, why)
+
+
+def _lock_in_checks(idle: list[Any]) -> Checks:
+    """Friction on either side of the law, where nothing drives the free oscillation of the body."""
+    why = "law of lock-in: a free oscillation in step with the drive keeps springs from sticking; error of the run"
+    for knobs in idle:
+        case = system(*knobs)
+        law, (low, high) = laws.lock_in(knobs[2]) * mdr.critical_velocity(case), BESIDE
+        below, above = (mdr.slide(case, share * law, n_springs=192, steps_per_period=1024) for share in (low, high))
+        name = f"times cos(π/2n) of Eq. (15), no damper: {_name(knobs)}"
+        yield Check.at_most(f"1 − COF/μ_0 at {high} {name}", 1 - above.cof / above.mu_0, above.cof_error, why)
+        yield Check.at_least(f"1 − COF/μ_0 at {low} {name}", 1 - below.cof / below.mu_0, 3 * below.cof_error, why)
 
 
 def _plateau_checks(driven: list[Any], speeds: tuple[int, ...]) -> Checks:

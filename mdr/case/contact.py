@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.depth_cycle import Cycle, peak, stick_limit
-from mdr.case.in_plane import Shake, whole_ratio
+from mdr.case.in_plane import Shake, sign_of, whole_ratio
 from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
@@ -208,6 +208,10 @@ class SlidingContact(Summarised):
     def mirrored(self) -> SlidingContact:
         """The contact seen from the other side: what it does forward, this one does backward."""
         return self if self.shake is None else replace(self, shake=self.shake.mirrored)
+
+    def pulled(self, direction: int) -> SlidingContact:
+        """The contact whose pull forward is the pull in this direction, 1 or -1."""
+        return self if sign_of(direction) == 1 else self.mirrored
 
     @property
     def rheology(self) -> Rheology:

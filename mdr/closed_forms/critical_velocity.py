@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.in_plane import sign_of
 from mdr.case.motion import LoadOscillation
-from mdr.closed_forms.paper import eq_1, eq_15, linear_critical_velocity
+from mdr.closed_forms.paper import linear_critical_velocity
 from mdr.normal.resolved import at_rest, resolved
 
 
@@ -81,33 +80,16 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
     0.000486 m/s
     """
-    case, direction = at_rest(case), sign_of(direction)
-    kappa, pull = case.material.mindlin_ratio, case.pull
-    if case.is_of_the_paper and not case.is_shaken:
-        du_z = case.cycle.du_z
-        if pull.is_rigid or case.k_zc == 0:
-            return eq_1(case.mu_0, du_z, case.omega, kappa)
-        m, c_x, k_x = pull.coefficients
-        return eq_15(
-            case.mu_0,
-            du_z,
-            case.omega,
-            case.k_zc,
-            case.k_xc,
-            case.gamma_zc,
-            k_x,
-            m,
-            c_x,
-        )
+    case = at_rest(case).pulled(direction)
     u_n, X_n = _depth_harmonics(case), case.way
     if not (np.isfinite(u_n).all() and np.isfinite(X_n).all()):
         return float("inf")
-    X_n = direction * X_n
     size = max(u_n.size, X_n.size)
     u_n, X_n = (np.pad(values, (0, size - values.size)) for values in (u_n, X_n))
     n_omega = case.omega * np.arange(1, size + 1)
-    H_n = np.asarray(pull.receptance(n_omega))
-    return linear_critical_velocity(case.mu_0, case.omega, u_n, kappa, case.dynamic_stiffness(n_omega), H_n, X_n)
+    H_n = np.asarray(case.pull.receptance(n_omega)) if case.k_zc else np.zeros(size)
+    K_n = case.dynamic_stiffness(n_omega)
+    return linear_critical_velocity(case.mu_0, case.omega, u_n, case.material.mindlin_ratio, K_n, H_n, X_n)
 
 
 def velocity_scale(case: SlidingContact) -> float:

@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
 from mdr.case.motion import LoadOscillation
-from mdr.closed_forms.shaken_pull import ShakenPull, band, has_shaken_form
+from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, has_closed_form
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials.operator import Rheology
 from mdr.normal.contact_edge import ContactEdge
@@ -228,12 +228,12 @@ def static_cof(case: SlidingContact) -> float:
     """
     case = resolved(case)
     if case.is_shaken:
-        if not has_shaken_form(case):
+        if not has_closed_form(case):
             raise ValueError(
                 "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull "
                 "on an elastic or Kelvin material: ask holding_band(case), or cof_curve(case, [0])"
             )
-        return case.mu_0 * band(ShakenPull.of(case))[1]
+        return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):
         return case.mu_0
     if case.material.contact_arms and not followed(case).F_N.all():  # at some instant nothing presses

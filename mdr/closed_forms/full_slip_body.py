@@ -26,9 +26,8 @@ from numpy.polynomial import legendre
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
-from mdr.case.in_plane import sign_of
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip import (
     corners,
@@ -107,11 +106,10 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
     0.000516 m/s
     """
-    direction, X_n = sign_of(direction), require_case(case).way
-    if not np.isfinite(X_n).all():
+    case = resolved(case).pulled(direction)
+    if not np.isfinite(case.way).all():
         return np.inf
-    case = resolved(case)
-    rates = _slip_rates(case, direction * X_n)
+    rates = _slip_rates(case)
     touches, leaves = contact_ends(case)
     if case.pull.is_rigid:
         phase = np.append(turns(rates), 0.0)  # a sum that is still has no turns
@@ -132,13 +130,12 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     return _greatest((harmonic_sum(rates, panels.phase) - y_dot)[touching])
 
 
-def _slip_rates(case: SlidingContact, X_n: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _slip_rates(case: SlidingContact) -> NDArray[np.complex128]:
     """Harmonics 1 ... N of mu_0 kappa u_z' - x' [m/s]."""
-    Z = case.cycle.harmonics
-    out = np.zeros(max(Z.size, X_n.size), dtype=complex)
-    out[: Z.size] = case.unit_velocity * Z
-    out[: X_n.size] -= case.omega * X_n
-    return np.asarray(1j * np.arange(1, out.size + 1) * out)
+    Z, X = case.unit_velocity * case.cycle.harmonics, case.omega * case.way
+    size = max(Z.size, X.size)
+    Z, X = (np.pad(row, (0, size - row.size)) for row in (Z, X))
+    return np.asarray(1j * np.arange(1, size + 1) * (Z - X))
 
 
 def contact_ends(case: SlidingContact) -> tuple[Array, Array]:
@@ -239,26 +236,28 @@ def _series() -> Array:
 
 
 def _velocity(case: SlidingContact, panels: _TimePanels) -> Array:
-    """y' [m/s] of the body on the nodes, shape (n_panels, N_NODES); the phase is its time, so that all are lengths."""
-    nodes, into, across = _collocation()
-    force, omega = -case.mu_0 * (panels.force - panels.mean), case.omega
-    m, c_x, K = case.pull.coefficients
+    """y' [m/s] of the body on the nodes, shape (n_panels, N_NODES).
+
+    Over the phase it is the first rate of x' = A x + b force, with the state x = (y, y') of a mass, x = (y) of a damper
+    alone. Collocation solves for the rates on the nodes, as they are linear in the state at the start of the panel.
+    """
+    (m, c_x, K), omega = case.pull.coefficients, case.omega
     M, C = m * omega**2, c_x * omega
+    if M == C == 0:
+        return -case.mu_0 * omega / K * normal_force_rate(case, panels.phase, panels.slope)
+    A, b = (
+        (np.array([[0, 1], [-K / M, -C / M]]), np.array([0, 1 / M])) if M else (np.array([[-K / C]]), np.array([1 / C]))
+    )
+    _, into, across = _collocation()
+    force = -case.mu_0 * (panels.force - panels.mean)
+    (n_panels, n), d = force.shape, b.size
     h = (panels.high - panels.low)[:, None, None]
-    one, unit = np.ones_like(force), np.eye(nodes.size)
-    if M > 0:  # the rate of w = y' is r: w = w_0 + h into r, y = y_0 + h nodes w_0 + h² into² r
-        matrix = M * unit + h * (C * into + K * h * (into @ into))
-        r = np.linalg.solve(matrix, np.stack([force, -K * one, -C * one - K * h[:, 0] * nodes], axis=2))
-        w = h * (into @ r) + np.array([0, 0, 1])
-        y_end = h[:, 0] * (across @ w) + np.array([0, 1, 0])
-        w_end = h[:, 0] * (across @ r) + np.array([0, 0, 1])
-        start = _periodic(np.stack([y_end, w_end], axis=1))
-        return np.asarray(w[:, :, 0] + w[:, :, 1] * start[:, :1] + w[:, :, 2] * start[:, 1:]) * omega
-    if C > 0:  # C w + K (y_0 + h into w) = force
-        w = np.linalg.solve(C * unit + K * h * into, np.stack([force, -K * one], axis=2))
-        start = _periodic((h[:, 0] * (across @ w) + np.array([0, 1]))[:, None, :])
-        return np.asarray(w[:, :, 0] + w[:, :, 1] * start) * omega
-    return -case.mu_0 * omega / K * normal_force_rate(case, panels.phase, panels.slope)
+    right = np.empty((n_panels, n, d, 1 + d))  # of the force, and of each state at the start
+    right[..., 0], right[..., 1:] = force[..., None] * b, A
+    rates = np.linalg.solve(np.eye(n * d) - h * np.kron(into, A), right.reshape(n_panels, n * d, 1 + d))
+    rates = rates.reshape(right.shape)
+    start = _periodic(np.eye(d, 1 + d, 1) + h * np.einsum("n,pndk->pdk", across, rates))
+    return np.asarray(rates[:, :, 0, 0] + np.einsum("pnk,pk->pn", rates[:, :, 0, 1:], start)) * omega
 
 
 def _periodic(maps: Array) -> Array:

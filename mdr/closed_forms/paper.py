@@ -208,13 +208,7 @@ def eq_15(
 
 
 def linear_critical_velocity(
-    mu_0: float,
-    omega: float,
-    u_n: ArrayLike,
-    mindlin_ratio: float,
-    K_n: ArrayLike,
-    H_n: ArrayLike,
-    X_n: ArrayLike = 0,
+    mu_0: float, omega: float, u_n: ArrayLike, mindlin_ratio: float, K_n: ArrayLike, H_n: ArrayLike, X_n: ArrayLike = 0
 ) -> float:
     """Critical velocity [m/s] of a contact that answers linearly, of any rheology, to a periodic depth.
 

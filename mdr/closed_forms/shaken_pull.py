@@ -35,7 +35,7 @@ e + T e' is that of e. Three facts make every mean a short sum.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -44,8 +44,8 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.depth_cycle import harmonic_sum
-from mdr.closed_forms.shaken_spring import Complex, Motion, all_changes, all_springs, root
+from mdr.case.depth_cycle import harmonic_sum, turns
+from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
@@ -55,7 +55,6 @@ SAFETY = 0.3  #: error of the rule over its last two coefficients, mostly much l
 FLOOR = 1e-10  #: of the error: changes that are found to NEAR or overlooked
 HALVINGS = 16  #: of an interval of the array, at most
 MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
-DENSE = 32  #: instants per period of the highest harmonic, between which zeros are bracketed
 FARTHEST = 1e6  #: amplitude of the way over that of the springs' deflection
 MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
 _ORDER = 16  #: of the rule through springs of an interval
@@ -74,7 +73,7 @@ class ShakenPull(ArrayRecord):
 
     @classmethod
     def of(cls, case: SlidingContact) -> ShakenPull:
-        """The numbers of a case that `has_shaken_form`, of known depth."""
+        """The numbers of a case that `has_closed_form`, of known depth."""
         cycle = case.cycle
         way = case.way / (case.mu_0 * case.material.mindlin_ratio * cycle.unit)
         return cls(case.indenter, cycle.u_z0, cycle.unit, cycle.harmonics, way, case.T)
@@ -82,25 +81,31 @@ class ShakenPull(ArrayRecord):
     @cached_property
     def _start(self) -> tuple[float, float]:
         """Phase at which z is greatest, and its value there."""
-        turns = _turns(np.asarray(self.Z, dtype=complex))
-        phase, z = max(turns, key=lambda turn: turn[1], default=(0.0, 0.0))
+        tops = _turns(np.asarray(self.Z, dtype=complex))
+        phase, z = max(tops, key=lambda top: top[1], default=(0.0, 0.0))
         return float(phase), float(z)
 
-    def _motion(self, side: int) -> Motion:
-        """The motion from the greatest z on; mirrored in the plane for side = -1."""
+    @property
+    def mirrored(self) -> ShakenPull:
+        """The pull the other way, seen from there."""
+        return replace(self, X=-np.asarray(self.X))
+
+    @property
+    def _harmonics(self) -> Harmonics:
+        """The motion from the greatest z on."""
         N = max(len(self.Z), len(self.X))
         n = np.arange(1, N + 1)
         turn = np.exp(1j * n * self._start[0])
         Z, X = (turn * np.pad(np.asarray(row, dtype=complex), (0, N - len(row))) for row in (self.Z, self.X))
-        A, B = Z - side * X, Z + side * X
+        A, B = Z - X, Z + X
         T, rate = float(self.T), 1j * n
         lag = 1 + T * rate
-        rows = np.array([Z, side * X, lag * Z, lag * A, lag * B, T * rate * A, T * rate * B])
+        rows = np.array([Z, X, lag * Z, lag * A, lag * B, T * rate * A, T * rate * B])
         rates = np.array([rate * lag * A, rate * lag * B])
-        return Motion(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
+        return Harmonics(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
 
 
-def has_shaken_form(case: SlidingContact) -> bool:
+def has_closed_form(case: SlidingContact) -> bool:
     """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
     known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
     if not known or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
@@ -110,40 +115,23 @@ def has_shaken_form(case: SlidingContact) -> bool:
 
 
 def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> tuple[Array, Array, Array]:
-    """Mean friction over mu_0 times mean force, bound of its error, and share of stick, at velocities v (n_v,).
+    """Mean friction over mu_0 times mean force, bound of its error, and share of stick, at velocities v >= 0 (n_v,).
 
     tolerance: of the error of every interval of springs, no less than TOLERANCE; the bound is some times as large. The
-    share of stick is that of the contact time, weighted by force. A v = 0 counts as the limit v -> +0.
+    share of stick is that of the contact time, weighted by force. v = 0 is the limit of a pull ever slower forward.
     """
     v = np.asarray(v, dtype=float)
-    answer = np.empty((3, v.size))
-    for side, some in ((1, v >= 0), (-1, v < 0)):
-        if some.any():
-            answer[:, some] = _friction(pull, np.abs(v[some]), side, max(tolerance, TOLERANCE))
-            answer[0, some] *= side
-    return answer[0], answer[1], answer[2]
-
-
-def band(pull: ShakenPull) -> tuple[float, float]:
-    """Mean friction over mu_0 times mean force in the limits v -> -0 and v -> +0."""
-    low, high = (side * float(_friction(pull, np.zeros(1), side, TOLERANCE)[0, 0]) for side in (-1, 1))
-    return low, high
-
-
-# --- the array: intervals of x, and the rule within -----------------------------------------------------------------
-
-
-def _friction(pull: ShakenPull, v: Array, side: int, tolerance: float) -> Array:
-    """Friction, error and share of stick (3, n_v) for v >= 0."""
-    motion = pull._motion(side)
+    if np.any(v < 0):
+        raise ValueError(f"v must not be negative, got {float(v.min())!r}: ask the mirrored pull")
+    harmonics = pull._harmonics
     marks = _marks(pull)
     gaps = _gaps(pull, marks)
-    changes = all_changes(motion, v, gaps.min(), gaps.max(), _SCAN)
+    changes = all_changes(harmonics, v, gaps.min(), gaps.max(), _SCAN)
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
-    allowed = tolerance * _compression(pull, marks)
+    allowed = max(tolerance, TOLERANCE) * _compression(pull)
     for halving in range(HALVINGS + 1):
-        sums, missed = _integrals(pull, motion, v, owner, low, high, allowed)
+        sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
         done = missed <= allowed
         done |= halving == HALVINGS or np.sum(~done) > MOST_INTERVALS + 20 * v.size
         for row, found in zip(total, sums, strict=True):
@@ -155,7 +143,10 @@ def _friction(pull: ShakenPull, v: Array, side: int, tolerance: float) -> Array:
         middle = 0.5 * (low + high)
         owner = np.repeat(owner, 2)
         low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
-    return np.array([total[0] / total[1], error / total[1] + FLOOR, np.clip(total[2] / total[1], 0, 1)])
+    return total[0] / total[1], error / total[1] + FLOOR, np.clip(total[2] / total[1], 0, 1)
+
+
+# --- the array: intervals of x, and the rule within -----------------------------------------------------------------
 
 
 def _marks(pull: ShakenPull) -> Array:
@@ -167,13 +158,11 @@ def _marks(pull: ShakenPull) -> Array:
     return np.array([0.0, *sorted({x for x in shape.joints if 0 < x < a}), a])
 
 
-def _compression(pull: ShakenPull, marks: Array) -> float:
-    """Sum of the mean compressions of elastic springs [m], to some per cent: what errors are measured by."""
-    u, w = _GAUSS
-    half = 0.5 * np.diff(marks)[:, None]
-    c = _gaps(pull, 0.5 * (marks[1:] + marks[:-1])[:, None] + half * u)
+def _compression(pull: ShakenPull) -> float:
+    """Sum over elastic springs of their mean compression [m]: half of the mean force over E* and the unit."""
     z = harmonic_sum(np.asarray(pull.Z, dtype=complex), np.linspace(0, 2 * np.pi, 64, endpoint=False))
-    return float(np.sum(half * w * np.mean(np.maximum(z - c[..., None], 0), axis=-1)))
+    force = pull.shape.force(np.maximum(pull.u_z0 + pull.unit * z, 0), 1.0)
+    return float(np.mean(force)) / (2 * pull.unit)
 
 
 def _gaps(pull: ShakenPull, x: Array) -> Array:
@@ -205,7 +194,7 @@ def _radius(pull: ShakenPull, marks: Array, gaps: Array, c: Array) -> Array:
 
 
 def _integrals(
-    pull: ShakenPull, motion: Motion, v: Array, owner: NDArray[np.intp], low: Array, high: Array, allowed: float
+    pull: ShakenPull, harmonics: Harmonics, v: Array, owner: NDArray[np.intp], low: Array, high: Array, allowed: float
 ) -> tuple[Array, Array]:
     """Integrals of e, s and the force in stick over the intervals (3, n), and a bound of the error of the first.
 
@@ -216,7 +205,7 @@ def _integrals(
     for rule in _RULES:
         width = (high - low)[left]
         x = np.minimum(low[left, None] + width[:, None] * rule.share, high[left, None])
-        more = all_springs(motion, v, np.repeat(owner[left], rule.share.size), _gaps(pull, x.ravel()))
+        more = all_springs(harmonics, v, np.repeat(owner[left], rule.share.size), _gaps(pull, x.ravel()))
         means = np.concatenate([means, more.reshape(3, *x.shape)], axis=2)
         found[:, left] = (means @ rule.weight) * width
         last = np.abs(means[:2] @ rule.tail).max(axis=2).sum(axis=0)
@@ -249,29 +238,11 @@ class _Rule(NamedTuple):
         return cls(share[1::2] if nested else share, (moments @ coefficients)[nodes], tail)
 
 
-_GAUSS = leggauss(_ORDER)
 _RULES = (_Rule.of(_ORDER // 2, False), _Rule.of(_ORDER, True))
 _SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 16)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
 
 
 def _turns(C: Complex) -> Array:
-    """Phases in [0, 2 pi] at which Re of sum C_n exp(i n phase) is extreme, and its values there (n, 2)."""
-    slope = 1j * np.arange(1, C.size + 1) * C
-    bend = 1j * np.arange(1, C.size + 1) * slope
-    phase = _zeros(slope, _zeros(bend, np.zeros(0)))
+    """Phases in [0, 2 pi) at which Re of sum C_n exp(i n phase) is extreme, and its values there (n, 2)."""
+    phase = turns(C)
     return np.column_stack([phase, harmonic_sum(C, phase)])
-
-
-def _zeros(C: Complex, marks: Array) -> Array:
-    """Phases at which Re of sum C_n exp(i n phase) changes sign, one at most between two marks or dense instants."""
-    if not np.any(C):
-        return np.zeros(0)
-    count = max(DENSE * C.size, 64)
-    values = count / 2 * np.fft.irfft(np.r_[0, C, np.zeros(count // 2 - C.size)], count)
-    phase = np.r_[2 * np.pi * np.arange(count + 1) / count, marks]
-    f = np.r_[values, values[0], harmonic_sum(C, marks)]
-    order = np.argsort(phase, kind="stable")
-    phase, f = phase[order], f[order]
-    k = np.flatnonzero((f[:-1] >= 0) != (f[1:] >= 0))
-    found = [root(C[None], 0, 0.0, 0.0, 0.0, 0.0, 0.0, phase[i], phase[i + 1], f[i], f[i + 1]) for i in k]
-    return np.array(found, dtype=float)

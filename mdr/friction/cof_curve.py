@@ -5,10 +5,11 @@ The point v_0 = 0 is the static limit.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +18,7 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.closed_forms.shaken_pull import ShakenPull, has_shaken_form
+from mdr.closed_forms.shaken_pull import ShakenPull, has_closed_form
 from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.slide import SLOWEST, cofs_without_bound, slides
@@ -137,8 +138,8 @@ def cof_curve(
         be of either sign, friction too, and zero is the limit of a pull ever slower forward. Without a shake what is
         below 1e-9 of mu_0 kappa omega du_z counts as zero.
     method : {None, "march"}
-        None takes the closed form where there is one (a rigid pull, an elastic or Kelvin material, and a harmonic depth
-        or a shake in the plane) and one run for each velocity elsewhere. "march" takes runs for every case.
+        None takes the closed form where there is one (a rigid pull, an elastic or Kelvin material, a depth and a shake
+        of no more than 64 harmonics) and one run for each velocity elsewhere. "march" takes runs for every case.
     n_springs, steps_per_period : int, optional
         Springs and time steps of every run, as in `slide`. None chooses them. The closed form has neither.
     accuracy : float
@@ -158,8 +159,8 @@ def cof_curve(
 
     Notes
     -----
-    The closed form holds for any shape and any amplitude; `mdr.closed_forms.rigid_pull` derives it, and
-    `mdr.closed_forms.shaken_pull` that under a shake.
+    The closed form holds for any shape and any amplitude; `mdr.closed_forms.rigid_pull` derives it for a harmonic
+    depth, and `mdr.closed_forms.shaken_pull` for any other and under a shake.
 
     Examples
     --------
@@ -187,14 +188,21 @@ def cof_curve(
     at_rest = (np.abs(velocities) < SLOWEST * case.unit_velocity) & (not case.is_shaken)
     asked = np.where(at_rest, 0.0, velocities)
     asked = asked if np.any(asked == 0) else np.append(asked, 0.0)
-    is_closed, knobs = method is None and has_closed_form(case), (n_springs, steps_per_period, accuracy)
-    columns = _closed_form(case, asked, accuracy) if is_closed else _marched(case, asked, knobs)
+    is_closed = method is None and has_closed_form(case)
+    friction: Friction = partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
+    if is_closed:
+        friction = partial(_closed_form, accuracy=accuracy)
+    cof, error, settled, sticks, why = _both_ways(case, asked, friction)
+    if not is_closed:  # a static limit in closed form judges no run
+        wrong = disordered(asked, cof, error, settled & ((asked != 0) | case.is_shaken))
+        why[wrong] = (
+            "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
+        )
+        settled = settled & ~wrong
     back = None
     if case.is_shaken and np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
-        rest, mirrored = np.zeros(1), case.mirrored
-        slowest = _closed_form(mirrored, rest, accuracy) if is_closed else _from_rest_on(mirrored, rest, knobs)
-        back = -float(slowest[0][0])
-    (cof, error, settled, sticks, why), n = columns, velocities.size
+        back = -float(_at_rest(case.mirrored, friction)[0])
+    n = velocities.size
     return CofCurve(
         v_0=velocities,
         cof=cof[:n],
@@ -210,130 +218,98 @@ def cof_curve(
     )
 
 
-Columns = tuple[Array, Array, NDArray[np.bool_], Array, NDArray[np.object_]]
-Given = tuple[int | None, int | None, float]  #: springs, steps and accuracy
+class Columns(NamedTuple):
+    """What a curve knows at each of its velocities, arrays (n_v,)."""
 
+    cof: Array
+    error: Array
+    settled: NDArray[np.bool_]
+    sticks: Array
+    why: NDArray[np.object_]
 
-def _closed_form(case: SlidingContact, v_0: Array, accuracy: float) -> Columns:
-    """Friction at velocities of either sign, of a case that `has_closed_form`; 0 is the limit of a pull forward."""
-    if case.is_shaken:
-        velocities = v_0 / case.unit_velocity
-        cof, error, sticks = shaken_friction(ShakenPull.of(case), velocities, CLOSED_SHARE * accuracy)
-        return case.mu_0 * cof, case.mu_0 * error, *_all_settled(sticks)
-    moving = v_0 != 0
-    known = average_friction(case, np.abs(v_0[moving]))
-    columns = np.sign(v_0[moving]) * known.cof, known.cof_error, *_all_settled(known.stick_share)
-    return _filled(moving, columns, _static(case))
-
-
-def _all_settled(sticks: Array) -> tuple[NDArray[np.bool_], Array, NDArray[np.object_]]:
-    """The last columns of what is known in closed form."""
-    return np.ones(sticks.shape, dtype=bool), sticks, np.full(sticks.shape, "", dtype=object)
+    @classmethod
+    def exact(cls, cof: Array, error: Array, sticks: Array) -> Columns:
+        """Of what did not have to settle."""
+        return cls(cof, error, np.ones(cof.shape, dtype=bool), sticks, np.full(cof.shape, "", dtype=object))
 
 
 Point = tuple[float, float, bool, float, str]  #: a row of the columns
+Friction = Callable[[SlidingContact, Array], Columns]  #: of a pull forward, at rising velocities
 
 
-def _static(case: SlidingContact) -> Point:
-    """The point v_0 = 0 of a contact that is not shaken in the plane."""
-    error = STATIC_ERROR if case.is_of_the_paper else FOLLOWED_ERROR
-    return static_cof(case), error * case.mu_0, True, 1.0, ""
-
-
-def _filled(where: NDArray[np.bool_], columns: Columns, point: Point) -> Columns:
-    """The columns where they are known, and one point elsewhere."""
-    out: list[NDArray[Any]] = []
-    for column, value in zip(columns, point, strict=True):
-        whole = np.full(where.shape, value, dtype=column.dtype)
-        whole[where] = column
-        out.append(whole)
-    return tuple(out)  # type: ignore[return-value]
-
-
-def _marched(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
-    """One run for each velocity, of the mirror image for the other way; those that contradict another are unsettled."""
-    columns: list[NDArray[Any]] = [np.empty(v_0.size, dtype=kind) for kind in (float, float, bool, float, object)]
-    for one, side, where in _ways(case, v_0):
-        parts = _from_rest_on(one, np.abs(v_0[where]), knobs)
-        for column, part in zip(columns, (side * parts[0] + 0.0, *parts[1:]), strict=True):
-            column[where] = part
-    cof, error, settled, sticks, why = columns
-    runs = settled & ((v_0 != 0) | case.is_shaken)  # a static limit in closed form judges none of them
-    wrong = disordered(v_0, cof, error, runs)
-    why[wrong] = "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
-    return cof, error, settled & ~wrong, sticks, why
-
-
-def _ways(case: SlidingContact, v_0: Array) -> Iterator[tuple[SlidingContact, float, NDArray[np.bool_]]]:
-    """The contact forward, and its mirror image for the other way, each with its sign and the places of its velocities.
-
-    Those without a velocity are left out.
-    """
+def _both_ways(case: SlidingContact, v_0: Array, friction: Friction) -> Columns:
+    """Friction at velocities of either sign: of the mirror image of the contact for the other way."""
+    columns = Columns.exact(*np.empty((3, v_0.size)))
     for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
-        if where.any():
-            yield one, side, where
+        if not where.any():
+            continue
+        order = np.argsort(np.abs(v_0), kind="stable")
+        places = order[where[order]]
+        cof, *others = _from_rest_on(one, np.abs(v_0[places]), friction)
+        for column, part in zip(columns, (side * cof + 0.0, *others), strict=True):
+            column[places] = part
+    return columns
 
 
-def _from_rest_on(case: SlidingContact, v_0: Array, knobs: Given) -> Columns:
-    """Runs at velocities >= 0, of which zero stands for its limit.
+def _from_rest_on(case: SlidingContact, v_0: Array, friction: Friction) -> Columns:
+    """Friction at rising velocities >= 0, of which zero stands for its limit."""
+    n_rest = int(np.sum(v_0 == 0))
+    moving = friction(case, v_0[n_rest:]) if n_rest < v_0.size else Columns.exact(*np.empty((3, 0)))
+    if not n_rest:
+        return moving
+    rest = _at_rest(case, friction)
+    return Columns(*(np.r_[n_rest * [value], column] for value, column in zip(rest, moving, strict=True)))
 
-    A body with mass, or arms, end a run at rest wherever they came to within the band; there two slow runs tell the
-    limit, to which friction falls like a power of the velocity between 2/3 and 1.
+
+def _at_rest(case: SlidingContact, friction: Friction) -> Point:
+    """The limit of a pull ever slower forward.
+
+    A body with mass, or arms, end a run at rest wherever they came to within the band of a shaken contact; there two
+    slow runs tell the limit, to which friction falls like a power of the velocity between 2/3 and 1.
     """
-    moving = v_0 > 0
-    columns = _runs(case, v_0[moving], *knobs)
-    if moving.all():
-        return columns
     if not case.is_shaken:
-        limit = _static(case)
-    elif case.material.contact_arms or case.pull.coefficients[0] > 0:
-        limit = _slow_limit(*_runs(case, np.array(SLOW) * case.pace, *knobs))
-    else:
-        cof, error, settled, sticks, why = (column[0] for column in _runs(case, np.zeros(1), *knobs))
-        limit = cof, error, settled, sticks, "" if settled else why  # a start at one end of the band ends there
-    return _filled(moving, columns, limit)
+        error = FOLLOWED_ERROR if case.material.contact_arms else STATIC_ERROR
+        return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, ""
+    if case.material.contact_arms or case.pull.coefficients[0] > 0:
+        return _slow_limit(friction(case, np.array(SLOW) * case.pace))
+    cof, error, settled, sticks, why = (column[0] for column in friction(case, np.zeros(1)))
+    return cof, error, settled, sticks, "" if settled else why  # a start at one end of the band ends there
 
 
-def _slow_limit(cof: Array, error: Array, settled: NDArray[np.bool_], sticks: Array, why: NDArray[np.object_]) -> Point:
+def _closed_form(case: SlidingContact, v_0: Array, accuracy: float) -> Columns:
+    """Friction of a case that has a closed form."""
+    if case.is_of_the_paper and not case.is_shaken:
+        known = average_friction(case, v_0)
+        return Columns.exact(known.cof, known.cof_error, known.stick_share)
+    cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity, CLOSED_SHARE * accuracy)
+    return Columns.exact(case.mu_0 * cof, case.mu_0 * (error + case.cycle.missing), sticks)
+
+
+def _slow_limit(runs: Columns) -> Point:
     """The limit of runs at velocities SLOW, ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
-    slower, faster = float(cof[0]), float(cof[1])
+    slower, faster = runs.cof
     apart = faster - slower
-    bound = float(error[0] + (error[0] + error[1]) / 6) + 0.15 * abs(apart)
-    return slower - apart / 6, bound, bool(settled.all()), float(sticks[0]), next((one for one in why if one), "")
-
-
-def has_closed_form(case: SlidingContact) -> bool:
-    """Whether the curve of a case is known in closed form."""
-    if case.is_shaken:
-        return has_shaken_form(case)
-    return case.pull.is_rigid and case.is_of_the_paper
-
-
-def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
-    """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
-    case = resolved(case)
-    if has_closed_form(case):
-        return _closed_form(case, v_0, BUDGET)[0]
-    at_rest = (v_0 == 0) & (not case.is_shaken)
-    out = np.full(v_0.shape, static_cof(case) if at_rest.any() else 0.0)
-    for one, side, where in _ways(case, v_0):
-        there = np.flatnonzero(where & ~at_rest)
-        order = there[np.argsort(np.abs(v_0[there]), kind="stable")]
-        cofs = cofs_without_bound(one, np.abs(v_0[order]).tolist(), n_springs, steps_per_period)
-        out[order] = side * np.array(list(cofs))
-    return out
+    bound = runs.error[0] + (runs.error[0] + runs.error[1]) / 6 + 0.15 * abs(apart)
+    return slower - apart / 6, bound, bool(runs.settled.all()), runs.sticks[0], runs.why[0] or runs.why[1]
 
 
 def _runs(
     case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None, accuracy: float
 ) -> Columns:
-    """One run for each velocity >= 0."""
-    order = np.argsort(v_0, kind="stable")
-    rising = slides(
-        case, progress(v_0[order].tolist(), "COF curve", "velocities"), n_springs, steps_per_period, accuracy
-    )
-    ended = dict(zip(order.tolist(), rising, strict=True))
-    runs = [ended[i] for i in range(v_0.size)]
+    """One run for each velocity."""
+    velocities = progress(v_0.tolist(), "COF curve", "velocities")
+    runs = list(slides(case, velocities, n_springs, steps_per_period, accuracy))
     cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
     settled = np.array([run.settled for run in runs], dtype=bool)
-    return cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object)
+    return Columns(cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object))
+
+
+def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
+    """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
+
+    def quick(one: SlidingContact, v_0: Array) -> Columns:
+        cof = np.array(list(cofs_without_bound(one, v_0.tolist(), n_springs, steps_per_period)))
+        return Columns.exact(cof, 0 * cof, 0 * cof)
+
+    case = resolved(case)
+    return _both_ways(case, v_0, partial(_closed_form, accuracy=BUDGET) if has_closed_form(case) else quick).cof

@@ -21,8 +21,7 @@ from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
 from mdr.tools.checks import finite
 from mdr.tools.messages import offer, short
 
-DECADES = 3.0  #: an interval of a positive parameter that is wider than this says nothing
-REACH = np.log(10) * DECADES  #: of the search to either side, on the scale of the logarithm
+DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
 UNITS_AWAY = 10.0  #: of the search to either side, on a linear scale
 KAPPA = (0.76, 1.5)  #: of the Mindlin ratio, all that Poisson's ratio allows but for a percent at nu = -1
 INSIDE = 1e-3  #: of the range: so far from its ends a search begins
@@ -49,16 +48,13 @@ class Parameter:
             raise ValueError(f"{name} cannot be varied: {why}")
         unit = natural_unit(case, path)
         signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit)
-        low, high = (0.0, 0.0) if given is None else _pair(name, given)
-        if signed or start == 0 or path == "mindlin_ratio" or (given is not None and low <= 0):
+        ends = None if given is None else _bounds(case, name, path, start, given)
+        if signed or start == 0 or path == "mindlin_ratio" or (ends and ends[0] <= 0):
             away = unit * (np.pi if facts_at(path).unit == "rad" else UNITS_AWAY)
             reach = KAPPA if path == "mindlin_ratio" else (start - away, start + away)
         else:
-            unit, reach = 0.0, (start * float(np.exp(-REACH)), start * float(np.exp(REACH)))
-        if given is None:
-            low, high = (_allowed(case, path, start, end) for end in reach)
-        else:
-            _require_bounds(case, name, path, start, (low, high))
+            unit, reach = 0.0, (start / 10**DECADES, start * 10**DECADES)
+        low, high = ends or (_allowed(case, path, start, end) for end in reach)
         return cls(name, path, start, low, high, unit)
 
     def coordinate(self, value: float) -> float:
@@ -86,7 +82,7 @@ class Parameter:
     def widest(self) -> float:
         """Width of an interval, on the scale of the search, from which on it says nothing."""
         low, high = self.ends
-        return high - low if self.unit else min(high - low, REACH)
+        return high - low if self.unit else min(high - low, float(np.log(10)) * DECADES)
 
     @property
     def symbol(self) -> str:
@@ -161,18 +157,14 @@ def _allowed(case: SlidingContact, path: str, start: float, end: float) -> float
     return good
 
 
-def _pair(name: str, given: Any) -> tuple[float, float]:
+def _bounds(case: SlidingContact, name: str, path: str, start: float, given: Any) -> tuple[float, float]:
+    """The ends of the search that were given."""
     if not isinstance(given, tuple | list) or len(given) != 2:
         raise TypeError(f"bounds of {name} must be a pair (low, high), got {short(repr(given))}")
     low, high = (finite(f"bounds of {name}", one) for one in given)
     if not low < high:
         raise ValueError(f"bounds of {name} must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
-    return low, high
-
-
-def _require_bounds(case: SlidingContact, name: str, path: str, start: float, given: tuple[float, float]) -> None:
-    low, high = given
-    for end in given:
+    for end in (low, high):
         if why := _refusal(case, path, end):
             raise ValueError(f"bounds of {name}: {end:.6g} is no value of it: {why}")
     if not low <= start <= high:
@@ -180,3 +172,4 @@ def _require_bounds(case: SlidingContact, name: str, path: str, start: float, gi
             f"bounds of {name} must hold the value of the case, where the search begins: {start:.6g} is not in "
             f"{low:.6g} to {high:.6g}; change the case or the bounds"
         )
+    return low, high

@@ -10,29 +10,25 @@ A threshold on the COF alone would therefore read v_c too low. Two sharper signs
 * Below v_c there is stick, above it there is none. Two runs close to v_c, one on either side, confirm this. They are
   the bracket, which is widened by what the numbers of steps and springs still change.
 
-Runs at higher velocities, from both starts, then look for stick that returns and for friction that stays low. An
-undamped body loses a free oscillation by instants of stick alone. They reduce it until the slip velocity just touches
-zero. What is left of such a free oscillation, with a full COF, is named in the answer. It is no reduction of friction.
-
-A run at a lower velocity asks whether stick means less friction at all. An undamped body whose omega_0 is a whole
-multiple of omega can keep a free oscillation in step with the drive (lock-in). Then no spring sticks, although it would
-without this oscillation. The COF, full within its error, tells there where the reduction of friction ends. With a
-little damping, or a little off the multiple, a little friction is missing. The velocity from which on less than
-NEARLY_FULL is missing is named in the answer.
+Runs at higher velocities, from both starts, then look for friction that stays low.
 
 A run that has not settled is no evidence. The search then takes runs at velocities close by. If these do not settle
-either, the answer is "unsettled".
+either, the answer is "unsettled". So it is where no end of stick tells the end of friction reduction:
+
+* An undamped body whose omega_0 is a whole multiple of omega can keep a free oscillation in step with the drive. It may
+  keep springs from sticking, so that the end of stick depends on it (`mdr.laws.lock_in`).
+* The velocity of a body without mass jumps whenever a single spring touches on a dashpot. Isolated stick then goes on
+  far above the velocity at which friction is full.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.in_plane import sign_of
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.refinement import MOST_STEPS, default_springs, default_steps
 from mdr.march.run import SlidingRun
@@ -46,17 +42,8 @@ MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
 NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
 LOOK = 96, 256  #: springs, and steps at least, of a run that tells reduced friction from full
-FINE = 384, 1024  #: the same where the COF is read off closely, without doubling them
-APART = 0.01  #: step between velocities at which the deficit of the COF is read
-CLOSER = 0.004  #: the same where its error allows
-BELOW = (0.97, 0.85)  #: multiples of v_c at which stick is looked at for what it takes from friction
-GRAZING = 0.03  #: stick share below which stick at the first of them only grazes the slip; ordinary contacts have more
-SAME_MULTIPLE = 1e-6  #: off a whole multiple by less, of it, a free oscillation stays in step as long as runs last
-IN_STEP = 1024  #: steps of a period, at least, that tell a free oscillation in step with the drive from one that is not
-MOST_UNSETTLED = 12  #: runs that do not settle, after which a search for reduced friction ends
-NEARLY_FULL = 1e-4  #: of the COF, that may be missing where it is called nearly full
+SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step loses or gains on the drive in a period
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
-SWINGS = 64  #: periods after which a free oscillation that is left is one that stays
 FINER = 8  #: times the steps of a run: the rate of a parabola is off by h²/12 where stick ends
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
@@ -70,27 +57,23 @@ class MeasuredVelocity(Summarised):
     The kinds of end:
 
     * "end of stick": the least slip velocity, stick and the COF all name one velocity.
-    * "free oscillation": so too, but above v_c a body that starts from rest keeps a free oscillation. It touches the
-      stick limit now and then, at full COF.
-    * "end of friction reduction": read off the COF, within a bracket of some per cent.
-    * "lock-in": read off the COF, as a free oscillation in step with the drive keeps springs from sticking down to v_c.
-    * "none": no run without stick up to the highest velocity, or no stick that lowers friction. v_c is None.
-    * "unsettled": the runs that would tell do not settle, or contradict one another. v_c is None.
+    * "none": no run without stick up to the highest velocity. v_c is None.
+    * "unsettled": the runs that would tell do not settle, or contradict one another, or stick does not tell where
+      friction becomes full. v_c is None.
     """
 
     v_c: float | None  #: [m/s]; None where there is none
-    low: float | None  #: highest velocity [m/s] seen with friction reduced, or with stick, less the doubt of resolution
+    low: float | None  #: highest velocity [m/s] seen with stick, less the doubt of resolution
     high: float | None  #: lowest velocity [m/s] seen without, plus that doubt
     kind: str  #: one of the kinds of end above
     why: str  #: in words
-    nearly_full: float | None = None  #: from which on the COF is within 1e-4 of mu_0 [m/s], where well below v_c
     n_runs: int = field(default=0, compare=False)  #: how many runs it took
 
     def _summary(self) -> Summary:
         found = "none" if self.v_c is None else number(self.v_c, "m/s")
         rows = [("v_c", found, self.kind)]
         if self.low is not None and self.high is not None:
-            rows.append(("bracket", f"{self.low:.9g} to {self.high:.9g} m/s", "reduced below, full above"))
+            rows.append(("bracket", f"{self.low:.9g} to {self.high:.9g} m/s", "stick below, none above"))
         return Summary("MeasuredVelocity", [*rows, ("why", self.why, ""), ("runs", str(self.n_runs), "")])
 
     def contains(self, v_0: float) -> bool:
@@ -165,10 +148,7 @@ def measure_critical_velocity(
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    known = resolved(case)
-    search = _Search(
-        known if sign_of(direction) == 1 else known.mirrored, start, max(MARGIN * accuracy_of(accuracy), NARROWEST)
-    )
+    search = _Search(resolved(case).pulled(direction), start, max(MARGIN * accuracy_of(accuracy), NARROWEST))
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:
             return search.measure()
@@ -217,44 +197,55 @@ class _Search:
 
     def measure(self) -> MeasuredVelocity:
         free = self._first_free_run()
-        jumps = self._jumps()
-        if jumps:
-            self.n_springs, self.steps = FINE[0], max(FINE[1], self.steps)
-        if free is not None and not jumps:
-            free = self._resolve(free)
+        if free is not None and (ambiguous := self._stick_tells_nothing()):
+            return self._without("unsettled", ambiguous)
+        free = free and self._resolve(free)
         if free is None:
-            return self._none("friction stays reduced, or stick goes on, up to the highest velocity tried")
+            return self._without("none", "friction stays reduced, or stick goes on, up to the highest velocity tried")
         v_c, low, high = self._locate(free)
-        if jumps:
-            why = (
-                f"isolated stick goes on up to {high:.6g} m/s without reducing friction, as the velocity of a body "
-                "without inertia jumps when single springs touch; "
-                "v_c is read off the COF deficit to the power 2/3, which falls smoothly to zero"
-            )
-            return self._by_friction(high, high, why)
         low, high = max(low - self.doubt, 0.0), high + self.doubt
         if v_c <= LEAST * self.scale:
             why = f"stick ends below {LEAST:g} of Eq. (1), which is not told from zero"
             return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
-        return self._look_below(v_c, low, high, free.v_0 - free.least_slip)
+        return self._look_above(v_c, low, high)
 
-    def _none(self, why: str) -> MeasuredVelocity:
-        return MeasuredVelocity(None, None, None, "none", why, n_runs=self.n_runs)
+    def _without(self, kind: str, why: str) -> MeasuredVelocity:
+        """The answer where there is no critical velocity, or none is known."""
+        return MeasuredVelocity(None, None, None, kind, why, n_runs=self.n_runs)
 
     def undecided(self, v_0: float) -> MeasuredVelocity:
         """The answer where runs that would tell do not settle."""
         why = f"runs near {v_0:.6g} m/s do not settle, so that nothing is known of friction there"
         if time_is_over():
             why = f"the time limit is over after {self.n_runs} runs, before one at {v_0:.6g} m/s: raise limit_s"
-        return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
+        return self._without("unsettled", why)
 
-    def _decided(
-        self, v_0: float, look: Callable[[float], SlidingRun] | None = None, apart: float | None = None
-    ) -> SlidingRun:
-        """A settled run at this velocity, or close by; look: `quick_run` or `run`; apart: how close, over v_0."""
-        look, apart = look or self.run, self.margin / 4 if apart is None else apart
-        for off in (0.0, apart, -apart):
-            if (run := look(v_0 * (1 + off))).settled:
+    def _stick_tells_nothing(self) -> str:
+        """Why the end of stick is not that of friction reduction; empty where it is."""
+        case, pull = self.case, self.case.pull
+        if pull.is_rigid:
+            return ""
+        kept = case.cycle.u_z0 + case.cycle.unit * case.kept_gap
+        moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
+        if pull.coefficients[0] == 0 and case.T > 0 and moving_edge:
+            return (
+                "the velocity of a body without inertia jumps when single springs touch on their dashpots, so that "
+                "isolated stick goes on where friction is full: give the body a mass"
+            )
+        ratio = pull.omega_0 / case.omega
+        multiple = round(ratio) if np.isfinite(ratio) else 0
+        if multiple and pull.damping_ratio == 0 and abs(ratio - multiple) < SAME_MULTIPLE:
+            return (
+                f"the undamped body has omega_0 = {multiple} omega: a free oscillation in step with the drive "
+                "may keep springs from sticking, so that the end of stick depends on it (mdr.laws.lock_in): give the "
+                "body a damper"
+            )
+        return ""
+
+    def _decided(self, v_0: float) -> SlidingRun:
+        """A settled run at this velocity, or within a quarter of the margin."""
+        for off in (0.0, self.margin / 4, -self.margin / 4):
+            if (run := self.quick_run(v_0 * (1 + off))).settled:
                 return run
         raise _Undecided(v_0)
 
@@ -267,10 +258,8 @@ class _Search:
         guess, unsettled = self.scale, None
         for times in FAR:
             far = self.quick_run(times * self.scale, "full_slip")  # from rest it would swing as fast
-            if _is_free(far):
-                guess = far.v_0 - far.least_slip
-                break
             if far.settled:
+                guess = far.v_0 - far.least_slip if _is_free(far) else guess
                 break
         v_0 = 1.37 * max(guess, LEAST * self.scale)
         while v_0 < HIGHEST * max(guess, self.scale):
@@ -293,7 +282,7 @@ class _Search:
                 slips = [free.least_slip]
                 for finer in (3 * known // 2, 2 * known):
                     setattr(self, knob, finer)
-                    run = self._decided(free.v_0, self.quick_run)
+                    run = self._decided(free.v_0)
                     if not _is_free(run):  # free in coarse steps only: begin anew, further up
                         further = self._first_free_run()
                         return None if further is None else self._resolve(further)
@@ -312,153 +301,33 @@ class _Search:
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         guess = max(guess, LEAST * self.scale)
         for width in (self.margin, 4 * self.margin, 16 * self.margin, 64 * self.margin):
-            above, below = (self._decided(guess * (1 + way * width), self.quick_run) for way in (1, -1))
+            above, below = (self._decided(guess * (1 + side * width)) for side in (1, -1))
             if _is_free(above) and not _is_free(below):
                 return guess, below.v_0, above.v_0
             low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
             high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
             guess = high * (1 - 1e-12) if not low < guess < high else guess
         while high - low > 2 * self.margin * high:
-            run = self._decided(0.5 * (low + high), self.quick_run)
+            run = self._decided(0.5 * (low + high))
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
         return 0.5 * (low + high), low, high
 
-    def _jumps(self) -> bool:
-        """True if the velocity of the body jumps whenever a spring touches: no mass, and dashpots that touch."""
-        case = self.case
-        kept = case.cycle.u_z0 + case.cycle.unit * case.kept_gap
-        moving_edge = case.indenter.contact_radius(case.u_z_max) > case.indenter.contact_radius(kept)
-        light = not case.pull.is_rigid and case.pull.coefficients[0] == 0
-        return bool(light and case.T > 0 and moving_edge)
-
-    def _by_friction(
-        self, full: float, high: float, why: str, kind: str = "end of friction reduction", apart: float = APART
-    ) -> MeasuredVelocity:
-        """The critical velocity read off the COF: a power of its deficit falls smoothly to zero at v_c.
-
-        The power is 2/3 for a Kelvin contact and 1/2 for an elastic one. `full` is a velocity at which the COF is full,
-        `apart` the step between the velocities that are read.
-        """
-        power = 2 / 3 if self.case.T > 0 else 1 / 2
-        v_0 = full * (1 - apart)
-        roots: list[tuple[float, float]] = []
-        unsettled: list[float] = []
-        while v_0 > 1e-6 * self.scale and len(roots) < 3:
-            run = self.run(v_0)
-            if not run.settled:
-                unsettled.append(v_0)
-                if len(unsettled) > MOST_UNSETTLED:
-                    raise _Undecided(unsettled[0])
-            elif _is_reduced(run) and run.mu_0 - run.cof > 10 * run.cof_error:
-                roots.append((v_0, (run.mu_0 - run.cof) ** power))
-            v_0 *= 1 - apart
-        if len(roots) < 3 and unsettled:
-            raise _Undecided(unsettled[0])
-        if len(roots) < 3:
-            return self._none("stick never reduces friction by more than its numerical error")
-        velocities, deficits = np.array(roots).T
-        v_c = float(np.polyfit(deficits, velocities, 2)[-1])
-        return MeasuredVelocity(v_c, roots[0][0], high, kind, why, n_runs=self.n_runs)
-
-    def _look_below(self, v_c: float, low: float, high: float, without: float) -> MeasuredVelocity:
-        """One run of a body below the end of stick: is friction lower there, and by how much?
-
-        without: the end of stick of the motion without a free oscillation.
-        """
-        if self.case.pull.is_rigid:  # without a free oscillation stick takes friction away
-            return self._look_above(v_c, low, high)
-        multiple = self._multiple()
-        share = max(BELOW[0], 0.5 * (1 + np.cos(np.pi / (2 * multiple)))) if multiple else BELOW[0]  # above lock-in
-        if multiple:
-            self.steps = max(self.steps, IN_STEP)
-            if self.start == "full_slip" and high < (1 - CLOSER) * without:
-                return self._lock_in(high, without)  # runs have found the free oscillation that keeps springs off stick
-        near = self.run(share * v_c) if multiple else self.look(share * v_c, self.start)
-        if multiple and _only_grazes(near) and _only_grazes(self.run(near.v_0)):
-            return self._lock_in(near.v_0, high)
-        found = self._look_above(v_c, low, high)
-        if found.v_c != v_c or not near.settled:
-            return found if near.settled else replace(found, why=f"{found.why}; runs just below it do not settle")
-        if not _is_nearly_full(near) or not _is_nearly_full(self.look(BELOW[1] * v_c, self.start)):
-            return found
-        nearly, less, least = BELOW[1] * v_c, 0.0, LEAST * self.scale
-        while nearly > least and nearly - less > 0.02 * nearly:
-            middle = 0.5 * (nearly + less)
-            nearly, less = (middle, less) if _is_nearly_full(self.look(middle, self.start)) else (nearly, middle)
-        if nearly <= least:  # so small an oscillation takes next to nothing away at any velocity
-            return found
-        why = f"{found.why}; the COF is within {NEARLY_FULL:g} of mu_0 from {nearly:.3g} m/s on already"
-        return replace(found, nearly_full=nearly, why=why, n_runs=self.n_runs)
-
-    def _multiple(self) -> int:
-        """The n of a body without damper whose omega_0 is n omega, so that it may lock in; 0 of any other."""
-        pull = self.case.pull
-        if pull.damping_ratio > 0 or np.isinf(pull.omega_0):
-            return 0
-        ratio = pull.omega_0 / self.case.omega
-        return round(ratio) if abs(ratio - round(ratio)) < SAME_MULTIPLE * ratio else 0
-
-    def _lock_in(self, full: float, stick: float) -> MeasuredVelocity:
-        """The end of friction reduction below the end of stick of the motion without free oscillation."""
-        reduced = 0.0
-        for _ in range(12):
-            if _is_reduced(run := self._decided(0.9 * full, apart=CLOSER)):
-                reduced = run.v_0
-                break
-            full = run.v_0
-        while full > LEAST * self.scale and full - reduced > CLOSER * full:
-            run = self._decided(0.5 * (full + reduced), apart=CLOSER / 4)
-            full, reduced = (full, run.v_0) if _is_reduced(run) else (run.v_0, reduced)
-        why = (
-            "a free oscillation in step with the drive keeps every spring from sticking down to this velocity, and the "
-            f"COF is mu_0; the periodic motion without it would stick up to {stick:.6g} m/s; v_c is read off the COF"
-        )
-        return self._by_friction(full, full * (1 + CLOSER), why, "lock-in", CLOSER)
-
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs above v_c from both starts: is friction full there?"""
-        swinging, full, unsettled = False, False, []
-        undamped = not self.case.pull.is_rigid and self.case.pull.damping_ratio == 0  # else a swing is a transient
-        of_step = (2 * np.pi / max(LOOK[1], default_steps(self.case) // 2)) ** 2 * self.scale
-        for factor in ABOVE:
-            for start in ("full_slip", "rest"):
-                run = self.look(factor * v_c, start)
-                if not run.settled:
-                    unsettled.append(f"{factor:g} v_c from {start}")
-                elif _is_reduced(run) and _is_reduced(self.run(run.v_0, start)):
-                    return self._contradicted(v_c, run.v_0, start)
-                full = full or run.settled
-                if undamped and run.settled and start == "rest" and factor == ABOVE[1]:
-                    # in full slip the body moves alike at any v_0, but for the error of a step
-                    slip = self._awaited(run).least_slip
-                    swinging = abs(slip - (run.v_0 - v_c)) > 0.1 * (run.v_0 - v_c) + of_step
-        why = "stick ends and the COF reaches mu_0 at the same velocity" if full else "stick ends at this velocity"
-        if swinging:
-            why += "; above it, at full COF, the body keeps a free oscillation from rest, trimmed where it grazes stick"
+        unsettled = []
+        for factor, start in product(ABOVE, ("full_slip", "rest")):
+            run = self.look(factor * v_c, start)
+            if not run.settled:
+                unsettled.append(f"{factor:g} v_c from {start}")
+            elif _is_reduced(run) and _is_reduced(self.run(run.v_0, start)):
+                why = f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {run.v_0:.6g} m/s"
+                return self._without("unsettled", f"{why}: no two steady motions do that, so one has not settled")
+        why = "stick ends and the COF reaches mu_0 at the same velocity"
+        if len(unsettled) == 2 * len(ABOVE):
+            why = "stick ends at this velocity"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
-        kind = "free oscillation" if swinging else "end of stick"
-        return MeasuredVelocity(v_c, low, high, kind, why, n_runs=self.n_runs)
-
-    def _contradicted(self, v_c: float, v_0: float, start: str) -> MeasuredVelocity:
-        """The answer where a run above the end of stick has less friction, which cannot be for steady motions."""
-        why = (
-            f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {v_0:.6g} m/s: "
-            "no two steady motions do that, so one of them has not settled"
-        )
-        return MeasuredVelocity(None, None, None, "unsettled", why, n_runs=self.n_runs)
-
-    def _awaited(self, run: SlidingRun) -> SlidingRun:
-        """The run of this velocity again, from rest for SWINGS periods, without a search for its periodic state."""
-        self._begin(run.v_0)
-        return slide(
-            self.case,
-            run.v_0,
-            start="rest",
-            n_springs=run.n_springs,
-            steps_per_period=run.steps_per_period,
-            n_periods=SWINGS,
-        )
+        return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
 
 
 def _slips(run: SlidingRun) -> bool:
@@ -469,15 +338,6 @@ def _slips(run: SlidingRun) -> bool:
 def _is_free(run: SlidingRun) -> bool:
     """True if no spring sticks: positive slip velocity throughout, in a settled run of full COF."""
     return run.settled and _slips(run) and not _is_reduced(run)
-
-
-def _only_grazes(run: SlidingRun) -> bool:
-    """True if no more sticks than a free oscillation makes that just touches the stick limit, and COF is full."""
-    return run.settled and not _is_reduced(run) and run.stick_share < GRAZING
-
-
-def _is_nearly_full(run: SlidingRun) -> bool:
-    return run.settled and run.mu_0 - run.cof + run.cof_error < NEARLY_FULL * run.mu_0
 
 
 def _is_reduced(run: SlidingRun) -> bool:

@@ -14,7 +14,8 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.friction.cof_curve import cof_curve, has_closed_form
+from mdr.closed_forms.shaken_pull import has_closed_form
+from mdr.friction.cof_curve import cof_curve
 from mdr.march.march import MOST_ACCURATE
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
@@ -22,9 +23,8 @@ from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
 ONE = 1e-8  #: of the load, up to which two ends of a band are one
-ROOT, ROOT_OF_RUNS = 1e-12, 1e-7  #: of the velocity scale of a case, to which the velocity without load is found
+ROOT = 1e-10  #: of the velocity scale of a case, to which the velocity without load is found
 SLOW = 1e-3  #: of that scale: velocities beyond which a contact that drives is looked for first
-MOST_DOUBLINGS = 60  #: of a velocity, in search of one that the contact does not reach by itself
 
 
 @dataclass(frozen=True)
@@ -191,14 +191,11 @@ def _free(case: SlidingContact) -> float:
             return 0.0
         side, low = (1 if band.high < 0 else -1), 0.0
     ahead, high = case if side == 1 else case.mirrored, case.pace
-    for _ in range(MOST_DOUBLINGS):
-        if _cof(ahead, high) > 0:
-            break
+    while _cof(ahead, high) <= 0:  # in full slip, if not before, it is held back
         low, high = high, 2 * high
     from scipy.optimize import brentq
 
-    root = ROOT if has_closed_form(case) else ROOT_OF_RUNS
-    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=root * case.pace, rtol=1e-10))
+    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=ROOT * case.pace, rtol=ROOT))
 
 
 def _cof(case: SlidingContact, v_0: float) -> float:

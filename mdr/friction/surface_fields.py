@@ -18,6 +18,7 @@ displacements of springs [m], p, tau pressure and traction [Pa], a contact radiu
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -208,17 +209,14 @@ def _of_partial_slip(source: PartialSlip, r: ArrayLike | None, i: int) -> Surfac
 
 
 def _of_run(run: SlidingRun, r: ArrayLike | None, i: int) -> SurfaceFields:
-    kept = (run.x, run.width, run.e, run.s, run.state, run.f_z, run.f_x)
+    kept: tuple[Any, ...] = (run.x, run.width, run.e, run.s, run.state, run.f_z, run.f_x)
     if any(values is None for values in kept):
         raise ValueError("the springs of this SlidingRun were not kept: call slide(..., record=1) or more")
-    assert run.x is not None
-    assert run.width is not None
-    assert run.state is not None
-    x, width = run.x, run.width
-    e, s, f_z, f_x = (np.asarray(values)[i] for values in (run.e, run.s, run.f_z, run.f_x))
+    x, width, *springs = kept
+    e, s, state, f_z, f_x = (np.asarray(values)[i] for values in springs)
     faces = x + width / 4
     pressed = f_z > 0
-    sticks = np.flatnonzero((run.state[i] == State.STICK) & pressed)
+    sticks = np.flatnonzero((state == State.STICK) & pressed)
     c = float(faces[sticks[-1]]) if sticks.size else 0.0
     a = _edge(x, faces, f_z / width, pressed) if pressed.any() else 0.0
     r = _distances(r, a or float(faces[-1]))

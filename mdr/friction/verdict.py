@@ -14,8 +14,8 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.friction.measured_velocity import HIGHEST, LEAST, NEARLY_FULL, MeasuredVelocity, measure_critical_velocity
-from mdr.friction.shaken import band_of_pull, no_load_velocity
+from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
+from mdr.friction.shaken import ONE, band_of_pull, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, positive
@@ -24,10 +24,7 @@ from mdr.tools.summary import Printed
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
 SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
-NOTHING = 1e-8  #: a push over the load that is called none
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
-DIFFERENCE = {True: "no more", False: "more"}
-WORDS = {True: "holds", False: "fails", None: "cannot be judged"}  #: of the strict answer
 
 
 @dataclass(frozen=True)
@@ -68,7 +65,7 @@ class Verdict(Printed):
             said = (
                 f"{self._use(self.measured)}. Measured in runs, v_c = {self.measured:.6g} m/s (between {found.low:.8g} "
                 f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the difference is "
-                f"{DIFFERENCE[bool(self.holds)]} than the measurement leaves open"
+                f"{'no more' if self.holds else 'more'} than the measurement leaves open"
             )
         sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
         if self.other_way is None:
@@ -97,9 +94,10 @@ class Verdict(Printed):
         """What can be said where runs found no critical velocity: without a resonance, nothing about v_c."""
         if np.isfinite(self.full_slip):
             full = f"no settled run confirmed the full-slip value {self.full_slip:.6g} m/s"
-            return f"{WORDS[None]}: {full}, against {self.eq_15:.6g} m/s by the formula"
-        none = "no critical velocity was found" if self.holds is None else "no critical velocity"
-        return f"{WORDS[self.holds]}: {none}, against {self.eq_15:.6g} m/s"
+            return f"cannot be judged: {full}, against {self.eq_15:.6g} m/s by the formula"
+        if self.holds is None:
+            return f"cannot be judged: no critical velocity was found, against {self.eq_15:.6g} m/s"
+        return f"{'holds' if self.holds else 'fails'}: no critical velocity, against {self.eq_15:.6g} m/s"
 
 
 def verdict(
@@ -161,14 +159,13 @@ def _at_rest(case: SlidingContact) -> str:
     if band.contains(0.0) and not band.is_one_number:
         held = f"up to {band.high:.3g} of the load pulled forward and {-band.low:.3g} the other way"
         return f"At rest it holds {held}, of mu_0 = {case.mu_0:.6g}"
-    push = 0.5 * (band.low + band.high)
-    way = "forward" if push < 0 else "backward"
+    push = abs(band.low + band.high) / 2
+    if band.is_one_number and push <= 2 * band.error + ONE:
+        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
+    held = f"held, it pushes with {push:.3g} of the load"
     if not band.is_one_number:
         held = f"held, it pushes with {abs(band.low):.3g} to {abs(band.high):.3g} of the load, by how it came to rest"
-        return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
-    if abs(push) <= 2 * band.error + NOTHING:
-        return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
-    held = f"held, it pushes with {abs(push):.3g} of the load"
+    way = "forward" if band.low + band.high < 0 else "backward"
     return f"At rest it drives itself {way}: {held}, and free it runs at {abs(free):.4g} m/s"
 
 
@@ -187,17 +184,12 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         deviation = (found.v_c - eq_15) / scale
         holds = found.contains(eq_15) or max(eq_15, found.v_c) < scale
     reasons = list(_reasons(case, eq_15, full, found))
-    if holds and found.kind == "end of stick":
+    if holds and found.v_c is not None:
         reasons = ["all springs stop sticking at the velocity that the formula gives for one spring"]
-    elif holds and found.v_c is not None:
-        reasons = [found.why]
-    if found.v_c is None or not reasons:
+    elif found.v_c is None or not reasons:
         reasons.append(found.why)
-    if found.nearly_full is not None and found.why not in reasons:
-        reasons.append(f"the COF is within {NEARLY_FULL:g} of mu_0 from {found.nearly_full:.3g} m/s on already")
-    formula = formula_of(case)
     why = "; ".join([*reasons, *_left_out(case)])
-    return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula, within, least)
+    return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
 
 
 def _tolerance(within: float) -> float:
@@ -206,29 +198,18 @@ def _tolerance(within: float) -> float:
 
 def _off(ratio: float) -> str:
     """How far the formula is from the measured value, by their ratio: in per cent, or as a factor from 2 on."""
-    which = "high" if ratio > 1 else "low"
-    if 0.5 < ratio < 2:
-        return f"{_two_digits(100 * abs(ratio - 1))} % too {which}"
-    return f"too {which} by a factor of {_two_digits(max(ratio, 1 / ratio))}"
-
-
-def _two_digits(number: float) -> str:
-    return f"{float(f'{number:.2g}'):g}"
+    which, by_factor = "high" if ratio > 1 else "low", not 0.5 < ratio < 2
+    size = max(ratio, 1 / ratio) if by_factor else 100 * abs(ratio - 1)
+    digits = f"{float(f'{size:.2g}'):g}"
+    return f"too {which} by a factor of {digits}" if by_factor else f"{digits} % too {which}"
 
 
 def _holds_without_velocity(case: SlidingContact, eq_15: float, full: float) -> bool | None:
     """Whether the formula holds where runs found no velocity: friction stays reduced for ever on a resonance alone."""
-    resonance = not np.isfinite(full) and _has_mass(case)
-    if not resonance:
+    resonance = not np.isfinite(full) and np.isfinite(case.pull.omega_0)
+    if not resonance or HIGHEST * case.pace < eq_15 < np.inf:  # beyond that no run has looked
         return None
-    if not np.isfinite(eq_15):
-        return True
-    return None if eq_15 > HIGHEST * case.pace else False  # beyond that no run has looked
-
-
-def _has_mass(case: SlidingContact) -> bool:
-    """True if a harmonic of the force can meet a natural frequency of the body."""
-    return bool(np.isfinite(case.pull.omega_0))
+    return bool(np.isinf(eq_15))
 
 
 def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVelocity) -> Iterator[str]:
@@ -237,7 +218,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
     if not np.isfinite(full) and np.isfinite(eq_15):
         yield (
             "a harmonic of the normal force drives the body at its undamped natural frequency"
-            if _has_mass(case)
+            if np.isfinite(case.pull.omega_0)
             else "dashpots that touch again throw the body, which has no inertia, at unbounded velocity for an instant"
         )
     if not case.keeps_contact:
@@ -251,8 +232,6 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
             f"at this amplitude the contact stiffness changes within the period and the {what} has harmonics; "
             "with them the full-slip condition gives the measured value"
         )
-    if found.kind == "lock-in":
-        yield found.why
 
 
 def _left_out(case: SlidingContact) -> Iterator[str]:

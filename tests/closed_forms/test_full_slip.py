@@ -19,20 +19,14 @@ CURVED = ["cone", "paraboloid", "r4"]
 # --- the normal force ---
 
 
-@pytest.mark.parametrize("depth_ratio", [30.0, 3.0, 0.6, -0.4])
+@pytest.mark.parametrize("depth_ratio", [3.0, -0.4])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_elastic_force_is_the_sum_over_the_springs(shape, depth_ratio):
+def test_an_elastic_force_is_that_of_the_depth_at_the_instant(shape, depth_ratio):
     case = contact(shape, depth_ratio)
-    motion, n = full_slip(case, 64), 1024
-    springs = mdr.SpringArray.of(case, n)
+    motion = full_slip(case, 64)
     u_z = case.oscillation.u_z(motion.t)
-    expected = [springs.normal_force(u, case.oscillation.u_z0) for u in u_z]
-    k = float(case.indenter.stiffness(case.u_z_max, case.material.E_star))
-    # one cell of the edge, half pressed: 1/n**2 of stiffness times amplitude, a few times that where the edge is steep
-    assert_allclose(motion.F_N, expected, rtol=0, atol=4 / n**2 * k * case.oscillation.du_z)
-    assert_allclose(
-        motion.F_N, case.indenter.force(u_z, case.material.E_star), rtol=1e-12, atol=1e-15 * k * case.u_z_max
-    )
+    expected = case.indenter.force(u_z, case.material.E_star)
+    assert_allclose(motion.F_N, expected, rtol=1e-12, atol=1e-14 * motion.F_N.max())
     assert np.array_equal(motion.in_contact, u_z > 0)
 
 

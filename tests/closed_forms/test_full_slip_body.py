@@ -12,7 +12,6 @@ from random_full_slip import BODIES as BODIES_DRAWN
 from random_full_slip import difference, drawn
 
 import mdr
-from mdr.closed_forms.full_slip import full_slip
 
 CURVED = ["cone", "paraboloid", "r4"]
 DAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15}
@@ -58,11 +57,6 @@ def test_a_rigid_pull_that_touches_late_against_the_twin(shape, depth_ratio, T):
     )
 
 
-def test_a_touch_after_the_steepest_instant_in_closed_form():
-    # elastic, u_z0 = -du_z/2: it touches at cos t = 1/2 before the top, where the depth rises at sin(pi/3)
-    assert_allclose(v_hat_c(contact("cone", -0.5)), math.sin(math.pi / 3), rtol=BUDGET)
-
-
 @pytest.mark.parametrize("ratio", [0.6, 0.8, 1.2, 1.5, 2.5])
 @pytest.mark.parametrize("shape", CURVED)
 def test_small_deviations_from_eq_15_go_with_the_square_of_the_amplitude(shape, ratio):
@@ -103,16 +97,6 @@ def test_kelvin_or_lost_contact_under_a_body_against_the_twin(shape, depth_ratio
     check_against_the_twin(shape, depth_ratio, T, body)
 
 
-@pytest.mark.parametrize("shape", CURVED)
-def test_small_amplitudes_lead_to_eq_15(shape):
-    deviations = []
-    for depth_ratio in (100.0, 1000.0):
-        case = contact(shape, depth_ratio, 0.0, **DAMPED)
-        deviations.append(abs(mdr.full_slip_critical_velocity(case) / mdr.critical_velocity(case) - 1))
-    assert 1e-8 < deviations[0] < 1e-2  # something is there to vanish
-    assert deviations[1] < 0.2 * deviations[0]  # at least linearly
-
-
 # --- resonance ---
 
 
@@ -125,19 +109,24 @@ def on_resonance(shape, multiple, c_x=0.0, depth_ratio=3.0, T=0.0):
 
 
 @pytest.mark.parametrize(
-    ("shape", "T", "multiple"),
+    ("shape", "T", "multiple", "depth_ratio", "driven"),
     [
-        ("cone", 0.0, 1),
-        ("cone", 0.0, 2),
-        ("cone", 0.5, 3),
-        ("paraboloid", 0.0, 3),
-        ("paraboloid", 0.5, 2),
-        ("r4", 0.0, 4),
+        ("cone", 0.0, 1, 3.0, True),
+        ("cone", 0.0, 2, 3.0, True),  # F_N ~ (u_z0 + du_z cos)**2 drives at omega and 2 omega
+        ("cone", 0.0, 3, 3.0, False),  # and at nothing else
+        ("cone", 0.0, 4, 3.0, False),
+        ("cone", 0.5, 3, 3.0, True),
+        ("paraboloid", 0.0, 3, 3.0, True),
+        ("paraboloid", 0.5, 2, 3.0, True),
+        ("r4", 0.0, 4, 3.0, True),
+        ("flat", 0.0, 1, 3.0, True),
+        ("flat", 0.0, 2, 0.6, True),  # all harmonics when contact is lost
     ],
 )
-def test_it_is_infinite_on_the_resonance_of_any_harmonic(shape, T, multiple):
-    assert math.isinf(mdr.full_slip_critical_velocity(on_resonance(shape, multiple, T=T)))
-    assert math.isfinite(mdr.full_slip_critical_velocity(on_resonance(shape, multiple, c_x=1e-3, T=T)))
+def test_it_is_infinite_on_the_resonance_of_any_harmonic_of_the_force(shape, T, multiple, depth_ratio, driven):
+    case = on_resonance(shape, multiple, depth_ratio=depth_ratio, T=T)
+    assert math.isinf(mdr.full_slip_critical_velocity(case)) == driven
+    assert math.isfinite(mdr.full_slip_critical_velocity(on_resonance(shape, multiple, 1e-3, depth_ratio, T)))
 
 
 @pytest.mark.parametrize("multiple", [2, 3, 10])
@@ -160,50 +149,7 @@ def test_arms_resonate_where_their_force_has_the_harmonic(multiple):
     assert math.isinf(mdr.full_slip_critical_velocity(replace(on_resonance("cone", multiple), material=body)))
 
 
-def test_an_elastic_cone_that_keeps_contact_has_two_harmonics():
-    # F_N ~ (u_z0 + du_z cos)**2 drives at omega and 2 omega and at nothing else
-    for multiple in (3, 4):
-        assert math.isfinite(mdr.full_slip_critical_velocity(on_resonance("cone", multiple)))
-
-
-def test_a_punch_resonates_at_its_one_harmonic_and_at_all_when_contact_is_lost():
-    assert math.isinf(mdr.full_slip_critical_velocity(on_resonance("flat", 1)))
-    assert math.isinf(mdr.full_slip_critical_velocity(on_resonance("flat", 2, depth_ratio=0.6)))
-
-
 # --- any body, any shape ---
-
-
-def test_twenty_bodies_off_resonance_against_the_twin():
-    rng = np.random.default_rng(5)
-    for _ in range(20):
-        shape, T = rng.choice(list(SHAPES)), rng.choice([0.0, 0.1, 1.0, 5.0, 20.0])
-        depth_ratio = rng.choice([rng.uniform(0.05, 1.2), rng.uniform(1.2, 8)])
-        k, omega_0 = rng.uniform(0.2, 3), rng.choice([0.4, 1.25, 2.3, 3.4, 10.3])
-        c = reference.damping_for(rng.choice([0.0, rng.uniform(0, 0.15)]), k, omega_0)
-        check_against_the_twin(shape, depth_ratio, T, {"k_ratio": k, "omega_0_ratio": omega_0, "c_ratio": c})
-
-
-@pytest.mark.parametrize("c_ratio", [0.0, 0.3])
-@pytest.mark.parametrize("shape", SHAPES)
-def test_a_body_without_mass_against_a_sum_of_harmonics(shape, c_ratio):
-    """Elastic and always in contact, the force is analytic: 256 instants hold all its harmonics."""
-    case = contact(shape, 3.0, 0.0, 0.7, math.inf, c_ratio)
-    omega, n = case.oscillation.omega, np.arange(129)
-    F_n = np.fft.rfft(full_slip(case, 256).F_N) / 256
-    H = case.pull.receptance(n * omega)
-    phase = 2 * np.pi * np.arange(20_000)[:, None] / 20_000
-    y_dot = -2 * case.mu_0 * (1j * n * omega * H * F_n * np.exp(1j * n * phase)).real.sum(axis=1)
-    slope = -unit_of_velocity(case) * np.sin(phase[:, 0]) - y_dot
-    # the highest of 20 000 instants misses a smooth top by half a step squared over two
-    assert_allclose(mdr.full_slip_critical_velocity(case), slope.max(), rtol=3e-8)
-
-
-def test_a_light_body_tends_to_one_without_mass():
-    without = v_hat_c(contact("paraboloid", 3.0, 0.0, 0.7, math.inf, 0.1))
-    misses = [abs(v_hat_c(contact("paraboloid", 3.0, 0.0, 0.7, ratio, 0.1)) / without - 1) for ratio in (30, 300)]
-    assert misses[1] < misses[0] / 50  # mass enters as (omega/omega_0)**2
-    assert misses[1] < 1e-4
 
 
 def test_a_kinked_profile_against_its_closed_form():
@@ -214,15 +160,11 @@ def test_a_kinked_profile_against_its_closed_form():
         assert_allclose(v_hat_c(contact(shape, 2.0, 0.5, **DAMPED)), v_hat_c(ball), rtol=BUDGET)
 
 
-@pytest.mark.parametrize("shape", ["flat", "paraboloid", "r4"])
-def test_a_light_body_jumps_when_dashpots_touch(shape):
-    assert math.isinf(v_hat_c(contact(shape, 0.5, 1.0, 0.7, math.inf)))
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_light_body_jumps_when_dashpots_touch_unless_the_tip_is_sharp(shape):
+    assert math.isinf(v_hat_c(contact(shape, 0.5, 1.0, 0.7, math.inf))) == (shape != "cone")
     assert math.isfinite(v_hat_c(contact(shape, 0.5, 1.0, 0.7, math.inf, 0.1)))
     assert math.isfinite(v_hat_c(contact(shape, 0.5, 0.0, 0.7, math.inf)))
-
-
-def test_a_sharp_tip_touches_without_a_jump():
-    assert math.isfinite(v_hat_c(contact("cone", 0.5, 1.0, 0.7, math.inf)))
 
 
 @pytest.mark.parametrize("length", [1e-9, 1e6])
@@ -296,15 +238,6 @@ def test_a_motion_written_in_another_way_has_the_same_static_limit(way):
         case = contact(shape, depth_ratio, T)
         # friction at rest of a shake is an integral to 1e-9, and a shake of 1e-9 may hold as much
         assert_allclose(mdr.static_cof(way(case)), mdr.static_cof(case), rtol=0, atol=1e-8)
-
-
-@pytest.mark.parametrize("kind", [KINDS["rigid"], DAMPED, KINDS["light"]], ids=["rigid", "damped", "light"])
-def test_a_light_arm_changes_little(kind):
-    for shape, depth_ratio, T in [("cone", 4.0, 0.0), ("paraboloid", 8.0, 1.2), ("cone", 0.6, 0.3)]:
-        case = contact(shape, depth_ratio, T, **kind)
-        assert_allclose(
-            mdr.full_slip_critical_velocity(with_arm(case, 1e-3)), mdr.full_slip_critical_velocity(case), rtol=5e-3
-        )
 
 
 def test_the_shake_of_a_cone_is_fastest_between_the_last_and_the_first_phase():

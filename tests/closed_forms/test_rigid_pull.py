@@ -13,6 +13,7 @@ import mdr
 from mdr.closed_forms import paper, rigid_pull
 from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
 
+SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(1e-3, 1e-4, 300.0)
 KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
 
 
@@ -184,10 +185,6 @@ def test_a_curve_takes_the_closed_form_by_itself():
     assert curve.why == ("", "", "")
 
 
-def test_it_shares_no_code_with_the_march():
-    assert not {"kernels", "slide", "march", "SpringArray", "ScaledContact"} & set(vars(rigid_pull))
-
-
 @pytest.mark.parametrize(
     ("call", "error", "match"),
     [
@@ -195,20 +192,13 @@ def test_it_shares_no_code_with_the_march():
         (lambda: average_friction("case", 1e-3), TypeError, "case must be"),
         (lambda: average_friction(contact("flat"), [1e-3, 0.0]), ValueError, "v_0 must be positive"),
         (lambda: average_friction(contact("flat"), math.nan), ValueError, "v_0 must be finite"),
+        (lambda: average_friction(replace(contact("flat"), material=SOLID), 1e-4), ValueError, "harmonic depth"),
+        (lambda: average_friction(replace(contact("flat"), oscillation=LOAD), 1e-4), ValueError, "harmonic depth"),
     ],
 )
 def test_wrong_input(call, error, match):
     with pytest.raises(error, match=match):
         call()
-
-
-def test_cases_without_a_closed_form_are_refused():
-    case = contact("paraboloid", 3.0)
-    solid = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4)
-    load = mdr.LoadOscillation(1e-3, 1e-4, 300.0)
-    for other in (replace(case, material=solid), replace(case, oscillation=load)):
-        with pytest.raises(ValueError, match="the closed form is that of a harmonic depth"):
-            average_friction(other, 1e-4)
 
 
 @pytest.mark.parametrize("dip", [1e-4, 1e-8, 1e-10])

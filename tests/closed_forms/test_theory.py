@@ -93,18 +93,6 @@ def test_eq_10_solves_eq_8(body, gamma):
     assert_allclose(m * acceleration, right, rtol=0, atol=1e-12 * (force.max() + np.abs(m * acceleration).max()))
 
 
-@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_eq_10_accelerates_as_finite_differences_say(body):
-    k_x, m = body
-    dt = 1e-3 / OMEGA
-    u_x = [paper.eq_10(TIMES + i * dt, 0.0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, 40.0, k_x, m) for i in (-1, 0, 1)]
-    mean = -MU_0 * K_ZC / k_x * U_Z0
-    swing = u_x[1] - mean
-    # central difference: (omega dt)**2/12 = 1e-7 of the swing, and rounding 1e-16/1e-6 of the mean
-    tolerance = 1e-7 * np.abs(swing).max() + 1e-9 * abs(mean)
-    assert_allclose((u_x[0] - 2 * u_x[1] + u_x[2]) / 1e-3**2, -swing, rtol=0, atol=tolerance)
-
-
 def test_eq_11_is_the_ratio_of_the_stiffnesses():
     case = contact("paraboloid", T=0.7)
     gamma_xc = paper.eq_11(case.gamma_zc, case.material.mindlin_ratio)
@@ -137,11 +125,7 @@ def test_eq_13_is_eq_10_less_eq_12(body, gamma):
         - MU_0 * K_ZC / K_XC * DU_Z * np.cos(phase)
     )
     foot = paper.eq_13(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, KAPPA, k_x, m)
-    scale = np.abs(printed).max()
-    assert_allclose(foot, printed, rtol=0, atol=1e-13 * scale)
-    body_motion = paper.eq_10(TIMES, V_0, MU_0, U_Z0, DU_Z, OMEGA, K_ZC, gamma, k_x, m)
-    extension = paper.eq_12(TIMES, MU_0, U_Z0, DU_Z, OMEGA, KAPPA)
-    assert_allclose(foot, body_motion - extension, rtol=0, atol=1e-15 * scale)
+    assert_allclose(foot, printed, rtol=0, atol=1e-13 * np.abs(printed).max())
 
 
 @pytest.mark.parametrize("gamma", GAMMA)
@@ -270,17 +254,6 @@ def test_it_scales_as_it_should(T):
 def test_deficit_against_the_twin(v_hat):
     # terms of order 1 cancel
     assert_allclose(paper.deficit(v_hat), reference.flat_punch_deficit(v_hat), rtol=0, atol=1e-14)
-
-
-@pytest.mark.parametrize("v_hat", [0.05, 0.4, 0.8])
-def test_deficit_is_the_mean_lag_of_a_spring(v_hat):
-    # e = least of s(t - theta) + v_hat theta with s = cos t and a depth: after phi_1 it grows at v_hat until it meets s
-    phi_1 = np.pi + np.arcsin(v_hat)
-
-    t = phi_1 + np.linspace(0, 2 * np.pi, 20_001)
-    lag = np.maximum(np.cos(t) - np.cos(phi_1) - v_hat * (t - phi_1), 0.0)
-    # the trapezoidal rule: (pi/10000)**2/8 at the kinks, where the slope of the lag jumps by 2 at most, over 2 pi
-    assert_allclose(paper.deficit(v_hat), np.trapezoid(lag, t) / (2 * np.pi), rtol=0, atol=1e-8)
 
 
 def test_deficit_ends_at_one_and_zero():

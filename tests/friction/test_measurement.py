@@ -19,12 +19,12 @@ UNIT = CASE.unit_velocity
 def world(monkeypatch):
     """In the place of slide(): friction is reduced, springs stick, up to ends(start, steps, n_periods), in Eq. (1)."""
 
-    def make(ends, settled=lambda v, start: True, deficit=0.1, error=1e-6):
+    def make(ends, settled=lambda v, start: True):
         def slide(case, v_0, *, start, n_springs, steps_per_period, n_periods=50):
             end = ends(start, steps_per_period, n_periods) * UNIT
             free = v_0 > end
             return SimpleNamespace(
-                v_0=v_0, mu_0=case.mu_0, cof=case.mu_0 - (0 if free else deficit), cof_error=error,
+                v_0=v_0, mu_0=case.mu_0, cof=case.mu_0 - (0 if free else 0.1), cof_error=1e-6,
                 stick_share=0.0 if free else 0.5, least_slip=v_0 - end if free else 0.0,
                 settled=settled(v_0 / UNIT, start), n_springs=n_springs, steps_per_period=steps_per_period,
                 n_periods=n_periods,
@@ -94,15 +94,6 @@ def test_stick_that_no_finer_step_lets_end_has_no_v_c(world):
 def test_runs_above_that_do_not_settle_are_named(world):
     world(lambda *_: 0.83, settled=lambda v, start: not (start == "rest" and 1.0 < v < 1.2))
     assert "not settled: 1.3 v_c from rest" in mdr.measure_critical_velocity(CASE).why
-
-
-def test_isolated_stick_that_never_reduces_friction_has_no_v_c(world):
-    """A body without mass and damper on dashpots is judged by its COF alone, and this one stays within its error."""
-    light = replace(contact("paraboloid", 1.2, 1.0), pull=mdr.SpringPull(k_x=CASE.pull.k_x))
-    world(lambda *_: 0.83, deficit=1e-3, error=5e-4)
-    found = mdr.measure_critical_velocity(light)
-    assert found.v_c is None
-    assert "stick never reduces friction by more than its numerical error" in found.why
 
 
 def test_a_verdict_repeats_the_contradiction(world):
@@ -202,9 +193,10 @@ def test_a_formula_where_v_c_vanishes_is_too_high_by_no_number(world, end):
     assert not told.good
 
 
-def test_a_formula_at_its_pole_is_infinite_where_runs_find_a_velocity(world):
+def test_a_formula_at_its_pole_is_infinite_where_runs_find_a_velocity(world, monkeypatch):
     world(lambda *_: 3.0)
-    told = mdr.verdict(RESONANT)
+    monkeypatch.setattr("mdr.friction.verdict.critical_velocity", lambda case: math.inf)
+    told = mdr.verdict(CASE)
     assert str(told).startswith(f"Eq. (15) is infinite here; use {told.measured:.4g} m/s. Measured in runs")
     assert "%" not in str(told)
     assert (told.good, told.deviation, told.holds) == (None, None, False)
@@ -222,13 +214,6 @@ def test_without_a_free_run_a_finite_full_slip_value_is_not_denied(world):
     assert told.measurement.why in told.why
 
 
-def test_a_friction_that_stays_low_from_rest_denies_no_full_slip_value(world):
-    world(lambda start, *_: 1e9 if start == "rest" else 0.83)
-    told = mdr.verdict(CASE)
-    assert (told.measured, told.holds) == (None, None)
-    assert "a run from rest keeps friction reduced" in told.why
-
-
 def test_only_a_resonance_may_say_that_there_is_no_critical_velocity(world):
     world(lambda *_: 1e9)
     told = mdr.verdict(RESONANT)
@@ -241,7 +226,7 @@ def test_only_a_resonance_may_say_that_there_is_no_critical_velocity(world):
 
 def test_a_body_thrown_for_an_instant_has_no_resonance(world):
     light = replace(contact("paraboloid", 1.2, 1.0), pull=mdr.SpringPull(k_x=CASE.pull.k_x))
-    world(lambda *_: 0.83, deficit=1e-3, error=5e-4)
+    world(lambda *_: 0.83)
     told = mdr.verdict(light)
     assert told.full_slip == math.inf
     assert (told.measured, told.holds) == (None, None)
