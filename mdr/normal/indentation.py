@@ -192,8 +192,9 @@ def _from_force(indenter: Indenter, material: Material, t: Array, F_z: Array, n:
     most = F_z.max(keepdims=True)
     if not most > 0:
         return _untouched(indenter, material, t, F_z, n, record)
+    compliance = float(material.creep_compliance(t[-1] - t[0])) or 1 / material.E_star  # a dashpot takes no jump
     try:
-        reach = float(static_depths(indenter, 1 / float(material.creep_compliance(t[-1] - t[0])), most)[0])
+        reach = float(static_depths(indenter, 1 / compliance, most)[0])
     except ValueError:  # more than the whole shape carries, if the load lasts
         reach = float(indenter.profile_1d(indenter.max_radius))
     start = 0.0
