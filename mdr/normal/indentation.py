@@ -399,27 +399,16 @@ def _profile(indenter: Indenter, x: float) -> float:
 
 
 def _finer(t: Array, F_z: Array, n: int) -> tuple[Array, Array, NDArray[np.intp]]:
-    """Instants with n steps in each interval, the force there, and where the samples are among them."""
-    shares = _shares(t, n)
-
-    def along(values: Array) -> Array:
-        ends = zip(values[:-1], values[1:], shares, strict=True)
-        return np.concatenate([values[:1], *(low + (high - low) * share for low, high, share in ends)])
-
-    return along(t), along(F_z), np.cumsum([0] + [share.size for share in shares])
-
-
-def _shares(t: Array, n: int) -> list[Array]:
-    """Ends of the steps of each interval, as shares of it. After a jump the first steps are fine."""
-    even = np.arange(1, n + 1) / n
-    shares, jumped = [], t[0]
-    for low, high in pairwise(t):
+    """Instants with n steps in each interval, fine after a jump; the force there; where the samples are among them."""
+    even, jumped = np.arange(1, n + 1) / n, t[0]
+    fine, force = [t[:1]], [F_z[:1]]
+    for (low, high), (before, after) in zip(pairwise(t), pairwise(F_z), strict=True):
+        share = even**3 if high - low > LONG * (low - jumped) else even
         if high == low:
-            jumped = low
-            shares.append(np.ones(1))
-        else:
-            shares.append(even**3 if high - low > LONG * (low - jumped) else even)
-    return shares
+            jumped, share = low, np.ones(1)
+        fine.append(low + (high - low) * share)
+        force.append(before + (after - before) * share)
+    return np.concatenate(fine), np.concatenate(force), np.cumsum([steps.size for steps in fine]) - 1
 
 
 # --- what comes in --------------------------------------------------------------------------------

@@ -179,9 +179,7 @@ def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) 
         if tail <= 1e-14 * abs(spectrum[0]) or n >= 4096:
             break
         n *= 2
-    keep = 1 + int(np.flatnonzero(np.abs(spectrum[1:]) > 1e-16 * np.abs(spectrum[1:]).max()).max())
-    cos = 2 * spectrum[1 : keep + 1]
-    return Cycle.series(float(spectrum[0]), motion.omega, cos, np.zeros_like(cos))
+    return _cycle_of(spectrum.astype(complex), motion.omega)
 
 
 def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
