@@ -1,4 +1,4 @@
-"""When springs leave and touch again: the twin's root, the definition as a supremum, and the limits."""
+"""When springs under one cosine leave and touch again: the root of the twin, and the ends of the period."""
 
 import numpy as np
 import pytest
