@@ -17,7 +17,7 @@ where every spring that ever touches presses, this is followed event by event:
 * R falls below the edge: the next retreat begins. It does so once at most while R falls, and never while R rises.
 
 Between two events the edge is smooth and monotone, and each event is the only root between two turns of R. T = 0 is the
-limit c = z. kelvin_edges.py has the closed form of one cosine.
+limit c = z.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class ContactEdge:
         """The edge under a depth."""
         harmonics = cycle.harmonics
         used = np.flatnonzero(harmonics)
-        return _edge(T, tuple((used + 1).tolist()), tuple(harmonics[used].tolist()))
+        return edge_under(T, tuple((used + 1).tolist()), tuple(harmonics[used].tolist()))
 
     def gap(self, phase: Array) -> Array:
         """Gap of the spring at the edge, at phases of any shape."""
@@ -187,5 +187,6 @@ class ContactEdge:
 
 
 @lru_cache(maxsize=64)
-def _edge(T: float, orders: tuple[int, ...], Z: tuple[complex, ...]) -> ContactEdge:
+def edge_under(T: float, orders: tuple[int, ...], Z: tuple[complex, ...]) -> ContactEdge:
+    """The edge under these harmonics of the depth."""
     return ContactEdge(T, np.array(orders, dtype=float), np.array(Z, dtype=complex))

@@ -14,9 +14,10 @@ for a(t) = a(t_1), and what the springs inside carry is his force. More generall
 of the half-space, which their displacement s(x) and load q(x) stand for by Abel's transform at any instant, as long as
 those in contact fill a disc and p(r) from their loads (`mdr.surface_fields`) is nowhere tensile.
 
-Between samples the history is linear in time. In one of depth nothing else is approximated in time; of a history of
-force the depth is found in steps finer than the samples. Springs stand at nodes of the depth g and their loads are
-continued between them (indentation_kernels.py), so that an elastic force has no error of the number of springs.
+Between samples the history is linear in time, and so the step of a spring (mdr/spring/step.py) is exact for one of
+depth; of a history of force the depth is found in steps finer than the samples. Springs stand at nodes of the depth g
+and their loads are continued between them (indentation_kernels.py), so that an elastic force has no error of the number
+of springs.
 
 Symbols (SI): t time [s], u_z depth [m], F_z normal force [N], x position [m], q line load of one side [N/m], s
 compression of a spring [m].
@@ -24,17 +25,21 @@ compression of a spring [m].
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.indenters.base import Indenter
 from mdr.materials import Material
-from mdr.normal import indentation_kernels as kernels
-from mdr.tools.arrays import Array
+from mdr.normal.indentation_kernels import Row, force_of
+from mdr.normal.load_control import static_depths
+from mdr.spring.law import N_PHI, Law, fill_phi, law_of
+from mdr.spring.settle import tools_for
+from mdr.spring.step import Path, Tools, press
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import count, finite_array, instance
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
@@ -42,6 +47,8 @@ from mdr.tools.summary import Summarised, Summary, number, span
 
 N_SPRINGS = 512
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
+CLOSE = 1e-12  #: error of a force, over its peak, with which a depth is found
+FLUID = 1e-30  #: long-time modulus over the instantaneous one of a body that flows
 LONG = 0.3  #: an interval longer than this share of the time since the last jump is cut finer towards its start
 
 
@@ -158,113 +165,225 @@ def indent(
     return _from_force(indenter, material, t, F_z, n_springs, record)
 
 
+# --- a history ------------------------------------------------------------------------------------
+
+
 def _from_depth(indenter: Indenter, material: Material, t: Array, u_z: Array, n: int, record: bool) -> Indentation:
     deepest = float(u_z.max())
     if not deepest > 0:
         return _untouched(indenter, material, t, u_z, n, record)
     indenter.contact_radius(deepest)  # a shape that does not reach so deep says so here
-    first = u_z[u_z > 0]
-    row = _row(indenter, deepest, float(np.clip(first.min() / deepest, 1e-2, 0.1)), n)
-    F_z, a, s, q = kernels.follow_depth(t, u_z, row, _material_arrays(material), record)
-    kept = {"x": row[1], "s": s, "q_z": q} if record else {}
-    return Indentation(indenter, material, t, u_z, F_z, a, **kept)
+    springs = _Springs.of(indenter, material, deepest, np.clip(u_z[u_z > 0].min() / deepest, 1e-2, 0.1), n)
+    u, dt = (u_z / deepest).tolist(), np.diff(t, prepend=t[0]).tolist()
+    s, was, answers, seen = springs.at_rest, 0.0, [], []
+    for k in range(t.size):
+        s = springs.moved(s, was, u[k], tools_for(springs.law, dt[k]))
+        sides = [(u[j] - u[j - 1]) / dt[j] for j in (k, k + 1) if j < t.size and dt[j] > 0]
+        sides = sides if sides and material.tau > 0 else [0.0]  # only a dashpot feels the velocity
+        answers.append(np.mean([springs.force(s, u[k], v) for v in sides], axis=0))
+        was = u[k]
+        if record:
+            seen.append((s, u[k], sum(sides) / len(sides)))
+    F_z, a = np.transpose(answers)
+    return Indentation(indenter, material, t, u_z, F_z, a, **springs.kept(seen))
 
 
 def _from_force(indenter: Indenter, material: Material, t: Array, F_z: Array, n: int, record: bool) -> Indentation:
-    most = float(F_z.max())
+    most = F_z.max(keepdims=True)
     if not most > 0:
         return _untouched(indenter, material, t, F_z, n, record)
-    end = _end_of(indenter)
-    reach = min(_depth_under(indenter, most * float(material.creep_compliance(t[-1] - t[0])), end), end)
-    loaded = F_z[F_z > 0][0]
-    start = _depth_under(indenter, loaded / material.instantaneous_modulus, end) if material.tau == 0 else 0.0
-    row = _row(indenter, reach, float(np.clip(start / reach, 1e-3, 0.1)), n)
-    n_steps, arrays = int(np.clip(np.ceil(STEPS / t.size), 1, 64)), _material_arrays(material)
+    compliance = float(material.creep_compliance(t[-1] - t[0])) or 1 / material.E_star  # a dashpot takes no jump
+    try:
+        reach = float(static_depths(indenter, 1 / compliance, most)[0])
+    except ValueError:  # more than the whole shape carries, if the load lasts
+        reach = float(indenter.profile_1d(indenter.max_radius))
+    start = 0.0
+    if material.tau == 0:
+        start = float(static_depths(indenter, material.instantaneous_modulus, F_z[F_z > 0][:1])[0])
+    springs = _Springs.of(indenter, material, reach, np.clip(start / reach, 1e-3, 0.1), n)
+    n_steps = int(np.clip(np.ceil(STEPS / t.size), 1, 64))
     answers = []
     for share in (1, 2):
         fine, force, where = _finer(t, F_z, share * n_steps)
-        V = _lee_radok(material, fine, force)
-        known = _grown(V, row)
-        u, a, s, q = kernels.follow_force(fine, force, known, row, arrays, where if record else where[:0])
-        answers.append((u[where], a[where], s, q))
-    u_z, a = (2 * two - one for one, two in zip(answers[0][:2], answers[1][:2], strict=True))  # a step errs with dt
+        known = _grown(indenter, _lee_radok(material, fine, force), float(most[0]))
+        u, a, seen = _depths(springs, fine, force, known / reach, where if record else where[:0])
+        answers.append((reach * u[where], a[where]))
+    u_z, a = (2 * two - one for one, two in zip(*answers, strict=True))  # a step errs with dt
     grown = where < known.size
-    u_z[grown] = _polished(indenter, V[where[grown]], u_z[grown])
+    u_z[grown] = known[where[grown]]
     indenter.contact_radius(u_z.max())  # a shape that does not reach so deep says so here
-    kept = {"x": row[1], "s": answers[1][2], "q_z": answers[1][3]} if record else {}
-    return Indentation(indenter, material, t, u_z, F_z, np.maximum(a, 0), **kept)
+    return Indentation(indenter, material, t, u_z, F_z, np.maximum(a, 0), **springs.kept(seen))
 
 
 def _lee_radok(material: Material, t: Array, F_z: Array) -> Array:
     """V = ∫ J(t - s) dF_z [m²]: the F_N/E* of an elastic contact of the same radius, while the contact grows."""
     start, rates, times = material._retardation()
-    dt = np.diff(t)[:, None]
-    z = dt / times
-    with np.errstate(divide="ignore", invalid="ignore"):
-        mean = np.where(z > 1e-5, -np.expm1(-z) / z, 1 - z / 2 + z * z / 6)
-        late = np.where(z > 1e-2, (1 - mean) / z, 0.5 - z / 6 + z * z / 24 - z**3 / 120 + z**4 / 720)
-    kept, gain = np.exp(-z), dt * (mean * F_z[:-1, None] + late * np.diff(F_z)[:, None])
-    shares = np.zeros((t.size, rates.size))
-    for k in range(t.size - 1):
-        shares[k + 1] = shares[k] * kept[k] + gain[k]
+    phi, shares = np.empty((times.size, N_PHI)), np.zeros((t.size, times.size))
+    for k, dt in enumerate(np.diff(t)):
+        for one, time in zip(phi, times, strict=True):
+            fill_phi(dt / time, one)
+        shares[k + 1] = shares[k] * phi[:, 0] + dt * (F_z[k] * phi[:, 1] + (F_z[k + 1] - F_z[k]) * phi[:, 2])
     return np.asarray(start * F_z + shares @ rates)
 
 
-def _grown(V: Array, row: tuple[Array, ...]) -> Array:
-    """Depths [m] at the first instants, while the contact grows."""
+def _grown(indenter: Indenter, V: Array, most: float) -> Array:
+    """Depths [m] at the first instants, while the contact grows, under loads of up to `most` [N]."""
     shrinks = np.diff(V) < -1e-12 * V.max()
     V = np.maximum.accumulate(V[: int(np.argmax(shrinks)) + 1 if shrinks.any() else V.size])
-    g, x, area, power = row
-    if g.size == 1:
-        return np.asarray(V / (2 * x[0]))
-    V_row = 2 * (g * x - area)
-    with np.errstate(divide="ignore"):
-        u = np.exp(np.interp(np.log(V), np.log(V_row[1:]), np.log(g[1:])))
-    outer, inner = V_row[-1] < V, V_row[1] > V
-    u[outer] = g[-1] + (V[outer] - V_row[-1]) / (2 * x[-1])
-    if x[0] > 0:
-        u[inner] = V[inner] / (2 * x[0])
-    else:
-        u[inner] = g[1] * (V[inner] / V_row[1]) ** (1 / (1 + power[0]))
-    return u
+    depths = np.zeros(V.size)
+    if V[-1] > 0:
+        E = most / V[-1]
+        depths[V > 0] = static_depths(indenter, E, E * V[V > 0])
+    return depths
 
 
-def _polished(indenter: Indenter, V: Array, u: Array) -> Array:
-    """Depths [m] at which F_N/E* = V, by Newton's method; the start is already close."""
-    for _ in range(3):
-        slope = np.asarray(indenter.stiffness(u, 1.0))
-        missed = V - np.asarray(indenter.force(u, 1.0))
-        u = np.maximum(u + np.where(slope > 0, missed, 0.0) / np.where(slope > 0, slope, 1.0), 0.0)
-    return u
+def _depths(
+    springs: _Springs, t: Array, F_z: Array, known: Array, record: NDArray[np.intp]
+) -> tuple[Array, Array, list[tuple[Array, float, float]]]:
+    """Depth and contact radius under a force, and what springs.kept() takes, of the instants on record.
+
+    known: the depths at the first instants, while the contact has only grown.
+    """
+    T, off = springs.law.T, CLOSE * float(F_z.max())
+    depth, radius, seen = np.zeros(t.size), np.zeros(t.size), []
+    s, u, a, v, before = springs.at_rest, 0.0, 0.0, 0.0, 0.0
+    for k, (dt, F) in enumerate(zip(np.diff(t, prepend=t[0]).tolist(), F_z.tolist(), strict=True)):
+        step, was = tools_for(springs.law, dt), u
+        if F == before == 0 and k >= known.size:
+            s, u = springs.lifted(s, step)
+        elif dt > 0 or T == 0:
+            u = float(known[k]) if k < known.size else springs.depth_under(max(F, 10 * off), off, s, u, v, a, step)
+            s = springs.moved(s, was, u, step)
+            if F == 0 and k >= known.size:
+                s, u = springs.lifted(s, tools_for(springs.law, 0.0))
+        v = (u - was) / dt if dt > 0 else v
+        a = springs.force(s, u, v)[1] if F > 0 else 0.0
+        depth[k], radius[k], before = u, a, F
+        if k in record:
+            seen.append(
+                (s, u if F > 0 else -np.inf, springs.rate_under(F, off, s, u, v, a) if F > 0 and T > 0 else 0.0)
+            )
+    return depth, radius, seen
 
 
-# --- the row of springs ---------------------------------------------------------------------------
+def _root(rising: Callable[[float], float], x: float, slope: float, off: float) -> float:
+    """Where a rising function is zero, but for `off`: by secants from x on, within the bracket that they leave."""
+    low, high, value = -np.inf, np.inf, rising(x)
+    for turn in range(400):
+        low, high = (low, x) if value > 0 else (x, high)
+        trial = x - value / slope
+        if abs(value) <= off or min(abs(trial - x), high - low) <= 4 * EPS * abs(x):
+            break
+        if not low < trial < high or (turn % 5 == 4 and high - low < np.inf):
+            trial = 0.5 * (low + high)
+        last, value = value, rising(trial)
+        rise = (value - last) / (trial - x)
+        x, slope = trial, rise if rise > 0 else slope / 4  # flat where nothing touches: go further
+    return x
 
 
-def _row(indenter: Indenter, deepest: float, finest: float, n_springs: int) -> tuple[Array, Array, Array, Array]:
-    """Nodes up to the depth `deepest`: g [m], x [m], ∫₀^x g dx [m²], and the exponents of x between them.
+# --- the springs ----------------------------------------------------------------------------------
 
-    Their spacing grows with g + finest deepest; kinks of the shape are nodes, an even number of cells apart.
+
+@dataclass(frozen=True)
+class _Springs:
+    """A row of springs; depths in `unit`. Their state (1 + J, n), compressions and arms, is passed on."""
+
+    row: Row
+    law: Law
+    unit: float  #: of depths [m]
+    modulus: float  #: of a spring, times this unit [N/m]
+
+    @classmethod
+    def of(cls, indenter: Indenter, material: Material, deepest: float, finest: float, n: int) -> _Springs:
+        """Springs up to the depth `deepest` [m]. A body that flows has next to no long-time modulus."""
+        modulus, arms = material.E_star or FLUID * material.instantaneous_modulus, material.contact_arms
+        law = law_of(material.tau, tuple(E_j / modulus for E_j, _ in arms), tuple(tau_j for _, tau_j in arms))
+        return cls(_row(indenter, deepest, finest, n), law, deepest, modulus * deepest)
+
+    @property
+    def rho(self) -> Array:
+        """Moduli of the arms, (J,)."""
+        return np.empty(0) if self.law.arms is None else self.law.arms.rho
+
+    @property
+    def at_rest(self) -> Array:
+        """The state of a surface that was never touched."""
+        return np.zeros((1 + self.rho.size, self.row.g.size))
+
+    def moved(self, s: Array, u_0: float, u_1: float, step: Tools) -> Array:
+        """The springs after the indenter has moved from u_0 to u_1 in a step; at once in one without length."""
+        s, g, since = s.copy(), self.row.g, np.empty(self.row.g.size)
+        if step.h == 0:
+            moves = (s[0] < u_1 - g) | ((self.law.T == 0) & (s[0] <= u_0 - g))  # a dashpot does not follow back
+            s[1:, moves] += (u_1 - g - s[0])[moves]
+            s[0, moves] = (u_1 - g)[moves]
+            press(s, g, g, Path(u_1, 0.0, 0.0, 0.0, 0.0), *self.law, step, since)  # what has no load left is free
+        else:
+            press(s, g, g, Path(u_0, (u_1 - u_0) / step.h, 0.0, 0.0, 0.0), *self.law, step, since)
+            np.copyto(s[0], u_1 - g, where=since > 0)
+        return s
+
+    def lifted(self, s: Array, step: Tools) -> tuple[Array, float]:
+        """The springs after a step without indenter, and the depth at which it lies on them then."""
+        above = float(np.min(s[0] + self.row.g)) - 1.0
+        s = self.moved(s, above, above, step)
+        return s, float(np.min(s[0] + self.row.g))
+
+    def force(self, s: Array, u: float, v: float) -> tuple[float, float]:
+        """Force [N] and radius [m] of the contact at the depth u, of the rate v."""
+        F, a = force_of(s, u, v, self.row, self.law.T, self.law.arms)
+        return self.modulus * F, a
+
+    def depth_under(self, F: float, off: float, s: Array, u: float, v: float, a: float, step: Tools) -> float:
+        """Depth after a step from u at which the force is F [N]; v and a [m] are what rate and radius were before."""
+
+        def excess(end: float) -> float:
+            return self.force(self.moved(s, u, end, step), end, (end - u) / step.h if step.h else 0.0)[0] - F
+
+        stiffness = 1 + float(self.rho.sum()) + (self.law.T / step.h if step.h else 0.0)
+        return _root(excess, u + v * step.h, 2 * max(a, 1e-6 * self.row.x[-1]) * self.modulus * stiffness, off)
+
+    def rate_under(self, F: float, off: float, s: Array, u: float, v: float, a: float) -> float:
+        """Rate at which the force is F [N]: dashpots, all of one rate, take up what the rest does not carry."""
+        slope = 2 * max(a, 1e-6 * self.row.x[-1]) * self.modulus * self.law.T
+        return _root(lambda rate: self.force(s, u, rate)[0] - F, v, slope, off)
+
+    def kept(self, seen: list[tuple[Array, float, float]]) -> dict[str, Array]:
+        """Places, compressions and line loads of these states at depths of some rate; empty for none."""
+        if not seen:
+            return {}
+        g, T = self.row.g, self.law.T
+        loads = [np.where(s[0] <= u - g, np.maximum(s[0] + T * v + self.rho @ s[1:], 0), 0) for s, u, v in seen]
+        s = np.array([s[0] for s, _, _ in seen])
+        return {"x": self.row.x, "s": self.unit * s, "q_z": self.modulus * np.array(loads)}
+
+
+def _row(indenter: Indenter, deepest: float, finest: float, n_springs: int) -> Row:
+    """Springs up to the depth `deepest` [m], which is the unit of depths.
+
+    Their spacing grows with g + finest; kinks of the shape are nodes, an even number of cells apart.
     """
     kinks = [radius for radius in (*indenter.kinks, indenter.max_radius) if np.isfinite(radius)]
-    depths = [_profile(indenter, radius) for radius in kinks]
-    core = max((x for x, g in zip(kinks, depths, strict=True) if g <= 1e-14 * deepest), default=0.0)
-    top = min(deepest, depths[-1]) if np.isfinite(indenter.max_radius) else deepest
+    depths = [_profile(indenter, radius) / deepest for radius in kinks]
+    core = max((x for x, g in zip(kinks, depths, strict=True) if g <= 1e-14), default=0.0)
+    none = np.empty(0)
     if core >= indenter.max_radius:
-        return np.zeros(1), np.array([core]), np.zeros(1), np.ones(1)
+        return Row(np.zeros(1), np.array([core]), none, none, none)
+    top = min(1.0, depths[-1]) if np.isfinite(indenter.max_radius) else 1.0
     marks = [0.0, *(g for g in depths if 1e-9 * top < g < top * (1 - 1e-9)), top]
-    scale = finest * deepest
-    heights = np.log1p(np.array(marks) / scale)
-    g_parts = [np.zeros(1)]
+    heights = np.log1p(np.array(marks) / finest)
+    parts = [np.zeros(1)]
     for low, high in pairwise(heights):
         n = 2 * max(1, round(0.5 * n_springs * (high - low) / heights[-1]))
-        g_parts.append(scale * np.expm1(np.linspace(low, high, n + 1)[1:]))
-    g = np.concatenate(g_parts)
+        parts.append(finest * np.expm1(np.linspace(low, high, n + 1)[1:]))
+    g = np.concatenate(parts)
     g[-1] = top
-    x = np.concatenate([[core], np.asarray(indenter.contact_radius(g[1:]))])
-    area = np.asarray(indenter.profile_area(x))
+    x = np.concatenate([[core], np.asarray(indenter.contact_radius(deepest * g[1:]))])
     rise = np.diff(np.log(np.maximum(x[1:] - core, np.finfo(float).tiny))) / np.diff(np.log(g[1:]))
-    return g, x, area, np.concatenate([rise[:1], rise, rise[-1:]])
+    dP = np.diff(g * x - np.asarray(indenter.profile_area(x)) / deepest)
+    mean, as_one = dP / np.diff(g), (dP[::2] + dP[1::2]) / (g[2::2] - g[:-2:2])
+    return Row(g, x, np.append(rise[:1], rise), mean, (4 * mean - np.repeat(as_one, 2)) / 3)
 
 
 def _profile(indenter: Indenter, x: float) -> float:
@@ -276,89 +395,20 @@ def _profile(indenter: Indenter, x: float) -> float:
     return g if np.isfinite(g) else np.inf
 
 
-def _end_of(indenter: Indenter) -> float:
-    """Greatest depth [m] of a shape that ends; infinite for a punch and for a shape without end."""
-    end = _profile(indenter, indenter.max_radius) if np.isfinite(indenter.max_radius) else np.inf
-    try:
-        return np.inf if end <= 0 or end == np.inf or indenter.contact_radius(2 * end) > 0 else end
-    except ValueError:
-        return end
-
-
-def _depth_under(indenter: Indenter, V: float, end: float) -> float:
-    """A depth [m] less than a percent above that at which F_N/E* = V [m²], or beyond the shape's end."""
-
-    def short(d: float) -> bool:
-        return d < end and float(indenter.force(d, 1.0)) < V
-
-    low = high = min(indenter.depth_about(V), end)
-    while short(high):
-        low, high = high, 2 * high
-    while low > 0 and not short(low):
-        low, high = low / 2, low
-    for _ in range(8):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if short(middle) else (low, middle)
-    return float(high)
-
-
-def _material_arrays(material: Material) -> tuple[Any, ...]:
-    """The material as arrays for the kernels: E, E tau, E_j, tau_j, and the modes in which a free spring relaxes.
-
-    A free spring relaxes with the times of retardation. With the roots of the energies as unknowns its matrix is
-    symmetric: a diagonal plus a matrix of rank one. Its eigenvalues are known from these times, and its eigenvectors
-    from them.
-    """
-    E, tau = material.E_star, material.tau
-    arms = np.array(material.contact_arms).reshape(-1, 2)
-    E_j, tau_j = np.ascontiguousarray(arms[:, 0]), np.ascontiguousarray(arms[:, 1])
-    relax, m = 1 / material._retardation()[2], E_j.size
-    modes, inverse = np.zeros((m + 1, m + 1)), np.zeros((m + 1, m + 1))
-    if tau > 0:
-        roots = np.sqrt(np.concatenate([[E], E_j]))
-        vectors = _eigenvectors(roots, np.concatenate([[0.0], 1 / tau_j]), relax)
-        rates, to_own = -relax, np.concatenate([1 / roots[:1], roots[1:]])  # z_0 = sqrt(E) s, z_j = q_j/sqrt(E_j)
-        modes, inverse = to_own[:, None] * vectors, vectors.T / to_own
-    else:  # E s + sum q_j = 0 all the time
-        glassy = E + E_j.sum()
-        roots, to_own = np.sqrt(E_j / tau_j), np.sqrt(E_j * tau_j)
-        vectors = _eigenvectors(roots, 1 / tau_j, relax)
-        rates = np.concatenate([[0.0], -relax])
-        still = relax == 0  # of a fluid: never in motion when free
-        modes[0, 0] = 1.0
-        modes[1:, 1:] = to_own[:, None] * vectors
-        modes[0, 1:] = np.where(still, 0.0, -(roots @ vectors) / glassy / np.where(still, 1.0, relax))
-        inverse[1:, 1:] = vectors.T / to_own
-        inverse[0, 0] = 1.0
-        inverse[0, 1:] = -modes[0, 1:] @ inverse[1:, 1:]
-    return E, E * tau, E_j, tau_j, rates, np.ascontiguousarray(modes), np.ascontiguousarray(inverse)
-
-
 # --- time -----------------------------------------------------------------------------------------
 
 
 def _finer(t: Array, F_z: Array, n: int) -> tuple[Array, Array, NDArray[np.intp]]:
-    """Instants with n steps in each interval, the force there, and where the samples are among them."""
-    shares = _shares(t, n)
-
-    def along(values: Array) -> Array:
-        ends = zip(values[:-1], values[1:], shares, strict=True)
-        return np.concatenate([values[:1], *(low + (high - low) * share for low, high, share in ends)])
-
-    return along(t), along(F_z), np.cumsum([0] + [share.size for share in shares])
-
-
-def _shares(t: Array, n: int) -> list[Array]:
-    """Ends of the steps of each interval, as shares of it. After a jump the first steps are fine."""
-    even = np.arange(1, n + 1) / n
-    shares, jumped = [], t[0]
-    for low, high in pairwise(t):
+    """Instants with n steps in each interval, fine after a jump; the force there; where the samples are among them."""
+    even, jumped = np.arange(1, n + 1) / n, t[0]
+    fine, force = [t[:1]], [F_z[:1]]
+    for (low, high), (before, after) in zip(pairwise(t), pairwise(F_z), strict=True):
+        share = even**3 if high - low > LONG * (low - jumped) else even
         if high == low:
-            jumped = low
-            shares.append(np.ones(1))
-        else:
-            shares.append(even**3 if high - low > LONG * (low - jumped) else even)
-    return shares
+            jumped, share = low, np.ones(1)
+        fine.append(low + (high - low) * share)
+        force.append(before + (after - before) * share)
+    return np.concatenate(fine), np.concatenate(force), np.cumsum([steps.size for steps in fine]) - 1
 
 
 # --- what comes in --------------------------------------------------------------------------------
@@ -386,15 +436,3 @@ def _untouched(indenter: Indenter, material: Material, t: Array, u_z: Array, n: 
     zero = np.zeros(t.size)
     kept = {"x": np.zeros(1), "s": np.zeros((t.size, 1)), "q_z": np.zeros((t.size, 1))} if record else {}
     return Indentation(indenter, material, t, u_z, zero, zero, **kept)
-
-
-def _eigenvectors(roots: Array, relax: Array, own: Array) -> Array:
-    """Eigenvectors (n, n), of length one, of a diagonal plus rank-one matrix.
-
-    The diagonal is `relax` (n,), the rank-one part a multiple of roots rootsᵀ; `own` (n,) are the eigenvalues.
-    """
-    away = relax[:, None] - own
-    away[away == 0] = np.finfo(float).tiny ** 0.25  # an arm next to nothing relaxes for itself
-    vectors = roots[:, None] / away
-    vectors /= np.abs(vectors).max(axis=0, initial=1e-300)
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=0))

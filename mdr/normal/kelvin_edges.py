@@ -10,15 +10,14 @@ touches again where w reaches this relaxed surface, not zero. Both edges of an a
 
       T sin(off) [1 - exp(-(phase - off)/T)] = cos(off) - cos(phase).
 
-For T = 0 both are c = cos(phase).
+For T = 0 both are c = cos(phase). The second equation is solved by contact_edge.py, which takes any depth.
 """
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
+from mdr.normal.contact_edge import ContactEdge, edge_under
 from mdr.tools.arrays import Array
 
 
@@ -39,24 +38,13 @@ def leaving_phase(gap: Array | float, T: float) -> Array:
 
 def touching_phase(gap: float, T: float) -> float:
     """Phase in [pi - arctan T, 2 pi] at which a spring of this gap, between kept_gap(T) and 1, touches again."""
-    off = float(leaving_phase(gap, T))
-    if T == 0 or off <= 0:
-        return 2 * np.pi - off
-    first = 2 * turning_phase(T) - off  # where its force would rise through zero, had it stayed
-    if first <= off or _ahead(2 * np.pi - off, 2 * np.pi, T) >= 0:
-        return first if first <= off else 2 * np.pi
-    from scipy.optimize import brentq
-
-    return float(brentq(lambda phase: -_ahead(phase - off, phase, T), first, 2 * np.pi, xtol=1e-15))
+    touches, _ = _edge(T).crossings(gap)
+    return touches[0] if touches else (2 * np.pi if gap > 0 else turning_phase(T))
 
 
 def contact_edge(phase: Array, T: float) -> Array:
     """Gap of the spring at the edge of contact, for phases in [0, 2 pi], any shape."""
-    phase = np.asarray(phase, dtype=float)
-    if T == 0:
-        return np.asarray(np.cos(phase))
-    off = np.where(phase <= turning_phase(T), phase, phase - _flight(phase, T))
-    return np.asarray(np.hypot(1, T) * np.cos(off + np.arctan(T)))
+    return _edge(T).gap(np.asarray(phase, dtype=float))
 
 
 def edge_rate(phase: Array, gap: Array, T: float) -> Array:
@@ -67,34 +55,5 @@ def edge_rate(phase: Array, gap: Array, T: float) -> Array:
     return np.asarray(((np.cos(phase) - gap) / T - np.sin(phase)) / lost)
 
 
-def _ahead(flight: Array | float, phase: Array | float, T: float) -> Array:
-    """Height of the relaxed surface above the indenter at `phase`, for a spring that left at phase - flight."""
-    off = np.asarray(phase - flight)
-    rise = 2 * np.sin(off + flight / 2) * np.sin(flight / 2)  # cos(off) - cos(phase) without cancellation
-    return np.asarray(rise + T * np.sin(off) * np.expm1(-flight / T))
-
-
-def _flight(phase: Array, T: float) -> Array:
-    """Duration, in phase, for which the spring that touches at `phase` was free, by Newton's method from a table."""
-    flights, phases = _flights(T)
-    flight = np.interp(phase, phases, flights)
-    turn = turning_phase(T)
-    for _ in range(5):
-        off, left = phase - flight, np.exp(-flight / T)
-        slope = (np.sin(off) + T * np.cos(off)) * (1 - left)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            step = _ahead(flight, phase, T) / slope
-        flight = np.clip(flight - np.where(np.isfinite(step), step, 0), np.maximum(phase - turn, 0), phase)
-    return np.asarray(flight)
-
-
-@lru_cache(maxsize=64)
-def _flights(T: float) -> tuple[Array, Array]:
-    """Table of free durations and of the phases at which they end, in closed form."""
-    flight = np.concatenate([min(T, 1) * np.geomspace(1e-2, 1, 200)[:-1], np.linspace(min(T, 1), 2 * np.pi, 400)])
-    lag = -T * np.expm1(-flight / T)
-    across, along = lag * np.sin(flight) - 2 * np.sin(flight / 2) ** 2, lag * np.cos(flight) - np.sin(flight)
-    phase = np.mod(np.arctan2(across, along), 2 * np.pi)
-    flight, phase = np.r_[0, flight], np.r_[turning_phase(T), phase]
-    phase[-1] = 2 * np.pi
-    return flight, np.maximum.accumulate(phase)
+def _edge(T: float) -> ContactEdge:
+    return edge_under(T, (1,), (1 + 0j,))

@@ -78,7 +78,7 @@ def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
     """
     instance("indenter", indenter, Indenter)
     instance("material", material, Material)
-    return float(static_depths(indenter, material, np.array([positive("F_z", F_z, "load in N")]))[0])
+    return float(static_depths(indenter, material.E_star, np.array([positive("F_z", F_z, "load in N")]))[0])
 
 
 def static_load(indenter: Indenter, material: Material, u_z0: float) -> float:
@@ -117,12 +117,11 @@ def static_load(indenter: Indenter, material: Material, u_z0: float) -> float:
     return float(indenter.force(positive("u_z0", u_z0, "depth in m"), material.E_star))
 
 
-def static_depths(shape: Indenter, material: Material, F_z: Array) -> Array:
-    """Depths [m] at which constant loads (n,) > 0 rest in the end.
+def static_depths(shape: Indenter, E_star: float, F_z: Array) -> Array:
+    """Depths [m] at which loads (n,) > 0 rest on an elastic half-space.
 
     Newton's method from above, on a force whose slope 2E*a never falls with depth.
     """
-    E_star = material.E_star
     d = np.full(F_z.shape, _depth_beyond(shape, E_star, float(np.max(F_z))))
     left = np.inf
     for _ in range(200):
@@ -173,16 +172,14 @@ def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) 
     n = 64
     while True:
         load = motion.F_z0 + motion.dF_z * np.cos(2 * np.pi * np.arange(n) / n)
-        half = static_depths(shape, material, load[: n // 2 + 1])  # even in time
+        half = static_depths(shape, material.E_star, load[: n // 2 + 1])  # even in time
         depth = np.concatenate([half, half[-2:0:-1]])
         spectrum = np.fft.rfft(depth).real / n
         tail = np.abs(spectrum[-n // 8 :]).max()
         if tail <= 1e-14 * abs(spectrum[0]) or n >= 4096:
             break
         n *= 2
-    keep = 1 + int(np.flatnonzero(np.abs(spectrum[1:]) > 1e-16 * np.abs(spectrum[1:]).max()).max())
-    cos = 2 * spectrum[1 : keep + 1]
-    return Cycle.series(float(spectrum[0]), motion.omega, cos, np.zeros_like(cos))
+    return _cycle_of(spectrum.astype(complex), motion.omega)
 
 
 def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:

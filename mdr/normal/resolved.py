@@ -89,16 +89,16 @@ def resolved(case: SlidingContact) -> SlidingContact:
     return known
 
 
-def with_depth(case: SlidingContact) -> SlidingContact:
-    """The same without a warning of what is unlikely."""
-    load = _load_of(case)
+def with_depth(case: SlidingContact, moving: bool = True) -> SlidingContact:
+    """The same without a warning of what is unlikely; moving: over the whole period, not at rest alone."""
+    load, depth = _load_of(case), None
     if load is None:
         return case
     rest = _rests_at(case.indenter, case.material, load.F_z0)
-    if isinstance(load, ConstantLoad):
-        depth = Cycle.constant(rest, load.omega)
-    else:
+    if moving and isinstance(load, LoadOscillation):
         depth = _under_load(case.indenter, case.material, load)
+    elif moving:
+        depth = Cycle.constant(rest, load.omega)
     return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, depth))
 
 
@@ -149,10 +149,7 @@ def at_rest(case: SlidingContact) -> SlidingContact:
     For what needs no more: a case of prescribed depth as it is; under a load, no periodic motion is sought.
     Raises ValueError where the shape does not carry the load.
     """
-    load, known = _load_of(case), case
-    if load is not None:
-        rest = _rests_at(case.indenter, case.material, load.F_z0)
-        known = replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, None))
+    known = with_depth(case, moving=False)
     warn_at_the_door(known)
     return known
 

@@ -92,35 +92,27 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
-    if "tan_delta" in settings:
-        if not isinstance(parts["material"], KelvinVoigt):
-            raise ValueError(
-                f"tan_delta is of KelvinVoigt alone, and the material is {type(parts['material']).__name__}"
-            )
-        tan_delta = not_negative("tan_delta", settings["tan_delta"], "loss tangent")
-        changes["material"]["tau"] = tan_delta / _one_omega("tan_delta", *map(changed, MOVING))
-    if "T" in settings:
-        _require_field("T", parts["material"], "tau")
-        changes["material"]["tau"] = settings["T"] / common_frequency(*map(changed, MOVING))
-    if "chi" in settings:
-        _require_field("chi", parts.get("shake"), "du_x")
-        changes["shake"]["du_x"] = 1.0  # until the depth is known that it refers to
     contact = SlidingContact(mu_0=settings["mu_0"], **{slot: changed(slot) for slot in parts})
+    if "tan_delta" in settings:
+        if not isinstance(material := contact.material, KelvinVoigt):
+            raise ValueError(f"tan_delta is of KelvinVoigt alone, and the material is {type(material).__name__}")
+        tan_delta = not_negative("tan_delta", settings["tan_delta"], "loss tangent")
+        contact = _with(contact, "T", tan_delta / _one_omega("tan_delta", contact.oscillation, contact.shake))
+    if "T" in settings:
+        contact = _with(contact, "T", settings["T"] / common_frequency(contact.oscillation, contact.shake))
     if "chi" in settings:
-        kept: Any = contact.shake
+        contact = _with(contact, "chi", 1.0)  # until the depth is known that it refers to
         if not np.isfinite(unit := at_rest(contact).chi):
             raise ValueError(
                 "chi: the contact has no mean depth u_z0 > 0, which chi = du_x/(mu_0 kappa u_z0) refers to"
             )
-        shake = replace(kept, du_x=settings["chi"] / unit)
-        contact = replace(contact, shake=shake)
+        contact = _with(contact, "chi", settings["chi"] / unit)
     if "k_x/k_xc" in settings:
-        contact = _with_pull(contact, "k_x/k_xc", "k_x", settings["k_x/k_xc"] * _stiffness(contact))
+        contact = _with(contact, "k_x/k_xc", settings["k_x/k_xc"] * _stiffness(contact))
     if "omega_0/omega" in settings:
         _require_field("omega_0/omega", contact.pull, "k_x")
         omega_0 = positive("omega_0/omega", settings["omega_0/omega"]) * contact.omega
-        pull: Any = contact.pull
-        contact = _with_pull(contact, "omega_0/omega", "m", pull.k_x / omega_0**2)
+        contact = _with(contact, "omega_0/omega", contact.pull.coefficients[2] / omega_0**2)
     return contact
 
 
@@ -176,10 +168,12 @@ def _require_field(path: str, record: Any, field: str) -> None:
         raise ValueError(f"{path}: {type(record).__name__} has no {field}")
 
 
-def _with_pull(contact: SlidingContact, path: str, field: str, value: float) -> SlidingContact:
-    _require_field(path, contact.pull, field)
-    pull: Any = contact.pull
-    return replace(contact, pull=replace(pull, **{field: value}))
+def _with(contact: SlidingContact, group: str, value: float) -> SlidingContact:
+    """The contact with the field that a group sets."""
+    slot, _, field = GROUPS[group].partition(".")
+    record = getattr(contact, slot)
+    _require_field(group, record, field)
+    return replace(contact, **{slot: replace(record, **{field: value})})
 
 
 def _stiffness(contact: SlidingContact) -> float:

@@ -23,6 +23,7 @@ import numpy as np
 from numba import njit
 
 from mdr.tools.arrays import Array
+from mdr.tools.secular import secular_zeros
 
 N_PHI = 5
 
@@ -85,18 +86,21 @@ def _modes(T: float, rho: Array, theta: Array) -> Modes:
     """Rates, and matrices from modes to state and back, of a spring without force.
 
     Free motion is x' = r, x_j' = r - x_j/theta_j with r such that L[x] = 0. In the norm of energy, x² + sum rho_j x_j²,
-    its matrix is symmetric. Without dashpot a state with force first sheds it, by the same displacement of all its
+    its matrix is symmetric, a diagonal plus one of rank one: its rates are zeros of a sum of poles, and its
+    eigenvectors follow from them. With the weights that have these zeros to rounding (Löwner's formula) they are
+    orthogonal to rounding too. Without dashpot a state with force first sheds it, by the same displacement of all its
     parts: a projection.
     """
-    n = 1 + rho.size
-    roots = np.sqrt(np.concatenate([[1.0], rho]))
-    relax = np.diag(np.concatenate([[0.0], 1 / theta]))
-    if T > 0:
-        mu, vectors = np.linalg.eigh(relax + np.outer(roots, roots) / T)
-    else:
-        force = roots / np.linalg.norm(roots)
-        off = np.eye(n) - np.outer(force, force)
-        mu, vectors = np.linalg.eigh(off @ relax @ off + np.outer(force, force) * -1.0)  # the force that is shed: first
-        mu, vectors = mu[1:], vectors[:, 1:]
-    out, into = vectors / roots[:, None], (vectors * roots[:, None]).T
-    return Modes(np.maximum(mu, 0.0), np.ascontiguousarray(out), np.ascontiguousarray(into))
+    relax = np.append(0.0, 1 / theta)
+    order = np.argsort(relax)
+    roots, relax = np.sqrt(np.append(1.0, rho))[order, None], relax[order]
+    mu = secular_zeros(1.0, T, roots[1:, 0] ** 2, relax[1:])
+    away = mu - relax[:, None]
+    away[away == 0] = np.finfo(float).tiny ** 0.25  # an arm next to nothing relaxes for itself
+    others = np.array([np.delete(relax - one, j) for j, one in enumerate(relax)])
+    weights = np.prod(away[:, : theta.size] / others, axis=1) * np.prod(away[:, theta.size :], axis=1)
+    vectors = np.sqrt(np.abs(weights))[:, None] / away
+    vectors /= np.abs(vectors).max(axis=0)
+    vectors /= np.linalg.norm(vectors, axis=0)
+    back = np.argsort(order)
+    return Modes(mu, (vectors / roots)[back], np.ascontiguousarray((vectors * roots)[back].T))

@@ -554,12 +554,16 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
     s (1 + J, n) is updated; since (n,) is filled with the share of the step that each spring has pressed at its end,
     zero in flight.
     """
-    h, decay, rate = tools.h, tools.decay, 0.0
+    h, decay, rate, instantaneous = tools.h, tools.decay, 0.0, 1.0
     if modes is not None:
         rate = modes.mu[0]
+    if arms is not None:
+        for j in range(arms.rho.size):
+            instantaneous += arms.rho[j]
     all_area = all_moment = 0.0
     for i in range(gap.size):
         tol = ROUNDING * (1.0 + abs(gap[i]))
+        of_force = tol * instantaneous
         z_0, z_1, z_2 = path.z_0 - gap[i], path.z_1, path.z_2
         t, done, k, pressed = h, 0.0, 0, 0.0
         area = moment = 0.0
@@ -572,9 +576,9 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
                 normal = held(x, z_1, z_2, T, t)
                 if arms is not None:
                     normal = plus(normal, 1.0, arms_ends(s, i, z_1, z_2, t, k, tools, arms))
-                presses = event > 0 or not below(normal, tol)
-            if presses and not stays(normal, t, tol):
-                until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
+                presses = event > 0 or not below(normal, of_force)
+            if presses and not stays(normal, t, of_force):
+                until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, of_force, T, modes, arms, tools)
             if not presses:
                 if modes is not None:
                     fallen = decay[k, 0]

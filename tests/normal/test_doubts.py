@@ -152,10 +152,3 @@ def test_near_the_resonance_of_a_load_the_closed_form_is_doubted_where_it_is_wro
             off = np.inf
     assert doubted or off < 0.03
     assert not doubted or off > 0.01
-
-
-@pytest.mark.parametrize(("share", "unstable"), [(0.3, False), (1.5, True)])
-def test_an_unstable_depth_under_a_load_is_named(share, unstable):
-    case = beside_resonance(1.1, share, tau=1e-3)
-    said = " ".join(mdr.plausibility(case))
-    assert ("unstable: a deviation grows 1.16 times in a period (its Floquet multiplier)" in said) == unstable

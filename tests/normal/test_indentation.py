@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from ting import Press
 
 import mdr
-from mdr.normal.indentation import Indentation, indent
+from mdr.normal.indentation import indent
 
 E_1, TAU = 9e6, 1e-2
 MATERIALS = {
@@ -127,19 +127,6 @@ def test_press_and_release_is_tings(shape, kind, T):
     )
 
 
-def test_contact_is_lost_while_still_compressed():
-    body, ting = press("paraboloid", "standard", 0.5)
-    t = np.linspace(0, ting.P, 2001)
-    run = indent(SHAPES["paraboloid"], body, t, ting.u(t), record=True)
-    last = np.flatnonzero(run.contact_radius)[-1]
-    assert run.u_z[last + 1] > 0.5 * DEPTH
-    assert run.F_z[last + 1] == 0
-    assert run.s[last + 1, 0] == pytest.approx(run.u_z[last + 1], rel=2e-3)  # the spring in the centre left there
-    after = run.s[last + 1 :, 0] / run.s[last + 1, 0]
-    theta = TAU * 10  # free, a spring of moduli 1 and 9 relaxes with tau_1 (1 + 9)/1, here of tau_1 = P/2
-    assert_allclose(after, np.exp(-(t[last + 1 :] - t[last + 1]) / theta), rtol=1e-3)
-
-
 def test_a_second_press_meets_the_relaxed_surface():
     body = MATERIALS["Kelvin"]
     t = np.array([0, 1e-4, 1e-4, 5e-3, 5e-3 + 1e-6])
@@ -172,6 +159,33 @@ def test_after_any_tapping_contact_is_a_disc_and_force_settles_with_the_samples(
     # all where contact begins or ends between two samples, and at both ends of the history, which have one side
     off = 5e-3 if MATERIALS[material].tau else 1e-3
     assert_allclose(forces[0][1:-1], forces[1][1:-1], atol=off * forces[1].max())
+
+
+def by_tiny_steps(body, t, u_z, n=2000):
+    """Force [N] of the flat punch, one spring, by backward differences."""
+    E_j, tau_j = np.array(body.contact_arms).T
+    s, x, before, forces = 0.0, np.zeros(E_j.size), 0.0, []
+    for dt, after in zip(np.diff(t, prepend=t[0]), u_z, strict=True):
+        for u in np.linspace(before, after, n + 1)[1:] if dt else [after]:
+            kept = 1 / (1 + dt / n / tau_j)
+            q, stiffness = body.E_star * s + (E_j * kept) @ x, body.E_star + E_j @ kept
+            ds = (max(q + stiffness * (u - s), 0) - q) / stiffness
+            s, x = s + ds, (x + ds) * kept
+        before = after
+        forces.append(2e-3 * (body.E_star * s + E_j @ x))
+    return np.array(forces)
+
+
+@pytest.mark.parametrize("E_inf", [0.0, 1e2, 1e6])
+def test_jumps_of_bodies_far_stiffer_at_first_than_in_the_end_are_those_of_tiny_steps(E_inf):
+    body = mdr.Prony(E_inf=E_inf, arms=((5e6, 1e-4), (3e8, 1e-2), (2e6, 1.0)), nu=0.4)
+    rng = np.random.default_rng(1)
+    t = np.cumsum(np.where(rng.random(30) < 0.4, 0, rng.uniform(1e-3, 2e-2, 30)))
+    u_z = DEPTH * rng.uniform(-0.5, 1, 30)
+    F_z = by_tiny_steps(body, t, u_z)
+    assert np.count_nonzero(F_z > 1e-9 * F_z.max()) > 5
+    # of a fast arm, backward differences miss dt/tau_j: 1e-5/1e-4 of what little is left of it
+    assert_allclose(indent(SHAPES["flat"], body, t, u_z).F_z, F_z, atol=1e-3 * F_z.max())
 
 
 # --- limits and invariances ---
@@ -212,13 +226,6 @@ def test_a_dashpot_takes_no_jump():
     assert run.u_z[1] == run.u_z[2] < run.u_z[3]
     jump = indent(SHAPES["flat"], body, [0, 0, 1], [0, DEPTH, DEPTH])
     assert_allclose(jump.F_z, [0, *2 * [2e-3 * body.E_star * DEPTH]], rtol=1e-12)  # its impulse is left out
-
-
-def test_superposed_jumps_are_one():
-    body = MATERIALS["arms"]
-    once = indent(SHAPES["cone"], body, [0, 1e-3], [DEPTH, DEPTH])
-    twice = indent(SHAPES["cone"], body, [0, 0, 0, 1e-3], np.array([0.2, 0.7, 1, 1]) * DEPTH)
-    assert_allclose(twice.F_z[-2:], once.F_z, rtol=1e-12)
 
 
 @pytest.mark.parametrize(("length", "force", "time"), [(1e-9 / 1e-3, 1e-9, 1e-6), (1e3, 1e6, 1e5)])
@@ -262,32 +269,15 @@ def test_a_depth_history_may_never_touch_or_be_one_sample():
     assert indent(SHAPES["flat"], MATERIALS["elastic"], [0], [DEPTH]).F_z[0] > 0
 
 
-def test_an_outcome_is_a_record():
-    one, two = (indent(SHAPES["cone"], MATERIALS["standard"], [0, 1e-3], [0, DEPTH], record=True) for _ in range(2))
-    assert isinstance(one, Indentation)
-    assert one == two
-    assert hash(one) == hash(two)
-    with pytest.raises(ValueError, match="read-only"):
-        one.F_z[0] = 1
-    assert indent(SHAPES["cone"], MATERIALS["standard"], [0, 1e-3], [0, DEPTH]).x is None
-
-
 # --- refusals ---
 
 
 @pytest.mark.parametrize(
     ("change", "error", "match"),
     [
-        ({"t": [0, 2, 1]}, ValueError, "must not descend"),
         ({"t": [0, math.nan, 1]}, ValueError, "finite"),
         ({"t": 1.0}, ValueError, "list of instants"),
         ({"t": []}, ValueError, "list of instants"),
-        ({"t": ["a"]}, TypeError, "real numbers"),
-        ({"u_z": [0, 1e-6]}, ValueError, "3 instants"),
-        ({"u_z": [0, 1e-6, math.inf]}, ValueError, "finite"),
-        ({"u_z": None}, ValueError, "either u_z"),
-        ({"F_z": [0, 1, 1]}, ValueError, "either u_z"),
-        ({"u_z": None, "F_z": [0, -1, 1]}, ValueError, "adhesion"),
         ({"indenter": mdr.Cone}, TypeError, "indenter must be of kind"),
         ({"material": 3e6}, TypeError, "material must be of kind"),
         ({"record": 1}, TypeError, "record"),
@@ -303,7 +293,7 @@ def test_what_is_refused(change, error, match):
 
 def test_a_shape_that_ends_before_the_depth_under_a_force_says_so():
     lens = mdr.Profile(lambda r: r**2 / 1e-2, r_max=1e-3)
-    with pytest.raises(ValueError, match="deeper than Profile reaches"):
+    with pytest.raises(ValueError, match="F_z = 100 N is more than Profile"):
         indent(lens, MATERIALS["elastic"], [0, 1], F_z=[0, 100.0])
     assert indent(lens, MATERIALS["elastic"], [0, 1], F_z=[0, 0.1]).u_z[1] > 0
 

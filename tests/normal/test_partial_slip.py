@@ -4,32 +4,17 @@ import math
 
 import numpy as np
 import pytest
-from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.files.examples import SHAPES
 from mdr.normal.partial_slip import partial_slip, tangential_loop
-from mdr.spring.law import law_of
-from mdr.spring.settle import tools_for
-from mdr.spring.step import Path, row
 
 BODY = mdr.Elastic(E=3e6, nu=0.3)
 MU_0, DEPTH = 0.4, 2e-5
-ALL = {name: shape for name, (shape, _) in SHAPES.items()}
-ALL |= {
-    "sphere": mdr.Sphere(5e-3),
-    "ellipsoid": mdr.Ellipsoid(2e-3, 300.0),
-    "hyperboloid": mdr.Hyperboloid(1e-5, 2e-4),
-    "truncated cone": mdr.TruncatedCone(3e-4, 0.05),
-    "truncated paraboloid": mdr.TruncatedParaboloid(3e-4, 5e-3),
-    "rounded punch": mdr.RoundedPunch(3e-4, 5e-3),
-    "capped cone": mdr.CappedCone(2e-4, 0.05),
-    "capped paraboloid": mdr.CappedParaboloid(1e-2, 5e-3, 1e-4),
-    "constant pressure": mdr.ConstantPressure(1e-3, 3e-5),
-    "sampled": mdr.SampledProfile(np.linspace(0, 1e-3, 30), 100 * np.linspace(0, 1e-3, 30) ** 2),
-    "from force": mdr.FromForce(np.linspace(0, 3e-5, 40), 4e7 * np.linspace(0, 3e-5, 40) ** 1.5, 4e6),
-}
-ALL["kinked"] = mdr.Profile(lambda r: 0.02 * r + 0.05 * np.maximum(r - 3e-4, 0), kinks=(3e-4,))
+KINKED = mdr.Profile(lambda r: 0.02 * r + 0.05 * np.maximum(r - 3e-4, 0), kinks=(3e-4,))
+ALL = SHAPES | {"kinked": KINKED}
+del ALL["ConcavePunch"]  # a ring of it sticks, which is refused
 FULL_SLIP = MU_0 * BODY.mindlin_ratio * DEPTH  #: displacement from which every spring slips
 
 
@@ -119,18 +104,6 @@ def test_the_loop_of_a_sphere_is_that_of_mindlin_and_deresiewicz(share):
     assert loop.loss == pytest.approx(W, rel=1e-9)
 
 
-@pytest.mark.parametrize("T", [0.0, 2.0])
-def test_depth_alone_moves_no_tangential_force_of_a_spring_in_stick(T):
-    """The compiled step of sliding runs: u_x at rest, depth up and down, extensions below the limit throughout."""
-    gap, w, law = np.array([-3.0, -1.0, -0.5]), np.full(3, 1 / 3), law_of(T)
-    e = np.array([[0.4, -0.2, 0.1]])
-    for z_0, z_1 in ((1.0, 2.0), (2.0, 1.0)):
-        new, s, path = e.copy(), (z_0 - gap)[None], Path(z_0, 0.1 * (z_1 - z_0), 0.0, 0.0, 0.0)
-        area, _, stuck, _, _, _ = row(s, new, gap, w, path, *law, tools_for(law, 10.0), 0.0, 0.0, None)
-        assert_allclose(new, e, rtol=0, atol=0)
-        assert_allclose((area, stuck), (10 * e[0].mean(), 10.0), rtol=1e-14)
-
-
 def test_the_slow_pull_knows_the_long_time_modulus_only():
     body = mdr.StandardLinearSolid(E_inf=3e6, E_1=9e6, tau_1=1.0, nu=0.3)
     one, two = (partial_slip(mdr.Cone(theta=0.02), m, MU_0, DEPTH, FULL_SLIP / 3) for m in (BODY, body))
@@ -157,9 +130,6 @@ def test_answers_come_in_the_shape_of_the_question():
 @pytest.mark.parametrize(
     ("change", "error", "match"),
     [
-        ({"u_x": [-1e-6]}, ValueError, "monotonic"),
-        ({"u_x": math.nan}, ValueError, "finite"),
-        ({"mu_0": 0.0}, ValueError, "mu_0"),
         ({"u_z0": -1e-6}, ValueError, "u_z0"),
         ({"indenter": 3}, TypeError, "indenter"),
         ({"material": mdr.Elastic}, TypeError, "write Elastic"),

@@ -96,7 +96,7 @@ def test_the_row_reaches_from_the_centre_to_the_edge_of_the_largest_contact(shap
     a = float(case.indenter.contact_radius(case.u_z_max))
     assert np.all(springs.width > 0)
     assert np.all(np.diff(springs.x) > 0)
-    assert 0 < springs.x[0]
+    assert springs.x[0] > 0
     assert springs.x[-1] < a
     assert_allclose(springs.width.sum() / 2, a, rtol=1e-13)
     assert_allclose(springs.width @ springs.x, a**2, rtol=1e-9 if depth_ratio == 1e6 else 1e-13)

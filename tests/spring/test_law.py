@@ -59,6 +59,32 @@ def test_modes_measure_energy(material):
     assert mu.min() > 0
 
 
+@pytest.mark.parametrize("T", [0.0, 1e-3])
+@pytest.mark.parametrize("rho", [np.full(30, 1 / 30), np.full(30, 300.0), np.geomspace(1e-9, 1e3, 30), [1e30, 3e29]])
+def test_arms_of_many_decades_do_not_disturb_one_another(T, rho):
+    """In each mode the parts of a spring fall at one rate, and carry no force; the last ones are of a fluid."""
+    rho, theta = np.array(rho), np.logspace(9, -9, len(rho))
+    mu, out, into = law_of(T, tuple(rho), tuple(theta)).modes
+    assert_allclose(into @ out, np.eye(mu.size), rtol=0, atol=1e-13)
+    for rate, (x, *x_j) in zip(mu, out.T, strict=True):
+        force = np.array([x, -T * rate * x, *(rho * x_j)])
+        motion = np.array(
+            [-rate * x + 0 * rho, rate * np.array(x_j), -np.array(x_j) / theta]
+        )  # x' - x_j/theta_j - x_j'
+        for terms in (force, motion):  # beside an arm as weak as 1e-9 a rate is known to 1e-16, a difference to 1e-7
+            assert np.all(np.abs(terms.sum(axis=0)) < 1e-6 * np.abs(terms).max(axis=0))
+        with localcontext() as context:
+            context.prec = 100
+            low, high = (secular(Decimal(float(rate * near)), T, rho, theta) for near in (1 - 1e-13, 1 + 1e-13))
+            assert low * high < 0
+
+
+def secular(x, T, rho, theta):
+    """L of exp(-x t), over it, in a hundred digits."""
+    arms = zip(map(Decimal, rho.tolist()), map(Decimal, theta.tolist()), strict=True)
+    return 1 - x * Decimal(T) + sum(modulus * x / (x - 1 / time) for modulus, time in arms)
+
+
 def test_what_a_material_lacks_is_none():
     assert law_of(0.0)[1:] == (None, None)
     assert law_of(0.5).arms is None
