@@ -39,6 +39,7 @@ class ScaledContact:
     x: Array  #: (n_steps + 1,) way on which a shake takes the indenter along the pull
     x_dot: Array  #: (n_steps + 1,) its rate
     far_end: Array  #: (n_steps + 1,) motion of the pulling point besides the pull; zero where the tool is shaken
+    far_end_dot: Array  #: (n_steps + 1,) its rate
     is_shaken: bool  #: whether there is one
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
     law: Law  #: the same, with its modes
@@ -128,7 +129,7 @@ class ScaledContact:
             )
         x, x_dot = _over_a_period(way / length_x, steps)
         at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
-        far_end = _over_a_period(case.shake_harmonics / length_x, steps)[0] if at_pull else np.zeros(steps + 1)
+        far_end, far_end_dot = _over_a_period(case.shake_harmonics[: None if at_pull else 0] / length_x, steps)
         M, C, K = _body_groups(case, springs.G_star * width)
         law = law_of(rheology.T, rheology.rho, rheology.theta)
         return cls(
@@ -139,6 +140,7 @@ class ScaledContact:
             x=x,
             x_dot=x_dot,
             far_end=far_end,
+            far_end_dot=far_end_dot,
             is_shaken=case.is_shaken,
             rheology=rheology,
             law=law,

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mdr.march.stepper import PeriodRecord, Stepper
-from mdr.spring.step import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK
+from mdr.spring.step import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
+from mdr.tools.arrays import Array
 
 OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
 OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
@@ -72,13 +73,17 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
     if not scaled.rigid:
-        stretch = account.y  # of the system spring, backward
+        stretch, rate = account.y, account.rate  # of the system spring, backward
         if at_pull := bool(scaled.far_end.any()):
-            stretch = stretch + scaled.x - scaled.far_end
-        force = -scaled.K * 0.5 * (stretch[1:] + stretch[:-1]) - scaled.C * np.diff(stretch) / h  # of the pull, forward
-        pull = v * h * float(np.sum(force))
-        damper = scaled.C * float(np.sum(np.diff(stretch) ** 2)) / h
-        shake = float(force @ np.diff(scaled.far_end)) if at_pull else shake
+            stretch, rate = stretch + scaled.x - scaled.far_end, rate + scaled.x_dot - scaled.far_end_dot
+        pull, of_shake = 0.0, 0.0
+        for u, w in gauss(3):
+            y, y_dot = _between(stretch, rate, h, u, scaled.light)
+            force = -scaled.K * y - scaled.C * y_dot  # of the pull, forward
+            pull += v * h * w * float(force.sum())
+            damper += scaled.C * h * w * float(y_dot @ y_dot)
+            of_shake += h * w * float(force @ _between(scaled.far_end, scaled.far_end_dot, h, u, False)[1])
+        shake = of_shake if at_pull else shake
     viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(
         pull_work=unit_x * pull,
@@ -89,3 +94,13 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
         damper_loss=unit_x * damper,
         stored_change=unit_x * (account.stored[1] - account.stored[0]),
     )
+
+
+def _between(y: Array, y_dot: Array, h: float, u: float, bends_evenly: bool) -> tuple[Array, Array]:
+    """Value and rate, a share u of each step after its start, of the cubic through values and rates (n + 1,) at its
+    ends; of the parabola that a light body moves on in a step, which has the rate at its end.
+    """
+    mean, last = np.diff(y) / h, y_dot[1:]
+    first = 2 * mean - last if bends_evenly else y_dot[:-1]
+    way = first * (u - 2 * u**2 + u**3) + last * (u**3 - u**2) + mean * (3 * u**2 - 2 * u**3)
+    return y[:-1] + h * way, first * (1 - 4 * u + 3 * u**2) + last * (3 * u**2 - 2 * u) + mean * 6 * (u - u**2)

@@ -4,9 +4,8 @@ A step is exact but for the parabolas that motion and body take in it, and a sum
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
 though they do not fall evenly, as events come at any place in a step. So beside a run go companions, with a half and
 with three quarters of both numbers. At second order the run differs from them by 3 and by 0.8 times its own error; the
-bound is the greater of 1.5 and 3 times these differences. A companion may agree by chance. So one with a quarter bounds
-the error of that with a half likewise, and an eighth of this is the least bound, as errors fall by no more; where its
-steps are too few to tell, it is left out.
+bound is the greater of 1.5 and 3 times these differences. A companion may agree by chance. So three quarters of the half
+bound the error of the half likewise, and an eighth of this is the least bound, as errors fall by no more.
 Where the bound is more than is asked for, a run of half the steps and all springs tells which to double.
 
 Each run begins in the periodic state of one before it.
@@ -45,7 +44,6 @@ CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
 HALF, THREE_QUARTERS = 1.5, 3.0  #: times the difference to a companion with so much of both numbers: the bound
 MOST_GAINED = 8.0  #: by which an error of third order falls where numbers are doubled
-RESOLVES = 32  #: steps of a companion from which on its error falls like that of finer ones
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 
 
@@ -112,6 +110,10 @@ class _Runs:
     def half(self, main: Steady) -> Steady:
         """The companion with half of the steps and springs."""
         return self.beside(main, main.knobs.coarser(main.knobs.steps // 2, main.knobs.n_springs // 2))
+
+    def three_quarters(self, main: Steady) -> Steady:
+        """The companion with three quarters of them."""
+        return self.beside(main, main.knobs.coarser(3 * main.knobs.steps // 4, 3 * main.knobs.n_springs // 4))
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
         if knobs not in self.ends:
@@ -215,10 +217,10 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
 
 def _difference(runs: _Runs, main: Steady) -> float:
     """Bound on what steps and springs miss of the COF, over mu_0."""
-    knobs, half = main.knobs, runs.half(main)
-    more = runs.beside(main, knobs.coarser(3 * knobs.steps // 4, 3 * knobs.n_springs // 4))
-    least = HALF * _missed(half, runs.half(half)) / MOST_GAINED if knobs.steps >= 4 * RESOLVES else 0.0
-    return max(HALF * _missed(main, half), THREE_QUARTERS * _missed(main, more), least)
+    half = runs.half(main)
+    most = THREE_QUARTERS * _missed(main, runs.three_quarters(main))
+    least = THREE_QUARTERS * _missed(half, runs.three_quarters(half)) / MOST_GAINED
+    return max(HALF * _missed(main, half), most, least)
 
 
 def _of_unresolved(runs: _Runs, main: Steady) -> float:
