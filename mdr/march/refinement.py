@@ -4,8 +4,8 @@ A step is exact but for the parabolas that motion and body take in it, and a sum
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
 though they do not fall evenly, as events come at any place in a step. So beside a run go companions, with a half and
 with three quarters of both numbers. At second order the run differs from them by 3 and by 0.8 times its own error; the
-bound is the greater of 1.5 and 3 times these differences. A companion may agree by chance. So three quarters of the half
-bound the error of the half likewise, and an eighth of this is the least bound, as errors fall by no more.
+bound is the greater of 1.5 and 3 times these differences. A companion may agree by chance. So a run of three quarters
+of the half bounds the error of the half, and an eighth of this is the least bound, as errors fall by no more.
 Where the bound is more than is asked for, a run of half the steps and all springs tells which to double.
 
 Each run begins in the periodic state of one before it.
@@ -111,9 +111,9 @@ class _Runs:
         """The companion with half of the steps and springs."""
         return self.beside(main, main.knobs.coarser(main.knobs.steps // 2, main.knobs.n_springs // 2))
 
-    def three_quarters(self, main: Steady) -> Steady:
-        """The companion with three quarters of them."""
-        return self.beside(main, main.knobs.coarser(3 * main.knobs.steps // 4, 3 * main.knobs.n_springs // 4))
+    def same_scheme(self, one: Steady, knobs: Knobs) -> bool:
+        """Whether a body counts as light with these steps too, or with neither."""
+        return at_hand(self.case, knobs)[1].light == one.scaled.light
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
         if knobs not in self.ends:
@@ -126,6 +126,11 @@ class _Runs:
             self.ticker.tick()
             self.near = end if end.settling.solved and end.settling.settled else self.near
         return self.ends[knobs]
+
+
+def three_quarters(knobs: Knobs) -> Knobs:
+    """Three quarters of the steps and springs."""
+    return knobs.coarser(3 * knobs.steps // 4, 3 * knobs.n_springs // 4)
 
 
 def check_size(n_springs: int, steps: int, record: int) -> None:
@@ -217,10 +222,11 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
 
 def _difference(runs: _Runs, main: Steady) -> float:
     """Bound on what steps and springs miss of the COF, over mu_0."""
-    half = runs.half(main)
-    most = THREE_QUARTERS * _missed(main, runs.three_quarters(main))
-    least = THREE_QUARTERS * _missed(half, runs.three_quarters(half)) / MOST_GAINED
-    return max(HALF * _missed(main, half), most, least)
+    half, least = runs.half(main), 0.0
+    if runs.same_scheme(half, quarters := three_quarters(half.knobs)):
+        least = THREE_QUARTERS * _missed(half, runs.beside(half, quarters)) / MOST_GAINED
+    more = runs.beside(main, three_quarters(main.knobs))
+    return max(HALF * _missed(main, half), THREE_QUARTERS * _missed(main, more), least)
 
 
 def _of_unresolved(runs: _Runs, main: Steady) -> float:

@@ -15,6 +15,7 @@ du_z, below which springs never lose contact.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -100,6 +101,7 @@ def _springs_of(shape: Indenter, u_z0: float, stretch: _Stretch, n: int) -> tupl
     return stretch.x_lo + span * share, gap, 2 * span * part
 
 
+@lru_cache(maxsize=256)
 def _fejer(n: int) -> tuple[Array, Array]:
     """Nodes and weights on 0 to 1, (n,): (1 - cos theta)/2 at midpoints of theta; a sum of all Chebyshev moments."""
     from scipy.fft import dct

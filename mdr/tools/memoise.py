@@ -47,8 +47,10 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
                 frozen, names = _kind(type(one))  # type: ignore[arg-type]
                 if not frozen:
                     return function(*args)
-                if any(callable(getattr(one, name)) for name in names):
-                    holding.append(_Itself(one))
+                for name in names:
+                    if callable(getattr(one, name)):
+                        holding.append(_Itself(one))
+                        break
             return known(tuple(holding), *args)
 
         return call
