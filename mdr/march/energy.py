@@ -13,6 +13,8 @@ from mdr.tools.arrays import Array
 OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
 OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
 
+ROUNDING = 1e-12  #: of what is stored, mostly in the motion of the body
+
 
 @dataclass(frozen=True)
 class EnergyBalance:
@@ -59,7 +61,8 @@ def does_not_close(stepper: Stepper, account: PeriodRecord, error: float) -> str
     fastest = 1.0 if scaled.light else max(1.0, scaled.ringing)
     of_steps = OF_STEPS * (scaled.h * fastest) ** 2 * (balance.lost + of_friction)
     missing = abs(balance.residual)
-    if missing <= max(of_steps, OF_MEMORY * balance.lost) + error * of_friction:
+    rounding = ROUNDING * unit * max(account.stored)
+    if missing <= max(of_steps, OF_MEMORY * balance.lost) + error * of_friction + rounding:
         return ""
     return f"the energies of a period do not close: {missing:.2g} J are missing where {balance.lost:.2g} J are lost"
 

@@ -265,7 +265,8 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Or
     scaled, orbit = stepper.scaled, None
     if scaled.rigid and not scaled.remembers and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
-    if near is not None and near.settling.solved and not (from_full_slip and near.slips_fully):
+    known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
+    if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start = at_other_resolution(near.state, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else None
         orbit = search(stepper, (start,), gain_at_other_resolution(gain, near.scaled, scaled), near=True)

@@ -97,7 +97,7 @@ class _Runs:
         cost.
         """
         if self.near is None and self.fast and knobs.start == "full_slip":
-            coarsest = knobs.coarser(knobs.steps // 2, knobs.n_springs // 2)
+            coarsest = companions(knobs)[0]
             first = steady(self.case, self.v_0, coarsest, None, None, 1)
             if first.settling.solved and first.settling.settled:
                 self.ends[coarsest] = self.near = first
@@ -109,7 +109,7 @@ class _Runs:
 
     def half(self, main: Steady) -> Steady:
         """The companion with half of the steps and springs."""
-        return self.beside(main, main.knobs.coarser(main.knobs.steps // 2, main.knobs.n_springs // 2))
+        return self.beside(main, companions(main.knobs)[0])
 
     def same_scheme(self, one: Steady, knobs: Knobs) -> bool:
         """Whether a body counts as light with these steps too, or with neither."""
@@ -128,9 +128,11 @@ class _Runs:
         return self.ends[knobs]
 
 
-def three_quarters(knobs: Knobs) -> Knobs:
-    """Three quarters of the steps and springs."""
-    return knobs.coarser(3 * knobs.steps // 4, 3 * knobs.n_springs // 4)
+def companions(knobs: Knobs) -> tuple[Knobs, Knobs, Knobs]:
+    """Half of the steps and springs of a run, three quarters of them, and three eighths."""
+    eighths = ((k * knobs.steps // 8, k * knobs.n_springs // 8) for k in (4, 6, 3))
+    half, three_quarters, of_half = (knobs.coarser(*numbers) for numbers in eighths)
+    return half, three_quarters, of_half
 
 
 def check_size(n_springs: int, steps: int, record: int) -> None:
@@ -213,7 +215,7 @@ def _finer(runs: _Runs, main: Steady, free: tuple[bool, bool]) -> Knobs:
 
 def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
     """The knobs, with more steps where they are free and the contact too brief for those of companions."""
-    while not case.keeps_contact and not at_hand(case, knobs.coarser(knobs.steps // 2))[1].normal.mean > 0:
+    while not (case.keeps_contact or all(at_hand(case, one)[1].normal.mean > 0 for one in companions(knobs))):
         if not free or knobs.steps >= MOST_STEPS:
             raise too_coarse(knobs.steps)
         knobs = knobs._replace(steps=2 * knobs.steps)
@@ -222,10 +224,10 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
 
 def _difference(runs: _Runs, main: Steady) -> float:
     """Bound on what steps and springs miss of the COF, over mu_0."""
-    half, least = runs.half(main), 0.0
-    if runs.same_scheme(half, quarters := three_quarters(half.knobs)):
-        least = THREE_QUARTERS * _missed(half, runs.beside(half, quarters)) / MOST_GAINED
-    more = runs.beside(main, three_quarters(main.knobs))
+    (_, three_quarters, of_half), half, least = companions(main.knobs), runs.half(main), 0.0
+    if runs.same_scheme(half, of_half):
+        least = THREE_QUARTERS * _missed(half, runs.beside(half, of_half)) / MOST_GAINED
+    more = runs.beside(main, three_quarters)
     return max(HALF * _missed(main, half), THREE_QUARTERS * _missed(main, more), least)
 
 

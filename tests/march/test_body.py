@@ -120,4 +120,4 @@ def test_a_mass_that_is_not_resolved_goes_with_the_force():
 def test_a_rigid_pull_has_no_body():
     body = body_of(0.0, 0.0, math.inf, law_of(0.5), H, light=False)
     assert body.rigid
-    assert not (body.free.any() or body.area.any() or body.moment.any() or body.stuck.any())
+    assert not any(part.any() for part in (body.free, body.area, body.moment, body.stuck))

@@ -250,7 +250,8 @@ def test_the_scheme_is_of_second_order(T, alpha, chi, body):
 def test_energy_has_three_drives(T, body, at):
     case = contact("paraboloid", alpha=0.4, T=T, chi=1.5, body=body, at=at)
     account = mdr.slide(case, 1e-3, n_springs=64, steps_per_period=64).energy_balance
-    assert abs(account.relative) < 1e-9
+    # the path of a body within a step is taken for a cubic, which misses h^4 = 9e-5 times a thousandth
+    assert abs(account.relative) < (1e-9 if body is None else 1e-7)
     assert account.shake_work > 0.1 * account.friction_loss
 
 

@@ -13,7 +13,6 @@ import mdr
 from mdr import State
 from mdr.closed_forms import paper, rigid_pull
 from mdr.march import dimensionless, march
-from mdr.march.stepper import Stepper
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
 UNDAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6}
@@ -479,12 +478,14 @@ def test_a_slip_velocity_that_falls_with_every_finer_step_is_not_clear_of_stick(
 @pytest.mark.parametrize("pull", [mdr.RigidPull(), mdr.SpringPull(2e3, 0.02, 1.0)], ids=["rigid", "body"])
 def test_a_contact_that_begins_and_ends_within_a_step_has_a_friction_too(pull):
     """It presses for 2e-3 of phase about the instant at which it is deepest."""
-    phase = 0.01  # between the instants of coarse steps
+    phase = 0.01  # within the first step
     cos, sin = 2e-6 * math.cos(phase), 2e-6 * math.sin(phase)
     motion = mdr.PeriodicMotion(300.0, -2e-6 * math.cos(1e-3), (cos,), (sin,))
     case = mdr.SlidingContact(SHAPES["paraboloid"][0], mdr.Elastic(3e6, 0.4), 0.4, motion, pull)
     for v_0 in (0.2 * case.unit_velocity, case.unit_velocity):
-        given, run = mdr.slide(case, v_0, n_springs=32, steps_per_period=64), mdr.slide(case, v_0, n_springs=32)
+        with pytest.raises(ValueError, match="steps_per_period = 32 is too coarse"):
+            mdr.slide(case, v_0, n_springs=32, steps_per_period=32)
+        given, run = mdr.slide(case, v_0, n_springs=32, steps_per_period=512), mdr.slide(case, v_0, n_springs=32)
         assert run.settled
         assert abs(run.cof - given.cof) <= run.cof_error + given.cof_error
         assert math.isfinite(run.stick_share)
