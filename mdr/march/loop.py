@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
-from mdr.spring.step import SHEAR_WORK, Look, Path, Tools, fill, press, row
+from mdr.spring.step import ROUNDING, SHEAR_WORK, Look, Path, Tools, fill, press, row
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -22,7 +22,8 @@ _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 16  #: of the solution of a step
-CLOSE = 1e-14  #: of a step of the body, over its motion
+MOST_PLACES = 99  #: in the search for a zero of one unknown
+CLOSE = 1e-11  #: force that may be left in a step, over that of the springs: less than a search for a period asks
 
 
 class Motion(NamedTuple):
@@ -33,6 +34,14 @@ class Motion(NamedTuple):
     v: float  #: steady velocity of the pull
     x: Array  #: (n_t + 1,) way of a shake in the plane
     x_dot: Array  #: (n_t + 1,) its rate
+
+
+class Here(NamedTuple):
+    """The motion of the indenter in a step, without the body."""
+
+    path: Path
+    z_dot: float  #: its rates at the end, of which those of the parabolas are off by h²/12 of a third derivative
+    x_dot: float
 
 
 class Springs(NamedTuple):
@@ -110,7 +119,9 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
                 put(e, e_0)
                 put(s, s_0)
                 rest = later(path, flown)
-                path, _, _, _ = balance(e, s, e_0, s_0, held, body, springs, path, rest.z_1, rest.x_1, law, now)
+                here = Here(path, rest.z_1, rest.x_1)
+                path, _, _, found = balance(e, s, e_0, s_0, held, 0.0, body, springs, here, law, now)
+                solved, gained = solved and found, 0.0
                 if seen is not None:
                     look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, k, seen)
                 path, now = rest, tools_of(h - flown, law, tools)
@@ -122,7 +133,8 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
                 s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
             )
         elif body.light:
-            path, area, moment, found = balance(e, s, e_0, s_0, held, body, springs, path, zd, xd, law, now)
+            here = Here(path, zd, xd)
+            path, area, moment, found = balance(e, s, e_0, s_0, held, gained, body, springs, here, law, now)
         else:
             path, area, moment, found = answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools)
         solved = solved and found
@@ -152,9 +164,11 @@ def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
         area, moment, stuck, _, _, _ = row(
             s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
         )
-        off = y - y_free + body.area[0] * area + body.moment[0] * moment
-        off_rate = rate - rate_free + body.area[1] * area + body.moment[1] * moment
-        found = abs(off) + h * abs(off_rate) <= CLOSE * (abs(y) + h * (abs(rate) + motion.v) + h * h)
+        push = body.area[0] * area + body.moment[0] * moment
+        push_rate = body.area[1] * area + body.moment[1] * moment
+        off, off_rate = y - y_free + push, rate - rate_free + push_rate
+        least = ROUNDING * (abs(y) + h * (abs(rate) + motion.v))
+        found = abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
         if found:
             break
         share = stuck / h
@@ -167,37 +181,24 @@ def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
 
 
 @_jit
-def balance(e, s, e_0, s_0, held, body, springs, here, zd, xd, law, tools):
+def balance(e, s, e_0, s_0, held, gained, body, springs, here, law, tools):
     """A step of a light body: no impulse of all forces is left over it, and no force at its end.
 
-    here: motion of the indenter; zd, xd: its rates at the end. Newton's method on y at the end and u = y'' h²/2, by the
-    stiffness of what sticks, and half a step of it where that leads away. Returns path, area, moment and whether this
-    was solved; e, s, held are updated.
+    here: motion of the indenter; gained: as in `answer`. Newton's method on y at the end and u = y'' h²/2, by the
+    stiffness of what sticks; where other springs stick at every turn, `enclosed` finds them. Returns path, area, moment
+    and whether this was solved; e, s, held are updated.
     """
-    h, T, M, C, K, y_0, rate_0 = tools.h, law.T, body.M, body.C, body.K, held[Y], held[RATE]
+    h, T, M, C, K = tools.h, law.T, body.M, body.C, body.K
     stiff = 1.0 + glassy(law.arms)
-    found = False
-    y, u, y_was, u_was, least = y_0 + h * rate_0, 0.0, y_0, 0.0, np.inf
-    for turn in range(MOST_TURNS):
-        if turn > 0:
-            put(e_0, e)
-            put(s_0, s)
-        path = Path(here.z_0, here.z_1, here.z_2, here.x_1 + (y - y_0 - u) / h, here.x_2 + u / (h * h))
-        rate = (y - y_0 + u) / h
-        area, moment, stuck, when, end, sticking = row(
-            s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd + rate, None
-        )
-        impulse = M * (rate - rate_0) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
-        force = 2.0 * M * u / (h * h) + C * rate + K * y + end
-        size = abs(K * y) + abs(end) + (M / (h * h) + C / h + K) * (abs(y - y_0) + abs(u))
-        off = abs(impulse) + abs(force)
-        found = off <= CLOSE * size
+    y, u, found = held[Y] + h * (held[RATE] + 0.5 * gained), 0.5 * h * gained, False
+    for turn in range(MOST_TURNS + 1):
+        if turn == MOST_TURNS:
+            y, u = enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools)
+        path, rate, of, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
+        found = abs(impulse) + abs(force) <= close
         if found:
             break
-        if off > least:  # too far, as other springs stick there
-            y, u = 0.5 * (y + y_was), 0.5 * (u + u_was)
-            continue
-        y_was, u_was, least = y, u, off
+        _, _, stuck, when, _, sticking = of
         share, inertia = stuck / h, M / (h * h) + C / h
         a = inertia + 0.5 * (K + share * stiff) + T * share / h
         b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * when / h - stuck) / (h * h)
@@ -205,7 +206,72 @@ def balance(e, s, e_0, s_0, held, body, springs, here, zd, xd, law, tools):
         det = a * d - b * c
         y, u = y - (d * impulse - b * force) / det, u - (a * force - c * impulse) / det
     held[Y], held[RATE] = y, rate
-    return path, area, moment, found
+    return path, of[0], of[1], found
+
+
+@_jit
+def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
+    """What is left of impulse (over h) and force if a light body moves to y with u; e, s are updated.
+
+    Returns path, rate at the end, what the row answers, impulse, force, and how little of them is none.
+    """
+    put(e_0, e)
+    put(s_0, s)
+    h, M, C, K, y_0 = tools.h, body.M, body.C, body.K, held[Y]
+    still, rate = here.path, (y - y_0 + u) / h
+    path = Path(still.z_0, still.z_1, still.z_2, still.x_1 + (y - y_0 - u) / h, still.x_2 + u / (h * h))
+    of = row(s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, here.z_dot, here.x_dot + rate, None)
+    area, end = of[0], of[4]
+    impulse = M * (rate - held[RATE]) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
+    force = 2.0 * M * u / (h * h) + C * rate + K * y + end
+    size, slope = abs(K * y) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
+    close = CLOSE * (size + slope * (abs(y - y_0) + abs(u))) + ROUNDING * slope * abs(y)
+    return path, rate, of, impulse, force, close
+
+
+@_jit
+def steepest(body, law, h):
+    """The most by which force or impulse of a light body can change with its motion over a step."""
+    return body.M / (h * h) + (body.C + law.T) / h + body.K + 1.0 + glassy(law.arms)
+
+
+@_jit
+def enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools):
+    """y and u of a step of a light body by two searches, one within the other: the force at the end rises with y, and
+    where it is zero, the impulse falls as u grows.
+    """
+    y, u, slope = held[Y], 0.0, steepest(body, law, tools.h)
+    ends_y, ends_u = np.empty(4), np.full(4, np.nan)
+    for _ in range(MOST_PLACES):
+        ends_y[:] = np.nan
+        for _ in range(MOST_PLACES):
+            _, _, _, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
+            if abs(force) <= 0.1 * close:
+                break
+            y = next_place(y, force, slope, ends_y)
+        if abs(impulse) <= 0.9 * close:
+            break
+        u = next_place(u, -impulse, slope, ends_u)
+    return y, u
+
+
+@_jit
+def next_place(x, f, most, ends):
+    """Where to look next for the zero of a function, f at x, that rises by no more than `most`: ever farther until its
+    sign has changed, then by regula falsi (the Pegasus method).
+
+    ends (4,): a place on the other side of the zero and f there, then the last place and f there; NaN where there is
+    none yet. Updated.
+    """
+    a, f_a, b, f_b = ends
+    if f * f_b < 0.0:
+        a, f_a = b, f_b
+    else:
+        f_a *= f_b / (f_b + f)
+    ends[0], ends[1], ends[2], ends[3] = a, f_a, x, f
+    if not np.isnan(a):
+        return x - f * (x - a) / (f - f_a)
+    return x - f / most if np.isnan(b) else x + 4.0 * (x - b)
 
 
 @_jit
@@ -241,7 +307,7 @@ def flight_of(s, gap, path, law, tools):
 @_jit
 def look_at(s_0, e_0, s, e, springs, path, zd, xd, law, tools, k, seen):
     """A close look at a step from s_0, e_0 (which it uses up) to s, e; fills place k of seen. zd, xd: rates of the top
-    at the end, of which those of the parabolas are off by h²/12 of a third derivative.
+    at its end.
     """
     keeps = seen.mode.shape[0] > 0
     n = springs.gap.size

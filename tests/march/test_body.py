@@ -7,8 +7,12 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+import mdr
 from mdr.march.body import body_of, harmonics_of, light_harmonics_of
+from mdr.march.loop import march, next_place
+from mdr.march.march import Knobs, at_hand
 from mdr.spring.law import law_of
+from mdr.spring.settle import tools_for
 
 N = 64
 H = 2 * np.pi / N
@@ -120,4 +124,42 @@ def test_a_mass_that_is_not_resolved_goes_with_the_force():
 def test_a_rigid_pull_has_no_body():
     body = body_of(0.0, 0.0, math.inf, law_of(0.5), H, light=False)
     assert body.rigid
-    assert not any(part.any() for part in (body.free, body.area, body.moment, body.stuck))
+    for part in (body.free, body.area, body.moment, body.stuck):
+        assert not part.any()
+
+
+KELVIN, TAPPING = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=2e-3), mdr.NormalOscillation(5e-6, 8e-6, 314.0)
+#: indenter, material, motion, k_x
+LIGHT = {
+    "in flight": (mdr.Paraboloid(5e-3), mdr.Elastic(E=3e6, nu=0.5), TAPPING, 2e4),
+    "thrown as a flat touches": (mdr.FlatPunch(1e-3), KELVIN, TAPPING, 2e4),
+    "on a soft spring": (mdr.FlatPunch(1e-3), KELVIN, TAPPING, 2e2),
+    "thrown by each spring": (mdr.Paraboloid(5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=8e-3), TAPPING, 2e4),
+    "always in contact": (mdr.Paraboloid(5e-3), KELVIN, mdr.NormalOscillation(20e-6, 6e-6, 314.0), 2e4),
+}
+
+
+@pytest.mark.parametrize("steps", [256, 2048])
+@pytest.mark.parametrize(("indenter", "material", "motion", "k_x"), LIGHT.values(), ids=LIGHT)
+def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, steps):
+    """Newton's method alone leaves some of each: of a body in flight, whose force is zero, and of one that jolts."""
+    case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
+    _, scaled = at_hand(case, Knobs(64, steps, "full_slip", True))
+    for v in (0.05, 0.3, 0.8):
+        parts = scaled.body, scaled.springs, scaled.motion(v), scaled.law, tools_for(scaled.law, scaled.h)
+        s = scaled.normal.s.copy()
+        assert scaled.light
+        assert march(s.copy(), s, scaled.full_slip_state(v), *parts, 0, 2 * steps, scaled.trace(2), None)
+
+
+@pytest.mark.parametrize("at", [-3.0, 0.0, 1e-9, 7e2])
+def test_a_zero_beside_a_kink_is_found_from_afar(at):
+    def f(x):
+        return min(3.0 * (x - at), 1e-3 * (x - at)) + 1e-2 * np.tanh(x - at)
+
+    x, ends = 0.5, np.full(4, np.nan)
+    for _ in range(60):
+        if abs(f(x)) <= 1e-13 * (1 + abs(at)):
+            break
+        x = float(next_place(x, f(x), 4.0, ends))
+    assert_allclose(x, at, rtol=1e-12, atol=1e-11)
