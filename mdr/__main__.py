@@ -20,7 +20,8 @@ from typing import Any
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
-from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
+from mdr.commands.arguments import path_of
+from mdr.commands.output import DONE, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
@@ -66,7 +67,7 @@ def _run(args: argparse.Namespace) -> int:
         raise
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
-        return complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
+        return complain(f"{where}{str(fault) or type(fault).__name__}")
 
 
 class _Warnings:
@@ -78,7 +79,7 @@ class _Warnings:
     def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in self.said:
             self.said.add(str(message))
-            complain(f"warning: {message}", DONE)
+            complain(f"warning: {message}")
 
 
 def _read(args: argparse.Namespace) -> Any:

@@ -6,7 +6,8 @@ import argparse
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.commands.output import DONE, WrongInput, path_of, print_json, whole_number
+from mdr.commands.arguments import path_of, whole_number
+from mdr.commands.output import DONE, WrongInput, answer
 from mdr.files.case_files import read_case
 from mdr.files.toml_text import CaseFileError
 
@@ -43,14 +44,11 @@ def explore(args: argparse.Namespace, _: None) -> int:
         server, address = server_of(case, args.port)
     except OSError as taken:
         reason = taken.strerror or taken
-        raise WrongInput(
-            f"port {args.port} cannot be used ({reason}); give another, or --port 0 for a free one"
-        ) from None
+        way_out = "give another, or --port 0 for a free one"
+        raise WrongInput(f"port {args.port} cannot be used ({reason}); {way_out}") from None
     server.start()
-    if args.json:
-        print_json(args, {"address": address}, case)
-    else:
-        print(f"mdr explore: {address} on this machine alone; end it with Ctrl-C", flush=True)
+    served = f"mdr explore: {address} on this machine alone; end it with Ctrl-C"
+    answer(args, {"address": address}, served, case)
     if not args.no_browser:
         server.show("/")
     try:
