@@ -50,6 +50,10 @@ def whole_number(least: int, most: int) -> Callable[[str], int]:
     return read_as(f"a whole number from {least} to {most}", read)
 
 
+def no_options(_: argparse.ArgumentParser) -> None:
+    """None, of a command that takes a file alone, or nothing."""
+
+
 def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     """How accurate an answer is to be."""
     read = read_as("a number from 1e-8 to 1e-3", lambda text: accuracy_of(float(text)))
