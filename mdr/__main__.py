@@ -26,6 +26,7 @@ from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
 from mdr.normal.resolved import plausibility
+from mdr.studies.study_files import read_study_file
 
 JSON = "print one JSON object instead of text"
 #: name, work, summary, what reads its file, what adds its options
@@ -40,7 +41,7 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
     ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", read_case,
      judge.add_options),
     ("fit", fit.fit, "parameters of the case from measured friction over velocity", read_said, fit.add_options),
-    ("sweep", sweep.sweep, "a grid of cases, from a study file; the same call goes on after any end", sweep.read_study,
+    ("sweep", sweep.sweep, "a grid of cases, from a study file; the same call goes on after any end", read_study_file,
      sweep.add_options),
     ("explore", explore.explore, "a page in the browser to try a case with sliders", None, explore.add_options),
     ("shapes", begin.shapes, "the shapes, materials and motions that a file can name, and their keys", None,

@@ -8,8 +8,8 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
-from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
+import mdr
+from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import WrongInput
 from mdr.files.toml_text import StandardInput
 from mdr.march.march import BUDGET, accuracy_of
@@ -67,11 +67,11 @@ class Velocity(NamedTuple):
     number: float  #: in m/s, or a multiple of v_c
     of_v_c: bool
 
-    def on(self, case: SlidingContact) -> float:
+    def on(self, case: mdr.SlidingContact) -> float:
         """The velocity [m/s] for a case. Raises WrongInput for a multiple where v_c is infinite or zero."""
         if not self.of_v_c:
             return self.number
-        v_c = critical_velocity(case, -1 if self.number < 0 else 1)
+        v_c = mdr.critical_velocity(case, -1 if self.number < 0 else 1)
         if wrong := _no_scale(v_c):
             raise WrongInput(f"{self.number:g}v_c: {wrong}; give the velocity in m/s")
         return self.number * v_c
@@ -96,9 +96,9 @@ def velocity_in(usual: str) -> Callable[[str], Velocity]:
     return read_as("a velocity such as 1e-3, 1mm/s or 0.5v_c", read)
 
 
-def stand_in_of_v_c(case: SlidingContact) -> str:
+def stand_in_of_v_c(case: mdr.SlidingContact) -> str:
     """What stands in the place of v_c in a curve's velocities, in a sentence; empty where v_c does."""
-    wrong = _no_scale(critical_velocity(case))
+    wrong = _no_scale(mdr.critical_velocity(case))
     return wrong and f"{wrong}: velocities are multiples of {velocity_scale(case):.6g} m/s in its place"
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from mdr.case.contact import SlidingContact
+import numpy as np
+
+import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.arguments import (
     OF_V_C,
@@ -19,13 +20,9 @@ from mdr.commands.arguments import (
     velocity_in,
     whole_number,
 )
-from mdr.commands.output import DONE, WrongInput, answer, complain, text_of, values_of, velocity_text
+from mdr.commands.output import DONE, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import write_case
-
-if TYPE_CHECKING:
-    from mdr.friction.cof_curve import CofCurve
 
 POINTS, MOST_POINTS = 24, 100_000  #: of a curve
 UP_TO = Velocity(1.3, of_v_c=True)  #: highest velocity, unless asked otherwise
@@ -47,23 +44,21 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
 
 
-def curve(args: argparse.Namespace, case: SlidingContact) -> int:
+def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Compute the curve, write and print it; status 1 if a run did not settle."""
-    from mdr.friction.cof_curve import cof_curve
     from mdr.plots import style
 
     velocities = _velocities(args, case)
     folder = output_folder(args)  # before the work, not after it
-    found = cof_curve(case, velocities, accuracy=args.accuracy)
+    found = mdr.cof_curve(case, velocities, accuracy=args.accuracy)
     if folder is not None:
-        write_text(args, folder / "curve.csv", found.table(), "", write_case(case))
+        write_text(args, folder / "curve.csv", found.table(), "", mdr.write_case(case))
         with style():
             write_figure(args, folder / "curve", found.plot)
     ends = ends_of(case)
-    back = {"v_c_back": found.v_c_back} if case.is_shaken else {}
-    values = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof, **back, **values_of(ends)}
-    for name in ("v_0", "cof", "cof_error", "settled", "stick_share", "why"):
-        values[name] = list(getattr(found, name))
+    back = ["v_c_back"] if case.is_shaken else []
+    values = picked(found, "v_c", "mu_0", "static_cof", *back) | values_of(ends)
+    values |= picked(found, "v_0", "cof", "cof_error", "settled", "stick_share", "why")
     text = "\n".join([*_lines(found, equation_of(case)[0]), *([text_of(ends)] if ends else [])])
     answer(args, values, text, case)
     loose = [why for why, settled in zip(found.why, found.settled, strict=False) if not settled]
@@ -74,10 +69,8 @@ def curve(args: argparse.Namespace, case: SlidingContact) -> int:
     return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}")
 
 
-def _velocities(args: argparse.Namespace, case: SlidingContact) -> list[float]:
+def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[float]:
     """The velocities [m/s] asked for; says what their scale is where there is no v_c."""
-    import numpy as np
-
     if args.v_0 is not None:
         if args.points is not None:
             raise WrongInput("--points is for --up-to; --v-0 names every velocity")
@@ -100,7 +93,7 @@ def _highest(text: str) -> Velocity:
     return asked
 
 
-def _lines(curve: CofCurve, equation: str) -> Iterator[str]:
+def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:
     """The curve as a table."""
     back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
+import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.arguments import path_of, whole_number
 from mdr.commands.output import DONE, WrongInput, answer
-from mdr.files.case_files import read_case
 from mdr.files.examples import example
 
 PORT, HIGHEST_PORT = 5006, 65535
@@ -28,7 +28,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def explore(args: argparse.Namespace, _: None) -> int:
     """Serve the page on this machine alone, until Ctrl-C."""
-    case = example() if args.case is None else read_case(args.case)
+    case = example() if args.case is None else mdr.read_case(args.case)
     try:
         from mdr.explorer.server import server_of
     except ModuleNotFoundError as missing:

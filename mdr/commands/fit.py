@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import mdr
 from mdr.commands.arguments import path_of, read_as
-from mdr.commands.output import WrongInput, answer
+from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import Said, write_case
+from mdr.files.case_files import Said
 from mdr.files.toml_text import StandardInput
-
-if TYPE_CHECKING:
-    from mdr.friction.fit import Fit
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -32,8 +30,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def fit(args: argparse.Namespace, asked: Said) -> int:
     """Fit, write and print."""
-    import mdr
-
     if isinstance(args.data, StandardInput) and isinstance(args.case, StandardInput):
         raise WrongInput("- stands for the case and for the data: standard input can be read once, give a file for one")
     folder = output_folder(args)
@@ -44,23 +40,20 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
     if folder is not None:
-        write_text(args, folder / "fitted.toml", write_case(found.case), str(found))
+        write_text(args, folder / "fitted.toml", mdr.write_case(found.case), str(found))
         write_figure(args, folder / "fit", found.plot)
     return answer(args, _told(found), str(found), found.case)
 
 
-def _told(found: Fit) -> dict[str, Any]:
+def _told(found: mdr.Fit) -> dict[str, Any]:
     """What JSON says: no interval of what is not determined."""
     parameters = {}
     for name, value in found.values.items():
         known = name not in found.undetermined
         ends = {"low": found.low[name] if known else None, "high": found.high[name] if known else None}
         parameters[name] = {"value": value, **ends, "unit": found.units[name] or "-", "determined": known}
-    return {
-        "parameters": parameters, "confidence": found.confidence, "rms": found.rms,
-        "correlation": found.correlation.tolist(), "warnings": list(found.warnings),
-        "v_0": found.data.v_0.tolist(), "cof": found.data.cof.tolist(), "residuals": found.residuals.tolist(),
-    }  # fmt: skip
+    values = {"parameters": parameters, **picked(found, "confidence", "rms", "correlation", "warnings")}
+    return {**values, **picked(found.data, "v_0", "cof"), "residuals": found.residuals}
 
 
 def _bounds(text: str) -> tuple[str, tuple[float, float]]:

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
-from mdr.case.contact import SlidingContact
+import mdr
 from mdr.commands.arguments import add_accuracy, read_as
 from mdr.commands.output import DONE, FAILED, Told, answer, text_of, values_of
 from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
 from mdr.friction.verdict import WITHIN
-
-if TYPE_CHECKING:
-    from mdr.friction.measured_velocity import MeasuredVelocity
-    from mdr.friction.verdict import Verdict
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -29,12 +24,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add_accuracy_of_bracket(command)
 
 
-def measure(args: argparse.Namespace, case: SlidingContact) -> int:
+def measure(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Print v_c, its bracket and what showed it; status 1 where there is none."""
-    from mdr.friction.measured_velocity import measure_critical_velocity
-
     ways = {"forward": 1, "other way": -1} if case.is_shaken else {"v_c": 1}
-    found = {name: measure_critical_velocity(case, way, accuracy=args.accuracy) for name, way in ways.items()}
+    found = {name: mdr.measure_critical_velocity(case, way, accuracy=args.accuracy) for name, way in ways.items()}
     told, ends = [_measured(name, one) for name, one in found.items()], ends_of(case)
     back = {"other_way": values_of(told[1])} if case.is_shaken else {}
     text = "\n".join(text_of(part) for part in (*told, ends) if part)
@@ -42,11 +35,9 @@ def measure(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE if all(one.v_c is not None for one in found.values()) else FAILED
 
 
-def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
+def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Print the sentence and the numbers behind it."""
-    from mdr.friction import verdict as judgement
-
-    found, ends = judgement.verdict(case, within=args.within, accuracy=args.accuracy), ends_of(case)
+    found, ends = mdr.verdict(case, within=args.within, accuracy=args.accuracy), ends_of(case)
     ways = {"": found} if found.other_way is None else {"\nforward:": found, "\nthe other way:": found.other_way}
     told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()} | (
         {"\nat rest:": ends} if ends else {}
@@ -60,7 +51,7 @@ def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
     return DONE if all(known) else FAILED  # no v_c on a resonance is an answer
 
 
-def _measured(name: str, found: MeasuredVelocity) -> list[Told]:
+def _measured(name: str, found: mdr.MeasuredVelocity) -> list[Told]:
     known = found.low is not None and found.high is not None
     bracket = f"{found.low:.9g} to {found.high:.9g} m/s" if known else ""
     return [
@@ -72,7 +63,7 @@ def _measured(name: str, found: MeasuredVelocity) -> list[Told]:
     ]
 
 
-def _judged(found: Verdict, equation: str, how: str) -> list[Told]:
+def _judged(found: mdr.Verdict, equation: str, how: str) -> list[Told]:
     """The numbers of a verdict."""
     off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
     vanishes = found.eq_15 <= found.least

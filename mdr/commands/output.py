@@ -10,8 +10,6 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import mdr
-from mdr.case.contact import SlidingContact
-from mdr.files.case_files import write_case
 from mdr.tools.provenance import versions
 from mdr.tools.summary import lines_of
 
@@ -32,6 +30,11 @@ class Told(NamedTuple):
     meaning: str = ""
 
 
+def picked(record: Any, *names: str) -> dict[str, Any]:
+    """Some of the fields and properties of a record."""
+    return {name: getattr(record, name) for name in names}
+
+
 def values_of(found: Iterable[Told]) -> dict[str, Any]:
     """What JSON says of them."""
     return {one.key: one.value for one in found}
@@ -42,11 +45,11 @@ def text_of(found: Iterable[Told]) -> str:
     return "\n".join(lines_of([one[2:] for one in found if one.text]))
 
 
-def answer(args: argparse.Namespace, values: dict[str, Any], text: str, case: SlidingContact | None = None) -> int:
+def answer(args: argparse.Namespace, values: dict[str, Any], text: str, case: mdr.SlidingContact | None = None) -> int:
     """Print the text, or one JSON object: version, command, versions of all parts, the case and the values."""
     if args.json:
         head = {"version": mdr.__version__, "command": args.command, "made_with": versions()}
-        head |= {"case": write_case(case)} if case is not None else {}
+        head |= {"case": mdr.write_case(case)} if case is not None else {}
         text = json.dumps(_plain({**head, **values}), indent=1, allow_nan=False, ensure_ascii=False)
     print(text, flush=True)
     return DONE
@@ -68,11 +71,11 @@ def velocity_text(v: float | None) -> str:
 
 def _plain(value: Any) -> Any:
     """What JSON can say: null for what is undefined, "inf" for infinity, numbers of Python for those of NumPy."""
+    value = value.tolist() if hasattr(value, "tolist") else value
     if isinstance(value, dict):
         return {key: _plain(one) for key, one in value.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(one) for one in value]
-    value = value.item() if hasattr(value, "item") else value
     if isinstance(value, float) and not math.isfinite(value):
         return None if math.isnan(value) else str(value)
     return value

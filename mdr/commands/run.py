@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity
+import mdr
 from mdr.commands.arguments import add_accuracy, let_values_be_negative, velocity_in, whole_number
-from mdr.commands.output import DONE, WrongInput, answer, complain, velocity_text
+from mdr.commands.output import DONE, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import write_case
 from mdr.friction.cof_curve import LEAST_KNOB
-
-if TYPE_CHECKING:
-    from mdr.march.run import SlidingRun
 
 MOST = 100_000  #: springs, or steps of a period
 
@@ -39,31 +34,28 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def run(args: argparse.Namespace, case: SlidingContact) -> int:
+def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Run, write and print; status 1 if the run did not settle."""
-    from mdr.march.slide import slide
-
     v_0 = args.v_0.on(case)
     if v_0 <= 0 and not case.is_shaken:
         raise WrongInput(f"--v-0 must be above zero, got {v_0:.6g} m/s: `mdr velocity` has the limit at rest")
     folder = output_folder(args)  # before the work, not after it
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
-    found = slide(case, v_0, record=1, **knobs)
+    found = mdr.slide(case, v_0, record=1, **knobs)
     if folder is not None:
-        write_text(args, folder / "run.csv", found.table(), "", write_case(case))
+        write_text(args, folder / "run.csv", found.table(), "", mdr.write_case(case))
         write_figure(args, folder / "run", found.plot)
-    v_c = critical_velocity(case, -1 if v_0 < 0 else 1)
+    v_c = mdr.critical_velocity(case, -1 if v_0 < 0 else 1)
     text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
     answer(args, {"v_c": v_c, **_values(found)}, text, case)
     return DONE if found.settled else complain(f"the run did not settle\n  {found.why}")
 
 
-def _values(found: SlidingRun) -> dict[str, Any]:
+def _values(found: mdr.SlidingRun) -> dict[str, Any]:
     """The numbers of a run, without its arrays."""
-    names = (
-        "v_0", "mu_0", "cof", "cof_error", "settled", "kind", "why", "stick_share", "least_slip", "mean_F_x",
+    values = picked(
+        found, "v_0", "mu_0", "cof", "cof_error", "settled", "kind", "why", "stick_share", "least_slip", "mean_F_x",
         "mean_F_z", "n_springs", "steps_per_period", "n_periods",
     )  # fmt: skip
     spent = found.energy_balance
-    balance = {**asdict(spent), "residual": spent.residual}
-    return {name: getattr(found, name) for name in names} | {"energy_balance": balance}
+    return values | {"energy_balance": {**asdict(spent), "residual": spent.residual}}

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mdr
-from mdr.commands.output import DONE, INTERRUPTED, WrongInput, answer, complain
+from mdr.commands.output import DONE, INTERRUPTED, WrongInput, answer, complain, picked
 from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
+from mdr.studies import Status
+from mdr.studies.formats import packed, table
+from mdr.studies.study_files import StudyFile
 from mdr.tools.atomic_write import write_whole
-
-if TYPE_CHECKING:
-    from mdr.studies import Study
-    from mdr.studies.study_files import StudyFile
-
 
 FILES = ("study.nc", "study.csv", "study.png", "study.svg")
 
@@ -27,13 +25,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
     seconds = "work in a chunk [s] (default: 5)"
     command.add_argument("--chunk-seconds", type=float, default=5.0, metavar="s", help=seconds)
     command.add_argument("--shard", metavar="k/n", help="compute every n-th chunk, from the k-th on; needs --store")
-
-
-def read_study(path: str) -> StudyFile:
-    """Read the study file."""
-    from mdr.studies.study_files import read_study_file
-
-    return read_study_file(path)
 
 
 def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
@@ -78,10 +69,8 @@ def _is_file(output: Path) -> bool:
     return output.suffix in (".nc", ".csv") and not output.is_dir()
 
 
-def _write(args: argparse.Namespace, study: Study) -> None:
+def _write(args: argparse.Namespace, study: mdr.Study) -> None:
     """The study, and the picture of its first quantity, where it has few enough axes for one."""
-    from mdr.studies.formats import packed, table
-
     files = [args.output] if _is_file(args.output) else [args.output / name for name in FILES[:2]]
     for path in files:
         if path.suffix == ".csv":
@@ -94,26 +83,20 @@ def _write(args: argparse.Namespace, study: Study) -> None:
         complain(f"no picture: {fault}")
 
 
-def _told(study: Study) -> dict[str, Any]:
-    from mdr.studies import Status
-
+def _told(study: mdr.Study) -> dict[str, Any]:
+    grid = study.frame.grid
+    axes = {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))] for axis in grid}
     return {
-        "case": study.case,
-        "identity": study.identity,
-        "complete": study.complete,
+        **picked(study, "case", "identity", "complete"),
         "counts": {status.name.lower(): study.count(status) for status in Status},
-        "axes": {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))]
-                 for axis in study.frame.grid},
+        "axes": axes,
         "units": study.units,
-        "values": {name: study[name].tolist() for name in study.quantities},
-        "status": study.status.tolist(),
-        "why": study.why.tolist(),
-    }  # fmt: skip
+        "values": {name: study[name] for name in study.quantities},
+        **picked(study, "status", "why"),
+    }
 
 
-def _end(args: argparse.Namespace, study: Study) -> int:
-    from mdr.studies import Status
-
+def _end(args: argparse.Namespace, study: mdr.Study) -> int:
     failed, unsettled = study.count(Status.FAILED), study.count(Status.UNSETTLED)
     if failed or unsettled:
         return complain(f"{failed} of {study.status.size} points failed, {unsettled} did not settle")

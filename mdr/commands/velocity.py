@@ -7,19 +7,19 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
+import mdr
+from mdr.closed_forms.critical_velocity import formula_of
+from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
-from mdr.friction.shaken import HoldingBand, band_of_pull, blocked_cof, holding_band, no_load_velocity
+from mdr.friction.shaken import band_of_pull
 from mdr.normal.doubts import edge, frequencies
-from mdr.normal.resolved import resolved
 
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts
 
 
-def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
+def velocity(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Print Eq. (15) and what stands beside it."""
-    known, kappa, loss = resolved(case), case.material.mindlin_ratio, float(case.material.loss_tangent(case.omega))
+    known, kappa, loss = mdr.resolved(case), case.material.mindlin_ratio, float(case.material.loss_tangent(case.omega))
     contact = "kept" if known.keeps_contact else "lost in part of the period"
     amplitude, shake = "amplitude of the depth over the mean depth, du_z/u_z0", "amplitude of the shake"
     tangent = "loss tangent of the material at omega; omega tau of a Kelvin body"
@@ -37,28 +37,25 @@ def velocity(args: argparse.Namespace, case: SlidingContact) -> int:
     return answer(args, values_of(told), text_of(told), case)
 
 
-def _velocities(case: SlidingContact) -> list[Told]:
+def _velocities(case: mdr.SlidingContact) -> list[Told]:
     """The critical velocities and friction at rest; of a contact shaken in the plane, for each way of the pull."""
-    from mdr.closed_forms.full_slip import static_cof
-    from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-
     equation, how = equation_of(case)
     forward = (
         ("forward", f"critical velocity by {equation} {how}")
         if case.is_shaken
         else (equation, f"critical velocity, {how}")
     )
-    one = " forward" if case.is_shaken else ""
+    full = f"critical velocity{' forward' if case.is_shaken else ''}, any amplitude, {HARMONICS}"
     told = [Told("equation", equation)]
     for key, solve, name, meaning in (
-        ("v_c", critical_velocity, *forward),
-        ("full_slip", full_slip_critical_velocity, "full slip", f"critical velocity{one}, any amplitude, {HARMONICS}"),
+        ("v_c", mdr.critical_velocity, *forward),
+        ("full_slip", mdr.full_slip_critical_velocity, "full slip", full),
     ):
         told.append(told_velocity(key, solve(case), name, meaning))
         if case.is_shaken:
             told.append(told_velocity(f"{key}_back", solve(case, -1), "other way", "the same, pulled the other way"))
     if not case.is_shaken:
-        static = static_cof(case)
+        static = mdr.static_cof(case)
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}"
         told.append(Told("static_cof", static, "static COF", f"{static:.6g}", rest))
     return [*told, Told("mu_0", case.mu_0), *ends_of(case)]
@@ -69,10 +66,8 @@ def told_velocity(key: str, v: float | None, name: str, meaning: str) -> Told:
     return Told(key, v, name, velocity_text(v), meaning)
 
 
-def _size(known: SlidingContact) -> list[Told]:
+def _size(known: mdr.SlidingContact) -> list[Told]:
     """The numbers by which a mistake in a case file shows: how large, how steep, how loaded, how stiff."""
-    from mdr.closed_forms.full_slip import mean_normal_force
-
     d, load = known.contact_depth, mean_normal_force(known)
     a, slope = edge(known.indenter, d)
     k_zc = float(known.indenter.stiffness(d, known.material.E_star))
@@ -96,15 +91,15 @@ def _size(known: SlidingContact) -> list[Told]:
     ]
 
 
-def ends_of(case: SlidingContact) -> list[Told]:
+def ends_of(case: mdr.SlidingContact) -> list[Told]:
     """The ends of the characteristic of a contact shaken in the plane, in words what is not known; none of others."""
     if not case.is_shaken:
         return []
-    band, standing = holding_band(case), "mean F_x over mean F_z at rest, under a rigid pull that stands still"
+    band, standing = mdr.holding_band(case), "mean F_x over mean F_z at rest, under a rigid pull that stands still"
     blocked, force, own = _asked(lambda: _at_rest(case), _span, "the same under its own pull, standing still")
     unloaded = "velocity at which it runs by itself, where no force holds it"
-    free, velocity, alone = _asked(lambda: no_load_velocity(case), velocity_text, unloaded)
-    held = blocked if isinstance(blocked, HoldingBand) else None
+    free, velocity, alone = _asked(lambda: mdr.no_load_velocity(case), velocity_text, unloaded)
+    held = blocked if isinstance(blocked, mdr.HoldingBand) else None
     return [
         Told("holding_band", [band.low, band.high], "band", _span(band), standing),
         Told("blocked_cof", None if held else blocked, "blocked", force, own),
@@ -122,20 +117,20 @@ def _asked(ask: Callable[[], Any], write: Callable[[Any], str], meaning: str) ->
     return found, write(found), meaning
 
 
-def _at_rest(case: SlidingContact) -> float | HoldingBand:
+def _at_rest(case: mdr.SlidingContact) -> float | mdr.HoldingBand:
     """Friction where its own pull stands still."""
-    held = band_of_pull(resolved(case))
-    return blocked_cof(case) if held.is_one_number else held
+    held = band_of_pull(mdr.resolved(case))
+    return mdr.blocked_cof(case) if held.is_one_number else held
 
 
-def _span(held: HoldingBand | float) -> str:
+def _span(held: mdr.HoldingBand | float) -> str:
     """A band of forces, or one force."""
-    if not isinstance(held, HoldingBand):
+    if not isinstance(held, mdr.HoldingBand):
         return f"{held:.6g}"
     return f"{held.high:.6g} (one value)" if held.is_one_number else f"{held.low:.6g} to {held.high:.6g}"
 
 
-def equation_of(case: SlidingContact) -> tuple[str, str]:
+def equation_of(case: mdr.SlidingContact) -> tuple[str, str]:
     """Number and circumstances of the closed form."""
     number, closing, rest = formula_of(case).partition(")")
     usual = "" if case.is_shaken else "contact stiffness at the mean depth"
