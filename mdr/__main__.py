@@ -20,13 +20,36 @@ from typing import Any
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
-from mdr.commands.output import DONE, FAILED, INTERRUPTED, WRONG_INPUT, WrongInput, complain, path_of
+from mdr.commands.arguments import no_options, path_of
+from mdr.commands.output import DONE, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
 from mdr.normal.resolved import plausibility
+from mdr.studies.study_files import read_study_file
 
 JSON = "print one JSON object instead of text"
+#: name, work, summary, what reads its file, what adds its options
+COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None, Callable[[Any], None]], ...] = (
+    ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run", read_case,
+     no_options),
+    ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip", read_case,
+     run.add_options),
+    ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation", read_case,
+     curve.add_options),
+    ("measure", judge.measure, "critical velocity from simulation alone", read_case, judge.add_accuracy_of_bracket),
+    ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", read_case,
+     judge.add_options),
+    ("fit", fit.fit, "parameters of the case from measured friction over velocity", read_said, fit.add_options),
+    ("sweep", sweep.sweep, "a grid of cases, from a study file; the same call goes on after any end", read_study_file,
+     sweep.add_options),
+    ("explore", explore.explore, "a page in the browser to try a case with sliders", None, explore.add_options),
+    ("shapes", begin.shapes, "the shapes, materials and motions that a file can name, and their keys", None,
+     no_options),
+    ("case", begin.case, "a commented case file to begin with", None, begin.add_options),
+    ("completion", completion.completion, "a script that completes commands and options in the shell", None,
+     completion.add_options),
+)  # fmt: skip
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
 
 
@@ -60,13 +83,13 @@ def _run(args: argparse.Namespace) -> int:
             status = work(args, _read(args) if args.read else None)
         sys.stdout.flush()  # a full disk shows here
         return status
-    except WrongInput as fault:
+    except (WrongInput, CaseFileError) as fault:
         return complain(str(fault), WRONG_INPUT)
     except BrokenPipeError:
         raise
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
-        return complain(f"{where}{str(fault) or type(fault).__name__}", FAILED)
+        return complain(f"{where}{str(fault) or type(fault).__name__}")
 
 
 class _Warnings:
@@ -78,15 +101,12 @@ class _Warnings:
     def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in self.said:
             self.said.add(str(message))
-            complain(f"warning: {message}", DONE)
+            complain(f"warning: {message}")
 
 
 def _read(args: argparse.Namespace) -> Any:
     """What the file describes; what is unlikely of it is warned of."""
-    try:
-        case = args.read(args.case)
-    except CaseFileError as fault:
-        raise WrongInput(str(fault)) from None
+    case = args.read(args.case)
     base = case if isinstance(case, SlidingContact) else getattr(case, "case", None)  # of a study
     for doubt in plausibility(base) if base is not None else ():
         warn_outside(doubt)
@@ -104,46 +124,17 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--json", action="store_true", help=JSON)
     top.add_argument("--version", action="version", version=f"mdr {mdr.__version__}")
     commands = top.add_subparsers(metavar="command")
-    with_case: list[tuple[str, Callable[..., int], str, Callable[[argparse.ArgumentParser], None] | None]] = [
-        ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run", None),
-        ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip", run.add_options),
-        ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation", curve.add_options),
-        ("measure", judge.measure, "critical velocity from simulation alone", judge.add_accuracy_of_bracket),
-        ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", judge.add_options),
-        ("fit", fit.fit, "parameters of the case from measured friction over velocity", fit.add_options),
-    ]
-    for name, work, summary, add_options in with_case:
-        command = _command(commands, name, work, summary)
-        read = read_said if name == "fit" else read_case  # what a fit varies leaves what the file says
-        _takes_file(command, "case.toml", "the case file; docs/example.toml is one", read)
-        if add_options is not None:
-            add_options(command)
-    study = "a grid of cases, from a study file; the same call goes on after any end"
-    command = _command(commands, "sweep", sweep.sweep, study)
-    _takes_file(command, "study.toml", "the study file; docs/study.toml is one", sweep.read_study)
-    sweep.add_options(command)
-    page = "a page in the browser to try a case with sliders"
-    explore.add_options(_command(commands, "explore", explore.explore, page))
-    named = "the shapes, materials and motions that a file can name, and their keys"
-    _command(commands, "shapes", begin.shapes, named)
-    begin.add_options(_command(commands, "case", begin.case, "a commented case file to begin with"))
-    shell = "a script that completes commands and options in the shell"
-    completion.add_options(_command(commands, "completion", completion.completion, shell), top)
+    for name, work, summary, read, add_options in COMMANDS:
+        command = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+        command.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help=JSON)
+        command.set_defaults(work=work, read=read, top=top)
+        if read is not None:
+            file, shown = ("study", "study.toml") if name == "sweep" else ("case", "example.toml")
+            meaning = f"the {file} file; docs/{shown} is one; - is standard input"
+            command.add_argument("case", metavar=f"{file}.toml", type=path_of, help=meaning)
+            command.usage = f"%(prog)s {file}.toml [options]"  # a list of values would take the file for one
+        add_options(command)
     return top
-
-
-def _command(commands: Any, name: str, work: Callable[..., int], summary: str) -> argparse.ArgumentParser:
-    """One command, which reads no file as yet."""
-    command: argparse.ArgumentParser = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
-    command.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help=JSON)
-    command.set_defaults(work=work)
-    return command
-
-
-def _takes_file(command: argparse.ArgumentParser, name: str, meaning: str, read: Callable[[str], Any]) -> None:
-    command.add_argument("case", metavar=name, type=path_of, help=f"{meaning}; - is standard input")
-    command.set_defaults(read=read)
-    command.usage = f"%(prog)s {name} [options]"  # an option with a list of values would take the file for one
 
 
 if __name__ == "__main__":

@@ -4,89 +4,73 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
 
-from mdr.case.contact import SlidingContact
+import numpy as np
+
+import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.commands.output import (
-    DONE,
-    FAILED,
-    WrongInput,
-    add_accuracy,
-    add_output,
-    complain,
-    output_folder,
-    print_json,
-    print_rows,
-    velocity_text,
-    whole_number,
-    write_figure,
-    write_table,
-)
-from mdr.commands.velocities import (
+from mdr.commands.arguments import (
     OF_V_C,
     Velocity,
+    add_accuracy,
     let_values_be_negative,
+    read_as,
     stand_in_of_v_c,
     velocity_in,
+    whole_number,
 )
-from mdr.commands.velocity import Ends, equation_of
+from mdr.commands.output import DONE, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
+from mdr.commands.velocity import ends_of, equation_of
+from mdr.commands.written import add_output, output_folder, write_figure, write_text
 
-if TYPE_CHECKING:
-    from mdr.friction.cof_curve import CofCurve
-
-FILES = ("curve.csv", "curve.png", "curve.svg")
 POINTS, MOST_POINTS = 24, 100_000  #: of a curve
 UP_TO = Velocity(1.3, of_v_c=True)  #: highest velocity, unless asked otherwise
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Where to write, and over which velocities."""
-    add_output(command, FILES)
+    add_output(command, "curve.csv", "curve.png", "curve.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
     points = whole_number(2, MOST_POINTS)
     command.add_argument("--points", metavar="n", type=points, help=f"how many velocities (default: {POINTS})")
     which = command.add_mutually_exclusive_group()
     highest = f"highest velocity, over v_c or with a unit: 1.3, 5mm/s (default: {UP_TO.number:g})"
-    which.add_argument("--up-to", metavar="velocity", type=_highest, default=UP_TO, help=highest)
+    above = read_as("above zero", _highest)
+    which.add_argument("--up-to", metavar="velocity", type=above, default=UP_TO, help=highest)
     listed = "these velocities, in m/s, with a unit or over the v_c of their way: 1e-3 2mm/s 0.5v_c"
     which.add_argument("--v-0", metavar="velocity", type=velocity_in("m/s"), nargs="+", help=listed)
     let_values_be_negative(command)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
 
 
-def curve(args: argparse.Namespace, case: SlidingContact) -> int:
+def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Compute the curve, write and print it; status 1 if a run did not settle."""
-    import numpy as np
-
-    from mdr.friction.cof_curve import cof_curve
+    from mdr.plots import style
 
     velocities = _velocities(args, case)
-    folder = output_folder(args, FILES)  # before the work, not after it
-    found = cof_curve(case, velocities, accuracy=args.accuracy)
+    folder = output_folder(args)  # before the work, not after it
+    found = mdr.cof_curve(case, velocities, accuracy=args.accuracy)
     if folder is not None:
-        write_table(args, case, folder / "curve.csv", found.table())
-        _write_figures(args, found)
-    if args.json:
-        scalars: dict[str, Any] = {"v_c": found.v_c, "mu_0": found.mu_0, "static_cof": found.static_cof}
-        if case.is_shaken:
-            scalars |= {"v_c_back": found.v_c_back, **Ends.of(case).values}
-        print_json(args, scalars | _columns(found), case)
-    else:
-        _print_curve(found, equation_of(case)[0])
-        if case.is_shaken:
-            print_rows(Ends.of(case).rows)
-    unsettled = int(np.sum(~found.settled))
-    if unsettled:
-        reasons = "".join(f"\n  {why}" for why in dict.fromkeys(_loose_ends(found)))
-        return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}", FAILED)
-    return DONE
+        write_text(args, folder / "curve.csv", found.table(), "", mdr.write_case(case))
+        with style():
+            write_figure(args, folder / "curve", found.plot)
+    ends = ends_of(case)
+    back = ["v_c_back"] if case.is_shaken else []
+    values = picked(found, "v_c", "mu_0", "static_cof", *back) | values_of(ends)
+    values |= picked(found, "v_0", "cof", "cof_error", "settled", "stick_share", "why")
+    text = "\n".join([*_lines(found, equation_of(case)[0]), *([text_of(ends)] if ends else [])])
+    answer(args, values, text, case)
+    loose = [why for why, settled in zip(found.why, found.settled, strict=False) if not settled]
+    unsettled = found.settled.size - int(found.settled.sum())
+    if not unsettled:
+        return DONE
+    reasons = "".join(f"\n  {why}" for why in dict.fromkeys(loose) if why)
+    return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}")
 
 
-def _velocities(args: argparse.Namespace, case: SlidingContact) -> list[float]:
+def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[float]:
     """The velocities [m/s] asked for; says what their scale is where there is no v_c."""
-    import numpy as np
-
     if args.v_0 is not None:
         if args.points is not None:
             raise WrongInput("--points is for --up-to; --v-0 names every velocity")
@@ -96,7 +80,7 @@ def _velocities(args: argparse.Namespace, case: SlidingContact) -> list[float]:
         return given
     asked = args.up_to
     if asked.of_v_c and (said := stand_in_of_v_c(case)):
-        complain(said, DONE)
+        complain(said)
     forward, back = (asked.number * (velocity_scale(one) if asked.of_v_c else 1) for one in (case, case.mirrored))
     found: list[float] = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS).tolist()
     return found
@@ -105,41 +89,20 @@ def _velocities(args: argparse.Namespace, case: SlidingContact) -> list[float]:
 def _highest(text: str) -> Velocity:
     asked = velocity_in(OF_V_C)(text)
     if asked.number <= 0:
-        raise argparse.ArgumentTypeError(f"must be above zero, got {text!r}")
+        raise ValueError
     return asked
 
 
-def _columns(curve: CofCurve) -> dict[str, Any]:
-    names = ("v_0", "cof", "cof_error", "settled", "stick_share")
-    return {name: getattr(curve, name).tolist() for name in names} | {"why": list(curve.why)}
-
-
-def _loose_ends(curve: CofCurve) -> list[str]:
-    """Why the unsettled runs did not settle."""
-    return [why for why, settled in zip(curve.why, curve.settled, strict=False) if why and not settled]
-
-
-def _print_curve(curve: CofCurve, equation: str) -> None:
+def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:
+    """The curve as a table."""
     back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
     known = f"mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
-    print(f"v_c = {velocity_text(curve.v_c)}{back} by {equation}, {known}")
-    print(f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled")
+    yield f"v_c = {velocity_text(curve.v_c)}{back} by {equation}, {known}"
+    yield f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled"
     columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled)
     for v_0, cof, error, stick, settled in zip(*columns, strict=True):
         v_c = curve.v_c_back if v_0 < 0 and curve.v_c_back is not None else curve.v_c  # of the way it is pulled
         ratio = f"{v_0 / v_c:8.4f}" if math.isfinite(v_c) and v_c > 0 else f"{'-':>8}"
         end = "yes" if settled else "no"
-        print(f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}")
-
-
-def _write_figures(args: argparse.Namespace, curve: CofCurve) -> None:
-    """curve.png and curve.svg, drawn without a display."""
-    from matplotlib.figure import Figure
-
-    from mdr import plots
-
-    with plots.style():
-        figure = Figure()
-        plots.plot_curve(curve, figure.subplots())
-        write_figure(args, figure, args.output, "curve")
+        yield f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}"

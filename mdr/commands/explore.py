@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from mdr.case.contact import SlidingContact
+import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.commands.output import DONE, WrongInput, path_of, print_json, whole_number
-from mdr.files.case_files import read_case
-from mdr.files.toml_text import CaseFileError
+from mdr.commands.arguments import path_of, whole_number
+from mdr.commands.output import DONE, WrongInput, answer
+from mdr.files.examples import example
 
 PORT, HIGHEST_PORT = 5006, 65535
 INSTALL = (
@@ -28,7 +28,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def explore(args: argparse.Namespace, _: None) -> int:
     """Serve the page on this machine alone, until Ctrl-C."""
-    case = _case(args.case)
+    case = example() if args.case is None else mdr.read_case(args.case)
     try:
         from mdr.explorer.server import server_of
     except ModuleNotFoundError as missing:
@@ -43,14 +43,11 @@ def explore(args: argparse.Namespace, _: None) -> int:
         server, address = server_of(case, args.port)
     except OSError as taken:
         reason = taken.strerror or taken
-        raise WrongInput(
-            f"port {args.port} cannot be used ({reason}); give another, or --port 0 for a free one"
-        ) from None
+        way_out = "give another, or --port 0 for a free one"
+        raise WrongInput(f"port {args.port} cannot be used ({reason}); {way_out}") from None
     server.start()
-    if args.json:
-        print_json(args, {"address": address}, case)
-    else:
-        print(f"mdr explore: {address} on this machine alone; end it with Ctrl-C", flush=True)
+    served = f"mdr explore: {address} on this machine alone; end it with Ctrl-C"
+    answer(args, {"address": address}, served, case)
     if not args.no_browser:
         server.show("/")
     try:
@@ -58,12 +55,3 @@ def explore(args: argparse.Namespace, _: None) -> int:
     except KeyboardInterrupt:  # how it is meant to end
         server.stop()
     return DONE
-
-
-def _case(path: str | None) -> SlidingContact:
-    from mdr.files.examples import example
-
-    try:
-        return read_case(path) if path is not None else example()
-    except CaseFileError as fault:
-        raise WrongInput(str(fault)) from None

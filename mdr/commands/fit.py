@@ -3,85 +3,60 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from mdr.commands.output import DONE, WrongInput, add_output, made_by, output_folder, path_of, print_json, write_figure
-from mdr.files.case_files import Said, write_case
+import mdr
+from mdr.commands.arguments import path_of, read_as
+from mdr.commands.output import WrongInput, answer, picked
+from mdr.commands.written import add_output, output_folder, write_figure, write_text
+from mdr.files.case_files import Said
 from mdr.files.toml_text import StandardInput
-from mdr.tools.atomic_write import write_whole
-from mdr.tools.provenance import commented
-
-if TYPE_CHECKING:
-    from mdr.friction.fit import Fit
-
-FILES = ("fitted.toml", "fit.png", "fit.svg")
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The data, what is fitted to them, and where to write."""
-    command.add_argument(
-        "data", metavar="data.csv", type=path_of, help="measured friction: columns v_0 [mm/s], cof and, if known, error"
-    )
+    columns = "measured friction: columns v_0 [mm/s], cof and, if known, error"
+    command.add_argument("data", metavar="data.csv", type=path_of, help=columns)
     command.usage = "%(prog)s case.toml data.csv --free name [name ...] [options]"
     what = "parameters to fit, such as mu_0 material.tau; the case says where the search begins"
     command.add_argument("--free", metavar="name", nargs="+", required=True, help=what)
+    bounds = read_as("name=low:high, such as material.tau=1e-5:1e-1", _bounds)
     between = "lowest and highest value of a parameter, in SI: material.tau=1e-5:1e-1"
-    command.add_argument("--bounds", metavar="name=low:high", nargs="+", type=_bounds, default=[], help=between)
+    command.add_argument("--bounds", metavar="name=low:high", nargs="+", type=bounds, default=[], help=between)
     level = "level of the intervals (default: 0.95)"
     command.add_argument("--confidence", metavar="share", type=float, default=0.95, help=level)
-    add_output(command, FILES)
+    add_output(command, "fitted.toml", "fit.png", "fit.svg")
 
 
 def fit(args: argparse.Namespace, asked: Said) -> int:
     """Fit, write and print."""
-    import mdr
-
     if isinstance(args.data, StandardInput) and isinstance(args.case, StandardInput):
         raise WrongInput("- stands for the case and for the data: standard input can be read once, give a file for one")
-    folder = output_folder(args, FILES)
+    folder = output_folder(args)
     try:
         data = mdr.read_friction_data(args.data)
-        found = mdr.fit(
-            asked.case, data, args.free, bounds=dict(args.bounds), confidence=args.confidence, held=asked.held
-        )
+        knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
+        found = mdr.fit(asked.case, data, args.free, **knobs)
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
     if folder is not None:
-        _write(args, found)
-    if args.json:
-        return print_json(args, _told(found), found.case)
-    print(found)
-    return DONE
+        write_text(args, folder / "fitted.toml", mdr.write_case(found.case), str(found))
+        write_figure(args, folder / "fit", found.plot)
+    return answer(args, _told(found), str(found), found.case)
 
 
-def _told(found: Fit) -> dict[str, Any]:
+def _told(found: mdr.Fit) -> dict[str, Any]:
     """What JSON says: no interval of what is not determined."""
     parameters = {}
     for name, value in found.values.items():
         known = name not in found.undetermined
         ends = {"low": found.low[name] if known else None, "high": found.high[name] if known else None}
         parameters[name] = {"value": value, **ends, "unit": found.units[name] or "-", "determined": known}
-    return {
-        "parameters": parameters, "confidence": found.confidence, "rms": found.rms,
-        "correlation": found.correlation.tolist(), "warnings": list(found.warnings),
-        "v_0": found.data.v_0.tolist(), "cof": found.data.cof.tolist(), "residuals": found.residuals.tolist(),
-    }  # fmt: skip
-
-
-def _write(args: argparse.Namespace, found: Fit) -> None:
-    import matplotlib as mpl
-
-    text = commented(made_by(args), str(found)) + write_case(found.case)
-    write_whole(args.output / "fitted.toml", text.encode("utf-8"))
-    mpl.use("Agg")  # no display is needed
-    write_figure(args, found.plot().figure, args.output, "fit")
+    values = {"parameters": parameters, **picked(found, "confidence", "rms", "correlation", "warnings")}
+    return {**values, **picked(found.data, "v_0", "cof"), "residuals": found.residuals}
 
 
 def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     name, _, ends = text.partition("=")
-    try:
-        low, high = (float(end) for end in ends.split(":"))
-    except ValueError:
-        wrong = f"must be name=low:high, such as material.tau=1e-5:1e-1, got {text!r}"
-        raise argparse.ArgumentTypeError(wrong) from None
+    low, high = (float(end) for end in ends.split(":"))
     return name, (low, high)

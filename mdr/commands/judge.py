@@ -3,34 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import math
-from typing import TYPE_CHECKING, Any
 
-from mdr.case.contact import SlidingContact
-from mdr.commands.output import DONE, FAILED, add_accuracy, print_json, print_rows, velocity_text
-from mdr.commands.velocity import Ends, equation_of
+import mdr
+from mdr.commands.arguments import add_accuracy, read_as
+from mdr.commands.output import DONE, FAILED, Told, answer, text_of, values_of
+from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
 from mdr.friction.verdict import WITHIN
-
-if TYPE_CHECKING:
-    from mdr.friction.verdict import Verdict
-
-
-def measure(args: argparse.Namespace, case: SlidingContact) -> int:
-    """Print v_c, its bracket and what showed it; status 1 where there is none."""
-    from mdr.friction.measured_velocity import measure_critical_velocity
-
-    ways = (1, -1) if case.is_shaken else (1,)
-    measured = [measure_critical_velocity(case, way, accuracy=args.accuracy) for way in ways]
-    if args.json:
-        told = [{name: getattr(one, name) for name in ("v_c", "low", "high", "kind", "why")} for one in measured]
-        more = {"other_way": told[1], **Ends.of(case).values} if case.is_shaken else {}
-        print_json(args, told[0] | more, case)
-    else:
-        for name, found in zip(("forward", "other way") if case.is_shaken else ("v_c",), measured, strict=True):
-            print_rows([(name, velocity_text(found.v_c), found.kind), *_bracket(found), ("", found.why, "")])
-        if case.is_shaken:
-            print_rows(Ends.of(case).rows)
-    return DONE if all(found.v_c is not None for found in measured) else FAILED
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -40,48 +18,67 @@ def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """How far off a good formula may be."""
+    share = read_as("a share above 0 and below 1, such as 1% or 0.01", _share)
     meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {100 * WITHIN:g}%%)"
-    command.add_argument("--within", metavar="share", type=_share, default=WITHIN, help=meaning)
+    command.add_argument("--within", metavar="share", type=share, default=WITHIN, help=meaning)
     add_accuracy_of_bracket(command)
 
 
-def verdict(args: argparse.Namespace, case: SlidingContact) -> int:
-    """Print the sentence and the numbers behind it."""
-    from mdr.friction import verdict as judgement
+def measure(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
+    """Print v_c, its bracket and what showed it; status 1 where there is none."""
+    ways = {"forward": 1, "other way": -1} if case.is_shaken else {"v_c": 1}
+    found = {name: mdr.measure_critical_velocity(case, way, accuracy=args.accuracy) for name, way in ways.items()}
+    told, ends = [_measured(name, one) for name, one in found.items()], ends_of(case)
+    back = {"other_way": values_of(told[1])} if case.is_shaken else {}
+    text = "\n".join(text_of(part) for part in (*told, ends) if part)
+    answer(args, values_of(told[0]) | back | values_of(ends), text, case)
+    return DONE if all(one.v_c is not None for one in found.values()) else FAILED
 
-    found, (equation, how) = judgement.verdict(case, within=args.within, accuracy=args.accuracy), equation_of(case)
-    ways = [("", found)] if found.other_way is None else [("forward", found), ("the other way", found.other_way)]
-    if args.json:
-        names = ("eq_15", "full_slip", "measured", "deviation", "within", "good", "holds", "why")
-        told = [{name: getattr(one, name) for name in names} for _, one in ways]
-        more = {"other_way": told[1], "at_rest": found.at_rest, **Ends.of(case).values} if len(ways) > 1 else {}
-        print_json(args, told[0] | more | {"sentence": str(found)}, case)
-    else:
-        print(found)
-        for way, one in ways:
-            if way:
-                print(f"\n{way}:")
-            _print_verdict(one, equation, how)
-        if case.is_shaken:
-            print("\nat rest:")
-            print_rows(Ends.of(case).rows)
-    known = [one.holds or one.measured is not None for _, one in ways]
+
+def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
+    """Print the sentence and the numbers behind it."""
+    found, ends = mdr.verdict(case, within=args.within, accuracy=args.accuracy), ends_of(case)
+    ways = {"": found} if found.other_way is None else {"\nforward:": found, "\nthe other way:": found.other_way}
+    told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()} | (
+        {"\nat rest:": ends} if ends else {}
+    )
+    text = "\n".join([str(found), *(line for head, rows in told.items() for line in (head, text_of(rows)) if line)])
+    values = values_of(_judged(found, *equation_of(case)))
+    if found.other_way is not None:
+        values |= {"other_way": values_of(told["\nthe other way:"]), "at_rest": found.at_rest, **values_of(ends)}
+    answer(args, values | {"sentence": str(found)}, text, case)
+    known = [one.holds or one.measured is not None for one in ways.values()]
     return DONE if all(known) else FAILED  # no v_c on a resonance is an answer
 
 
-def _print_verdict(found: Verdict, equation: str, how: str) -> None:
+def _measured(name: str, found: mdr.MeasuredVelocity) -> list[Told]:
+    known = found.low is not None and found.high is not None
+    bracket = f"{found.low:.9g} to {found.high:.9g} m/s" if known else ""
+    return [
+        told_velocity("v_c", found.v_c, name, found.kind),
+        Told("low", found.low, "bracket", bracket, "reduced below, full above"),
+        Told("high", found.high),
+        Told("kind", found.kind),
+        Told("why", found.why, "", found.why),
+    ]
+
+
+def _judged(found: mdr.Verdict, equation: str, how: str) -> list[Told]:
     """The numbers of a verdict."""
     off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
     vanishes = found.eq_15 <= found.least
     against = f"measured less {equation}, over 1e-4 of Eq. (1)" if vanishes else f"measured over {equation}, less 1"
-    print_rows([
-        (equation, velocity_text(found.eq_15), how),
-        ("full slip", velocity_text(found.full_slip), "any amplitude, all harmonics of the force"),
-        ("measured", velocity_text(found.measured), "from simulation alone"),
-        ("deviation", off, against),
-        ("good", _yes_or_no(found.good, "undefined"), f"to {100 * found.within:.4g} %"),
-        ("holds", _yes_or_no(found.holds, "cannot be judged"), "to the bracket of the measurement"),
-    ])  # fmt: skip
+    good, holds = _yes_or_no(found.good, "undefined"), _yes_or_no(found.holds, "cannot be judged")
+    return [
+        told_velocity("eq_15", found.eq_15, equation, how),
+        told_velocity("full_slip", found.full_slip, "full slip", f"any amplitude, {HARMONICS}"),
+        told_velocity("measured", found.measured, "measured", "from simulation alone"),
+        Told("deviation", found.deviation, "deviation", off, against),
+        Told("within", found.within),
+        Told("good", found.good, "good", good, f"to {100 * found.within:.4g} %"),
+        Told("holds", found.holds, "holds", holds, "to the bracket of the measurement"),
+        Told("why", found.why),
+    ]
 
 
 def _yes_or_no(answer: bool | None, neither: str) -> str:
@@ -91,16 +88,7 @@ def _yes_or_no(answer: bool | None, neither: str) -> str:
 def _share(text: str) -> float:
     """A share of v_c, given as such or as a percentage."""
     number = text.strip()
-    try:
-        share = float(number.removesuffix("%")) / (100 if number.endswith("%") else 1)
-    except ValueError:
-        share = math.nan
+    share = float(number.removesuffix("%")) / (100 if number.endswith("%") else 1)
     if not 0 < share < 1:
-        raise argparse.ArgumentTypeError(f"must be a share above 0 and below 1, such as 1% or 0.01, got {text!r}")
+        raise ValueError
     return share
-
-
-def _bracket(found: Any) -> list[tuple[str, str, str]]:
-    if found.low is None or found.high is None:
-        return []
-    return [("bracket", f"{found.low:.9g} to {found.high:.9g} m/s", "reduced below, full above")]

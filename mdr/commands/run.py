@@ -4,32 +4,15 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity
-from mdr.commands.output import (
-    DONE,
-    FAILED,
-    WrongInput,
-    add_accuracy,
-    add_output,
-    complain,
-    output_folder,
-    print_json,
-    velocity_text,
-    whole_number,
-    write_figure,
-    write_table,
-)
-from mdr.commands.velocities import let_values_be_negative, velocity_in
+import mdr
+from mdr.commands.arguments import add_accuracy, let_values_be_negative, velocity_in, whole_number
+from mdr.commands.output import DONE, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
+from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.friction.cof_curve import LEAST_KNOB
 
-if TYPE_CHECKING:
-    from mdr.march.run import SlidingRun
-
-FILES = ("run.csv", "run.png", "run.svg")
 MOST = 100_000  #: springs, or steps of a period
 
 
@@ -39,7 +22,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--v-0", required=True, metavar="velocity", type=velocity_in("m/s"), help=meaning)
     let_values_be_negative(command)
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
-    add_output(command, FILES)
+    add_output(command, "run.csv", "run.png", "run.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
     size = whole_number(LEAST_KNOB, MOST)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: as the accuracy needs)")
@@ -51,42 +34,28 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def run(args: argparse.Namespace, case: SlidingContact) -> int:
+def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Run, write and print; status 1 if the run did not settle."""
-    from mdr.march.slide import slide
-
     v_0 = args.v_0.on(case)
     if v_0 <= 0 and not case.is_shaken:
         raise WrongInput(f"--v-0 must be above zero, got {v_0:.6g} m/s: `mdr velocity` has the limit at rest")
-    folder = output_folder(args, FILES)  # before the work, not after it
+    folder = output_folder(args)  # before the work, not after it
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
-    found = slide(case, v_0, record=1, **knobs)
+    found = mdr.slide(case, v_0, record=1, **knobs)
     if folder is not None:
-        write_table(args, case, folder / "run.csv", found.table())
-        write_figure(args, _drawn(found), folder, "run")
-    v_c = critical_velocity(case, -1 if v_0 < 0 else 1)
-    if args.json:
-        print_json(args, {"v_c": v_c, **_values(found)}, case)
-    else:
-        print(f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}")
-    return DONE if found.settled else complain(f"the run did not settle\n  {found.why}", FAILED)
+        write_text(args, folder / "run.csv", found.table(), "", mdr.write_case(case))
+        write_figure(args, folder / "run", found.plot)
+    v_c = mdr.critical_velocity(case, -1 if v_0 < 0 else 1)
+    text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
+    answer(args, {"v_c": v_c, **_values(found)}, text, case)
+    return DONE if found.settled else complain(f"the run did not settle\n  {found.why}")
 
 
-def _values(found: SlidingRun) -> dict[str, Any]:
+def _values(found: mdr.SlidingRun) -> dict[str, Any]:
     """The numbers of a run, without its arrays."""
-    names = (
-        "v_0", "mu_0", "cof", "cof_error", "settled", "kind", "why", "stick_share", "least_slip", "mean_F_x",
+    values = picked(
+        found, "v_0", "mu_0", "cof", "cof_error", "settled", "kind", "why", "stick_share", "least_slip", "mean_F_x",
         "mean_F_z", "n_springs", "steps_per_period", "n_periods",
     )  # fmt: skip
     spent = found.energy_balance
-    return {name: getattr(found, name) for name in names} | {
-        "energy_balance": {**asdict(spent), "residual": spent.residual}
-    }
-
-
-def _drawn(found: SlidingRun) -> Any:
-    """The map of the springs above the forces, drawn without a display."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    return found.plot()
+    return values | {"energy_balance": {**asdict(spent), "residual": spent.residual}}

@@ -4,29 +4,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mdr
-from mdr.commands.output import (
-    DONE,
-    FAILED,
-    INTERRUPTED,
-    WrongInput,
-    add_output,
-    complain,
-    made_by,
-    output_folder,
-    print_json,
-    require_free,
-    write_figure,
-)
+from mdr.commands.output import DONE, INTERRUPTED, WrongInput, answer, complain, picked
+from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
+from mdr.studies import Status
+from mdr.studies.formats import packed, table
+from mdr.studies.study_files import StudyFile
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.provenance import commented
-
-if TYPE_CHECKING:
-    from mdr.studies import Study
-    from mdr.studies.study_files import StudyFile
-
 
 FILES = ("study.nc", "study.csv", "study.png", "study.svg")
 
@@ -34,19 +20,11 @@ FILES = ("study.nc", "study.csv", "study.png", "study.svg")
 def add_options(command: argparse.ArgumentParser) -> None:
     """Where to keep and write the study, and which part of it to compute."""
     command.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
-    add_output(command, FILES)
+    add_output(command, *FILES)
     command.epilog = "-o file.nc or -o file.csv writes the study to that file, and a picture beside it."
-    command.add_argument(
-        "--chunk-seconds", type=float, default=5.0, metavar="s", help="work in a chunk [s] (default: 5)"
-    )
+    seconds = "work in a chunk [s] (default: 5)"
+    command.add_argument("--chunk-seconds", type=float, default=5.0, metavar="s", help=seconds)
     command.add_argument("--shard", metavar="k/n", help="compute every n-th chunk, from the k-th on; needs --store")
-
-
-def read_study(path: str) -> StudyFile:
-    """Read the study file."""
-    from mdr.studies.study_files import read_study_file
-
-    return read_study_file(path)
 
 
 def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
@@ -63,10 +41,7 @@ def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
         except KeyboardInterrupt:
             kept = f"all of it is safe in {args.store}; the same call writes it" if args.store else "nothing is kept"
             return complain(f"interrupted while the study was written; {kept}", INTERRUPTED)
-    if args.json:
-        print_json(args, _told(study))
-    else:
-        print(study)
+    answer(args, _told(study), str(study))
     return _end(args, study)
 
 
@@ -86,7 +61,7 @@ def _require_a_place(args: argparse.Namespace) -> None:
     elif args.output.suffix and not args.output.is_dir():
         raise WrongInput(f"{args.output}: a study is written as .nc or .csv, or as both into a folder")
     else:
-        output_folder(args, FILES)
+        output_folder(args)
 
 
 def _is_file(output: Path) -> bool:
@@ -94,50 +69,37 @@ def _is_file(output: Path) -> bool:
     return output.suffix in (".nc", ".csv") and not output.is_dir()
 
 
-def _write(args: argparse.Namespace, study: Study) -> None:
+def _write(args: argparse.Namespace, study: mdr.Study) -> None:
     """The study, and the picture of its first quantity, where it has few enough axes for one."""
-    from mdr.studies.formats import packed, table
-
     files = [args.output] if _is_file(args.output) else [args.output / name for name in FILES[:2]]
     for path in files:
         if path.suffix == ".csv":
-            write_whole(path, (commented(made_by(args), "", study.case) + table(study)).encode("utf-8"))
+            write_text(args, path, table(study), "", study.case)
         else:
             write_whole(path, packed(study, history=made_by(args)))
-    import matplotlib as mpl
-
-    mpl.use("Agg")  # no display is needed
     try:
-        figure = study.plot()
+        write_figure(args, files[0].with_suffix(""), study.plot)
     except ValueError as fault:
-        complain(f"no picture: {fault}", DONE)
-    else:
-        write_figure(args, figure, files[0].parent, files[0].stem)
+        complain(f"no picture: {fault}")
 
 
-def _told(study: Study) -> dict[str, Any]:
-    from mdr.studies import Status
-
+def _told(study: mdr.Study) -> dict[str, Any]:
+    grid = study.frame.grid
+    axes = {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))] for axis in grid}
     return {
-        "case": study.case,
-        "identity": study.identity,
-        "complete": study.complete,
+        **picked(study, "case", "identity", "complete"),
         "counts": {status.name.lower(): study.count(status) for status in Status},
-        "axes": {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))]
-                 for axis in study.frame.grid},
+        "axes": axes,
         "units": study.units,
-        "values": {name: study[name].tolist() for name in study.quantities},
-        "status": study.status.tolist(),
-        "why": study.why.tolist(),
-    }  # fmt: skip
+        "values": {name: study[name] for name in study.quantities},
+        **picked(study, "status", "why"),
+    }
 
 
-def _end(args: argparse.Namespace, study: Study) -> int:
-    from mdr.studies import Status
-
+def _end(args: argparse.Namespace, study: mdr.Study) -> int:
     failed, unsettled = study.count(Status.FAILED), study.count(Status.UNSETTLED)
     if failed or unsettled:
-        return complain(f"{failed} of {study.status.size} points failed, {unsettled} did not settle", FAILED)
+        return complain(f"{failed} of {study.status.size} points failed, {unsettled} did not settle")
     if study.complete:
         return DONE
     missing = f"{study.count(Status.MISSING)} of {study.status.size} points are left to the other shards"

@@ -2,5 +2,5 @@
 
 The model knows no browser: state.py is what is explored, links.py the same as text, controls.py what can be set and to
 which values, pictures.py what is computed, latest.py in which thread. The rest shows it with Bokeh and Panel, the extra
-`explore`: figures.py, the controls in knob.py and board.py, texts and files in keep.py, all in page.py, server.py.
+`explore`: figures.py, the controls in board.py, texts and files in keep.py, all in page.py, server.py.
 """

@@ -1,19 +1,20 @@
-"""The controls of the page, part by part: which kind it is, and the knobs of its fields or groups."""
+"""The controls of the page, part by part: which kind it is, and a knob for each of its fields or groups."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import panel as pn
 
 from mdr.case.contact import KINDS
-from mdr.explorer.controls import controls_of
-from mdr.explorer.knob import Change, Knob
-from mdr.explorer.look import HEADING, area, html, refused
-from mdr.explorer.scales import group_values
-from mdr.explorer.state import State, kind_of, kinds_of
+from mdr.explorer import look
+from mdr.explorer.controls import Control, controls_of
+from mdr.explorer.links import meaning_of, typed
+from mdr.explorer.state import PARTS, State, group_values, kind_of
 
+Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answer is why it was refused, or ""
 TITLES = {
     "indenter": "Shape",
     "material": "Material",
@@ -23,24 +24,85 @@ TITLES = {
 }
 
 
-class Board:
-    """All controls. `change` sets a path, `choose` the kind of a part; both answer why not, or ""."""
+class Slider(pn.widgets.IntSlider):  # type: ignore[misc]
+    """A slider whose value is taken almost at once."""
 
-    def __init__(self, state: State, change: Change, choose: Change, hold: Callable[[bool], None]) -> None:
-        self.state, self.change, self.choose = state, change, choose
+    _debounce = 5  # ms in which moves are gathered, 50 in Panel
+
+
+class Knob:
+    """One control: name and meaning, a box to type in, a slider, and below it why a value was refused."""
+
+    def __init__(self, control: Control, attempt: Attempt) -> None:
+        self.control, self.attempt, self.showing = control, attempt, False
+        self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), **look.WIDE)
+        listed, named = isinstance(control.value, tuple), {"css_classes": ["box", control.path], "margin": (0, 5)}
+        size: dict[str, Any] = look.WIDE if listed else {"width": 104}
+        if control.words:
+            self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, **named, **size)
+        else:
+            self.box = pn.widgets.TextInput(value=typed(control.value), name="", **named, **size)
+        self.box.param.watch(self._typed, "value")
+        label = look.label(control.name, control.facts)
+        rows: list[Any] = [(pn.Column if listed else pn.Row)(label, self.box, margin=(4, 0, 0, 0), **look.WIDE)]
+        self.slider: Any = None
+        if control.grid:
+            self.slider = Slider(
+                start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,
+                margin=(2, 10, 2, 8), height=14, name="", css_classes=["slider", control.path], **look.WIDE,
+            )  # fmt: skip
+            self.slider.param.watch(self._moved, "value")
+            rows.append(self.slider)
+        self.view = pn.Column(*rows, self.words, margin=0, **look.WIDE)
+
+    def show(self, state: State) -> None:
+        """Stand at the value of a state."""
+        self.control = self.control.of(state)
+        self.showing = True
+        self.box.value = self.control.value if self.control.words else typed(self.control.value)
+        if self.slider is not None:
+            self.slider.end, self.slider.value = len(self.control.grid) - 1, self.control.place
+        self.showing = False
+        self._say("")
+
+    def _moved(self, event: Any) -> None:
+        if not self.showing:
+            self._set(self.control.grid[event.new])
+
+    def _typed(self, event: Any) -> None:
+        if self.showing:
+            return
+        if event.new == typed(self.control.value):  # as it was, also after a refusal
+            self._say("")
+        else:
+            self._set(event.new if self.control.words else meaning_of(event.new))
+
+    def _set(self, value: Any) -> None:
+        self._say(self.attempt(lambda state: state.changed(self.control.path, value)))
+
+    def _say(self, words: str) -> None:
+        """Why a value was refused; nothing where it was not."""
+        if bool(words) or self.words.visible:
+            self.words.object, self.words.visible = look.refused(words), bool(words)
+
+
+class Board:
+    """All controls."""
+
+    def __init__(self, state: State, attempt: Attempt) -> None:
+        self.state, self.attempt = state, attempt
         self.built: tuple[Any, ...] = ()
-        self.knobs: dict[str, Knob] = {}
-        self.parts: dict[str, Any] = {slot: pn.Column(sizing_mode="stretch_width", margin=0) for slot in ("", *KINDS)}
+        self.knobs: list[Knob] = []
+        self.parts: dict[str, Any] = {slot: pn.Column(margin=0, **look.WIDE) for slot in ("", *KINDS)}
         self.kinds = {slot: self._kind(slot) for slot in KINDS}
         self.held: Any = pn.widgets.RadioButtonGroup(
-            options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5),
-            sizing_mode="stretch_width",
-        )  # fmt: skip
-        self.held.param.watch(lambda event: hold(event.new), "value")
+            options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5), **look.WIDE
+        )
+        self.held.param.watch(lambda event: attempt(lambda state: replace(state, in_groups=event.new)), "value")
         titled = [
-            (html(TITLES[slot], HEADING + "margin-top:10px;"), self.kinds[slot], self.parts[slot]) for slot in KINDS
+            (look.heading(TITLES[slot], "margin-top:10px;"), self.kinds[slot], self.parts[slot]) for slot in KINDS
         ]
-        self.view = area("controls", self.held, self.parts[""], *(one for three in titled for one in three))
+        self.view = look.area("controls", self.held, self.parts[""], *(one for three in titled for one in three))
 
     def show(self, state: State, anew: bool = False) -> None:
         """Stand at a state; `anew` also moves every grid there."""
@@ -48,28 +110,27 @@ class Board:
         kinds = [kind_of(case, slot) for slot in KINDS]
         built = (state.in_groups, state.v_c is None, case.is_shaken, *kinds, *group_values(case))
         if anew or self.built != built:
-            self.built, self.knobs = built, {}
+            self.built, self.knobs = built, []
             for slot, controls in controls_of(state).items():
-                made = [Knob(one, self.change) for one in controls]
-                self.knobs |= {knob.control.path: knob for knob in made}
+                made = [Knob(one, self.attempt) for one in controls]
+                self.knobs += made
                 self.parts[slot].objects = [knob.view for knob in made]
         for slot, kind in zip(KINDS, kinds, strict=True):
             self.kinds[slot][0].value, self.kinds[slot][1].object = kind, ""
-        for knob in self.knobs.values():
+        for knob in self.knobs:
             knob.show(state)
 
     def _kind(self, slot: str) -> Any:
         """The choice of a kind of a part, and below it why it was refused."""
-        choice = pn.widgets.Select(
-            options=kinds_of(slot), value=kind_of(self.state.case, slot), sizing_mode="stretch_width", margin=(2, 5),
-            css_classes=["kind", slot],
-        )  # fmt: skip
-        words = html()
+        named = {"css_classes": ["kind", slot], "margin": (2, 5)}
+        kind = kind_of(self.state.case, slot)
+        choice, words = pn.widgets.Select(options=list(PARTS[slot]), value=kind, **named, **look.WIDE), look.html()
 
         def chosen(event: Any) -> None:
-            if event.new != kind_of(self.state.case, slot) and (why := self.choose(slot, event.new)):
-                choice.value = kind_of(self.state.case, slot)
-                words.object = refused(f"{event.new}: {why}")
+            before = kind_of(self.state.case, slot)
+            if event.new != before and (why := self.attempt(lambda state: state.with_kind(slot, event.new))):
+                choice.value = before
+                words.object = look.refused(f"{event.new}: {why}")
 
         choice.param.watch(chosen, "value")
-        return pn.Column(choice, words, sizing_mode="stretch_width", margin=0)
+        return pn.Column(choice, words, margin=0, **look.WIDE)

@@ -16,9 +16,7 @@ from mdr.case.contact import KINDS, as_given
 from mdr.case.in_plane import PLACES
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.explorer.links import typed
-from mdr.explorer.scales import group_values, scales_of
-from mdr.explorer.state import State
+from mdr.explorer.state import State, group_values, scales_of
 from mdr.normal.vary import GROUPS
 from mdr.tools.checks import positive
 from mdr.tools.fields import Facts, Rule, facts_of
@@ -51,11 +49,6 @@ class Control:
         """Where on the grid the slider stands: the nearest value."""
         return int(np.argmin(np.abs(np.array(self.grid) - self.value)))
 
-    @property
-    def text(self) -> str:
-        """The value as one types it."""
-        return _typed(self.value)
-
     def of(self, state: State) -> Control:
         """The control at the value of the state, on the same grid as long as that suits."""
         value = state.value(self.path)
@@ -69,63 +62,45 @@ def controls_of(state: State) -> dict[str, list[Control]]:
     """The controls of a state, under the part that they belong to; "" are those of the contact as a whole."""
     case = as_given(state.case)
     groups = group_values(case) if state.in_groups else {}
-    taken = {GROUPS[path] for path in groups}
     found = {"": [_control(state, "mu_0"), _control(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
     for slot in KINDS:
         part = getattr(case, slot)
-        own = [one for one in fields(part) if one.init] if is_dataclass(part) else []
-        free = [one for one in own if f"{slot}.{one.name}" not in taken and one.name not in HIDDEN]
-        found[slot] = [_control(state, path) for path in groups if GROUPS[path].startswith(f"{slot}.")]
-        found[slot] += [_control(state, f"{slot}.{one.name}", facts_of(one)) for one in free]
+        own = {f"{slot}.{one.name}": one for one in fields(part) if one.init} if is_dataclass(part) else {}
+        set_by = {GROUPS[path]: path for path in groups}
+        found[slot] = [_control(state, path) for at, path in set_by.items() if at.startswith(f"{slot}.")]
+        found[slot] += [_control(state, path, facts_of(one)) for path, one in own.items()
+                        if path not in set_by and one.name not in HIDDEN]  # fmt: skip
     return found
 
 
-def _typed(value: Any) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(map(_typed, value))}]"
-    return typed(value) if isinstance(value, float) else str(value)
-
-
 def _control(state: State, path: str, facts: Facts | None = None) -> Control:
-    facts = facts or facts_at(path)
-    value = state.value(path)
-    if isinstance(value, str):
+    facts, value = facts or facts_at(path), state.value(path)
+    if isinstance(value, str | tuple):
         return Control(path, facts, value, words=PLACES if path.endswith(".at") else ())
-    return Control(
-        path,
-        facts,
-        value,
-        () if isinstance(value, tuple) else tuple(float(one) for one in _grid(state, path, facts, value)),
-    )
+    return Control(path, facts, value, tuple(float(one) for one in _grid(state, path, facts, value)))
 
 
 def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float]:
     """Values of a slider, which the rule of the field accepts."""
-    name = path.rpartition(".")[2]
-    if path in ("v_0", "v_0/v_c"):
-        return _velocities(state, path, value)
+    case, name, rule = state.case, path.rpartition(".")[2], facts.rule
+    if path in ("v_0", "v_0/v_c"):  # of both signs where something shakes in the plane
+        top = max(VELOCITIES_TO * (velocity_scale(case) if path == "v_0" else 1.0), abs(value))
+        return np.linspace(-top, top, POINTS + 1) if case.is_shaken else np.linspace(0, top, POINTS + 1)[1:]
     if path in GROUPS:
         low, high = GROUPS_FROM_TO
+        rule = positive if path == "omega_0/omega" else facts_at(GROUPS[path]).rule
         both = np.geomspace(min(low, abs(value) or low), max(high, abs(value)), POINTS + 1)
-        return _accepted(both, positive if path == "omega_0/omega" else facts_at(GROUPS[path]).rule, name)
-    if path == "shake.omega" and state.case.oscillation.omega:
-        return sorted({*(ratio * state.case.oscillation.omega for ratio in RATIOS), value})
-    if facts.unit == "rad" and _accepts(facts.rule, name, -1.0):
+        return _accepted(both, rule, name)
+    if path == "shake.omega" and case.oscillation.omega:
+        return sorted({*(ratio * case.oscillation.omega for ratio in RATIOS), value})
+    if facts.unit == "rad" and _accepts(rule, name, -1.0):
         return np.linspace(-np.pi, np.pi, POINTS + 1)
-    if facts.unit == "-" and not _accepts(facts.rule, name, DECADE):  # a ratio with two ends
-        return _accepted(np.linspace(0.0, 1.0, POINTS + 1), facts.rule, name)
+    if facts.unit == "-" and not _accepts(rule, name, DECADE):  # a ratio with two ends
+        return _accepted(np.linspace(0.0, 1.0, POINTS + 1), rule, name)
+    middle = value or scales_of(case).get(name, 1.0)
     if value < 0 or (value == 0 and name == "u_z0"):
-        reach = DECADE * (abs(value) or scales_of(state.case)[name])
-        return np.linspace(-reach, reach, POINTS + 1)
-    middle = value or scales_of(state.case).get(name, 1.0)
-    return _accepted(middle * np.geomspace(1 / DECADE, DECADE, POINTS + 1), facts.rule, name)
-
-
-def _velocities(state: State, path: str, value: float) -> Iterable[float]:
-    """Pulling velocities of a slider: of both signs where something shakes in the plane."""
-    unit = 1.0 if path == "v_0/v_c" else velocity_scale(state.case)
-    top = max(VELOCITIES_TO * unit, abs(value))
-    return np.linspace(-top, top, POINTS + 1) if state.case.is_shaken else np.linspace(0, top, POINTS + 1)[1:]
+        return np.linspace(-DECADE * abs(middle), DECADE * abs(middle), POINTS + 1)
+    return _accepted(middle * np.geomspace(1 / DECADE, DECADE, POINTS + 1), rule, name)
 
 
 def _accepted(values: Iterable[float], rule: Rule | None, name: str) -> list[float]:

@@ -36,32 +36,24 @@ class Figures:
         self.forces = _figure(230, "time [periods]", "force")
         self.springs = _figure(250, "time [periods]", "position of the spring x", x_range=self.forces.x_range)
         self.forces.x_range.start, self.forces.x_range.end = 0.0, 1.0
-        self._draw_curve()
-        self._draw_forces()
-        self.modes = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []})
-        mapper = LinearColorMapper(palette=[colour for _, colour in MODES], low=-0.5, high=len(MODES) - 0.5)
-        self.springs.image("image", "x", "y", "dw", "dh", source=self.modes, color_mapper=mapper)
-
-    def _draw_curve(self) -> None:
-        self.line = ColumnDataSource({"v_0": [], "cof": []}, name="curve")
-        self.points = ColumnDataSource({"v_0": [], "cof": [], "fill": []})
-        self.held = ColumnDataSource({"v_0": [], "low": [], "high": []})
-        self.run = ColumnDataSource({"v_0": [], "cof": []})
-        self.limits = [Span(dimension="width", line_color=GREY, line_width=1) for _ in range(2)]
-        self.critical = [Span(dimension="height", line_color=DARK, line_dash="dotted") for _ in range(2)]
-        for span in (*self.limits, *self.critical):
-            self.curve.add_layout(span)
+        self.line, self.run = _data("v_0", "cof", name="curve"), _data("v_0", "cof")
+        self.points, self.held = _data("v_0", "cof", "fill"), _data("v_0", "low", "high")
+        self.over_time, self.modes = _data("t", "F_x", "low", "high"), _data("image", "x", "y", "dw", "dh")
+        limit, critical = {"dimension": "width", "line_color": GREY, "line_width": 1}, {"dimension": "height"}
+        critical |= {"line_color": DARK, "line_dash": "dotted"}
+        self.marks = [Span(**look) for look in (limit, limit, critical, critical)]
+        for mark in self.marks:
+            self.curve.add_layout(mark)
         self.curve.segment("v_0", "low", "v_0", "high", source=self.held, line_width=6, color=COLOURS[2])
         self.curve.line("v_0", "cof", source=self.line, line_width=2, color=COLOURS[0])
         self.curve.scatter("v_0", "cof", source=self.points, size=5, fill_color="fill", line_color=COLOURS[0])
         self.curve.scatter("v_0", "cof", source=self.run, size=11, color=COLOURS[1])
-
-    def _draw_forces(self) -> None:
-        self.over_time = ColumnDataSource({"t": [], "F_x": [], "low": [], "high": []})
         self.forces.varea("t", "low", "high", source=self.over_time, color="#e9e9e9")
-        self.forces.line("t", "low", source=self.over_time, color=GREY, line_width=1.5)
-        self.forces.line("t", "high", source=self.over_time, color=GREY, line_width=1.5)
+        for limits in ("low", "high"):
+            self.forces.line("t", limits, source=self.over_time, color=GREY, line_width=1.5)
         self.forces.line("t", "F_x", source=self.over_time, color="#000000", line_width=1.8)
+        mapper = LinearColorMapper(palette=[colour for _, colour in MODES], low=-0.5, high=len(MODES) - 0.5)
+        self.springs.image("image", "x", "y", "dw", "dh", source=self.modes, color_mapper=mapper)
 
     def show(self, picture: Picture) -> None:
         """Put a picture into the figures."""
@@ -74,31 +66,27 @@ class Figures:
         self.springs.yaxis.axis_label = f"position of the spring x [{unit}]"
 
     def _show_curve(self, picture: Picture) -> None:
-        state, mu_0 = picture.state, picture.state.case.mu_0
+        state, mu_0, both = picture.state, picture.state.case.mu_0, picture.state.case.is_shaken
+        factor, unit = prefix(picture.v_0, "m/s")
+        label = f"pulling velocity v₀ [{unit}]"
         if state.in_groups and state.v_c:
             factor, label = 1 / state.v_c, "pulling velocity v₀/v_c"
-        else:
-            factor, unit = prefix(picture.v_0, "m/s")
-            label = f"pulling velocity v₀ [{unit}]"
-        v, cof = picture.v_0 * factor, picture.cof
-        settled = np.ones(v.size, dtype=bool) if picture.curve is None else picture.curve.settled
-        bounded = picture.curve is not None
+        v, cof, curve, band = picture.v_0 * factor, picture.cof, picture.curve, picture.band
         self.line.data = {"v_0": v, "cof": cof}
-        fill = np.where(settled, COLOURS[0], "#ffffff").tolist()
-        self.points.data = {"v_0": v, "cof": cof, "fill": fill} if bounded else {"v_0": [], "cof": [], "fill": []}
+        self.points.data = {"v_0": [], "cof": [], "fill": []}
+        if curve is not None:
+            self.points.data = {**self.line.data, "fill": np.where(curve.settled, COLOURS[0], "#ffffff").tolist()}
         self.run.data = {"v_0": [state.v_0 * factor], "cof": [picture.run.cof]}
-        held = [picture.band] if picture.band is not None else []
-        self.held.data = {
-            "v_0": [0.0] * len(held),
-            "low": [one.low for one in held],
-            "high": [one.high for one in held],
-        }
-        both = state.case.is_shaken
-        marks = [picture.v_c, -picture.v_c_back if picture.v_c_back is not None else np.nan]
-        for span, at in zip(self.critical, marks, strict=True):
-            span.visible, span.location = bool(np.isfinite(at)), float(at * factor) if np.isfinite(at) else 0.0
-        for span, sign in zip(self.limits, (1, -1), strict=True):
-            span.visible, span.location = sign > 0 or both, sign * mu_0
+        held = (
+            {"v_0": [], "low": [], "high": []}
+            if band is None
+            else {"v_0": [0.0], "low": [band.low], "high": [band.high]}
+        )
+        self.held.data = held
+        back = -picture.v_c_back * factor if picture.v_c_back is not None else np.nan
+        places = (mu_0, -mu_0 if both else np.nan, picture.v_c * factor, back)
+        for mark, at in zip(self.marks, places, strict=True):
+            mark.visible, mark.location = bool(np.isfinite(at)), float(at) if np.isfinite(at) else 0.0
         least = min(float(cof.min()), picture.run.cof, (1 - EMPTY) * mu_0)
         room = 0.06 * (mu_0 - least)
         _span(self.curve.y_range, least - room, max(mu_0, float(cof.max())) + room)
@@ -117,6 +105,11 @@ class Figures:
         top = 1.05 * float(limit.max()) * factor
         _span(self.forces.y_range, -top if turns else 0.0, top)
         self.forces.yaxis.axis_label = f"force [{unit}]"
+
+
+def _data(*columns: str, **named: str) -> Any:
+    """Data of these columns, none as yet."""
+    return ColumnDataSource({column: [] for column in columns}, **named)
 
 
 def _figure(height: int, x_label: str, y_label: str, x_range: Any = None) -> Any:

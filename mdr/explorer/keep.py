@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from io import BytesIO, StringIO
 from typing import Any
 
 import panel as pn
 
-from mdr.case.contact import SlidingContact
+from mdr.explorer import look
 from mdr.explorer.links import link_of, python_of
-from mdr.explorer.look import HEADING, REFUSALS, area, html, words_of
 from mdr.explorer.pictures import Picture, pictures_of
 from mdr.explorer.state import State
-from mdr.files.case_files import parse_case
 from mdr.files.examples import example_file
 
 CODE = (
@@ -24,57 +21,45 @@ LINK = "history.replaceState(null, '', location.pathname + (cb_obj.value && '?' 
 
 
 class Keep:
-    """Texts, link and files of the last picture. `take` takes a case that was loaded, `refuse` says what is wrong."""
+    """Texts, link and files of the last picture. `load` takes the text and the name of a file that was brought."""
 
-    def __init__(self, take: Callable[[SlidingContact], None], refuse: Callable[[str], None]) -> None:
-        self.take, self.refuse = take, refuse
+    def __init__(self, load: Callable[[bytes, str], Any]) -> None:
         self.picture: Picture | None = None
         self.toml, self.python = _text("TOML"), _text("Python")
-        self.link: Any = pn.widgets.TextInput(
-            name="Link to this state, also in the address bar", disabled=True, sizing_mode="stretch_width", margin=5
-        )
+        named = "Link to this state, also in the address bar"
+        self.link: Any = pn.widgets.TextInput(name=named, disabled=True, margin=5, **look.WIDE)
         self.link.jscallback(value=LINK)
-        self.given: Any = pn.widgets.FileInput(accept=".toml", margin=5, css_classes=["upload", "case"])
-        self.given.param.watch(self._load, "value")
-
-    @property
-    def view(self) -> Any:
-        """All of it."""
+        given: Any = pn.widgets.FileInput(accept=".toml", margin=5, css_classes=["upload", "case"])
+        given.param.watch(lambda event: event.new is not None and load(event.new, given.filename or "file"), "value")
         files = pn.FlexBox(
             _file("Case (TOML)", "case.toml", lambda: StringIO(self.toml.value)),
-            _file("Curve (SVG)", "curve.svg", partial(self._svg, "curve")),
-            _file("Springs and forces (SVG)", "run.svg", partial(self._svg, "run")),
-            pn.pane.HTML("load a case:", margin=(8, 0, 8, 12)), self.given, align_items="center",
+            _file("Curve (SVG)", "curve.svg", lambda: self._svg(lambda picture: _bounded(picture).plot().figure)),
+            _file("Springs and forces (SVG)", "run.svg", lambda: self._svg(lambda picture: picture.run.plot())),
+            pn.pane.HTML("load a case:", margin=(8, 0, 8, 12)), given, align_items="center",
         )  # fmt: skip
         texts = [pn.Column(text, _copy(text), styles={"flex": "1 1 340px"}) for text in (self.toml, self.python)]
-        return area("files", html("To keep", HEADING), files, self.link, pn.FlexBox(*texts, gap="12px"))
+        self.view = look.area("files", look.heading("To keep"), files, self.link, pn.FlexBox(*texts, gap="12px"))
 
     def write(self, state: State) -> None:
         """The texts of a state."""
         self.toml.value, self.python.value, self.link.value = example_file(state.case), python_of(state), link_of(state)
 
-    def _load(self, event: Any) -> None:
-        if event.new is None:
-            return
-        try:
-            self.take(parse_case(event.new.decode("utf-8-sig"), self.given.filename or "file"))
-        except REFUSALS as refusal:
-            self.refuse(words_of(refusal))
-
-    def _svg(self, what: str) -> BytesIO:
-        """A figure of the project's plots, of the curve whose error is bounded."""
+    def _svg(self, draw: Callable[[Picture], Any]) -> BytesIO:
+        """A figure of the project's plots."""
         from matplotlib import pyplot as plt
 
-        from mdr.plots import plot_curve, plot_run
-
-        out, picture = BytesIO(), self.picture
-        if picture is not None:
-            curve = picture.curve or [*pictures_of(picture.state)][-1].curve
-            drawn: Any = plot_curve(curve).figure if what == "curve" else plot_run(picture.run)
+        out = BytesIO()
+        if self.picture is not None:
+            drawn = draw(self.picture)
             drawn.savefig(out, format="svg")
             plt.close(drawn)
         out.seek(0)
         return out
+
+
+def _bounded(picture: Picture) -> Any:
+    """The curve whose error is bounded."""
+    return picture.curve or [*pictures_of(picture.state)][-1].curve
 
 
 def _file(label: str, name: str, make: Callable[[], Any]) -> Any:
@@ -82,9 +67,7 @@ def _file(label: str, name: str, make: Callable[[], Any]) -> Any:
 
 
 def _text(name: str) -> Any:
-    return pn.widgets.TextAreaInput(
-        name=name, rows=16, disabled=True, sizing_mode="stretch_width", stylesheets=[CODE], margin=5
-    )
+    return pn.widgets.TextAreaInput(name=name, rows=16, disabled=True, stylesheets=[CODE], margin=5, **look.WIDE)
 
 
 def _copy(text: Any) -> Any:

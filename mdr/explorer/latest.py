@@ -29,47 +29,33 @@ class Latest(Generic[Request, Answer]):
         rest: float = 0.0,
     ) -> None:
         self.work, self.deliver, self.rest = work, deliver, rest
-        self.lock, self.newer = Lock(), Event()
-        self.waiting: list[Request] = []
-        self.busy = self.dropped = False
+        self.at_work, self.superseded = Lock(), Event()
 
     def drop(self) -> None:
         """Work on nothing more, until asked again."""
-        with self.lock:
-            self.waiting, self.dropped = [], self.busy
-            self.newer.set()
+        self.superseded.set()
 
     def ask(self, request: Request) -> None:
         """Work on this request next, and on no older one."""
-        with self.lock:
-            self.waiting = [request]
-            self.newer.set()
-            if self.busy:
-                return
-            self.busy = True
-        Thread(target=self._run, daemon=True).start()
+        self.superseded.set()
+        self.superseded = Event()
+        Thread(target=self._run, args=(request, self.superseded), daemon=True).start()
 
-    def _run(self) -> None:
-        while (request := self._next()) is not None:
+    def _run(self, request: Request, superseded: Event) -> None:
+        def watch() -> None:
+            if superseded.is_set():
+                raise Superseded
+
+        with self.at_work:
             try:
-                for answer in self.work(request[0], self._watch):
-                    self._watch()
-                    self.deliver(request[0], answer)
-                    self.newer.wait(self.rest)
-                self._watch()
-                self.deliver(request[0], None)
+                watch()
+                for answer in self.work(request, watch):
+                    watch()
+                    self.deliver(request, answer)
+                    superseded.wait(self.rest)
+                watch()
+                self.deliver(request, None)
             except Superseded:
-                continue
+                pass
             except Exception as fault:  # whatever it is, the page says so and goes on
-                self.deliver(request[0], fault)
-
-    def _next(self) -> list[Request] | None:
-        with self.lock:
-            request, self.waiting, self.dropped = self.waiting, [], False
-            self.newer.clear()
-            self.busy = bool(request)
-            return request or None
-
-    def _watch(self) -> None:
-        if self.waiting or self.dropped:
-            raise Superseded
+                self.deliver(request, fault)

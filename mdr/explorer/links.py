@@ -14,6 +14,7 @@ from mdr.explorer.state import State
 from mdr.files.case_files import parse_case, write_case
 
 LONGEST = 8000  #: characters of a link; a longer one is cut by some programs
+CALLS = ("curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)")  #: with which a script ends
 
 
 def link_of(state: State) -> str:
@@ -43,21 +44,16 @@ def python_of(state: State) -> str:
     case = as_given(state.case)
     parts = {one.name: getattr(case, one.name) for one in fields(case)}
     arguments = [f"    {name}={_called(part)}," for name, part in parts.items() if part is not None]
-    calls = ["curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)"]
-    lines = [
-        "import mdr",
-        "",
-        "case = mdr.SlidingContact(",
-        *arguments,
-        ")",
-        f"v_0 = {_called(state.v_0)}  # m/s",
-        *calls,
-    ]
-    return "\n".join(lines) + "\n"
+    velocity = f"v_0 = {_called(state.v_0)}  # m/s"
+    return "\n".join(["import mdr", "", "case = mdr.SlidingContact(", *arguments, ")", velocity, *CALLS, ""])
 
 
-def typed(value: float) -> str:
-    """A number to five digits, as one types it: 20e-6, 3e6, 0.05."""
+def typed(value: Any) -> str:
+    """A value as one types it, numbers to five digits: 20e-6, 3e6, 0.05."""
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(typed, value))}]"
+    if not isinstance(value, float):
+        return str(value)
     power = 3 * int(np.floor(np.log10(abs(value)) / 3)) if value else 0
     return f"{value:.5g}" if -3 <= power <= 3 else f"{value / 10.0**power:.5g}e{power}"
 
@@ -71,9 +67,8 @@ def _called(value: Any) -> str:
         return f"({', '.join(map(_called, value))}{',' if len(value) == 1 else ''})"
     if not is_dataclass(value):
         return repr(value)
-    given = {one.name: getattr(value, one.name) for one in fields(value) if one.init}
-    usual = {one.name: one.default for one in fields(value)}
-    told = [f"{name}={_called(one)}" for name, one in given.items() if one != usual[name]]
+    given = [(one, getattr(value, one.name)) for one in fields(value) if one.init]
+    told = [f"{one.name}={_called(own)}" for one, own in given if own != one.default]
     return f"mdr.{type(value).__name__}({', '.join(told)})"
 
 

@@ -7,7 +7,10 @@ from typing import Any
 
 import panel as pn
 
+from mdr.tools.fields import Facts
+
 REFUSALS = (ValueError, TypeError, ArithmeticError, LookupError)  #: what a wrong number or file raises
+WIDE: dict[str, Any] = {"sizing_mode": "stretch_width"}
 HEADING = "font-weight:600;font-size:15px;"
 SMALL = "color:#666;font-size:12.5px;"
 REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
@@ -31,15 +34,28 @@ IN_SIGHT = """
 PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
 
 
-def area(name: str, *parts: Any, sheet: str = "") -> Any:
+def area(name: str, *parts: Any) -> Any:
     """Parts one below the other, in an area of the layout."""
-    return pn.Column(*parts, styles={"grid-area": name}, sizing_mode="stretch_width", stylesheets=[sheet])
+    sheets = [IN_SIGHT if name == "curve" else ""]
+    return pn.Column(*parts, styles={"grid-area": name}, stylesheets=sheets, **WIDE)
 
 
 def html(text: str = "", style: str = "") -> Any:
     """A line of HTML."""
     text = f'<span style="{style}">{text}</span>' if style else text
-    return pn.pane.HTML(text, margin=(2, 5), sizing_mode="stretch_width")
+    return pn.pane.HTML(text, margin=(2, 5), **WIDE)
+
+
+def heading(text: str, style: str = "") -> Any:
+    """The heading of an area, or of a part of it."""
+    return html(text, HEADING + style)
+
+
+def label(name: str, facts: Facts) -> Any:
+    """Name, unit and meaning of a quantity."""
+    unit = f" [{escape(facts.unit)}]" if facts.unit not in ("", "-") else ""
+    text = f'<b>{escape(name)}</b>{unit}<br><span style="color:#666">{escape(facts.meaning)}</span>'
+    return pn.pane.HTML(text, styles={"font-size": "12.5px", "line-height": "1.3"}, margin=(0, 5), **WIDE)
 
 
 def refused(words: str) -> str:
@@ -61,8 +77,6 @@ def words_of(refusal: Exception) -> str:
 def table(rows: list[tuple[str, str, str]]) -> str:
     """Name, value and meaning, one row each."""
     styles = (CELL, CELL + ";font-weight:600", "color:#666")
-    cells = "".join(
-        "".join(["<tr>", *(f'<td style="{style}">{one}</td>' for style, one in zip(styles, row, strict=True)), "</tr>"])
-        for row in rows
-    )
-    return f'<table style="font-size:13px;line-height:1.5">{cells}</table>'
+    cells = [[f'<td style="{style}">{one}</td>' for style, one in zip(styles, row, strict=True)] for row in rows]
+    lines = "".join(f"<tr>{''.join(row)}</tr>" for row in cells)
+    return f'<table style="font-size:13px;line-height:1.5">{lines}</table>'

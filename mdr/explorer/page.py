@@ -11,27 +11,15 @@ from typing import Any
 import panel as pn
 
 from mdr.case.contact import SlidingContact
+from mdr.explorer import look
 from mdr.explorer.board import Board
 from mdr.explorer.figures import BAND_LEGEND, CURVE_LEGEND, FORCES_LEGEND, SPRINGS_LEGEND, Figures
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
-from mdr.explorer.look import (
-    HEADING,
-    IN_SIGHT,
-    LAYOUT,
-    PAGE,
-    REFUSALS,
-    SMALL,
-    area,
-    doubted,
-    html,
-    refused,
-    table,
-    words_of,
-)
 from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
+from mdr.files.case_files import parse_case
 
 REST = 0.1  #: s between the first sight of a curve and the work on a better one
 FIRST_SIGHT = "first sight, its error is not bounded yet"
@@ -43,12 +31,11 @@ class Page:
 
     def __init__(self, state: State, refusal: str = "") -> None:
         self.state, self.document, self.loaded = state, pn.state.curdoc, False
-        self.alert, self.status, self.numbers, self.said, self.legend = (html() for _ in range(5))
-        self.figures, self.keep = Figures(), Keep(self._load, self._refuse)
+        self.alert, self.status, self.numbers, self.said, self.legend = (look.html() for _ in range(5))
+        self.figures, self.keep, self.board = Figures(), Keep(self._load), Board(state, self.attempt)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show), REST)
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
-        self.board = Board(state, self.change, self.choose, self._hold)
-        self._refuse(refusal)
+        self.alert.object = look.refused(refusal)
         self._take(state)
         pn.state.onload(self._loaded)
 
@@ -57,47 +44,37 @@ class Page:
         """All of it."""
         judge = pn.widgets.Button(name="Judge the closed form by simulation", button_type="primary", margin=(6, 5))
         judge.on_click(self._judge)
-        friction = html("Friction over velocity", HEADING)
         body = pn.Column(
-            area("curve", friction, self.legend, self.figures.curve, self.status, sheet=IN_SIGHT),
+            look.area("curve", look.heading("Friction over velocity"), self.legend, self.figures.curve, self.status),
             self.board.view,
-            area("numbers", self.numbers, judge, self.said),
-            area(
+            look.area("numbers", self.numbers, judge, self.said),
+            look.area(
                 "springs",
-                html("The springs over a period", HEADING), html(SPRINGS_LEGEND, SMALL), self.figures.springs,
-                html("The forces over a period", HEADING), html(FORCES_LEGEND, SMALL), self.figures.forces,
+                look.heading("The springs over a period"), look.html(SPRINGS_LEGEND, look.SMALL), self.figures.springs,
+                look.heading("The forces over a period"), look.html(FORCES_LEGEND, look.SMALL), self.figures.forces,
             ),
-            self.keep.view, stylesheets=[LAYOUT], sizing_mode="stretch_width",
+            self.keep.view, stylesheets=[look.LAYOUT], **look.WIDE,
         )  # fmt: skip
-        head = html("<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration")
-        return pn.Column(head, self.alert, body, stylesheets=[PAGE], sizing_mode="stretch_width")
+        title = "<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration"
+        return pn.Column(look.html(title), self.alert, body, stylesheets=[look.PAGE], **look.WIDE)
 
     # --- changes ---
 
-    def change(self, path: str, value: Any) -> str:
-        """Set a path; the answer is why it was refused."""
-        return self._try(lambda: self.state.changed(path, value))
-
-    def choose(self, slot: str, kind: str) -> str:
-        """Set the kind of a part; the answer is why it was refused."""
-        return self._try(lambda: self.state.with_kind(slot, kind))
-
-    def _try(self, change: Callable[[], State]) -> str:
+    def attempt(self, change: Callable[[State], State], anew: bool = False) -> str:
+        """Change the state; the answer is why that was refused."""
         try:
-            self._take(change())
-        except REFUSALS as refusal:
-            return words_of(refusal)
+            self._take(change(self.state), anew)
+        except look.REFUSALS as refusal:
+            return look.words_of(refusal)
         return ""
 
-    def _hold(self, in_groups: bool) -> None:
-        self._take(replace(self.state, in_groups=in_groups))
+    def _load(self, data: bytes, name: str) -> None:
+        """Take a case file."""
 
-    def _load(self, case: SlidingContact) -> None:
-        self._take(replace(State.of(case), in_groups=self.state.in_groups), anew=True)
-        self._refuse("")
+        def loaded(state: State) -> State:
+            return replace(State.of(parse_case(data.decode("utf-8-sig"), name)), in_groups=state.in_groups)
 
-    def _refuse(self, words: str) -> None:
-        self.alert.object = refused(words)
+        self.alert.object = look.refused(self.attempt(loaded, anew=True))
 
     def _take(self, state: State, anew: bool = False) -> None:
         """Make this the state: the controls stand at it, and its pictures are asked for."""
@@ -124,7 +101,7 @@ class Page:
         if state is not self.state:
             return
         if isinstance(answer, Exception):
-            self.status.object = refused(f"{words_of(answer)}; the picture is that of before")
+            self.status.object = look.refused(f"{look.words_of(answer)}; the picture is that of before")
         elif answer is not None:
             with pn.io.hold(self.document):  # one message to the browser
                 self._draw(answer)
@@ -134,12 +111,13 @@ class Page:
     def _draw(self, picture: Picture) -> None:
         self.keep.picture = picture
         self.figures.show(picture)
-        self.legend.object = f'<span style="{SMALL}">{CURVE_LEGEND}{BAND_LEGEND if picture.band else ""}</span>'
-        self.numbers.object = table(picture.numbers) + "".join(map(doubted, picture.doubts))
+        legend = CURVE_LEGEND + (BAND_LEGEND if picture.band else "")
+        self.legend.object = f'<span style="{look.SMALL}">{legend}</span>'
+        self.numbers.object = look.table(picture.numbers) + "".join(map(look.doubted, picture.doubts))
         self._tell(BOUNDED if picture.curve else FIRST_SIGHT)
 
     def _tell(self, status: str) -> None:
-        self.status.object = f'<span style="{SMALL}" class="status">{status}</span>'
+        self.status.object = f'<span style="{look.SMALL}" class="status">{status}</span>'
 
     def _judge(self, _: Any) -> None:
         self.said.object = "computing the verdict, which takes some seconds …"
@@ -147,7 +125,7 @@ class Page:
 
     def _say(self, case: SlidingContact, answer: str | Exception | None) -> None:
         if answer is not None and case == self.state.case:
-            text = refused(words_of(answer)) if isinstance(answer, Exception) else escape(answer)
+            text = escape(answer) if isinstance(answer, str) else look.refused(look.words_of(answer))
             self.said.object = f'<div style="font-size:13px;line-height:1.5" class="verdict">{text}</div>'
 
 
@@ -156,5 +134,5 @@ def page_of(case: SlidingContact) -> Any:
     query = {key: values[-1].decode("utf-8", "replace") for key, values in pn.state.session_args.items()}
     try:
         return Page(state_of(query) if query else State.of(case)).view
-    except REFUSALS as refusal:
-        return Page(State.of(case), words_of(refusal)).view
+    except look.REFUSALS as refusal:
+        return Page(State.of(case), look.words_of(refusal)).view

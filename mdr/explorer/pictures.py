@@ -75,20 +75,15 @@ class Picture:
         run, known = self.run, resolved(self.state.case)
         depth = known.working_depth
         a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
+        end = "" if run.settled else ", not settled"
         rows = [("v_c", with_prefix(self.v_c, "m/s"), "critical velocity in closed form")]
         if self.v_c_back is not None:
             rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
-        if self.band is not None:
-            rows.append(
-                (
-                    "band",
-                    f"{self.band.low:.4g} to {self.band.high:.4g}",
-                    "mean F_x over F_z at rest, under a rigid pull that stands still",
-                )
-            )
-        elif not self.state.case.is_shaken:
+        else:
             rows.append(("COF at rest", f"{self.cof[0]:.4g}", "limit of friction as v_0 → 0"))
-        end = "" if run.settled else ", not settled"
+        if self.band is not None:
+            held = "mean F_x over F_z at rest, under a rigid pull that stands still"
+            rows.append(("band", f"{self.band.low:.4g} to {self.band.high:.4g}", held))
         return [
             *rows,
             ("COF at v_0", f"{run.cof:.4g} ± {run.cof_error:.1g}{end}", "mean F_x over mean F_z of the run"),
@@ -117,16 +112,13 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
 
 def velocities_of(state: State) -> Array:
     """Velocities [m/s] of the curve: to a little beyond v_c, or to the run; both ways where something shakes."""
+    scales = [velocity_scale(case) for case in (state.case, state.case.mirrored)]
+    forward, back = (min(max(UP_TO * one, 1.1 * abs(state.v_0)), FARTHEST * one) for one in scales)
     share = np.linspace(0, 1, POINTS)
     if not state.case.is_shaken:
-        return share * _end(state, velocity_scale(state.case))
+        return share * forward
     share[0] = LEAST
-    back = _end(state, velocity_scale(state.case.mirrored))
-    return np.concatenate([-back * share[::-1], _end(state, velocity_scale(state.case)) * share])
-
-
-def _end(state: State, scale: float) -> float:
-    return min(max(UP_TO * scale, 1.1 * abs(state.v_0)), FARTHEST * scale)
+    return np.concatenate([-back * share[::-1], forward * share])
 
 
 def with_prefix(value: float, unit: str) -> str:

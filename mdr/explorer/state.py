@@ -1,24 +1,33 @@
 """What is explored: a case and the pulling velocity of one run, in SI or by dimensionless groups.
 
-In groups, those of the case and v_0/v_c are held while anything else changes; in SI the fields are.
+In groups, those of the case and v_0/v_c are held while anything else changes; in SI the fields are. A new part begins
+at what it shares with the one before, and else at sizes that suit the case.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
-from mdr.explorer.scales import group_values, scales_of
-from mdr.files.case_files import nameable
-from mdr.files.examples import PULLS, STILL, example
-from mdr.normal.vary import case_at, value_at
+from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAKES, SHAPES, STILL
+from mdr.normal.resolved import at_rest
+from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
 from mdr.tools.checks import finite, positive
 
 V_0 = 0.5  #: of the velocity scale of a case: where its first run is
+SMALL, DAMPED, NATURAL = 0.1, 0.1, 2.0  #: amplitude over mean, damping ratio, omega_0/omega
+#: what each part can be, with the record that a new one is made of
+PARTS: dict[str, dict[str, Any]] = {
+    "indenter": SHAPES,
+    "material": MATERIALS,
+    "oscillation": MOTIONS,
+    "pull": PULLS,
+    "shake": {STILL: None, **SHAKES},
+}
 
 
 @dataclass(frozen=True)
@@ -50,36 +59,32 @@ class State:
 
     def changed(self, path: str, value: Any) -> State:
         """The state with another value at a path. ValueError or TypeError, as its record words it."""
+        case = self.case
         if path in ("v_0", "v_0/v_c"):
-            return self._pulled_at(path, value)
-        held = {name: one for name, one in group_values(self.case).items() if self.in_groups and name != path}
-        return self._with(case_at(as_given(self.case), {path: value, **held, **self._followers(path, value)}))
+            v_0 = finite(path, value) if case.is_shaken else positive(path, value, "pulling velocity")
+            return replace(self, v_0=v_0 if path == "v_0" else v_0 * (self.v_c or np.nan))
+        settings = {path: value}
+        if self.in_groups:
+            settings |= {name: one for name, one in group_values(case).items() if name != path}
+        if path == "oscillation.omega" and case.shake is not None and case.oscillation.omega:
+            ratio = case.shake.omega / case.oscillation.omega  # is kept
+            settings["shake.omega"] = ratio * positive("omega", value, "angular frequency in rad/s")
+        return self._with(case_at(as_given(case), settings))
 
     def with_kind(self, slot: str, name: str) -> State:
         """The state with another kind of a part; what it shares with the one before keeps its value."""
         case: Any = as_given(self.case)
-        if name == STILL:
+        old, new, known = getattr(case, slot), PARTS[slot][name], scales_of(case)
+        if new is None:
             return self._with(replace(case, **{slot: None}))
-        old, new, known = getattr(case, slot), _example(slot, name), scales_of(case)
-        known |= {one.name: getattr(old, one.name) for one in fields(old)} if is_dataclass(old) else {}
-        shared = {one.name: known[one.name] for one in fields(new) if one.init and one.name in known}
+        known |= {one: getattr(old, one) for one in fields_of(old)}
+        shared = {one: known[one] for one in fields_of(new) if one in known}
         if slot == "oscillation" and not new.omega and case.shake is None:
             case = self.with_kind("shake", "InPlaneOscillation").case
         try:
             return self._with(replace(case, **{slot: replace(new, **shared)}))
         except (TypeError, ValueError):  # what has the same name may mean another thing
             return self._with(replace(case, **{slot: new}))
-
-    def _pulled_at(self, path: str, value: Any) -> State:
-        v_0 = finite(path, value) if self.case.is_shaken else positive(path, value, "pulling velocity")
-        return replace(self, v_0=v_0 if path == "v_0" else v_0 * (self.v_c or np.nan))
-
-    def _followers(self, path: str, value: Any) -> dict[str, float]:
-        """A shake keeps the ratio of its frequency to that of the oscillation."""
-        if path != "oscillation.omega" or self.case.shake is None or not self.case.oscillation.omega:
-            return {}
-        ratio = self.case.shake.omega / self.case.oscillation.omega
-        return {"shake.omega": ratio * positive("omega", value, "angular frequency in rad/s")}
 
     def _with(self, case: SlidingContact) -> State:
         """Another case at the velocity that is held: v_0/v_c in groups; one that the case can be pulled at. ValueError
@@ -97,26 +102,40 @@ def _first(case: SlidingContact) -> float:
     return float(f"{V_0 * velocity_scale(case):.3g}")
 
 
-def kinds_of(slot: str) -> list[str]:
-    """Names of what a part can be."""
-    if slot == "pull":
-        return list(PULLS)
-    return [*([STILL] if slot == "shake" else []), *(name for name in nameable()[slot] if _has_example(slot, name))]
-
-
 def kind_of(case: SlidingContact, slot: str) -> str:
     """What a part of the case is."""
     part = getattr(as_given(case), slot)
     return STILL if part is None else type(part).__name__
 
 
-def _example(slot: str, name: str) -> Any:
-    argument = {"indenter": "shape", "oscillation": "motion"}.get(slot, slot)
-    return getattr(example(**{argument: name}), slot)
+def group_values(case: SlidingContact) -> dict[str, float]:
+    """The groups that the case has and that can be set in it, with their values [-]."""
+    fields_at = {path: at.split(".") for path, at in GROUPS.items()}
+    own = [path for path, (slot, field) in fields_at.items() if field in fields_of(getattr(case, slot))]
+    values = {path: value_at(case, path) for path in own}
+    return {path: value for path, value in values.items() if np.isfinite(value)}
 
 
-def _has_example(slot: str, name: str) -> bool:
-    try:
-        return _example(slot, name) is not None
-    except ValueError:  # a class of a user's own
-        return False
+def scales_of(case: SlidingContact) -> dict[str, float]:
+    """Sizes [SI] of fields that the case may not have, to two digits: where a slider or a new part begins.
+
+    A contact of its depth, an amplitude of a tenth, a spring as stiff as the contact, a body of twice the frequency.
+    """
+    case = at_rest(case)
+    depth, kappa = case.contact_depth, case.material.mindlin_ratio
+    k_zc = float(case.indenter.stiffness(depth, case.material.E_star))
+    load, k_x = float(case.indenter.force(depth, case.material.E_star)), k_zc / kappa
+    m = k_x / (NATURAL * case.omega) ** 2
+    sizes = {
+        "u_z0": depth,
+        "du_z": SMALL * depth,
+        "F_z0": load,
+        "dF_z": SMALL * load,
+        "m_z": k_zc / (NATURAL * case.omega) ** 2,
+        "tau": SMALL / case.omega,
+        "k_x": k_x,
+        "m": m,
+        "c_x": 2 * DAMPED * float(np.sqrt(k_x * m)),
+        "du_x": case.mu_0 * kappa * depth / 2,
+    }
+    return {name: float(f"{size:.2g}") for name, size in sizes.items()} | {"omega": case.omega}

@@ -119,7 +119,7 @@ def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
 
 def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     before = set(tmp_path.iterdir())
     assert main(["curve", punch, "--json"]) == 0
     answer = strict_json(capsys.readouterr().out)
@@ -129,7 +129,7 @@ def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypa
 
 
 def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", partial(made_up_curve, settled=False))
+    monkeypatch.setattr("mdr.cof_curve", partial(made_up_curve, settled=False))
     assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
@@ -140,7 +140,7 @@ def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypa
 
 
 def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     case = read_case(resonant)
     assert velocity_scale(case) == pytest.approx(0.5 * 400.0 * 2e-6 * 1.5, rel=1e-12)
     assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2"]) == 0
@@ -155,7 +155,7 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
      (["--up-to", "0.5", "--points", "2"], [0, None]), (["--up-to", "0.5 v_c", "--points", "2"], [0, None])],
 )  # fmt: skip
 def test_velocities_of_a_curve_in_metres_per_second_or_over_v_c(capsys, punch, monkeypatch, options, velocities):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     half = 0.5 * mdr.critical_velocity(read_case(punch))
     assert main(["curve", punch, *options, "--json"]) == 0
     answer = strict_json(capsys.readouterr().out)
@@ -163,7 +163,7 @@ def test_velocities_of_a_curve_in_metres_per_second_or_over_v_c(capsys, punch, m
 
 
 def test_velocities_that_a_curve_cannot_have(capsys, punch, resonant, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     assert main(["curve", punch, "--v-0", "-1e-3"]) == 2
     assert "must not be negative, got -0.001 m/s" in capsys.readouterr().err
     assert main(["curve", punch, "--v-0", "1e-3", "--points", "3"]) == 2
@@ -175,7 +175,7 @@ def test_velocities_that_a_curve_cannot_have(capsys, punch, resonant, monkeypatc
 
 
 def test_files_that_are_there_are_named_before_they_are_overwritten(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.friction.cof_curve.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     (tmp_path / "curve.csv").write_text("mine")
     assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 0
     assert capsys.readouterr().err == f"mdr: will be overwritten: {tmp_path / 'curve.csv'}\n"
@@ -216,7 +216,7 @@ def test_a_run_for_machines(capsys, punch):
 def test_a_run_that_does_not_settle_fails(capsys, punch, monkeypatch):
     case = read_case(punch)
     loose = mdr.slide(case, 1e-5, n_springs=32, steps_per_period=64, n_periods=2, record=1)
-    monkeypatch.setattr("mdr.march.slide.slide", lambda *args, **knobs: replace(loose, settled=False, why="it drifts"))
+    monkeypatch.setattr("mdr.slide", lambda *args, **knobs: replace(loose, settled=False, why="it drifts"))
     assert main(["run", punch, "--v-0", "1e-5"]) == 1
     assert capsys.readouterr().err == "mdr: the run did not settle\n  it drifts\n"
 
@@ -347,9 +347,7 @@ def test_the_names_of_the_records():
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
-    monkeypatch.setattr(
-        "mdr.friction.measured_velocity.measure_critical_velocity", lambda case, direction, accuracy: found
-    )
+    monkeypatch.setattr("mdr.measure_critical_velocity", lambda case, direction, accuracy: found)
     assert main(["measure", EXAMPLE]) == status
     assert found.why in capsys.readouterr().out
     assert main(["measure", EXAMPLE, "--json"]) == status
@@ -357,7 +355,7 @@ def test_measure(capsys, monkeypatch, found, status):
 
 
 def test_verdict(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: MadeUpVerdict())
+    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy: MadeUpVerdict())
     assert main(["verdict", EXAMPLE]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Eq. (15) is good: one element",
@@ -377,7 +375,7 @@ def test_verdict(capsys, monkeypatch):
 def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(capsys, monkeypatch):
     found = MadeUpVerdict()
     found.eq_15, found.deviation = 1e-9, 3e3
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: found)
+    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy: found)
     assert main(["verdict", EXAMPLE]) == 0
     assert "deviation  +3.000e+03  measured less Eq. (15), over 1e-4 of Eq. (1)" in capsys.readouterr().out
 
@@ -394,7 +392,7 @@ def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, wi
         asked.append(within)
         return MadeUpVerdict()
 
-    monkeypatch.setattr("mdr.friction.verdict.verdict", judged)
+    monkeypatch.setattr("mdr.verdict", judged)
     assert main(["verdict", EXAMPLE, *options]) == 0
     assert asked == [pytest.approx(within, rel=1e-15)]
 
@@ -403,7 +401,7 @@ def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, wi
     "share", ["0", "-0.01", "-1%", "nan", "inf", "1", "100%", "nan%", "1%%", "%", "", "one", "0,01"]
 )
 def test_a_tolerance_that_is_none_is_status_2_and_says_why(capsys, monkeypatch, share):
-    monkeypatch.setattr("mdr.friction.verdict.verdict", None)
+    monkeypatch.setattr("mdr.verdict", None)
     with pytest.raises(SystemExit) as end:
         main(["verdict", EXAMPLE, f"--within={share}"])
     assert end.value.code == 2
@@ -423,7 +421,7 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
     found = MadeUpVerdict()
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
     found.good = None
-    monkeypatch.setattr("mdr.friction.verdict.verdict", lambda case, within, accuracy: found)
+    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy: found)
     assert main(["verdict", EXAMPLE]) == status
     assert "good       undefined" in capsys.readouterr().out
     assert main(["verdict", EXAMPLE, "--json"]) == status
@@ -485,7 +483,7 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
     def fail(case, within, accuracy):
         raise failure
 
-    monkeypatch.setattr("mdr.friction.verdict.verdict", fail)
+    monkeypatch.setattr("mdr.verdict", fail)
     assert main(["verdict", EXAMPLE]) == status
     assert capsys.readouterr().err == message
 

@@ -15,8 +15,7 @@ from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest, Superseded
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import ROWS, pictures_of
-from mdr.explorer.scales import group_values
-from mdr.explorer.state import State, kind_of, kinds_of
+from mdr.explorer.state import PARTS, State, group_values, kind_of
 from mdr.files.examples import example, example_file
 from mdr.normal.vary import GROUPS
 
@@ -38,7 +37,7 @@ def state(request):
 def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
     body = State.of(CASES["body"])
     for slot in KINDS:
-        for kind in kinds_of(slot):
+        for kind in PARTS[slot]:
             after = body.with_kind(slot, kind)
             assert kind_of(after.case, slot) == kind
             if slot == "material" and kind != "ElasticPair":
