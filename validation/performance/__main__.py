@@ -25,7 +25,6 @@ import numpy as np
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.rigid_pull import average_friction
 from mdr.studies.engine import cores
 from validation.cases import contact
 from validation.performance.waits import STANDING, alternately
@@ -33,7 +32,7 @@ from validation.performance.waits import STANDING, alternately
 N_SPRINGS, STEPS, N_PERIODS = 1000, 1024, 100
 V = 0.4  #: pulling velocity over Eq. (1)
 REPEATS = 7
-TARGETS = (1e-3, 1e-5, 1e-7)  #: error of cof/mu_0
+ACCURACIES = (1e-3, 1e-5, 1e-7)
 CASES = {"elastic": contact("paraboloid", 0.5), "Kelvin, T = 1": contact("paraboloid", 0.5, 1.0)}
 BODY = contact("paraboloid", 0.1, 1.0, k_ratio=2.0, omega_0_ratio=0.7)
 
@@ -107,36 +106,12 @@ def threads(label: str, case: SlidingContact) -> list[Row]:
     return [ratio(f"{label}: two threads / one", seconds["one"], seconds["two"])]
 
 
-def time_to(label: str, case: SlidingContact) -> list[Row]:
-    """Time of the coarsest run whose COF is within each target at three velocities, over that of the first target.
-
-    Springs and steps are doubled together from 16 and 64; the reference is the closed form of a rigid pull, or a run
-    finer by four than the last.
-    """
-    v_c = mdr.critical_velocity(case)
-    velocities = (0.3 * v_c, 0.6 * v_c, 0.9 * v_c)
-    ladder = [{"n_springs": 32 * 2**k, "steps_per_period": 64 * 2**k} for k in range(8)]
-
-    def cofs(knobs: dict[str, int]) -> np.ndarray:
-        return np.array([mdr.slide(case, v, **knobs).cof for v in velocities]) / case.mu_0
-
-    if isinstance(case.pull, mdr.RigidPull):
-        exact = average_friction(case, np.array(velocities)).cof / case.mu_0
-    else:
-        exact = cofs({"n_springs": 8192, "steps_per_period": 16_384})
-    found: list[tuple[float, dict[str, int]]] = []
-    for knobs in ladder:
-        error = float(np.abs(cofs(knobs) - exact).max())
-        found += [(target, knobs) for target in TARGETS[len(found) :] if error <= target]
-        if len(found) == len(TARGETS):
-            break
-    seconds = timed({str(target): partial(cofs, knobs) for target, knobs in found}, repeats=3)
-    first = seconds[str(TARGETS[0])]
-    return [
-        ratio(f"{label}: time to {target:g} ({knobs['n_springs']} springs, {knobs['steps_per_period']} steps) / to "
-              f"{TARGETS[0]:g}", seconds[str(target)], first)
-        for target, knobs in found[1:]
-    ]  # fmt: skip
+def digits(label: str, case: SlidingContact) -> list[Row]:
+    """Time of a run for each accuracy asked for, over that of the first."""
+    v_0 = 0.6 * mdr.critical_velocity(case)
+    seconds = timed({f"{one:g}": partial(mdr.slide, case, v_0, accuracy=one) for one in ACCURACIES}, repeats=3)
+    first, *others = seconds
+    return [ratio(f"{label}: time to {one} of mu_0 / to {first}", seconds[one], seconds[first]) for one in others]
 
 
 def tables() -> dict[str, list[Row]]:
@@ -145,7 +120,7 @@ def tables() -> dict[str, list[Row]]:
         "scaling": [
             row for label, case in CASES.items() for one in (scaling, threads, memory) for row in one(label, case)
         ],
-        "what digits cost": [*time_to("rigid pull, Kelvin", CASES["Kelvin, T = 1"]), *time_to("body, Kelvin", BODY)],
+        "what digits cost": [*digits("rigid pull, Kelvin", CASES["Kelvin, T = 1"]), *digits("body, Kelvin", BODY)],
     }
 
 
