@@ -26,7 +26,7 @@ MOTIONS = {"pressed": 3.0, "taps": 0.5, "flies": -0.6}
 PULLS = {
     "rigid": {},
     "body": {"k_ratio": 0.7, "c_ratio": 0.1},
-    "light body": {"k_ratio": 0.02, "omega_0_ratio": np.inf},
+    "light body": {"k_ratio": 0.3, "omega_0_ratio": np.inf, "c_ratio": 0.3},
 }
 SHAKE = mdr.InPlaneOscillation(300.0, 2e-6, 0.7)
 #: instants [s] and depths or forces over the greatest: in, out and in again, jumps both ways, a rest
@@ -52,7 +52,7 @@ def slides():
         of_pull = contact("paraboloid", **groups).pull
         case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull, shake)
         (start, n_periods), way = next(starts), next(ways) if shake else 1
-        knobs = {"n_springs": 16, "steps_per_period": 23 + n_periods, "n_periods": n_periods, "start": start}
+        knobs = {"n_springs": 16, "steps_per_period": 31 + n_periods, "n_periods": n_periods, "start": start}
         run = mdr.slide(case, way * 0.4 * case.unit_velocity, record=n_periods - 2, **knobs)
         energy = run.energy_balance
         numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss, energy.shake_work]
