@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 from numba import njit
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import solve_ivp
 
 
 @njit(nogil=True)
@@ -174,20 +174,3 @@ def spring(gap, z_n, x_n, T, v, most=60):
     else:
         raise ValueError(f"the spring does not repeat itself within {most} periods")
     return float(means[0]), float(means[1])
-
-
-def array(n, depth, z_n, x_n, T, v):
-    """COF over mu_0 of an array of such springs, by adaptive quadrature over g = depth x**n; takes half a minute."""
-    phase = np.linspace(0, 2 * np.pi, 4001)
-    greatest = float(sum((a * np.exp(1j * k * phase)).real for k, a in enumerate(z_n, start=1)).max())
-    reach = ((depth + greatest) / depth) ** (1 / n)
-    known = {}
-
-    def mean(x, which):
-        if x not in known:
-            known[x] = spring(depth * x**n - depth, z_n, x_n, T, v)
-        return known[x][which]
-
-    knobs = {"epsabs": 1e-8 * greatest, "epsrel": 1e-8, "limit": 100}
-    e, s = (quad(mean, 0, reach, args=(which,), **knobs) for which in (0, 1))
-    return e[0] / s[0]

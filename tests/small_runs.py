@@ -2,17 +2,18 @@
 
 import json
 from dataclasses import replace
-from itertools import cycle
+from itertools import cycle, product
 
 import numpy as np
 from conftest import contact
 
 import mdr
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction
-from mdr.march import kernels
 from mdr.march.march import Knobs, march
 from mdr.materials.operator import Rheology
 from mdr.normal import indentation
+from mdr.spring.law import law_of
+from mdr.spring.settle import settled
 from mdr.tools.anderson import shares
 
 MATERIALS = {
@@ -25,8 +26,9 @@ MOTIONS = {"pressed": 3.0, "taps": 0.5, "flies": -0.6}
 PULLS = {
     "rigid": {},
     "body": {"k_ratio": 0.7, "c_ratio": 0.1},
-    "light body": {"k_ratio": 0.02, "omega_0_ratio": np.inf},
+    "light body": {"k_ratio": 0.3, "omega_0_ratio": np.inf, "c_ratio": 0.3},
 }
+SHAKE = mdr.InPlaneOscillation(300.0, 2e-6, 0.7)
 #: instants [s] and depths or forces over the greatest: in, out and in again, jumps both ways, a rest
 TIMES = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 8.0, 8.0, 9.0]) * 1e-3
 DEPTHS = np.array([0.1, 1.0, 0.7, -0.2, 0.6, 0.9, 0.3, 0.8, 0.3, 0.25])
@@ -40,49 +42,31 @@ def least_squares():
 
 
 def slides():
-    """Every kind of spring, motion and pull; in turn from both starts, in an odd and an even number of steps."""
-    like, starts = contact("paraboloid"), cycle((("full_slip", 2), ("rest", 3)))
-    for name, material in MATERIALS.items():
-        for motion, depth_ratio in MOTIONS.items():
-            for pull, groups in PULLS.items():
-                oscillation = replace(like.oscillation, u_z0=depth_ratio * like.oscillation.du_z)
-                of_pull = contact("paraboloid", **groups).pull
-                case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull)
-                start, n_periods = next(starts)
-                knobs = {"n_springs": 16, "steps_per_period": 25, "n_periods": n_periods, "start": start}
-                run = mdr.slide(case, 0.4 * case.unit_velocity, record=n_periods - 2, **knobs)
-                energy = run.energy_balance
-                numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss]
-                yield f"{name}, {motion}, {pull}, {start}", [*numbers, *(() if run.F_x is None else run.F_x)]
-
-
-def shakes():
-    """Every kind of spring and pull under a shake, pressed and tapping, in turn pulled either way."""
-    like, ways = contact("paraboloid"), cycle((1, -1))
-    for name, material in MATERIALS.items():
-        for motion in ("pressed", "taps"):
-            for pull, groups in PULLS.items():
-                oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
-                shake = mdr.InPlaneOscillation(like.omega, 2e-6, 0.7)
-                of_pull = contact("paraboloid", **groups).pull
-                case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull, shake)
-                v_0 = next(ways) * 0.4 * case.unit_velocity
-                run = mdr.slide(case, v_0, n_springs=16, steps_per_period=25, n_periods=3)
-                energy = run.energy_balance
-                numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss, energy.shake_work]
-                yield f"shaken, {name}, {motion}, {pull}", numbers
+    """Every kind of spring, motion and pull, still and shaken, in an odd and an even number of steps; in turn from both
+    starts, and pulled either way.
+    """
+    like, starts, ways = contact("paraboloid"), cycle((("full_slip", 2), ("rest", 3))), cycle((1, -1))
+    every = product(MATERIALS.items(), MOTIONS.items(), PULLS.items(), (None, SHAKE))
+    for (name, material), (motion, depth_ratio), (pull, groups), shake in every:
+        oscillation = replace(like.oscillation, u_z0=depth_ratio * like.oscillation.du_z)
+        of_pull = contact("paraboloid", **groups).pull
+        case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull, shake)
+        (start, n_periods), way = next(starts), next(ways) if shake else 1
+        knobs = {"n_springs": 16, "steps_per_period": 31 + n_periods, "n_periods": n_periods, "start": start}
+        run = mdr.slide(case, way * 0.4 * case.unit_velocity, record=n_periods - 2, **knobs)
+        energy = run.energy_balance
+        numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss, energy.shake_work]
+        yield f"{name}, {motion}, {pull}, {start}, {shake}", [*numbers, *(() if run.F_x is None else run.F_x)]
 
 
 def shaken_pulls():
     """Friction under a shake in closed form, to a loose tolerance."""
-    like = contact("paraboloid")
-    for name in ("elastic", "Kelvin"):
-        for motion in ("pressed", "taps"):
-            oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
-            shake = mdr.InPlaneOscillation(like.omega, 2e-6, 0.7)
-            case = replace(like, material=MATERIALS[name], oscillation=oscillation, shake=shake)
-            found = average_friction(ShakenPull.of(case), [0.0, 0.4, 0.7], 1e-5)
-            yield f"shaken pull, {name}, {motion}", np.concatenate([found[0], found[2]]).tolist()
+    like = replace(contact("paraboloid"), shake=SHAKE)
+    for name, motion in product(("elastic", "Kelvin"), ("pressed", "taps")):
+        oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
+        case = replace(like, material=MATERIALS[name], oscillation=oscillation)
+        found = average_friction(ShakenPull.of(case), [0.0, 0.4, 0.7], 1e-5)
+        yield f"shaken pull, {name}, {motion}", np.concatenate([found[0], found[2]]).tolist()
 
 
 def searches():
@@ -106,20 +90,19 @@ def presses():
 
 
 def cycles():
-    """Springs with memory in their periodic normal motion; arms too fast for the steps find none, or alternate."""
+    """Springs in their periodic normal motion; arms too fast for the steps find none, or alternate."""
     fast = mdr.Prony(3e6, [(3.511e5, 8.036e-4), (1.129e6, 1.618e-4)], 0.4, tau=0.4875)
-    gap, w, spans = np.linspace(-1.0, 1.0, 9), np.full(9, 0.25), np.empty((2, 48), dtype=np.int64)
+    gap, w = np.linspace(-1.0, 1.0, 9), np.full(9, 0.25)
     several = dict.fromkeys(MATERIALS, (300.0, 48)) | {"finds none": (300.0, 16), "alternates": (1e3, 20)}
-    for name, (omega, n_z) in several.items():
-        phase = 2 * np.pi * np.arange(n_z + 1) / n_z - 1.0
-        table = Rheology.of(MATERIALS.get(name, fast), omega).over_step(2 * np.pi / n_z)
-        s, motion = np.zeros((table.shape[1], 9)), (np.cos(phase), -np.sin(phase))
-        S = np.empty(n_z)
-        kernels.settle_normal(s, gap, w, *motion, table, spans, S)
-        yield f"{name}, start", [*S, *s.ravel(), *spans[:, :n_z].ravel()]
+    for name, (omega, n_t) in several.items():
+        phase = 2 * np.pi * np.arange(n_t + 1) / n_t - 1.0
+        of = Rheology.of(MATERIALS.get(name, fast), omega)
+        found = settled(gap, w, np.cos(phase), -np.sin(phase), law_of(of.T, of.rho, of.theta), each=True)
+        numbers = [] if found is None else [*found.area, *found.moment, *found.compression, *found.s.ravel()]
+        yield f"{name}, cycle", numbers or [np.nan]
 
 
-MAKERS = (least_squares, slides, shakes, shaken_pulls, searches, presses, cycles)
+MAKERS = (least_squares, slides, shaken_pulls, searches, presses, cycles)
 
 
 def results():

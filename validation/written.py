@@ -1,4 +1,4 @@
-"""Numbers and tables in prose: taken from the record of the checks, never written by hand.
+"""Numbers and verdicts in prose: taken from the record of the checks, never written by hand.
 
 `python -m validation.written report/checks.json`, where the report was just made, keeps that record as
 docs/checks.json, the figure that opens the report as docs/claim.svg and the versions that made them as constraints.txt
@@ -13,7 +13,7 @@ A number stands right before its mark, which says what of the checks (`got`; `wo
 `most`, the greatest got; `count`, how many there are) of a claim, by how their names begin (`*` for any letters), with
 how many digits; `%` behind the digits makes it per cent, `tex` sets powers for TeX. `farthest` is the greatest relative
 difference of a measured critical velocity from a formula, over all checks of a headline (validation/headlines.py). A
-table of verdicts has the claims of the group (`validation.GROUPS`) that its mark names.
+list of verdicts has the claims of the group (`validation.GROUPS`) that its mark names.
 """
 
 import argparse
@@ -35,7 +35,7 @@ RECORD = ROOT / "docs" / "checks.json"
 CONSTRAINTS = Path(__file__).with_name("constraints.txt")
 
 _NUMBER = re.compile(r"(\$[^$\n]+\$|[-−\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+(?: %)?)<!--= (\S.*?) -->", re.DOTALL)
-_TABLE = re.compile(r"(<!--= verdicts :: ([\w ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
+_LIST = re.compile(r"(<!--= verdicts :: ([\w ]+) -->\n).*?(<!--= end -->)", re.DOTALL)
 
 #: what a mark takes of the checks that it names
 _TAKEN: dict[str, Callable[[Sequence[dict[str, Any]]], float]] = {
@@ -93,7 +93,7 @@ def pages() -> list[Path]:
 
 def written(text: str, record: dict[str, Any]) -> str:
     """The text with all its marked places set from a record of checks."""
-    text = _TABLE.sub(lambda place: place[1] + verdict_table(record, _of_group(place[2])) + place[3], text)
+    text = _LIST.sub(lambda place: place[1] + verdict_list(record, _of_group(place[2])) + place[3], text)
     return _NUMBER.sub(lambda place: f"{number(place[2], record)}<!--= {place[2]} -->", text)
 
 
@@ -136,26 +136,22 @@ def formatted(value: float, digits: str, style: str = "") -> str:
 def _of_group(title: str) -> Sequence[str]:
     """The claims of a group; ValueError for a title that is none."""
     if title not in GROUPS:
-        raise ValueError(f"a table of verdicts is that of {' or '.join(GROUPS)}, got {title!r}")
+        raise ValueError(f"a list of verdicts is that of {' or '.join(GROUPS)}, got {title!r}")
     return GROUPS[title][1]
 
 
-def verdict_table(record: dict[str, Any], names: Sequence[str]) -> str:
-    """The claims of these names with verdict, conclusion in a sentence and how many checks held, as Markdown."""
+def verdict_list(record: dict[str, Any], names: Sequence[str]) -> str:
+    """The claims of these names with verdict and conclusion in a sentence, as items of a list in Markdown."""
     claims = {claim["name"]: claim for claim in record["claims"]}
     if missing := [name for name in names if name not in claims]:
-        raise ValueError(f"the record lacks the claims {', '.join(missing)} of a table; it has {', '.join(claims)}")
-    rows = ["| claim | verdict | in one sentence | checks held |", "| --- | --- | --- | --- |"]
-    for claim in map(claims.__getitem__, names):
-        own = [check["held"] for check in record["checks"] if check["claim"] == claim["name"]]
-        told = (claim["name"].replace("_", " "), *map(_cell, (claim["verdict"], claim["sentence"])))
-        rows.append(f"| {' | '.join(told)} | {sum(own)} of {len(own)} |")
-    return "\n".join(rows) + "\n"
+        raise ValueError(f"the record lacks the claims {', '.join(missing)} of a list; it has {', '.join(claims)}")
+    told = ((name.replace("_", " "), claims[name]["verdict"], claims[name]["sentence"]) for name in names)
+    return "".join(f"- {name}: *{_words(verdict)}*. {_words(sentence)}\n" for name, verdict, sentence in told)
 
 
-def _cell(text: str) -> str:
-    """Text as a cell of a table, symbols as the report sets them: a bar would end it, a star could set italics."""
-    return re.sub(r"([|*])", r"\\\1", markup(text))
+def _words(text: str) -> str:
+    """Text with symbols as the report sets them; a star could set italics."""
+    return markup(text).replace("*", r"\*")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ README = (pages.ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def prose(page):
-    """What is read of a page: no code, no marks, no targets of links, no tables set from the record."""
+    """What is read of a page: no code, no marks, no targets of links, no lists set from the record."""
     text = re.sub(r"<!--= verdicts.*?<!--= end -->", "", pages.FENCE.sub("", page), flags=re.DOTALL)
     return re.sub(r"<!--.*?-->|(?<=\])\([^)]*\)|\*", "", text, flags=re.DOTALL)
 

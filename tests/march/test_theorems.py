@@ -1,10 +1,9 @@
-"""What no settled run may contradict: on numbers, and on random bodies as in table_of_theorems.py."""
+"""What no settled run may contradict: on numbers, and on random bodies as in tables/theorems.py."""
 
 import numpy as np
 import pytest
-import random_velocities as velocities
-import table_of_theorems as table
 from numpy.testing import assert_array_equal
+from tables import theorems, velocities
 
 from mdr.march.theorems import disordered, outside
 
@@ -27,7 +26,7 @@ def test_friction_that_falls_with_velocity_is_named_at_both_velocities():
 
 @pytest.mark.parametrize("seed", range(12))
 def test_no_settled_run_of_a_random_body_contradicts_a_theorem(seed):
-    row = table.row(seed)
+    row = theorems.row(seed)
     assert not row.contradictions, row
     assert row.settled + len(row.reasons) == 3
 

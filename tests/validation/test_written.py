@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from validation import CLAIMS, GROUPS, written
-from validation.written import RECORD, formatted, main, number, pages, verdict_table
+from validation.written import RECORD, formatted, main, number, pages, verdict_list
 
 CHECKS = [
     {"claim": "one", "name": "worst of 4", "got": 4.9e-6, "expected": 0.0, "held": True},
@@ -29,7 +29,7 @@ def test_the_record_is_of_all_claims_and_all_checks_held():
     assert all(check["held"] for check in record["checks"])
     for claim in record["claims"]:
         assert len(claim["verdict"]) <= 100
-        assert len(claim["sentence"]) <= 200, "a row of a table is read at a glance"
+        assert len(claim["sentence"]) <= 200, "an item is read at a glance"
 
 
 def test_a_verdict_that_is_not_quoted_is_named():
@@ -71,14 +71,14 @@ def test_a_mark_that_names_no_check_or_several_is_refused(mark):
         number(mark, SAMPLE)
 
 
-def test_the_table_counts_what_held_and_escapes_what_would_break_it():
-    row = verdict_table(SAMPLE, ["one"]).splitlines()[2]
-    assert row == r"| one | holds if E\* \| F | As <i>v</i><sub>c</sub><sup>2</sup>. | 2 of 3 |"
+def test_the_list_escapes_what_would_set_italics():
+    item = verdict_list(SAMPLE, ["one"])
+    assert item == "- one: *holds if E\\* | F*. As <i>v</i><sub>c</sub><sup>2</sup>.\n"
 
 
-def test_a_table_of_no_group_or_of_claims_that_the_record_lacks_is_refused():
-    with pytest.raises(ValueError, match="lacks the claims two of a table; it has one"):
-        verdict_table(SAMPLE, ["one", "two"])
+def test_a_list_of_no_group_or_of_claims_that_the_record_lacks_is_refused():
+    with pytest.raises(ValueError, match="lacks the claims two of a list; it has one"):
+        verdict_list(SAMPLE, ["one", "two"])
     with pytest.raises(ValueError, match=r"is that of The model or .*, got 'Nothing'"):
         written.written("<!--= verdicts :: Nothing -->\n<!--= end -->\n", SAMPLE)
 

@@ -5,11 +5,11 @@ counts by what exceeds the doubt.
 """
 
 import itertools
-from dataclasses import dataclass
 
 import numpy as np
 import reference
 from conftest import SHAPES, contact, unit_of_velocity
+from tables.beside import row
 
 import mdr
 
@@ -20,32 +20,10 @@ TS = (0.3, 1.0, 3.0)
 BODIES = ((0.7, 1.6, 0.07), (3.0, 1.1, 0.1), (0.3, 0.6, 0.05))
 
 
-@dataclass(frozen=True)
-class Row:
-    """One COF beside the twin, both over mu_0."""
-
-    groups: tuple
-    cof: float
-    bound: float
-    truth: float
-    doubt: float
-
-    @property
-    def distance(self):
-        return abs(self.cof - self.truth)
-
-    @property
-    def error(self):
-        return max(self.distance - self.doubt, 0.0)
-
-    def __str__(self):
-        return f"{self.groups}: {self.distance:.1e} from the twin (doubt {self.doubt:.1e}), bound {self.bound:.1e}"
-
-
 def compare(groups, truth, doubt, case, v_hat):
     run = mdr.slide(case, v_hat * unit_of_velocity(case))
     assert run.settled, f"{groups}: {run.why}"
-    return Row(groups, run.cof / case.mu_0, run.cof_error / case.mu_0, float(truth), float(doubt))
+    return row(str(groups), run, truth, doubt)
 
 
 # --- families -----------------------------------------------------------------------------------------------
@@ -76,12 +54,3 @@ def spring_pull(
         case = contact(shape, 1 / alpha, T, k, omega_0, c)
         for share, v_hat, truth, doubt in zip(shares, v_hats, truths, doubts, strict=True):
             yield compare((shape, alpha, T, body, share), truth, doubt, case, v_hat)
-
-
-def summary(rows):
-    """Worst error, worst share of the bound, median of the bound over the distance."""
-    return (
-        max(row.error for row in rows),
-        max(row.error / row.bound for row in rows),
-        float(np.median([row.bound / max(row.distance, 1e-13) for row in rows])),
-    )

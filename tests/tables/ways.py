@@ -1,15 +1,14 @@
 """One motion written in six ways: no function may tell them apart by more than the errors that it states.
 
-`python tests/table_of_ways.py [n]`: n random contacts (200), of four shapes, elastic, Kelvin or with arms, pulled
-rigidly or through a body, kept or lost, shaken or not; some minutes for each ten, most of them for the verdicts.
-`quick` behind n leaves these out, `rigid` the bodies.
+`python tests/tables ways [n] [quick]`: n random contacts (200), of four shapes, elastic, Kelvin or with arms, pulled
+rigidly or through a body, kept or lost, shaken or not; some minutes for each ten, most of them for the verdicts, which
+`quick` leaves out.
 
 Prints for each function how many answers differ from that to the motion as it is given by more than the sum of both
 stated errors, the largest difference, and the answers that stand out.
 """
 
 import math
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -26,7 +25,7 @@ VELOCITIES = (0.0, 0.2, 0.5, 0.9)  #: of a curve, over the full-slip critical ve
 RUN = 0.4  #: that of the run
 
 
-def drawn(n: int, rigid: bool = False, seed: int = 3000) -> list[tuple[str, mdr.SlidingContact]]:
+def drawn(n: int, seed: int = 3000) -> list[tuple[str, mdr.SlidingContact]]:
     """Random contacts."""
     rng, out = np.random.default_rng(seed), []
     for i in range(n):
@@ -43,7 +42,7 @@ def drawn(n: int, rigid: bool = False, seed: int = 3000) -> list[tuple[str, mdr.
         k_x = 0.3 * 10 ** rng.uniform() * float(SHAPES[shape][0].stiffness(DEPTH, E / (2 + 2 * NU)))
         m, zeta = k_x / (ratio * OMEGA) ** 2, rng.uniform(0.05, 0.5)
         body = mdr.SpringPull(k_x, m, 2 * zeta * math.sqrt(k_x * m))
-        pull = body if i % 8 in (1, 3, 4, 6) and not rigid else mdr.RigidPull()
+        pull = body if i % 8 in (1, 3, 4, 6) else mdr.RigidPull()
         case = mdr.SlidingContact(SHAPES[shape][0], material, MU_0, motion, pull, shake)
         name = f"{i}: {shape}, {type(material).__name__}, T = {tau * OMEGA:.3g}, alpha = {alpha:.3g}"
         name += f", chi = {chi:.3g} at {phi:.3g}" if shake else ""
@@ -149,9 +148,9 @@ def rows_of(name: str, case: mdr.SlidingContact, verdict: bool) -> Iterator[Row]
                 yield Row(name, way, function, *first.beside(answer))
 
 
-def main(n: int, verdict: bool, rigid: bool) -> int:
+def main(n: int = 200, quick: str = "") -> int:
     """Print the table; 0 if no answer stands out."""
-    rows = [row for one in progress(drawn(n, rigid), "table_of_ways") for row in rows_of(*one, verdict)]
+    rows = [row for one in progress(drawn(n), "ways") for row in rows_of(*one, not quick)]
     print(f"{n} contacts, {len(WAYS)} ways; largest difference, over the stated errors, and how many beyond them")
     for function in dict.fromkeys(row.function for row in rows):
         for way in list(WAYS)[1:]:
@@ -165,8 +164,3 @@ def main(n: int, verdict: bool, rigid: bool) -> int:
     for row in beyond[:40]:
         print(f"{row.function}, {row.way}: {row.apart:.1e}, {row.ratio:.3g} times the errors; {row.name}")
     return 1 if beyond else 0
-
-
-if __name__ == "__main__":
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    sys.exit(main(count, "quick" not in sys.argv, "rigid" in sys.argv))

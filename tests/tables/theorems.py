@@ -1,4 +1,4 @@
-"""What a settled run must obey, asked of random systems: `python tests/table_of_theorems.py 600`; takes some minutes.
+"""What a settled run must obey, asked of random systems: `python tests/tables theorems [n] [first seed]`.
 
 A third of the systems has no damper, a third stands within 1e-2 of a whole multiple of the drive (some of them on it);
 loads, arms, amplitudes up to twice the depth, light bodies and heavy ones. No settled run may contradict
@@ -13,7 +13,6 @@ Prints what contradicts, how many settled, why the others did not, and how long 
 
 import math
 import re
-import sys
 import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
@@ -151,11 +150,11 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
 LEEWAY = 2e-6  #: of the COF over mu_0: twice what a run takes for settled, as both means may miss it
 
 
-def main(n: int, first: int = 0) -> int:
+def main(n: int = 600, first: int = 0) -> int:
     """Print the table; 0 if nothing contradicts."""
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         waiting = [pool.submit(row, seed) for seed in range(first, first + n)]
-        rows = [one.result() for one in progress(waiting, "table_of_theorems")]
+        rows = [one.result() for one in progress(waiting, "theorems")]
     seconds = np.array([s for r in rows for s in r.seconds])
     reasons = Counter(re.sub(r"\S*\d\S*", "...", why) for r in rows for why in r.reasons)
     print(f"{n} systems, {seconds.size} runs, {sum(r.settled for r in rows)} settled")
@@ -170,7 +169,3 @@ def main(n: int, first: int = 0) -> int:
     for r in sorted(rows, key=lambda r: max(r.seconds, default=0))[-5:]:
         print(f"  {max(r.seconds, default=0):.3g} s: {r.name}")
     return 1 if against else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*(int(one) for one in sys.argv[1:])))

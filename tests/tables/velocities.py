@@ -1,6 +1,6 @@
 """The measured critical velocity beside its definition.
 
-The systems of table_of_theorems.py: a third undamped, a third beside a whole multiple of the drive. Of each of them is
+The systems of theorems.py: a third undamped, a third beside a whole multiple of the drive. Of each of them is
 asked whether runs at 0.97 and 1.03 of it, and the full-slip value, contradict what it says. A contradiction is
 
 * a settled run 3 % above a measured v_c, from either start, whose COF misses mu_0 by more than its error;
@@ -13,7 +13,7 @@ import math
 import time
 from dataclasses import dataclass
 
-from table_of_theorems import drawn
+from tables.theorems import drawn
 
 import mdr
 

@@ -1,0 +1,20 @@
+"""Tables of random contacts, run by hand: `python tests/tables NAME [n]`, exit status 1 where one does not hold.
+
+    errors [n] [coarse]   true error of slide() beside cof_error, with default or with coarse knobs
+    shaken [n] [bodies]   the same under a shake: rigid pulls beside the closed form, bodies beside the twin
+    theorems [n] [first]  what a settled run must obey
+    ways [n] [quick]      one motion written in six ways: no function may tell them apart
+
+Each takes minutes for its n contacts; its docstring says more.
+"""
+
+import sys
+from importlib import import_module
+from pathlib import Path
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    name, *rest = sys.argv[1:]
+    sys.exit(import_module(f"tables.{name}").main(*(int(one) if one.isdigit() else one for one in rest)))
