@@ -163,9 +163,14 @@ class FromForce(Indenter):
         """Contact radius at the last depth [m]."""
         return float(self._radius(np.array([self.d[-1]]))[0])
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x), the depth at which a = x."""
-        return in_chunks(self._depth, self._within(finite_array("x", x, "m")))
+    def _g(self, x: Array) -> Array:
+        """The depth at which a = x."""
+        return in_chunks(self._depth, x)
+
+    def _area(self, a: Array) -> Array:
+        """a d − F/(2E*) at the depth d = g(a)."""
+        d = self._g(a)
+        return a * d - self._force(d) / (2 * self.E_star)
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = F'(d)/(2E*), up to the last depth."""
@@ -174,12 +179,6 @@ class FromForce(Indenter):
         a = np.zeros(d.shape)
         a[d > 0] = np.minimum(self._radius(d[d > 0]), self.max_radius)  # of a punch it is the same but for a rounding
         return plain(a)
-
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = a d − F/(2E*) at the depth d = g(a)."""
-        a = self._within(finite_array("a", a, "m"))
-        d = np.asarray(self.profile_1d(a))
-        return plain(a * d - self._force(d) / (2 * self.E_star))
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] at the depth d, 0 where d <= 0: the measured one in proportion to E_star."""

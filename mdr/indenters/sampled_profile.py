@@ -10,7 +10,6 @@ from os import PathLike, fsdecode
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
@@ -188,17 +187,14 @@ class SampledProfile(Indenter):
         """r[-1] [m]."""
         return self.r[-1]
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) − f(0) of the spline."""
-        return in_chunks(self._image.height, self._within(finite_array("r", r, "m")))
+    def _f(self, r: Array) -> Array:
+        return in_chunks(self._image.height, r)
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x) of the spline."""
-        return in_chunks(self._image.image, self._within(finite_array("x", x, "m")))
+    def _g(self, x: Array) -> Array:
+        return in_chunks(self._image.image, x)
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx of the spline."""
-        return in_chunks(self._image.area, self._within(finite_array("a", a, "m")))
+    def _area(self, a: Array) -> Array:
+        return in_chunks(self._image.area, a)
 
     def _pressure_of_slope(self, r: Array, a: Array) -> Array:
         return self._image.pressure(r, a)

@@ -16,7 +16,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.indenters.mapping.abel import _kernel
 from mdr.indenters.mapping.quadrature import chebyshev_fit, double_exponential
 from mdr.indenters.mapping.stable_functions import arcosh, leg
 from mdr.tools.arrays import EPS, Array
@@ -207,4 +206,20 @@ def _horner(c: Array, piece: Pieces, u: Array) -> Array:
     answer = np.zeros_like(u)
     for j in range(c.shape[1] - 1, -1, -1):
         answer = answer * u + c[piece, j]
+    return answer
+
+
+def _kernel(r: Array, s: Array, a: Array) -> Array:
+    """K(r, s) = ∫_M^a dx / √((x² − s²)(x² − r²)) with M = max(r, s): what a jump of f' at s adds to p(r).
+
+    F(ψ, k) / M, the elliptic integral of the first kind, with k = min(r, s) / M, tan²ψ = (a² − M²) / (M² − min²).
+    Infinite only at r = s; there it answers as if they differed by one rounding.
+    """
+    from scipy.special import ellipkinc
+
+    large = np.maximum(np.maximum(r, s), np.finfo(float).tiny)
+    small = np.minimum(np.minimum(r, s), large * (1 - EPS))
+    k = small / large
+    rise = np.sqrt(np.maximum(a / large - 1, 0) * (a / large + 1))
+    answer: Array = ellipkinc(np.arctan2(rise, np.sqrt((1 - k) * (1 + k))), k * k) / large
     return answer
