@@ -32,7 +32,7 @@ from mdr.tools.fields import Record
 from mdr.tools.memoise import remembered
 
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
-FALL = 1e-9  #: of its height by which g may fall: rounding
+ROUNDING = 1e-9  #: of a height, a slope or a radius: what differs by less is the same
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 HOOKS = {"profile_3d": "_f", "profile_1d": "_g", "profile_area": "_area"}  #: what computes each, unchecked
 
@@ -311,7 +311,7 @@ class Indenter(Record, ABC):
 
     def _pressure_of_slope(self, r: Array, a: Array) -> Array:
         """p/E* without that of a rim. Arrays (n,)."""
-        return abel.pressure_from_slope(self._slope, self._edges, r, a)
+        return abel.pressure_from_slope(self._slope, (0.0, *self.joints, self.max_radius), r, a)
 
     def _slope(self, s: Array, low: float, high: float) -> Array:
         """dg/ds at x² = low² + s² between the kinks ``low`` and ``high``, for a closed form to override."""
@@ -463,7 +463,7 @@ class Survey(NamedTuple):
         """Whether g is finite, rises and is mapped well."""
         return bool(
             np.isfinite(self.g[-1])
-            and np.all(np.diff(self.g) >= -FALL * np.abs(self.g[-1]))
+            and np.all(np.diff(self.g) >= -ROUNDING * np.abs(self.g[-1]))
             and self.error <= MAPPING_ERROR
         )
 
@@ -493,7 +493,7 @@ def rim_pressure(r: Array, a: Array, step: Array) -> Array:
 def refuse_falling(shape: Indenter, x: Array, g: Array, further: float = 0.0) -> None:
     """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
     highest = np.maximum.accumulate(np.maximum(g, 0))
-    fall = highest - g > FALL * np.max(np.abs(g), initial=further)
+    fall = highest - g > ROUNDING * np.max(np.abs(g), initial=further)
     if np.any(fall):
         raise ValueError(
             f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "
