@@ -19,13 +19,14 @@ eta shear viscosity [Pa s], omega angular frequency [rad/s], t time [s].
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import FieldError, finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 
@@ -187,6 +188,8 @@ class Material(Record, ABC):
         between the slowest pole and zero (at zero for a body that flows), and one beyond the fastest pole where there
         is a dashpot. Each zero is found on its own, so that times of many decades do not disturb one another.
         """
+        from scipy.optimize import brentq
+
         E_j, tau_j = np.array(self.contact_arms).reshape(-1, 2).T
         poles = 1 / tau_j  # ascending; x = -p
         start = 0.0 if self.tau > 0 else 1 / self.instantaneous_modulus
@@ -195,10 +198,23 @@ class Material(Record, ABC):
             x = np.exp(log_x)
             return float(self.E_star * (1 - x * self.tau) + np.sum(E_j * x / (x - poles)))
 
-        ends = [-np.inf, *np.log(poles), np.inf]
-        first = 1 if self.E_star == 0 else 0
-        last = len(ends) - (1 if self.tau > 0 else 2)
-        x = np.array([0.0] * first + [np.exp(_zero_between(modulus, *ends[k : k + 2])) for k in range(first, last)])
+        ends = np.log(poles)
+        if self.E_star > 0:  # E*(p) is positive at rest
+            ends = np.append(np.log(np.finfo(float).tiny), ends)
+        if self.tau > 0:  # x/(x - pole) is at most 2 at twice the pole and beyond
+            ends = np.append(
+                ends, np.log(max(2 * poles.max(initial=0.0), (2 + 2 * E_j.sum() / self.E_star) / self.tau))
+            )
+        zeros = [] if self.E_star > 0 else [0.0]
+        for low, high in pairwise(ends):
+            above, below = low + 16 * EPS * (1 + abs(low)), high - 16 * EPS * (1 + abs(high))
+            if modulus(above) <= 0:  # closer to a pole than numbers tell: its arm is next to nothing
+                zeros.append(np.exp(above))
+            elif modulus(below) >= 0:
+                zeros.append(np.exp(below))
+            else:
+                zeros.append(np.exp(brentq(modulus, above, below, xtol=1e-15, rtol=1e-15, maxiter=500)))
+        x = np.array(zeros)
         slope = self.E_star * self.tau + np.sum(E_j * poles / (poles - x[:, None]) ** 2, axis=1)  # dE*/dp
         with np.errstate(divide="ignore"):
             return float(start), 1 / slope, np.where(x > 0, 1 / x, np.inf)
@@ -253,26 +269,3 @@ def _elapsed(t: ArrayLike) -> Array:
     if np.any(t < 0):
         raise ValueError(f"t must not be negative, got {float(t.min())!r} s: before the step there is no answer to it")
     return t
-
-
-def _zero_between(function: Callable[[float], float], low: float, high: float) -> float:
-    """Zero of a function that falls from +infinity at `low` to -infinity at `high`; the ends may be infinite."""
-    from scipy.optimize import brentq
-
-    above, below = _place_near_pole(function, low, high, 1.0), _place_near_pole(function, high, low, -1.0)
-    if not function(above) > 0 > function(below):  # closer to a pole than numbers tell: its arm is next to nothing
-        return below if function(above) > 0 else above
-    return float(brentq(function, above, below, xtol=1e-15, rtol=1e-15, maxiter=500))
-
-
-def _place_near_pole(function: Callable[[float], float], end: float, other: float, sign: float) -> float:
-    """A place between two ends, so close to the first that the function has the sign that it has there."""
-    finite = np.isfinite(end)
-    anchor = end if finite else (other if np.isfinite(other) else 0.0)
-    step = 1e-3 * (abs(other - end) if np.isfinite(other) else 1.0) if finite else 1.0
-    for _ in range(200):
-        place = anchor + sign * step if finite else anchor - sign * step
-        if sign * function(place) > 0 or place == end:
-            break
-        step *= 0.1 if finite else 2.0
-    return place
