@@ -146,7 +146,7 @@ def test_a_store_knows_the_load_and_goes_on(tmp_path):
     np.testing.assert_array_equal(mdr.sweep(**file)["mean_F_N"], whole["mean_F_N"])
     for other in ({"load": 6.0, "tan_delta": 0.03}, {"load": 5.0, "tan_delta": 0.04}, {}):
         assert mdr.sweep(**{**file, "held": other}).identity != whole.identity
-    with pytest.raises(mdr.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
+    with pytest.raises(mdr.studies.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
         mdr.sweep(**{**file, "held": {**file["held"], "load": 6}}, store=tmp_path)
 
 
