@@ -8,36 +8,34 @@ from mdr.indenters import *
 from mdr.materials import *
 from mdr.case.motion import *
 from mdr.case.in_plane import *
-from mdr.case.pull import Pull, RigidPull, SpringPull
+from mdr.case.pull import RigidPull, SpringPull
 from mdr.case.contact import SlidingContact
 from mdr.normal.load_control import static_depth, static_load
 from mdr.normal.resolved import plausibility, resolved
 from mdr.normal.doubts import PlausibilityWarning
 from mdr.normal.rig import rig
 from mdr.normal.springs import SpringArray
-from mdr.normal.indentation import Indentation, indent
-from mdr.normal.partial_slip import PartialSlip, TangentialLoop, partial_slip, tangential_loop
+from mdr.normal.indentation import indent
+from mdr.normal.partial_slip import partial_slip, tangential_loop
 
 from mdr.files.case_files import parse_case, read_case, write_case
 from mdr.files.toml_text import CaseFileError
-from mdr.files.measurements import DynamicModuli, read_moduli
+from mdr.files.measurements import read_moduli
 from mdr.files.own_records import register
 from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
-from mdr.march.energy import EnergyBalance
 from mdr.march.run import SlidingRun, State
 from mdr.march.slide import slide
-from mdr.friction.surface_fields import SurfaceFields, surface_fields
+from mdr.friction.surface_fields import surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve
-from mdr.friction.shaken import HoldingBand, blocked_cof, holding_band, no_load_velocity
-from mdr.friction.measured_velocity import MeasuredVelocity, measure_critical_velocity
-from mdr.friction.verdict import Verdict, verdict
+from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
+from mdr.friction.measured_velocity import measure_critical_velocity
+from mdr.friction.verdict import verdict
 from mdr.friction.friction_data import FrictionData, read_friction_data
-from mdr.friction.fit import Fit, fit
-from mdr.studies import Quantity, Study, StudyError, read_study, sweep
+from mdr.friction.fit import fit
+from mdr.studies import Quantity, Study, read_study, sweep
 
 from mdr import indenters, materials
 from mdr.case import in_plane as _in_plane
@@ -48,16 +46,8 @@ from mdr.tools.version import __version__ as __version__
 __all__ = [
     "CaseFileError",
     "CofCurve",
-    "DynamicModuli",
-    "EnergyBalance",
-    "Fit",
     "FrictionData",
-    "HoldingBand",
-    "Indentation",
-    "MeasuredVelocity",
-    "PartialSlip",
     "PlausibilityWarning",
-    "Pull",
     "Quantity",
     "RigidPull",
     "SlidingContact",
@@ -66,14 +56,8 @@ __all__ = [
     "SpringPull",
     "State",
     "Study",
-    "StudyError",
-    "SurfaceFields",
-    "TangentialLoop",
-    "Verdict",
     "blocked_cof",
     "cof_curve",
-    "coupled_critical_velocity",
-    "coupling_loss",
     "critical_velocity",
     "fit",
     "full_slip_critical_velocity",
@@ -85,7 +69,6 @@ __all__ = [
     "parse_case",
     "partial_slip",
     "plausibility",
-    "radial_rub",
     "read_case",
     "read_friction_data",
     "read_moduli",

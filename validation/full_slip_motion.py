@@ -70,8 +70,8 @@ def claim(effort: str) -> Claim:
         f" below its natural frequency and without mass, 64 to {steps[-1]} steps a period; the force of a paraboloid,"
         " elastic and at ωτ = 1.",
         measured="Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree with the"
-        " closed forms; what differs falls with the fourth power of the step. Slip never stops and its least velocity is v_0"
-        " − v_c. With a system damper a body that starts from rest ends in the same motion, with k_x + iω c_x in the"
+        " closed forms; what differs falls with the fourth power of the step. Slip never stops; its least velocity is"
+        " v_0 − v_c. With a damper a body that starts from rest ends in the same motion, with k_x + iω c_x in the"
         " place of k_x. Under a paraboloid springs come and go, and the force of the array follows the full-slip"
         " solution: the elastic one with the square of the number of springs, the viscous one up to the dashpot of the"
         " single spring that touches.",

@@ -19,7 +19,7 @@ class Point:
     """One contact and its measured critical velocity; ratios are NaN where none was found."""
 
     case: mdr.SlidingContact
-    found: mdr.MeasuredVelocity
+    found: mdr.friction.measured_velocity.MeasuredVelocity
     where: str  #: the contact in words
     shape: str = ""  #: this and the next are what points are told by where a claim varies them
     alpha: float = np.nan

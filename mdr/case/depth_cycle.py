@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-MOST_KEPT = 2**14  #: instants of a cosine that is kept for the next contact
-SEVERAL = 0.1  #: of the largest harmonic of a motion, from which on another counts
-DENSE = 16  #: instants per period of the highest harmonic, from which an extreme is refined
+DENSE = 64  #: instants per period of the highest harmonic, between which an extreme is found
+MOST_PEAKS = 24  #: of the highest maxima at these instants one is the highest of all
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -77,36 +76,20 @@ class Cycle(ArrayRecord):
         return self.cos.size == 1 and self.cos[0] == 1 and self.sin[0] == 0
 
     @property
-    def has_several_harmonics(self) -> bool:
-        """Whether more than one harmonic counts."""
-        swings = np.abs(self.harmonics)
-        return bool(np.sum(swings > SEVERAL * swings.max()) > 1)
-
-    @property
     def harmonics(self) -> NDArray[np.complex128]:
         """C_n with z = Re of sum C_n exp(i n phase), n = 1 ... N."""
         return complex_harmonics(self.cos, self.sin)
 
     def z(self, phase: Array) -> Array:
         """Depth less its mean, over the unit, at phases of any shape."""
-        return self._sum(phase, self.cos, self.sin)
+        return harmonic_sum(self.harmonics, phase)
 
     def rate(self, phase: Array) -> Array:
         """dz/dphase."""
-        n = np.arange(1, self.cos.size + 1)
-        return self._sum(phase, n * self.sin, -n * self.cos)
-
-    def _sum(self, phase: Array, cos: Array, sin: Array) -> Array:
-        phase = np.asarray(phase, dtype=float)
-        total = np.zeros(phase.shape)
-        for n in np.flatnonzero((cos != 0) | (sin != 0)):
-            total += sum(one[n] * of((n + 1) * phase) for of, one in ((np.cos, cos), (np.sin, sin)) if one[n] != 0)
-        return total
+        return harmonic_sum(1j * np.arange(1, self.cos.size + 1) * self.harmonics, phase)
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:
         """z and its rate at equidistant phases, both ends included: (steps + 1,), not to be written to."""
-        if self.is_harmonic and steps <= MOST_KEPT:
-            return _cosine(steps)
         phase = 2 * np.pi * np.arange(steps + 1) / steps
         if 2 * self.cos.size >= steps or self.cos.size < 32:
             return self.z(phase), self.rate(phase)
@@ -125,13 +108,6 @@ class Cycle(ArrayRecord):
         return -peak(-self.harmonics * response(np.arange(1.0, self.cos.size + 1)))
 
 
-@lru_cache(maxsize=32)
-def _cosine(steps: int) -> tuple[Array, Array]:
-    """cos(phase) and its rate at equidistant phases, both ends included: (steps + 1,)."""
-    phase = 2 * np.pi * np.arange(steps + 1) / steps
-    return np.cos(phase), -np.sin(phase)
-
-
 def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
     """C_n = c_n - i s_n."""
     return np.asarray(cos - 1j * np.asarray(sin))
@@ -139,21 +115,31 @@ def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
 
 def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
     """Re of sum C_n exp(i n phase), n = 1 ... N, at phases of any shape."""
-    used = np.flatnonzero(harmonics)
-    return np.asarray((harmonics[used] * np.exp(1j * np.multiply.outer(np.asarray(phase), used + 1))).real.sum(axis=-1))
+    phase = np.asarray(phase, dtype=float)
+    total = np.zeros(phase.shape)
+    for n in np.flatnonzero(harmonics):
+        turn = (n + 1) * phase
+        total += harmonics[n].real * np.cos(turn) - harmonics[n].imag * np.sin(turn)
+    return total
 
 
-def turns(harmonics: NDArray[np.complex128]) -> Array:
-    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending."""
+def turns(harmonics: NDArray[np.complex128], highest: int = 0) -> Array:
+    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending; or so many of its highest
+    maxima alone.
+    """
     used = np.flatnonzero(harmonics)
     n, C = used + 1, harmonics[used]
     if n.size < 2:
         return np.sort(np.mod((np.pi * np.arange(2 * n.sum()) - np.angle(C)) / n, 2 * np.pi)) if n.size else np.zeros(0)
-    count = 4 * instants(int(n[-1]))
-    spectrum = np.zeros(count // 2 + 1, dtype=complex)
-    spectrum[n] = 1j * n * C * count / 2
-    falls = np.fft.irfft(spectrum, count) < 0
+    count = int(2 ** np.ceil(np.log2(max(DENSE * n[-1], 256))))
+    spectrum = np.zeros((2, count // 2 + 1), dtype=complex)
+    spectrum[:, n] = C * count / 2, 1j * n * C * count / 2
+    values, slopes = np.fft.irfft(spectrum, count)
+    falls = slopes < 0
     low = np.flatnonzero(falls != np.roll(falls, -1))
+    if highest:
+        tops = low[~falls[low]]
+        low = tops[np.argsort(values[tops])[-highest:]]
     side = np.where(falls[low], 1, -1)
 
     def slope(phase: Array) -> tuple[Array, Array]:
@@ -189,38 +175,8 @@ def roots(
 
 def peak(harmonics: NDArray[np.complex128]) -> float:
     """Greatest value of Re of sum C_n exp(i n phase), n = 1 ... N, over the period."""
-    return float(peaks(harmonics).max(initial=-np.inf))
-
-
-def peaks(harmonics: NDArray[np.complex128], some: int = 24) -> Array:
-    """Its greatest local maxima, Newton from those among equidistant instants."""
     harmonics = np.asarray(harmonics)
-    if harmonics.size == 1:
-        return np.abs(harmonics)
-    n = np.arange(1, harmonics.size + 1)
-    count = instants(harmonics.size)
-    spectrum = np.zeros(count // 2 + 1, dtype=complex)
-    spectrum[n] = harmonics * count / 2
-    values = np.fft.irfft(spectrum, count)
-    higher = (values >= np.roll(values, 1)) & (values >= np.roll(values, -1))
-    tops = np.flatnonzero(higher)
-    first = tops[np.argsort(values[tops])[-some:]]
-    phase = 2 * np.pi * first / count
-    best = values[first]
-    for _ in range(20):
-        turn = harmonics * np.exp(1j * np.outer(phase, n))
-        slope, bend = -(turn.imag * n).sum(axis=1), -(turn.real * n**2).sum(axis=1)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            move = np.where(bend < 0, -slope / bend, 0.0)
-        phase = phase + np.clip(np.nan_to_num(move), -np.pi / count, np.pi / count)
-    refined = (harmonics * np.exp(1j * np.outer(phase, n))).real.sum(axis=1)
-    near = np.abs((phase - 2 * np.pi * first / count + np.pi) % (2 * np.pi) - np.pi) < 3 * np.pi / count
-    return np.where(near, np.maximum(refined, best), best)
-
-
-def instants(n_harmonics: int) -> int:
-    """Instants of the period that resolve so many harmonics, a power of two."""
-    return int(2 ** np.ceil(np.log2(max(DENSE * n_harmonics, 64))))
+    return float(harmonic_sum(harmonics, turns(harmonics, highest=MOST_PEAKS)).max()) if harmonics.any() else 0.0
 
 
 def stick_limit(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:

@@ -20,7 +20,7 @@ from mdr.case.motion import amplitudes, fill_up
 from mdr.tools.checks import FieldError, FieldTypeError, finite, not_negative
 from mdr.tools.fields import Record, facts
 
-__all__ = ["InPlaneMotion", "InPlaneOscillation", "Shake"]
+__all__ = ["InPlaneMotion", "InPlaneOscillation"]
 
 PLACES = ("tool", "pull")  #: where the motion may act
 MOST = 16  #: p and q, at most, of the ratio p/q of two frequencies

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -162,10 +162,8 @@ class ConstantDepth(Motion):
 
     u_z0: float = field(metadata=facts("m", "indentation depth", label="depth $u_{z0}$", example=20e-6))
 
-    @property
-    def omega(self) -> float:
-        """Zero: it does not oscillate."""
-        return 0.0
+    #: it does not oscillate
+    omega: ClassVar[float] = 0.0
 
     @property
     def cycle(self) -> Cycle:
@@ -236,8 +234,26 @@ class PeriodicMotion(Motion):
         return cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag))
 
 
+class _Load(Motion):
+    """A motion whose load is given."""
+
+    @property
+    def knows_depth(self) -> bool:
+        """False: the depth follows from shape and material too."""
+        return False
+
+    @property
+    def cycle(self) -> Cycle:
+        """Raises ValueError: the depth is asked of the resolved case."""
+        raise ValueError(
+            f"the depth under {self!r}, and with it cycle, working_depth, u_z_max, k_zc, k_xc, gamma_zc, gamma_xc, "
+            "alpha, chi, kept_gap, unit_velocity, pace and keeps_contact, follow from shape and material too: "
+            "ask mdr.resolved(case)"
+        )
+
+
 @dataclass(frozen=True)
-class LoadOscillation(Motion):
+class LoadOscillation(_Load):
     """A normal load that oscillates, the drive of most experiments: F_z(t) = F_z0 + dF_z cos(omega t).
 
     The depth follows from the contact law, with the inertia of the mass that the load moves ::
@@ -264,16 +280,6 @@ class LoadOscillation(Motion):
                 "dF_z",
             )
 
-    @property
-    def knows_depth(self) -> bool:
-        """False: the depth follows from shape and material too."""
-        return False
-
-    @property
-    def cycle(self) -> Cycle:
-        """Raises ValueError: the depth is asked of the resolved case."""
-        raise _follows(self)
-
     def F_z(self, t: ArrayLike) -> NDArray[np.float64]:
         """Load F_z0 + dF_z cos(omega t) [N].
 
@@ -291,7 +297,7 @@ class LoadOscillation(Motion):
 
 
 @dataclass(frozen=True)
-class ConstantLoad(Motion):
+class ConstantLoad(_Load):
     """A normal load that does not change: the contact is shaken in the plane alone.
 
     `mdr.resolved(case)` knows the depth at which it rests.
@@ -299,28 +305,8 @@ class ConstantLoad(Motion):
 
     F_z0: float = field(metadata=facts("N", "load", label="load $F_{z0}$", example=0.1))
 
-    @property
-    def omega(self) -> float:
-        """Zero: it does not oscillate."""
-        return 0.0
-
-    @property
-    def knows_depth(self) -> bool:
-        """False: the depth follows from shape and material too."""
-        return False
-
-    @property
-    def cycle(self) -> Cycle:
-        """Raises ValueError: the depth is asked of the resolved case."""
-        raise _follows(self)
-
-
-def _follows(load: Motion) -> ValueError:
-    return ValueError(
-        f"the depth under {load!r}, and with it cycle, working_depth, u_z_max, k_zc, k_xc, gamma_zc, gamma_xc, "
-        "alpha, chi, kept_gap, unit_velocity, pace and keeps_contact, follow from shape and material too: "
-        "ask mdr.resolved(case)"
-    )
+    #: it does not oscillate
+    omega: ClassVar[float] = 0.0
 
 
 @lru_cache(maxsize=256)

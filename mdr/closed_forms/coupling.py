@@ -51,7 +51,7 @@ def radial_rub(case: SlidingContact) -> float:
     >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
     >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
-    >>> print(f"{mdr.radial_rub(case):.3f}")
+    >>> print(f"{mdr.laws.radial_rub(case):.3f}")
     0.374
     """
     material = require_case(case).material
@@ -90,8 +90,8 @@ def coupled_critical_velocity(case: SlidingContact) -> float:
     >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
     >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
-    >>> print(f"{mdr.coupled_critical_velocity(case):.3g} m/s, without coupling {mdr.critical_velocity(case):.3g} m/s")
-    0.000401 m/s, without coupling 0.000291 m/s
+    >>> print(f"{mdr.laws.coupled_critical_velocity(case):.3g} m/s, not {mdr.critical_velocity(case):.3g} m/s")
+    0.000401 m/s, not 0.000291 m/s
     """
     _require_known(case)
     return (1 + radial_rub(case)) * full_slip_critical_velocity(case)
@@ -129,7 +129,7 @@ def coupling_loss(case: SlidingContact) -> float:
     >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> punch, rubber = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.3)
     >>> case = mdr.SlidingContact(punch, rubber, mu_0=0.4, oscillation=vibration)
-    >>> print(f"{mdr.coupling_loss(case):.2g}")
+    >>> print(f"{mdr.laws.coupling_loss(case):.2g}")
     0.0051
     """
     _require_known(case)

@@ -11,6 +11,7 @@ from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.files.case_files import Said
 from mdr.files.toml_text import StandardInput
+from mdr.friction.fit import Fit
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -45,7 +46,7 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     return answer(args, _told(found), str(found), found.case)
 
 
-def _told(found: mdr.Fit) -> dict[str, Any]:
+def _told(found: Fit) -> dict[str, Any]:
     """What JSON says: no interval of what is not determined."""
     parameters = {}
     for name, value in found.values.items():

@@ -8,7 +8,8 @@ import mdr
 from mdr.commands.arguments import add_accuracy, read_as
 from mdr.commands.output import DONE, FAILED, Told, answer, text_of, values_of
 from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
-from mdr.friction.verdict import WITHIN
+from mdr.friction.measured_velocity import MeasuredVelocity
+from mdr.friction.verdict import WITHIN, Verdict
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -51,7 +52,7 @@ def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     return DONE if all(known) else FAILED  # no v_c on a resonance is an answer
 
 
-def _measured(name: str, found: mdr.MeasuredVelocity) -> list[Told]:
+def _measured(name: str, found: MeasuredVelocity) -> list[Told]:
     known = found.low is not None and found.high is not None
     bracket = f"{found.low:.9g} to {found.high:.9g} m/s" if known else ""
     return [
@@ -63,7 +64,7 @@ def _measured(name: str, found: mdr.MeasuredVelocity) -> list[Told]:
     ]
 
 
-def _judged(found: mdr.Verdict, equation: str, how: str) -> list[Told]:
+def _judged(found: Verdict, equation: str, how: str) -> list[Told]:
     """The numbers of a verdict."""
     off = "none" if found.deviation is None else f"{found.deviation:+.3e}"
     vanishes = found.eq_15 <= found.least

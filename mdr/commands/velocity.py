@@ -11,7 +11,7 @@ import mdr
 from mdr.closed_forms.critical_velocity import formula_of
 from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
-from mdr.friction.shaken import band_of_pull
+from mdr.friction.shaken import HoldingBand, band_of_pull
 from mdr.normal.doubts import edge, frequencies
 
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts
@@ -99,7 +99,7 @@ def ends_of(case: mdr.SlidingContact) -> list[Told]:
     blocked, force, own = _asked(lambda: _at_rest(case), _span, "the same under its own pull, standing still")
     unloaded = "velocity at which it runs by itself, where no force holds it"
     free, velocity, alone = _asked(lambda: mdr.no_load_velocity(case), velocity_text, unloaded)
-    held = blocked if isinstance(blocked, mdr.HoldingBand) else None
+    held = blocked if isinstance(blocked, HoldingBand) else None
     return [
         Told("holding_band", [band.low, band.high], "band", _span(band), standing),
         Told("blocked_cof", None if held else blocked, "blocked", force, own),
@@ -117,15 +117,15 @@ def _asked(ask: Callable[[], Any], write: Callable[[Any], str], meaning: str) ->
     return found, write(found), meaning
 
 
-def _at_rest(case: mdr.SlidingContact) -> float | mdr.HoldingBand:
+def _at_rest(case: mdr.SlidingContact) -> float | HoldingBand:
     """Friction where its own pull stands still."""
     held = band_of_pull(mdr.resolved(case))
     return mdr.blocked_cof(case) if held.is_one_number else held
 
 
-def _span(held: mdr.HoldingBand | float) -> str:
+def _span(held: HoldingBand | float) -> str:
     """A band of forces, or one force."""
-    if not isinstance(held, mdr.HoldingBand):
+    if not isinstance(held, HoldingBand):
         return f"{held:.6g}"
     return f"{held.high:.6g} (one value)" if held.is_one_number else f"{held.low:.6g} to {held.high:.6g}"
 

@@ -10,70 +10,31 @@ where a rim that reaches d before the profile does adds E*(d − g(a)) / (π √
 Lengths r, x, d, a in m, E* and p in Pa, F_N in N; any other consistent units do as well.
 
 A shape of one's own is a frozen dataclass with ``profile_3d`` or ``profile_1d``; the rest follows by
-quadrature (`mdr.indenters.mapping.abel`), to 1e-9 or better, and every closed form it adds makes it faster.
-What it has been asked for is kept (`Answers`; g from f in `mdr.indenters.mapping.chebyshev_panels`), so that a
-shape must not change.
+quadrature (`mdr.indenters.mapping`), to 1e-9 or better, and every closed form it adds makes it faster.
+A shape of this package gives ``_f``, ``_g`` and ``_area`` instead, which are asked for distances from the axis that are
+checked: arrays of any shape, finite, 0 or above, and within the shape.
+What a frozen shape has been asked for is kept (`survey`, `image_of`), so that a shape must not change.
 """
 
 import warnings
 from abc import ABC
-from functools import lru_cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.mapping import abel, chebyshev_panels, inversion
-from mdr.indenters.mapping.quadrature import Function, double_exponential, in_chunks
+from mdr.indenters.mapping import abel, inversion
+from mdr.indenters.mapping.chebyshev_panels import Chart
+from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.tools.arrays import EPS, Array
-from mdr.tools.checks import between, finite_array, plain, positive_array
-from mdr.tools.fields import Record, facts
-from mdr.tools.memoise import is_frozen
+from mdr.tools.checks import finite_array, plain, positive_array
+from mdr.tools.fields import Record
+from mdr.tools.memoise import remembered
 
 MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
-MOST_DEPTHS, MOST_ANSWERS = 64, 256  #: of a question that is kept, and questions that are
-AHEAD = 1.5  #: times the radius of a contact, as far as its shape is looked at
-FALL = 1e-9  #: of its height by which g may fall: rounding
+ROUNDING = 1e-9  #: of a height, a slope or a radius: what differs by less is the same
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
-
-
-def _slope_angle(name: str, value: Any, note: str = "") -> float:
-    return between(name, value, 0, np.pi / 2, note)
-
-
-FLANK = facts(
-    "rad",
-    "angle between flank and plane",
-    _slope_angle,
-    note="angle between flank and plane in rad; 45 degrees are 0.785",
-    example=0.0127,
-)
-
-
-class Answers(NamedTuple):
-    """What was found out of a shape, so that it need not be asked twice."""
-
-    radii: dict[bytes, Array]  #: contact radii [m], by the bytes of their depths
-    rising: list[float]  #: radii [m] within which g was found to rise
-    mapped: list[float]  #: radii [m] within which the map was found to be good
-    reach: list[float]  #: g [m] where the shape ends, once it is known
-
-
-@lru_cache(256)
-def _answers(heights: Function) -> Answers:
-    """The answers of a shape so far. heights: its method `_f`, which is equal to that of the very same object alone."""
-    return Answers({}, [], [], [])
-
-
-def _add(known: list[float], radius: float) -> None:
-    """Keep a radius, and forget the oldest of many."""
-    known.append(radius)
-    del known[:-16]
-
-
-def _among(known: list[float], radius: float) -> bool:
-    """Whether one of the known radii, no more than twice as great, answers for this one too."""
-    return any(radius <= one <= 2 * radius for one in known)
+HOOKS = {"profile_3d": "_f", "profile_1d": "_g", "profile_area": "_area"}  #: what computes each, unchecked
 
 
 class Indenter(Record, ABC):
@@ -83,8 +44,11 @@ class Indenter(Record, ABC):
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls._gives_g = cls.profile_1d is not Indenter.profile_1d
-        if not cls._gives_g and cls.profile_3d is Indenter.profile_3d:
+        for public, hook in HOOKS.items():
+            if public in vars(cls) and hook not in vars(cls):
+                setattr(cls, hook, vars(cls)[public])
+        cls._gives_g = cls._g is not Indenter._g
+        if not cls._gives_g and cls._f is Indenter._f:
             raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
 
     def __init__(self) -> None:
@@ -129,8 +93,7 @@ class Indenter(Record, ABC):
         ValueError
             Beyond the end of the shape (`max_radius`).
         """
-        r = self._within(finite_array("r", r, "m"))
-        return in_chunks(lambda r: abel.profile_3d(self.profile_1d, self._edges, r), r)
+        return plain(self._f(self._within(finite_array("r", r, "m"))))
 
     def profile_1d(self, x: ArrayLike) -> Array:
         """Height g(x) of the one-dimensional image of the shape [m], even in x.
@@ -163,9 +126,8 @@ class Indenter(Record, ABC):
         array([2.e-06, 8.e-06])
         """
         x = self._within(finite_array("x", x, "m"))
-        g = chebyshev_panels.image(chebyshev_panels.HEIGHT, self._f, self._edges, np.ravel(x))
-        self._check_map(np.ravel(x))
-        return plain(g.reshape(x.shape))
+        self._check_map(float(x.max(initial=0.0)))
+        return plain(self._g(x))
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a of the contact [m]: g(a) = d, and 0 where d <= 0.
@@ -187,18 +149,11 @@ class Indenter(Record, ABC):
         """
         d = finite_array("d", d, "m")
         self._refuse_beyond(d)
-        asked, known = d.tobytes(), self._known
-        if (found := known.radii.get(asked)) is None:
-            found = np.zeros(d.size)
-            pressed = d.ravel() > 0
-            if pressed.any():
-                found[pressed] = self._search(d.ravel()[pressed])
-                self._refuse_annular(found.max())
-                if d.size <= MOST_DEPTHS and _among(known.rising, found.max()):  # else it is warned of each time
-                    known.radii[asked] = found
-                    if len(known.radii) > MOST_ANSWERS:
-                        known.radii.clear()
-        return plain(found.reshape(d.shape).copy())
+        a = np.zeros(d.shape)
+        if (pressed := d > 0).any():
+            a[pressed] = self._search(d[pressed])
+            self._refuse_annular(float(a.max()))
+        return plain(a)
 
     def profile_area(self, a: ArrayLike) -> Array:
         """Area between the one-dimensional image and its tangent at the tip, ∫₀^a g dx [m²].
@@ -213,10 +168,7 @@ class Indenter(Record, ABC):
         float or ndarray
             The area [m²] in the shape of a.
         """
-        a = self._within(finite_array("a", a, "m"))
-        if self._gives_g:
-            return in_chunks(lambda a: abel.area_from_g(self.profile_1d, self._edges, a), a)
-        return plain(chebyshev_panels.image(chebyshev_panels.AREA, self._f, self._edges, np.ravel(a)).reshape(a.shape))
+        return plain(self._area(self._within(finite_array("a", a, "m"))))
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] of an elastic contact, 0 where d <= 0.
@@ -316,12 +268,12 @@ class Indenter(Record, ABC):
         -----
         Just outside a flat face g rises to d within a rounding of a. The step left to d presses like a rim.
         """
-        step = d - np.asarray(self.profile_1d(a))
+        step = d - self._g(a)
         for _ in range(4):  # roundings that the search may be off
             if not np.any(step < -COARSE * d):
                 break
             a = np.where(step < -COARSE * d, np.nextafter(a, 0), a)
-            step = d - np.asarray(self.profile_1d(a))
+            step = d - self._g(a)
         r = np.minimum(r, np.nextafter(a, 0))
         p = in_chunks(self._pressure_of_slope, r, a)
         rim = (a >= self.max_radius) | (step > COARSE * d)
@@ -359,32 +311,33 @@ class Indenter(Record, ABC):
 
     def _pressure_of_slope(self, r: Array, a: Array) -> Array:
         """p/E* without that of a rim. Arrays (n,)."""
-        if self._gives_g:
-            return abel.pressure_from_slope(self._slope, self._edges, r, a)
-        return abel.pressure_from_f(self._f, self._edges, r, a)
+        return abel.pressure_from_slope(self._slope, (0.0, *self.joints, self.max_radius), r, a)
 
     def _slope(self, s: Array, low: float, high: float) -> Array:
         """dg/ds at x² = low² + s² between the kinks ``low`` and ``high``, for a closed form to override."""
-        return abel.slope_behind(self.profile_1d, s, low, high)
+        return abel.slope_behind(self._g, s, low, high)
 
     @property
     def _edges(self) -> tuple[float, ...]:
         return (0.0, *self.kinks, self.max_radius)
 
-    @property
-    def _known(self) -> Answers:
-        """What was found out of this shape; nothing of one that can be changed."""
-        return _answers(self._f) if is_frozen(type(self)) else Answers({}, [], [], [])
-
     def _f(self, r: Array) -> Array:
-        """f(r) for r >= 0 as it comes out, unchecked."""
-        return self.profile_3d(r)
+        """f(r) as it comes out."""
+        return in_chunks(lambda r: abel.profile_3d(self._g, self._edges, r), r)
 
     def _g(self, x: Array) -> Array:
-        """g(x) for x >= 0 as it comes out, unchecked. Arrays (n,)."""
+        """g(x) as it comes out."""
+        return image_of(self)(x)
+
+    def _area(self, a: Array) -> Array:
+        """∫₀^a g dx as it comes out."""
         if self._gives_g:
-            return self.profile_1d(x)
-        return abel.profile_1d(self._f, self._edges, x)
+            return in_chunks(lambda a: abel.area_from_g(self._g, self._edges, a), a)
+        return area_of(self)(a)
+
+    def _directly(self, x: Array) -> Array:
+        """g(x) without the panels of a mapped shape, which are many where few places are asked for."""
+        return self._g(x) if self._gives_g else image_of(self).direct(x)
 
     def _within(self, r: Array) -> Array:
         """Distance from the axis, refused where the shape has ended."""
@@ -411,7 +364,7 @@ class Indenter(Record, ABC):
         if self._gives_g:
             a, ended = inversion.invert(lambda x: in_chunks(self._g, x), d, start, self.max_radius)
         else:
-            a, ended = chebyshev_panels.invert(self._f, self._edges, d, start)
+            a, ended = image_of(self).invert(d, start)
         if ended.any():
             raise ValueError(self._why_no_radius(float(d[ended].min()), float(a[ended].min())))
         return a
@@ -451,59 +404,83 @@ class Indenter(Record, ABC):
     def _refuse_beyond(self, d: Array) -> None:
         if d.size == 0 or not d.max() > 0 or self.max_radius == np.inf:
             return
-        if not (known := self._known.reach):
-            with np.errstate(all="ignore"):
-                known.append(float(self._g(np.array([self.max_radius]))[0]))
-        reach = known[-1]
+        with np.errstate(all="ignore"):
+            reach = float(self._directly(np.array([self.max_radius]))[0])
         if d.max() > reach * (1 + 64 * EPS):
             raise ValueError(f"d = {d.max():.6g} m is deeper than {type(self).__name__} {self._why_too_deep(reach)}")
 
+    def _surveyed(self, radius: float) -> "Survey":
+        """How g is within a radius > 0 [m], as far as it is good to the next power of two."""
+        with np.errstate(all="ignore"):
+            beyond = survey(self, float(min(2 ** np.ceil(np.log2(radius)), self.max_radius)))
+        return beyond if beyond.is_good else survey(self, radius)
+
     def _refuse_annular(self, a: float) -> None:
         """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
-        known = self._known
-        if _among(known.rising, a):
-            return
-        x = np.unique(a * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
-        mapped = self._check_map(x[::10])
-        ahead = np.linspace(a, min(AHEAD * a, self.max_radius), 33)  # for contacts that are a little wider
-        with np.errstate(all="ignore"):
-            g, more = in_chunks(self._g, x), in_chunks(self._g, ahead)
-            further = float(np.nan_to_num(more[1], posinf=0.0))  # at a flat face g is rounding up to a
-            refuse_falling(self, x, g, further)
-            rises = np.all(np.diff(more) >= -FALL * np.abs(more[-1]))  # NaN does not
-            good = rises and np.isfinite(more[-1]) and self._map_error(ahead[::8]) <= MAPPING_ERROR
-        if mapped:
-            _add(known.rising, float(ahead[-1]) if good else a)
-            _add(known.mapped, known.rising[-1])
+        found = self._surveyed(a)
+        self._check_map(a)
+        refuse_falling(self, found.x, found.g, found.further)
 
-    def _check_map(self, x: Array) -> bool:
-        """Whether two quadrature rules agree on g(x), with a warning if not; ValueError where g is not finite."""
-        known = self._known.mapped
-        if self._gives_g or x.size == 0 or _among(known, x.max()):
-            return True
-        error = self._map_error(np.unique(np.quantile(x, np.linspace(0, 1, 7), method="nearest")))
+    def _check_map(self, radius: float) -> None:
+        """Warn where two quadrature rules disagree on g within a radius; ValueError where g is not finite."""
+        if self._gives_g or radius == 0:
+            return
+        error = self._surveyed(radius).error
         if not np.isfinite(error):
             raise ValueError(
-                f"{type(self).__name__} has no finite slope within r = {x.max():.6g} m: name its end (r_max)"
+                f"{type(self).__name__} has no finite slope within r = {radius:.6g} m: name its end (r_max)"
             )
         if error > MAPPING_ERROR:
             warnings.warn(
-                f"{type(self).__name__} is mapped to g(x) with an error of about "
-                f"{error:.1e} of its height: "
+                f"{type(self).__name__} is mapped to g(x) with an error of about {error:.1e} of its height: "
                 "name every radius where f or its slope is not smooth in kinks=",
                 stacklevel=3,
             )
-            return False
-        _add(known, float(x.max()))
-        return True
 
-    def _map_error(self, x: Array) -> float:
-        """Difference of two quadrature rules, over the height; infinite where g is not finite."""
-        if self._gives_g:
-            return 0.0
-        g, other = (abel.profile_1d(self._f, self._edges, x, double_exponential(step)) for step in (0.11, 0.077))
-        height = np.max(np.abs(g))
-        return float(np.max(np.abs(g - other)) / (height or 1.0)) if np.isfinite(height) else np.inf
+
+@remembered(64)
+def image_of(shape: Indenter) -> Chart:
+    """The image g(x) of a shape that gives f."""
+    return Chart(abel.profile_1d, shape._f, shape._edges)
+
+
+@remembered(64)
+def area_of(shape: Indenter) -> Chart:
+    """The area below it."""
+    return Chart(abel.area_from_f, shape._f, shape._edges)
+
+
+class Survey(NamedTuple):
+    """How a shape is mapped within a radius."""
+
+    x: Array
+    g: Array
+    further: float  #: g a little further out: at a flat face g is rounding up to a
+    error: float  #: difference of two quadrature rules, over the height; infinite where g is not finite
+
+    @property
+    def is_good(self) -> bool:
+        """Whether g is finite, rises and is mapped well."""
+        return bool(
+            np.isfinite(self.g[-1])
+            and np.all(np.diff(self.g) >= -ROUNDING * np.abs(self.g[-1]))
+            and self.error <= MAPPING_ERROR
+        )
+
+
+@remembered(256)
+def survey(shape: Indenter, radius: float) -> Survey:
+    """g at places within a radius [m], many of them near the tip, and how good it is."""
+    x = np.unique(radius * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
+    with np.errstate(all="ignore"):
+        g, more = shape._directly(x), shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
+        some = slice(None, None, 10)
+        other = (
+            g[some] if shape._gives_g else abel.profile_1d(shape._f, shape._edges, x[some], double_exponential(0.077))
+        )
+        height = np.max(np.abs(g[some]))
+        error = np.max(np.abs(g[some] - other)) / (height or 1.0)
+    return Survey(x, g, float(np.nan_to_num(more[0], posinf=0.0)), float(np.nan_to_num(error, nan=np.inf)))
 
 
 def rim_pressure(r: Array, a: Array, step: Array) -> Array:
@@ -516,7 +493,7 @@ def rim_pressure(r: Array, a: Array, step: Array) -> Array:
 def refuse_falling(shape: Indenter, x: Array, g: Array, further: float = 0.0) -> None:
     """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
     highest = np.maximum.accumulate(np.maximum(g, 0))
-    fall = highest - g > FALL * np.max(np.abs(g), initial=further)
+    fall = highest - g > ROUNDING * np.max(np.abs(g), initial=further)
     if np.any(fall):
         raise ValueError(
             f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "

@@ -42,15 +42,14 @@ class ConcavePunch(Indenter):
         """a²/R [m], from which on the middle of the face is pressed too."""
         return self.a / self.R * self.a
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """Height f = −r²/2R, below the middle of the face."""
-        r = self._within(finite_array("r", r, "m"))
-        return plain(-r / self.R * r / 2)
+    def _f(self, r: Array) -> Array:
+        return -r / self.R * r / 2
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """Height g = −x²/R."""
-        x = self._within(finite_array("x", x, "m"))
-        return plain(-x / self.R * x)
+    def _g(self, x: Array) -> Array:
+        return -x / self.R * x
+
+    def _area(self, a: Array) -> Array:
+        return -a / self.R * a * a / 3
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """The radius of the rim for d >= a²/R, 0 for d <= −a²/2R; a ValueError between."""
@@ -63,12 +62,7 @@ class ConcavePunch(Indenter):
             )
         return plain(np.where(d > 0, self.a, 0.0))
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = −a³/3R."""
-        a = self._within(finite_array("a", a, "m"))
-        return plain(-a / self.R * a * a / 3)
-
     def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = [(d − a²/R) + 2r²/R] / (π √(a² − r²))."""
         spare = np.maximum(d - self.least_depth, 0)
-        return plain((spare + 2 * (r / self.R) * r) / (np.pi * leg(a, r)))
+        return (spare + 2 * (r / self.R) * r) / (np.pi * leg(a, r))

@@ -1,13 +1,30 @@
 """Cone: f(r) = r tan θ, mapped to g(x) = (π/2) |x| tan θ (Sneddon 1965)."""
 
+import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import FLANK, Indenter
+from mdr.indenters.base import Indenter
+from mdr.indenters.mapping.stable_functions import arcosh
 from mdr.tools.arrays import EPS, Array
-from mdr.tools.checks import finite_array, plain
+from mdr.tools.checks import between, finite_array, plain
+from mdr.tools.fields import facts
+
+
+def _slope_angle(name: str, value: Any, note: str = "") -> float:
+    return between(name, value, 0, np.pi / 2, note)
+
+
+FLANK = facts(
+    "rad",
+    "angle between flank and plane",
+    _slope_angle,
+    note="angle between flank and plane in rad; 45 degrees are 0.785",
+    example=0.0127,
+)
 
 
 @dataclass(frozen=True)
@@ -16,23 +33,19 @@ class Cone(Indenter):
 
     theta: float = field(metadata=FLANK)
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) = r tan θ."""
-        return plain(np.abs(finite_array("r", r, "m")) * np.tan(self.theta))
+    def _f(self, r: Array) -> Array:
+        return r * math.tan(self.theta)
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """``g(x) = (π/2) |x| tan θ``."""
-        return plain(np.pi / 2 * np.abs(finite_array("x", x, "m")) * np.tan(self.theta))
+    def _g(self, x: Array) -> Array:
+        return np.pi / 2 * x * math.tan(self.theta)
+
+    def _area(self, a: Array) -> Array:
+        return np.pi / 4 * a**2 * math.tan(self.theta)
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = 2d / (π tan θ)."""
-        return plain(np.maximum(finite_array("d", d, "m"), 0) / (np.pi / 2 * np.tan(self.theta)))
-
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = (π/4) a² tan θ."""
-        return plain(np.pi / 4 * finite_array("a", a, "m") ** 2 * np.tan(self.theta))
+        return plain(np.maximum(finite_array("d", d, "m"), 0) / (np.pi / 2 * math.tan(self.theta)))
 
     def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (tan θ / 2) arcosh(a/r)."""
-        over = a / np.maximum(r, EPS * a) - 1  # arcosh(1 + over), exact also at the edge
-        return plain(np.tan(self.theta) / 2 * np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)))
+        return math.tan(self.theta) / 2 * arcosh(a, np.maximum(r, EPS * a))

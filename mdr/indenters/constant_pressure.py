@@ -30,20 +30,23 @@ class ConstantPressure(Indenter):
         """The radius of the face [m]."""
         return self.a_0
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) = d_0 [1 − (2/π) E(r/a_0)]."""
+    def _f(self, r: Array) -> Array:
         from scipy.special import ellipe
 
-        u = self._within(finite_array("r", r, "m")) / self.a_0
+        u = r / self.a_0
         m = np.minimum(u, 0.75)[..., None] ** 2
         sine = np.sin(np.pi / 2 * (np.arange(N_MEAN) + 0.5) / N_MEAN) ** 2  # the integral as a mean of positive terms
         near_tip = u * u * np.mean(sine / (1 + np.sqrt(1 - m * sine)), axis=-1)
-        return plain(self.d_0 * np.where(u < 0.7, near_tip, 1 - 2 / np.pi * ellipe(u * u)))
+        return np.asarray(self.d_0 * np.where(u < 0.7, near_tip, 1 - 2 / np.pi * ellipe(u * u)))
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x) = d_0 [1 − √(1 − x²/a_0²)]."""
-        u = self._within(finite_array("x", x, "m")) / self.a_0
-        return plain(self.d_0 * u * (u / (1 + np.sqrt((1 - u) * (1 + u)))))
+    def _g(self, x: Array) -> Array:
+        u = x / self.a_0
+        return np.asarray(self.d_0 * u * (u / (1 + np.sqrt((1 - u) * (1 + u)))))
+
+    def _area(self, a: Array) -> Array:
+        """a_0 d_0 [sin ψ − (sin ψ cos ψ + ψ)/2] with sin ψ = a/a_0."""
+        psi = np.arctan2(a, leg(self.a_0, a))
+        return self.d_0 * self.a_0 * (angle_less_sine(2 * psi) / 4 - angle_less_sine(psi))
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = a_0 √(1 − (1 − d/d_0)²), for d <= d_0."""
@@ -55,12 +58,6 @@ class ConstantPressure(Indenter):
     def _why_too_deep(self, reach: float) -> str:
         return f"goes: at d_0 = {reach:.6g} m its whole face touches, and p is constant; press less"
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = a_0 d_0 [sin ψ − (sin ψ cos ψ + ψ)/2] with sin ψ = a/a_0."""
-        a = self._within(finite_array("a", a, "m"))
-        psi = np.arctan2(a, leg(self.a_0, a))
-        return plain(self.d_0 * self.a_0 * (angle_less_sine(2 * psi) / 4 - angle_less_sine(psi)))
-
     def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (d_0/(π a_0)) arcsin √((a² − r²)/(a_0² − r²))."""
-        return plain(self.d_0 / (np.pi * self.a_0) * np.arctan2(leg(a, r), leg(self.a_0, a)))
+        return self.d_0 / (np.pi * self.a_0) * np.arctan2(leg(a, r), leg(self.a_0, a))

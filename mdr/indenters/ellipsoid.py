@@ -1,9 +1,10 @@
 """Ellipsoid of revolution: f(r) = R (1 − √(1 − k²r²)), mapped to g(x) = x k R artanh(k|x|).
 
 Popov, Heß, Willert, Handbook of Contact Mechanics (2019). k = 1/R is the sphere; the radius of curvature at the
-tip is 1/(k²R). In the functions below R is the half-axis along the axis of revolution and c = 1/k the one across.
+tip is 1/(k²R).
 """
 
+from abc import abstractmethod
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,6 +18,51 @@ from mdr.tools.checks import FieldError, finite_array, plain, positive
 from mdr.tools.fields import facts
 
 
+class Spheroid(Indenter):
+    """A shape that ends at an equator, which its contact reaches at infinite depth only."""
+
+    @property
+    @abstractmethod
+    def _half_axes(self) -> tuple[float, float]:
+        """That along the axis of revolution and that across, the radius of the equator [m]."""
+
+    @property
+    def max_radius(self) -> float:
+        """The last number below the radius of the equator [m]."""
+        return float(np.nextafter(self._half_axes[1], 0))
+
+    def profile_3d(self, r: ArrayLike) -> Array:
+        """f(r), up to the equator."""
+        (R, c), r = self._half_axes, np.abs(finite_array("r", r, "m"))
+        if np.any(r > c):
+            raise ValueError(
+                f"{type(self).__name__} ends at its equator r = {c:.6g} m, got {np.max(r):.6g} m: stay within it"
+            )
+        u = r / c
+        return plain(R * u / (1 + np.sqrt((1 - u) * (1 + u))) * u)
+
+    def _g(self, x: Array) -> Array:
+        R, c = self._half_axes
+        return R * (x / c) * artanh(x, c)
+
+    def _area(self, a: Array) -> Array:
+        (R, c), u = self._half_axes, a / self._half_axes[1]
+        return R / 2 * c * conic_area(u, u * u, artanh(a, c))
+
+    def _within(self, r: Array) -> Array:
+        r = np.abs(r)
+        if np.any(r > self.max_radius):
+            raise ValueError(
+                f"{type(self).__name__} is touched within its equator only, x < {self._half_axes[1]:.6g} m, where g "
+                f"becomes infinite; got {np.max(r):.6g} m: stay within it"
+            )
+        return r
+
+    def _why_too_deep(self, reach: float) -> str:
+        equator = f"its contact is the equator, {self._half_axes[1]:.6g} m, but for a rounding"
+        return f"can be pressed: at {reach:.6g} m {equator}; press less"
+
+
 def _invertible(name: str, value: Any, note: str = "") -> float:
     k = positive(name, value, note)
     if not 0 < 1 / k < np.inf:
@@ -25,7 +71,7 @@ def _invertible(name: str, value: Any, note: str = "") -> float:
 
 
 @dataclass(frozen=True)
-class Ellipsoid(Indenter):
+class Ellipsoid(Spheroid):
     """Ellipsoid of half-axes R and 1/k: d = g(a), F_N = E* (R/k) [(1 + k²a²) artanh(ka) − ka].
 
     Its contact grows to the equator, a = 1/k, at infinite depth only: g is finite for ``|x| < 1/k``.
@@ -35,68 +81,5 @@ class Ellipsoid(Indenter):
     k: float = field(metadata=facts("1/m", "inverse of the half-axis across", _invertible, example=20.0))
 
     @property
-    def max_radius(self) -> float:
-        """The last number below 1/k [m]."""
-        return float(np.nextafter(1 / self.k, 0))
-
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) = R (1 − √(1 − k²r²)), up to the equator."""
-        return height(self, finite_array("r", r, "m"), self.R, 1 / self.k)
-
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """``g(x) = x k R artanh(kx), |x| < 1/k``."""
-        return image(self, finite_array("x", x, "m"), self.R, 1 / self.k)
-
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = (R/2k) [ka − (1 − k²a²) artanh(ka)]."""
-        return area(self, finite_array("a", a, "m"), self.R, 1 / self.k)
-
-    def _slope(self, s: Array, low: float, high: float) -> Array:
-        return slope(s, self.R, 1 / self.k)
-
-    def _why_too_deep(self, reach: float) -> str:
-        return past_equator(1 / self.k, reach)
-
-
-def height(shape: Indenter, r: Array, R: float, c: float) -> Array:
-    """f(r) for |r| <= c."""
-    if np.any(np.abs(r) > c):
-        raise ValueError(
-            f"{type(shape).__name__} ends at its equator r = {c:.6g} m, got {np.max(np.abs(r)):.6g} m: stay within it"
-        )
-    u = np.abs(r) / c
-    return plain(R * u / (1 + np.sqrt((1 - u) * (1 + u))) * u)
-
-
-def image(shape: Indenter, x: Array, R: float, c: float) -> Array:
-    """g(x) for |x| < c."""
-    x = _inside(shape, x, c)
-    return plain(R * (x / c) * artanh(x, c))
-
-
-def area(shape: Indenter, a: Array, R: float, c: float) -> Array:
-    """∫₀^a g dx."""
-    a = _inside(shape, a, c)
-    u = a / c
-    return plain(R / 2 * c * conic_area(u, u * u, artanh(a, c)))
-
-
-def slope(x: Array, R: float, c: float) -> Array:
-    """dg/dx."""
-    return np.asarray(R / c * (artanh(x, c) + x / (c - x) * (c / (c + x))))
-
-
-def past_equator(c: float, reach: float) -> str:
-    """How a message goes on about too great a depth."""
-    return f"can be pressed: at {reach:.6g} m its contact is the equator, {c:.6g} m, but for a rounding; press less"
-
-
-def _inside(shape: Indenter, x: Array, c: float) -> Array:
-    """|x|, refused from the equator on."""
-    x = np.abs(x)
-    if np.any(x > shape.max_radius):
-        raise ValueError(
-            f"{type(shape).__name__} is touched within its equator only, x < {c:.6g} m, where g becomes infinite; "
-            f"got {np.max(x):.6g} m: stay within it"
-        )
-    return x
+    def _half_axes(self) -> tuple[float, float]:
+        return self.R, 1 / self.k

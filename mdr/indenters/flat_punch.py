@@ -22,21 +22,18 @@ class FlatPunch(Indenter):
         """The radius of the punch [m]."""
         return self.a
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """Height f = 0 for r <= a."""
-        return plain(0 * self._within(finite_array("r", r, "m")))
+    def _f(self, r: Array) -> Array:
+        return 0 * r
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """Height g = 0 for ``|x| <= a``."""
-        return plain(0 * self._within(finite_array("x", x, "m")))
+    def _g(self, x: Array) -> Array:
+        return 0 * x
+
+    def _area(self, a: Array) -> Array:
+        return 0 * a
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """The radius of the punch for d > 0, else 0."""
         return plain(np.where(finite_array("d", d, "m") > 0, self.a, 0.0))
-
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = 0."""
-        return plain(0 * self._within(finite_array("a", a, "m")))
 
     def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = d / (π √(a² − r²))."""

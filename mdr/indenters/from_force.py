@@ -14,19 +14,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import Indenter
+from mdr.indenters.base import ROUNDING, Indenter
 from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.mapping.splines import fit
+from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
-N_POINTS = 7  #: fewer make no spline
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
-SLACK = 1e-9  #: of an exponent or a radius: rounding
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
 DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
 FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
@@ -71,7 +69,7 @@ class FromForce(Indenter):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_pairs("d", self.d, "F", self.F, N_POINTS)
+        require_pairs("d", self.d, "F", self.F, DEGREE + 2)
         require_ascent("d", self.d)
         if self.d[0] != 0 or self.F[0] != 0:
             raise FieldError(
@@ -148,7 +146,7 @@ class FromForce(Indenter):
     @property
     def kinks(self) -> tuple[float, ...]:
         """The edge of a flat face [m]."""
-        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - SLACK) else ()
+        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - ROUNDING) else ()
 
     @property
     def joints(self) -> tuple[float, ...]:
@@ -163,9 +161,14 @@ class FromForce(Indenter):
         """Contact radius at the last depth [m]."""
         return float(self._radius(np.array([self.d[-1]]))[0])
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x), the depth at which a = x."""
-        return in_chunks(self._depth, self._within(finite_array("x", x, "m")))
+    def _g(self, x: Array) -> Array:
+        """The depth at which a = x."""
+        return in_chunks(self._depth, x)
+
+    def _area(self, a: Array) -> Array:
+        """a d − F/(2E*) at the depth d = g(a)."""
+        d = self._g(a)
+        return a * d - self._force(d) / (2 * self.E_star)
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = F'(d)/(2E*), up to the last depth."""
@@ -174,12 +177,6 @@ class FromForce(Indenter):
         a = np.zeros(d.shape)
         a[d > 0] = np.minimum(self._radius(d[d > 0]), self.max_radius)  # of a punch it is the same but for a rounding
         return plain(a)
-
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = a d − F/(2E*) at the depth d = g(a)."""
-        a = self._within(finite_array("a", a, "m"))
-        d = np.asarray(self.profile_1d(a))
-        return plain(a * d - self._force(d) / (2 * self.E_star))
 
     def force(self, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Normal force F_N [N] at the depth d, 0 where d <= 0: the measured one in proportion to E_star."""
@@ -208,11 +205,12 @@ class FromForce(Indenter):
         return {name: value for name, value in self.__dict__.items() if name not in ("_spline", "_least_radius")}
 
     @cached_property
-    def _spline(self) -> tuple[Array, Array]:
-        """Ends and polynomials of ln(F/F_1) less its power over `_place`, from the first depth d_1 > 0 to the last."""
+    def _spline(self) -> tuple[Any, Any]:
+        """ln(F/F_1) less its power over `_place`, from the first depth d_1 > 0 to the last, and its slope."""
         d, F = np.array(self.d[1:]), np.array(self.F[1:])
         y = np.log(F / F[0]) - TIPS[self.tip] * np.log(d / d[0])
-        return fit(self._place(d), y, self.smoothing / F, even=False)
+        found = spline(self._place(d), y, self.smoothing / F)
+        return found, found.derivative()
 
     def _place(self, d: Array) -> Array:
         return np.asarray(np.log(d / self.d[1]) if self.tip == "any" else d / self.d[1] - 1)
@@ -220,30 +218,20 @@ class FromForce(Indenter):
     @property
     def _power(self) -> float:
         """Exponent of F ~ d^n at the tip."""
-        ends, pieces = self._spline
-        return TIPS[self.tip] or max(float(pieces[0, 1] / (ends[1] - ends[0])), 1.0)
+        return TIPS[self.tip] or max(float(self._spline[1](0.0)), 1.0)
 
     @cached_property
     def _least_radius(self) -> float:
         """a at d → 0 [m]: of a flat tip that of its face, else 0."""
-        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < SLACK else 0.0
+        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < ROUNDING else 0.0
 
     def _log_force(self, d: Array) -> tuple[Array, Array]:
         """ln(F/F_1) and its slope over ln d, at depths d > 0."""
-        ends, pieces = self._spline
         z, known = self._place(d), TIPS[self.tip]
-        i = np.clip(np.searchsorted(ends, z, side="right") - 1, 0, len(pieces) - 1)
-        u = (z - ends[i]) / np.diff(ends)[i]
-        if not known:  # as a power of d below the first depth
-            u = np.maximum(u, 0)
-        y, slope = np.zeros_like(z), np.zeros_like(z)
-        for j in range(pieces.shape[1] - 1, -1, -1):
-            y, slope = y * u + pieces[i, j], slope * u + y
-        slope = slope / np.diff(ends)[i]
+        y, slope = (one(z if known else np.maximum(z, 0)) for one in self._spline)
         if known:
             return y + known * np.log(d / self.d[1]), known + slope * (1 + z)
-        below = z < 0
-        return np.where(below, y + self._power * z, y), np.where(below, self._power, slope)
+        return y + self._power * np.minimum(z, 0), np.where(z < 0, self._power, slope)  # a power below the first depth
 
     def _force(self, d: Array) -> Array:
         F = np.zeros(np.shape(d))
@@ -261,9 +249,9 @@ class FromForce(Indenter):
     def _depth(self, x: Array) -> Array:
         """d with a(d) = x; 0 up to the least radius."""
         d = np.zeros_like(x)
-        todo = x > self._least_radius * (1 + SLACK)
+        todo = x > self._least_radius * (1 + ROUNDING)
         a_1, rise = float(self._radius(np.array([self.d[1]]))[0]), self._power - 1
-        if self.tip == "any" and rise > SLACK:
+        if self.tip == "any" and rise > ROUNDING:
             power = todo & (x <= a_1)
             with np.errstate(under="ignore"):
                 d[power] = self.d[1] * (x[power] / a_1) ** (1 / rise)
@@ -282,13 +270,12 @@ class FromForce(Indenter):
 
     def _refuse_shrinking(self) -> None:
         """F' must not fall: the contact would shrink."""
-        ends, pieces = self._spline
-        shares = np.linspace(0, 1, 9)[:-1]
-        z = np.append((ends[:-1, None] + np.diff(ends)[:, None] * shares).ravel(), ends[-1])
+        n = len(self.d) - 1
+        z = np.interp(np.arange(8 * n - 7) / 8, np.arange(n), self._place(np.array(self.d[1:])))
         d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
         a = self._radius(d)
         falls = np.maximum.accumulate(a) - a > FALL * np.max(a)
-        falls[0] |= self.tip == "any" and pieces[0, 1] / (ends[1] - ends[0]) < 1 - SLACK
+        falls[0] |= self.tip == "any" and self._spline[1](0.0) < 1 - ROUNDING
         if falls.any():
             raise ValueError(
                 f"F must rise more and more steeply, but its slope falls at d = {d[falls][0]:.6g} m: the contact "

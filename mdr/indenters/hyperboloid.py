@@ -7,12 +7,10 @@ its flank the slope h/c.
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import conic_area
 from mdr.tools.arrays import Array
-from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
 
@@ -23,21 +21,15 @@ class Hyperboloid(Indenter):
     h: float = field(metadata=facts("m", "half-axis along the axis of revolution", example=2e-5))
     c: float = field(metadata=facts("m", "half-axis across", example=1e-3))
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) = h (√(1 + r²/c²) − 1)."""
-        u = np.abs(finite_array("r", r, "m")) / self.c
-        return plain(self.h * u * (u / (1 + np.hypot(1, u))))
+    def _f(self, r: Array) -> Array:
+        u = r / self.c
+        return np.asarray(self.h * u * (u / (1 + np.hypot(1, u))))
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x) = (h x/c) arctan(x/c)."""
-        u = np.abs(finite_array("x", x, "m")) / self.c
-        return plain(self.h * u * np.arctan(u))
+    def _g(self, x: Array) -> Array:
+        u = x / self.c
+        return np.asarray(self.h * u * np.arctan(u))
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = (h c/2) [(1 + u²) arctan u − u] with u = a/c."""
-        u = np.abs(finite_array("a", a, "m")) / self.c
-        return plain(-self.h / 2 * self.c * conic_area(u, -u * u, np.arctan(u)))
-
-    def _slope(self, s: Array, low: float, high: float) -> Array:
-        u = s / self.c
-        return np.asarray(self.h / self.c * (np.arctan(u) + u / (1 + u * u)))
+    def _area(self, a: Array) -> Array:
+        """(h c/2) [(1 + u²) arctan u − u] with u = a/c."""
+        u = a / self.c
+        return -self.h / 2 * self.c * conic_area(u, -u * u, np.arctan(u))

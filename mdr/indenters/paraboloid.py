@@ -17,26 +17,20 @@ class Paraboloid(Indenter):
 
     R: float = field(metadata=facts("m", "radius of curvature", example=0.05))
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) = r²/(2R)."""
-        r = finite_array("r", r, "m")
-        return plain(r / self.R * r / 2)
+    def _f(self, r: Array) -> Array:
+        return r / self.R * r / 2
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x) = x²/R."""
-        x = finite_array("x", x, "m")
-        return plain(x / self.R * x)
+    def _g(self, x: Array) -> Array:
+        return x / self.R * x
+
+    def _area(self, a: Array) -> Array:
+        return a / self.R * a * a / 3
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = √(Rd)."""
         return plain(np.sqrt(self.R) * np.sqrt(np.maximum(finite_array("d", d, "m"), 0)))
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = a³/(3R)."""
-        a = finite_array("a", a, "m")
-        return plain(a / self.R * a * a / 3)
-
     def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (2/(πR)) √(a² − r²)."""
         share = r / a
-        return plain(2 / np.pi * (a / self.R) * np.sqrt((1 - share) * (1 + share)))
+        return 2 / np.pi * (a / self.R) * np.sqrt((1 - share) * (1 + share))

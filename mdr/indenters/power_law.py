@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.indenters.mapping.stable_functions import arcosh
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
@@ -30,29 +31,24 @@ class PowerLaw(Indenter):
             return math.sqrt(math.pi) * math.gamma(self.n / 2 + 1) / math.gamma((self.n + 1) / 2)
         return math.sqrt(math.pi) * math.exp(math.lgamma(self.n / 2 + 1) - math.lgamma((self.n + 1) / 2))
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) = c rⁿ."""
-        return plain(self.c * np.abs(finite_array("r", r, "m")) ** self.n)
+    def _f(self, r: Array) -> Array:
+        return self.c * r**self.n
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """``g(x) = κ_n c |x|ⁿ``."""
-        return plain(self.kappa_n * self.c * np.abs(finite_array("x", x, "m")) ** self.n)
+    def _g(self, x: Array) -> Array:
+        return self.kappa_n * self.c * x**self.n
+
+    def _area(self, a: Array) -> Array:
+        """a g(a) / (n + 1)."""
+        return a * self._g(a) / (self.n + 1)
 
     def contact_radius(self, d: ArrayLike) -> Array:
         """Radius a = (d / (κ_n c))^{1/n}."""
         d = np.maximum(finite_array("d", d, "m"), 0)
         return plain((d / (self.kappa_n * self.c)) ** (1 / self.n))
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx = a g(a) / (n + 1)."""
-        return plain(np.multiply(a, self.profile_1d(a)) / (self.n + 1))
-
     def pressure_inside(self, r: Array, a: Array, d: Array) -> Array:
         """p/E* = (n d / (π a)) ∫₀^U (ϱ cosh u)^(n-1) du with ϱ = r/a and cosh U = 1/ϱ."""
         share = np.maximum(r / a, EPS)[:, None]
-        over = 1 / share - 1
-        rule = double_exponential()
-        way = np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)) * rule.from_low
-        weight = way / rule.from_low * rule.weight
-        integral = np.sum(weight * (share * np.cosh(way)) ** (self.n - 1), axis=1)
-        return plain(self.n / np.pi * (d / a) * integral)
+        rule, U = double_exponential(), arcosh(1.0, share)
+        integral = np.sum(U * rule.weight * (share * np.cosh(U * rule.from_low)) ** (self.n - 1), axis=1)
+        return np.asarray(self.n / np.pi * (d / a) * integral)

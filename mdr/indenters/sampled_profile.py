@@ -10,11 +10,10 @@ from os import PathLike, fsdecode
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from mdr.indenters.base import Indenter, refuse_falling
+from mdr.indenters.base import ROUNDING, Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
-from mdr.indenters.mapping.splines import SplineImage, fit
+from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_table import fault
@@ -22,8 +21,6 @@ from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 STANDS_OUT = 10.0  #: times the median change of slope: at a kink; noise of 200 points stays below 8
-ROUNDING = 1e-9  #: of the steepest slope: a change below it is none
-N_POINTS = 6  #: fewer make no spline
 NOISE = "standard deviation of the noise of the data"
 EXAMPLE = (
     (0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3, 1.4e-3),
@@ -86,7 +83,7 @@ class SampledProfile(Indenter):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_pairs("r", self.r, "f", self.f, N_POINTS)
+        require_pairs("r", self.r, "f", self.f, DEGREE + 1)
         if self.r[0] != 0:
             raise FieldError(
                 f"r must begin at 0, the tip from which the depth counts, got {self.r[0]:.6g} m: "
@@ -188,20 +185,17 @@ class SampledProfile(Indenter):
         """r[-1] [m]."""
         return self.r[-1]
 
-    def profile_3d(self, r: ArrayLike) -> Array:
-        """f(r) − f(0) of the spline."""
-        return in_chunks(self._image.height, self._within(finite_array("r", r, "m")))
+    def _f(self, r: Array) -> Array:
+        return in_chunks(self._image.height, r)
 
-    def profile_1d(self, x: ArrayLike) -> Array:
-        """g(x) of the spline."""
-        return in_chunks(self._image.image, self._within(finite_array("x", x, "m")))
+    def _g(self, x: Array) -> Array:
+        return in_chunks(self._image.image, x)
 
-    def profile_area(self, a: ArrayLike) -> Array:
-        """∫₀^a g dx of the spline."""
-        return in_chunks(self._image.area, self._within(finite_array("a", a, "m")))
+    def _area(self, a: Array) -> Array:
+        return in_chunks(self._image.area, a)
 
-    def _pressure_of_slope(self, r: Array, a: Array) -> Array:
-        return self._image.pressure(r, a)
+    def _slope(self, s: Array, low: float, high: float) -> Array:
+        return self._image.slope(s, low)
 
     def __repr__(self) -> str:
         known = [f"{len(self.r)} points to r = {self.r[-1]:.6g} m", f"tip={self.tip!r}"]

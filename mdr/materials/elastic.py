@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from mdr.materials.base import POISSON, Material, OneBody, poisson_ratio
 from mdr.tools.checks import positive
@@ -16,10 +17,8 @@ class Elastic(OneBody):
     E: float = field(metadata=facts("Pa", "Young's modulus", example=3e6))
     nu: float = field(metadata=POISSON)
 
-    @property
-    def tau(self) -> float:
-        """Relaxation time [s] of an elastic body: zero."""
-        return 0.0
+    #: relaxation time [s] of an elastic body
+    tau: ClassVar[float] = 0.0
 
     @classmethod
     def from_shear(cls, *, G: float, nu: float) -> Elastic:
@@ -49,10 +48,8 @@ class ElasticPair(Material):
     E_2: float = field(metadata=facts("Pa", "Young's modulus of the second body", example=210e9))
     nu_2: float = field(metadata=facts("-", "Poisson's ratio of the second body", poisson_ratio, example=0.3))
 
-    @property
-    def tau(self) -> float:
-        """Relaxation time [s] of elastic bodies: zero."""
-        return 0.0
+    #: relaxation time [s] of elastic bodies
+    tau: ClassVar[float] = 0.0
 
     @property
     def _bodies(self) -> tuple[Elastic, Elastic]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from os import PathLike, fsdecode
-from typing import Any
+from typing import Any, ClassVar
 
 from numpy.typing import ArrayLike
 
@@ -52,6 +52,13 @@ class _WithArms(OneBody):
     """A body of long-time modulus E_inf and Maxwell arms."""
 
     E_inf: float
+    arms: Arms
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.E_inf == 0 and not any(E_j > 0 for E_j, _ in self.arms):
+            what = "E_inf = 0 and no arm has a modulus: nothing carries a load; give E_inf or an arm above zero"
+            raise FieldError(what, "E_inf")
 
     @property
     def E(self) -> float:  # type: ignore[override]
@@ -59,14 +66,11 @@ class _WithArms(OneBody):
         return self.E_inf
 
     @property
-    def G_star(self) -> float:
-        """Long-time 4 G/(2 - nu) [Pa]."""
-        return self.E_star / self.mindlin_ratio
-
-    def _contact_arms(self, arms: Arms) -> Arms:
-        """In terms of contact moduli, slowest first; arms of one time are one, those of zero modulus none."""
-        times = sorted({tau_j for E_j, tau_j in arms if E_j > 0}, reverse=True)
-        return tuple((sum(E_j for E_j, tau_j in arms if tau_j == time) / (1 - self.nu**2), time) for time in times)
+    def contact_arms(self) -> Arms:
+        """The arms as (E*_j [Pa], tau_j [s]), slowest first; arms of one time are one, those of zero modulus none."""
+        times = sorted({tau_j for E_j, tau_j in self.arms if E_j > 0}, reverse=True)
+        sums = [(sum(E_j for E_j, tau_j in self.arms if tau_j == time), time) for time in times]
+        return tuple((E / (1 - self.nu**2), time) for E, time in sums)
 
 
 @dataclass(frozen=True)
@@ -81,19 +85,13 @@ class StandardLinearSolid(_WithArms):
     tau_1: float = field(metadata=facts("s", "relaxation time of the arm", example=1e-3))
     nu: float = field(metadata=POISSON)
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        _refuse_nothing(self.E_inf, ((self.E_1, self.tau_1),))
+    #: Kelvin time [s] of the E_inf branch
+    tau: ClassVar[float] = 0.0
 
     @property
-    def tau(self) -> float:
-        """Kelvin time [s] of the E_inf branch: zero."""
-        return 0.0
-
-    @property
-    def contact_arms(self) -> Arms:
-        """The arm as (E*_1 [Pa], tau_1 [s])."""
-        return self._contact_arms(((self.E_1, self.tau_1),))
+    def arms(self) -> Arms:  # type: ignore[override]
+        """The arm as (E_1 [Pa], tau_1 [s])."""
+        return ((self.E_1, self.tau_1),)
 
 
 @dataclass(frozen=True)
@@ -112,15 +110,9 @@ class Prony(_WithArms):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _refuse_nothing(self.E_inf, self.arms)
         if self.E_inf == 0 and self.tau > 0:
             what = "tau must be 0 where E_inf = 0: it is the time of that branch; name the dashpot as an arm"
             raise FieldError(what, "tau")
-
-    @property
-    def contact_arms(self) -> Arms:
-        """The arms as (E*_j [Pa], tau_j [s]), slowest first; arms of one time are one, those of zero modulus none."""
-        return self._contact_arms(self.arms)
 
     @classmethod
     def fit(
@@ -261,9 +253,3 @@ class Prony(_WithArms):
         from mdr.materials import prony_fit
 
         return prony_fit.misfit(self, omega, storage, loss)
-
-
-def _refuse_nothing(E_inf: float, arms: Arms) -> None:
-    if E_inf == 0 and not any(E_j > 0 for E_j, _ in arms):
-        what = "E_inf = 0 and no arm has a modulus: nothing carries a load; give E_inf or an arm above zero"
-        raise FieldError(what, "E_inf")

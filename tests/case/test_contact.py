@@ -44,7 +44,7 @@ def test_the_pull_is_rigid_unless_said_otherwise():
     assert mdr.SlidingContact(CASE.indenter, CASE.material, 0.4, CASE.oscillation).pull == mdr.RigidPull()
 
 
-class Rope(mdr.Pull):
+class Rope(mdr.case.pull.Pull):
     """A pull of one's own: a spring and a damper without mass."""
 
     coefficients = 0.0, 3.0, 2e4

@@ -20,27 +20,29 @@ def test_the_rub_is_the_radial_velocity_of_the_edge_over_eq_1():
     load = 2 * E / (1 - nu**2) * a * d
     radial = (1 - 2 * nu) * (1 + nu) / (2 * math.pi * E * a) * load
     kappa = (2 - nu) / (2 * (1 - nu))
-    assert_allclose(mdr.radial_rub(BALL), radial / (0.3 * kappa * d), rtol=1e-14)
+    assert_allclose(mdr.laws.radial_rub(BALL), radial / (0.3 * kappa * d), rtol=1e-14)
 
 
 def test_nothing_is_lost_where_bodies_are_alike_or_incompressible():
     for material in (mdr.Elastic(E=3e6, nu=0.5), mdr.ElasticPair(E_1=3e6, nu_1=0.3, E_2=3e6, nu_2=0.3)):
         case = replace(BALL, material=material)
-        assert mdr.radial_rub(case) == mdr.coupling_loss(case) == 0
-        assert mdr.coupled_critical_velocity(case) == mdr.full_slip_critical_velocity(case)
+        assert mdr.laws.radial_rub(case) == mdr.laws.coupling_loss(case) == 0
+        assert mdr.laws.coupled_critical_velocity(case) == mdr.full_slip_critical_velocity(case)
 
 
 def test_only_groups_count():
     same = replace(BALL, indenter=mdr.Paraboloid(R=2e-2), material=mdr.Elastic(E=2e9, nu=0.3))
     one, two = mdr.ElasticPair(E_1=3e6, nu_1=0.1, E_2=5e6, nu_2=0.4), mdr.ElasticPair(5e6, 0.4, 3e6, 0.1)
-    assert_allclose(mdr.coupling_loss(same), mdr.coupling_loss(BALL), rtol=1e-12)
-    assert_allclose(mdr.coupling_loss(replace(BALL, material=one)), mdr.coupling_loss(replace(BALL, material=two)))
+    assert_allclose(mdr.laws.coupling_loss(same), mdr.laws.coupling_loss(BALL), rtol=1e-12)
+    assert_allclose(
+        mdr.laws.coupling_loss(replace(BALL, material=one)), mdr.laws.coupling_loss(replace(BALL, material=two))
+    )
 
 
 def test_stick_ends_later_with_coupling():
     v_c, beta, kappa = mdr.critical_velocity(BALL), BALL.material.dundurs_beta, BALL.material.mindlin_ratio
     later = (0.3 * kappa + 2 * beta / math.pi) * SHAKEN.du_z * SHAKEN.omega
-    assert_allclose(mdr.coupled_critical_velocity(BALL), later, rtol=1e-12)
+    assert_allclose(mdr.laws.coupled_critical_velocity(BALL), later, rtol=1e-12)
     assert later > 1.3 * v_c
 
 
@@ -50,7 +52,7 @@ def test_the_loss_is_that_of_three_dimensions():
         case = replace(BALL, material=mdr.Elastic(E=3e6, nu=nu))
         v_0 = 0.7 * mdr.critical_velocity(case)
         found = (of_springs(case, v_0, settings).cof - in_three_dimensions(case, v_0, settings).cof) / case.mu_0
-        assert_allclose(mdr.coupling_loss(case), found, rtol=0.25)  # that of the law
+        assert_allclose(mdr.laws.coupling_loss(case), found, rtol=0.25)  # that of the law
 
 
 @pytest.mark.parametrize(("change", "words"), [
@@ -63,7 +65,7 @@ def test_the_loss_is_that_of_three_dimensions():
 ])  # fmt: skip
 def test_what_was_not_computed_is_refused(change, words):
     case = replace(BALL, **change)
-    for ask in (mdr.coupled_critical_velocity, mdr.coupling_loss):
+    for ask in (mdr.laws.coupled_critical_velocity, mdr.laws.coupling_loss):
         with pytest.raises(ValueError, match=words):
             ask(case)
     assert "may still stick above" in mdr.verdict(case, limit_s=1e-3).why  # without a measurement
@@ -71,9 +73,9 @@ def test_what_was_not_computed_is_refused(change, words):
 
 def test_what_is_no_case_is_refused():
     with pytest.raises(TypeError, match="SlidingContact"):
-        mdr.radial_rub(3)
+        mdr.laws.radial_rub(3)
     with pytest.raises(TypeError, match="SlidingContact"):
-        mdr.coupling_loss(3)
+        mdr.laws.coupling_loss(3)
 
 
 @pytest.mark.parametrize(("nu", "mu_0", "alpha", "words"), [

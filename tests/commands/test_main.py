@@ -326,8 +326,8 @@ def test_every_shell_is_told_every_command_and_option(capsys):
 
 # --- measure and verdict ---
 
-FOUND = mdr.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
-NOTHING = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+FOUND = mdr.friction.measured_velocity.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
+NOTHING = mdr.friction.measured_velocity.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
 
 
 class MadeUpVerdict:
@@ -339,10 +339,12 @@ class MadeUpVerdict:
 
 
 def test_the_names_of_the_records():
-    names = {field.name for field in fields(mdr.Verdict)}
-    assert {"v_c", "low", "high", "kind", "why"} <= {field.name for field in fields(mdr.MeasuredVelocity)}
+    names = {field.name for field in fields(mdr.friction.verdict.Verdict)}
+    assert {"v_c", "low", "high", "kind", "why"} <= {
+        field.name for field in fields(mdr.friction.measured_velocity.MeasuredVelocity)
+    }
     assert {"eq_15", "full_slip", "measured", "deviation", "within", "holds", "why"} <= names
-    assert isinstance(mdr.Verdict.good, property)
+    assert isinstance(mdr.friction.verdict.Verdict.good, property)
 
 
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])

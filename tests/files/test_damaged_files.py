@@ -43,7 +43,7 @@ KINDS = {
     "moduli": ("moduli.csv", [MODULI], mdr.read_moduli, ValueError),
     "arms": ("arms.csv", [ARMS], lambda path: mdr.Prony.read(path, nu=0.5), ValueError),
     "material": ("arms.toml", [MATERIAL], mdr.Prony.read, ValueError),
-    "stored study": ("study.nc", None, mdr.read_study, mdr.StudyError),
+    "stored study": ("study.nc", None, mdr.read_study, mdr.studies.StudyError),
 }
 
 #: what files are made of, and what they are not

@@ -307,7 +307,11 @@ def test_a_band_that_is_one_number_contains_it():
 
 def test_laws_without_a_shake_refuse_one():
     case = contact(alpha=0.4, chi=0.3)
-    for ask in (mdr.coupling_loss, mdr.coupled_critical_velocity, lambda one: mdr.laws.first_order(body(one))):
+    for ask in (
+        mdr.laws.coupling_loss,
+        mdr.laws.coupled_critical_velocity,
+        lambda one: mdr.laws.first_order(body(one)),
+    ):
         with pytest.raises(ValueError, match="shake in the plane"):
             ask(replace(case, material=mdr.Elastic(3e6, 0.45)))
     for wrong in (contact(chi=3.0), contact(chi=0.1, material=mdr.KelvinVoigt(3e6, 0.5, 1e-3))):

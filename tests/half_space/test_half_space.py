@@ -144,7 +144,7 @@ def test_a_march_may_go_on_from_another_and_end_when_settled():
 def test_stick_ends_above_one_and_lambda():
     case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
     one = replace(SMALL, cycles=1)
-    v_c, end = mdr.critical_velocity(case), mdr.coupled_critical_velocity(case)
+    v_c, end = mdr.critical_velocity(case), mdr.laws.coupled_critical_velocity(case)
     between, beyond = last_period(case, 1.1 * v_c, one), last_period(case, 1.02 * end, one)
     assert np.nanmax(between.stick) > 0
     assert np.nanmax(beyond.stick) == 0

@@ -12,8 +12,8 @@ from numpy.testing import assert_allclose
 from scipy.special import struve
 
 from mdr.indenters import Paraboloid, Profile
-from mdr.indenters.base import Indenter
-from mdr.indenters.mapping import chebyshev_panels
+from mdr.indenters.base import Indenter, image_of
+from mdr.indenters.mapping.chebyshev_panels import cuts
 
 B, R, T = 1e-3, 5e-3, math.tan(0.05)
 MAP = 1e-9  # the accuracy promised for mapped profiles
@@ -49,9 +49,7 @@ def profile(request):
 
 def test_panels_say_what_quadrature_says(profile):
     shape, x = profile
-    assert_allclose(
-        shape.profile_1d(x), chebyshev_panels.direct(chebyshev_panels.HEIGHT, shape._f, shape._edges, x), rtol=0.1 * MAP
-    )
+    assert_allclose(shape.profile_1d(x), image_of(shape).direct(x), rtol=0.1 * MAP)
 
 
 def test_the_radius_leads_back_to_the_depth(profile):
@@ -66,7 +64,7 @@ def test_no_answer_depends_on_what_else_was_asked(profile):
     shape, x = profile
     d = shape.profile_1d(x)
     some = slice(None, None, 100)
-    chebyshev_panels._panel.cache_clear()
+    image_of(shape).panels.clear()
     assert_allclose([shape.contact_radius(one) for one in d[some]], shape.contact_radius(d)[some], rtol=4e-16)
     assert np.array_equal(shape.profile_1d(x[::-1])[::-1], shape.profile_1d(x))
 
@@ -155,10 +153,10 @@ def test_the_deepest_contact_is_the_whole_face():
 
 
 def test_panels_end_where_they_should():
-    ends = chebyshev_panels.cuts((0.0, 3.0, 4.0, 9.0))
+    ends = cuts((0.0, 3.0, 4.0, 9.0))
     assert np.array_equal(ends[ends > 0.9], [1, 2, 3, 4, 5, 6, 8, 9])
     assert ends[0] == 5e-324
-    assert chebyshev_panels.cuts((0.0, np.inf))[-1] == np.finfo(float).max
+    assert cuts((0.0, np.inf))[-1] == np.finfo(float).max
 
 
 @pytest.mark.parametrize("place", [5e-4, 4.87e-4, 3.1e-4])

@@ -79,7 +79,7 @@ def test_the_image_is_that_of_the_spline():
         rise = np.diff(shape.profile_1d(steps))[0] / (2 * h)
         assert_allclose(image._outer(1, np.array([x]), image._piece(np.array([x]))), rise, rtol=1e-3)
     assert_allclose(
-        Indenter.profile_3d(shape, 0.7e-3), shape.profile_3d(0.7e-3), rtol=3e-4
+        Indenter._f(shape, np.array(0.7e-3)), shape.profile_3d(0.7e-3), rtol=3e-4
     )  # a rule that knows no knots
 
 

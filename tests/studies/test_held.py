@@ -136,7 +136,7 @@ def test_a_store_knows_the_load_and_goes_on(tmp_path):
     np.testing.assert_array_equal(mdr.sweep(**asked)["mean_F_N"], whole["mean_F_N"])
     for other in ({"load": 6.0, "tan_delta": 0.03}, {"load": 5.0, "tan_delta": 0.04}, {}):
         assert mdr.sweep(**{**asked, "held": other}).identity != whole.identity
-    with pytest.raises(mdr.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
+    with pytest.raises(mdr.studies.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
         mdr.sweep(**{**asked, "held": {**asked["held"], "load": 6}}, store=tmp_path)
 
 

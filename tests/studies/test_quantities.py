@@ -51,7 +51,7 @@ def test_mean_forces_are_those_of_a_run():
 
 
 def test_no_critical_velocity_is_a_reason(monkeypatch):
-    nothing = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+    nothing = mdr.friction.measured_velocity.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
     monkeypatch.setattr("mdr.studies.quantities.measure_critical_velocity", lambda case: nothing)
     with pytest.raises(ValueError, match="there is none: friction stays reduced"):
         CATALOGUE["measured_v_c"].of(BODY)

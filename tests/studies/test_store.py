@@ -112,7 +112,7 @@ def test_two_may_merge_at_once(part_done, monkeypatch):
     monkeypatch.setattr(os, "replace", lambda partial, path: (os.unlink(partial), real(partial, path)))
     Store(part_done).merge(data)
     (part_done / "study.nc").unlink()
-    with pytest.raises(mdr.StudyError, match=r"study.nc cannot be written \(No such file"):
+    with pytest.raises(mdr.studies.StudyError, match=r"study.nc cannot be written \(No such file"):
         Store(part_done).merge(data)
 
 
@@ -155,16 +155,16 @@ def test_a_store_of_no_use_says_what_to_do_and_is_left_alone(part_done, file, ch
     before = [path for path in part_done.rglob("*") if "chunks" not in path.parts]
     for call, words in ((mdr.read_study, read), (small, told)):
         if words:
-            with pytest.raises(mdr.StudyError, match=f"^{re.escape(str(part_done))}.*{re.escape(words)}"):
+            with pytest.raises(mdr.studies.StudyError, match=f"^{re.escape(str(part_done))}.*{re.escape(words)}"):
                 call(part_done)
             assert [path for path in part_done.rglob("*") if "chunks" not in path.parts] == before
 
 
 def test_a_file_in_the_place_of_the_folder(tmp_path):
     (tmp_path / "store").write_text("")
-    with pytest.raises(mdr.StudyError, match="is a file; give a folder for the store"):
+    with pytest.raises(mdr.studies.StudyError, match="is a file; give a folder for the store"):
         small(tmp_path / "store")
-    with pytest.raises(mdr.StudyError, match=r"store/inside: study.json cannot be written"):
+    with pytest.raises(mdr.studies.StudyError, match=r"store/inside: study.json cannot be written"):
         small(tmp_path / "store" / "inside")
 
 
@@ -186,7 +186,7 @@ OTHER = replace(BODY, indenter=SHAPES[1], material=mdr.Elastic(3e6, 0.5), oscill
     ],
 )  # fmt: skip
 def test_a_store_of_another_study_says_what_differs(part_done, change, words):
-    with pytest.raises(mdr.StudyError, match="is the store of another study") as caught:
+    with pytest.raises(mdr.studies.StudyError, match="is the store of another study") as caught:
         small(part_done, **change)
     assert words in str(caught.value)
     assert str(part_done) in str(caught.value)
@@ -199,7 +199,7 @@ def test_a_store_is_of_one_version_and_of_the_sources_that_can_move_a_value(part
         assert (specification.code() != known) == bool(counts)
     monkeypatch.setattr("mdr.tools.version.__version__", "9.9")
     words = f"mdr is 0.1.0 there and 9.9 here; code of mdr is {known} there and {specification.code()} here"
-    with pytest.raises(mdr.StudyError, match=words):
+    with pytest.raises(mdr.studies.StudyError, match=words):
         small(part_done)
 
 
@@ -260,7 +260,7 @@ def test_a_disk_that_fails(part_done, whole, monkeypatch, code, after, words):
     monkeypatch.setattr(engine, "compute", lambda work, *units: (computed.append(units), compute(work, *units))[1])
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", fsync)
-        with pytest.raises(mdr.StudyError, match=words) as caught:
+        with pytest.raises(mdr.studies.StudyError, match=words) as caught:
             small(part_done)
     kept = len(list(part_done.glob("chunks/*.npz")))
     if after:

@@ -114,7 +114,7 @@ def test_shards_at_the_same_time(tmp_path, bytes_of_runs):
 def test_lost_processes_are_an_error_that_says_what_is_kept(tmp_path):
     axes = {"oscillation.u_z0": [(1 + k) * 1e-6 for k in range(9)]}
     words = "the workers were lost, .* of 9 chunks are safe in .*; the same call goes on from there"
-    with spawned(1) as processes, pytest.raises(mdr.StudyError, match=words):
+    with spawned(1) as processes, pytest.raises(mdr.studies.StudyError, match=words):
         mdr.sweep(RIGID, axes, tmp_path, processes, [mdr.Quantity("own", "-", deadly)])
     assert mdr.read_study(tmp_path).count(Status.DONE) >= 1
 
@@ -126,7 +126,7 @@ def test_a_cancelled_future_is_a_lost_worker():
             future.set_exception(CancelledError())
             return future
 
-    with pytest.raises(mdr.StudyError, match=r"the workers were lost, .*; nothing is kept, as there is no store"):
+    with pytest.raises(mdr.studies.StudyError, match=r"the workers were lost, .*; nothing is kept, as there is no store"):
         mdr.sweep(RIGID, MANY, executor=Cancelling(), quantities=["v_c"])
 
 

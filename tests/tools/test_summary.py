@@ -78,7 +78,9 @@ def test_a_case_names_its_parts_with_units_and_reads_back_from_its_repr():
 
 
 def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
-    found = mdr.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7)
+    found = mdr.friction.measured_velocity.MeasuredVelocity(
+        0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7
+    )
     assert str(found).splitlines() == [
         "MeasuredVelocity",
         "  v_c        0.1 m/s               end of stick",
@@ -86,7 +88,7 @@ def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
         "  why        all signs agree",
         "  runs       7",
     ]
-    nothing = mdr.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+    nothing = mdr.friction.measured_velocity.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
     assert "bracket" not in str(nothing)
     assert "none" in str(nothing)
 

@@ -34,6 +34,7 @@ Body, finite amplitude
     the depth at the edge of the contact. The receptance turns each harmonic of q into a motion of the body.
 """
 
+from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
 from mdr.closed_forms.laws.bodies import (
     LeastOverDepth,
     blow,
@@ -69,6 +70,8 @@ __all__ = [
     "LeastOverDepth",
     "amplitude_limit",
     "blow",
+    "coupled_critical_velocity",
+    "coupling_loss",
     "depth_sensitivity",
     "edge_band",
     "elliptic_drive",
@@ -82,6 +85,7 @@ __all__ = [
     "lock_in",
     "lost_under_shake",
     "onset",
+    "radial_rub",
     "resonance_residue",
     "rigid_shake",
     "rise_of_lost_punch",

@@ -4,11 +4,9 @@ g(x) = x ∫₀^{π/2} f'(x sin t) dt                       the one-dimensional 
 f(r) = (2/π) ∫₀^{π/2} g(r sin t) dt                    its inverse
 ∫₀^a g dx = a ∫₀^{π/2} f(a sin t) sin t dt             needed for F_N = 2E*(d a − ∫₀^a g dx)
 p(r) = (E*/π) ∫_r^a g'(x) / √(x² − r²) dx              pressure, from g
-     = (E*/π) ∫₀^a K(r, s) d[s f'(s)],                 the same, from f
-K(r, s) = ∫_{max(r,s)}^a dx / √((x² − s²)(x² − r²)), an incomplete elliptic integral of the first kind.
 
-The first, second and fourth are Popov & Heß, *Method of Dimensionality Reduction* (2015); the others follow
-by exchanging the order of integration. A jump of f' at a kink is a jump of s f'(s) in the last one.
+The first, second and fourth are Popov & Heß, *Method of Dimensionality Reduction* (2015); the third follows
+by exchanging the order of integration.
 Arrays are one-dimensional here, radii positive; ``edges`` are 0, the kinks and the profile's end (or inf).
 """
 
@@ -66,58 +64,6 @@ def area_from_g(g: Function, edges: tuple[float, ...], a: Array) -> Array:
         width = np.maximum(np.minimum(high, a) - low, 0)[:, None]
         total += np.sum(width * rule.weight * g(low + width * rule.from_low), axis=1)
     return total
-
-
-def pressure_from_f(f: Function, edges: tuple[float, ...], r: Array, a: Array) -> Array:
-    """p(r)/E* for 0 <= r < a, without the edge term."""
-    r = np.maximum(r, EPS * a)
-    total = np.zeros_like(r)
-    before = 0.0  # f' just inside the kink
-    for low, high in pairwise(edges):
-        on = a > low
-        if not on.any():
-            break
-        ends = [derivatives(f, np.array([b]), np.array([WINDOW * b]), low, high)[0][0] for b in (low, high)
-                if 0 < b < np.inf]  # fmt: skip
-        if low > 0:
-            total[on] += low * (ends[0] - before) * _kernel(r[on], np.full_like(r[on], low), a[on])
-        before = ends[-1] if ends else 0.0
-        total[on] += _smooth_pressure(f, low, high, r[on], a[on])
-    return total / np.pi
-
-
-def _smooth_pressure(f: Function, low: float, high: float, r: Array, a: Array) -> Array:
-    """∫ K(r, s) (s f')' ds over one smooth piece, cut at s = r where K is logarithmic."""
-    rule = double_exponential()
-    stop = np.minimum(high, a)
-    cut = np.clip(r, low, stop)
-
-    def integral(s: Array, ds: Array) -> Array:
-        s = np.clip(s, low, stop[:, None])
-        first, second = derivatives(f, s, WINDOW * s, low, high)
-        answer: Array = np.sum(ds * (first + s * second) * _kernel(r[:, None], s, a[:, None]), axis=1)
-        return answer
-
-    width = (cut - low)[:, None]
-    inner = integral(low + width * rule.from_low, width * rule.weight)
-    far = arcosh(stop, cut)[:, None]  # s = cut cosh u: any ratio of radii is a short way in u
-    u = far * rule.from_low
-    return inner + integral(cut[:, None] * np.cosh(u), cut[:, None] * np.sinh(u) * far * rule.weight)
-
-
-def _kernel(r: Array, s: Array, a: Array) -> Array:
-    """K(r, s) = F(ψ, k) / M with k = min(r, s) / M, M = max(r, s), tan²ψ = (a² − M²) / (M² − min²).
-
-    Infinite only at r = s; there it answers as if they differed by one rounding.
-    """
-    from scipy.special import ellipkinc
-
-    large = np.maximum(np.maximum(r, s), np.finfo(float).tiny)
-    small = np.minimum(np.minimum(r, s), large * (1 - EPS))
-    k = small / large
-    rise = np.sqrt(np.maximum(a / large - 1, 0) * (a / large + 1))
-    answer: Array = ellipkinc(np.arctan2(rise, np.sqrt((1 - k) * (1 + k))), k * k) / large
-    return answer
 
 
 def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: Array, a: Array) -> Array:

@@ -26,8 +26,7 @@ def _above(g: Function, a: Array, d: Array) -> Array:
 def bracket(g: Function, d: Array, start: Array, end: float) -> tuple[Array, ...]:
     """Bracket of at most a factor of two and g - d at its ends.
 
-    Strides of 1, 2, 4 … octaves lead across the root; a power law through the two ends, followed to half an
-    octave beyond the root, or halving, leads back.
+    Strides of 1, 2, 4 … octaves lead across the root, halving their logarithm leads back.
     """
     low, high, a = np.zeros_like(d), np.full_like(d, end), np.minimum(start, end)
     y_low, y_high, stride = -d, np.full_like(d, np.inf), np.ones_like(d)
@@ -40,27 +39,14 @@ def bracket(g: Function, d: Array, start: Array, end: float) -> tuple[Array, ...
         todo = i[(low[i] == 0) | (high[i] > 2 * low[i])]
         if todo.size == 0:
             break
-        a[todo] = _next(low[todo], high[todo], y_low[todo], y_high[todo], d[todo], a[todo], stride[todo], end)
+        below, above, at = low[todo], high[todo], a[todo]
+        out = np.clip(at * 2.0 ** np.where(below > 0, stride[todo], -stride[todo]), 5e-324, min(end, 1e308))
+        closed = (below > 0) & np.isfinite(above)
+        a[todo] = np.where(closed, np.sqrt(below) * np.sqrt(np.where(closed, above, 1.0)), out)
         stride[todo] = np.minimum(2 * stride[todo], 512)
     unknown = np.isinf(y_high)
     y_high[unknown] = np.maximum(_above(g, high[unknown], d[unknown]), 0)  # d is g(end) but for rounding
     return low, high, y_low, y_high
-
-
-def _next(
-    low: Array, high: Array, y_low: Array, y_high: Array, d: Array, a: Array,
-    stride: Array, end: float,
-) -> Array:  # fmt: skip
-    """Next radius on the way to a bracket."""
-    closed = (low > 0) & np.isfinite(high)
-    out = np.clip(np.where(low > 0, a * 2**stride, a * 2**-stride), 5e-324, min(end, 1e308))
-    halfway = np.sqrt(low) * np.sqrt(np.where(closed, high, 1.0))
-    n = np.log((y_high + d) / (y_low + d)) / np.log(high / low)
-    root = low * (d / (y_low + d)) ** (1 / n)
-    near_low = root * root < low * high
-    power = np.where(near_low, np.maximum(root, low) * 2**0.5, np.minimum(root, high) / 2**0.5)
-    good = np.isfinite(power) & (power > low) & (power < high) & (y_low > -d)  # g = 0 at low is no power law
-    return np.where(closed, np.where(good, power, halfway), out)
 
 
 def refine(g: Function, d: Array, low: Array, high: Array, y_low: Array, y_high: Array) -> tuple[Array, BoolArray]:

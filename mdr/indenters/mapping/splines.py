@@ -11,15 +11,14 @@ piece when it is first asked for. Between the nodes a polynomial in √(x − r_
 
 import math
 from functools import cached_property
-from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.indenters.mapping.abel import _kernel
-from mdr.indenters.mapping.quadrature import chebyshev_fit, double_exponential
-from mdr.indenters.mapping.stable_functions import arcosh, leg
-from mdr.tools.arrays import EPS, Array
+from mdr.indenters.mapping.quadrature import chebyshev_fit
+from mdr.indenters.mapping.stable_functions import leg
+from mdr.tools.arrays import Array
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
@@ -32,27 +31,33 @@ RULES = tuple(  #: for arcs between these widths [rad]
 )
 
 
-def fit(x: Array, y: Array, noise: Array | float, even: bool) -> tuple[Array, Array]:
-    """Ends (n + 1,) of the pieces of a spline through the points, ascending x, and their polynomials (n, degree + 1).
-
-    Piece i is Σ_j c_ij u^j with u = (x − x_i)/(x_i+1 − x_i). ``noise`` is the standard deviation of y, by which the
-    spline keeps from the points on the average, 0 interpolates; ``even`` fits them with their mirror images at −x.
+def spline(x: Array, y: Array, noise: Array | float) -> Any:
+    """A spline through the points, ascending x, of odd degree; for `noise` above 0, their standard deviation (n,) or
+    that of all, one that keeps from them by it on the average.
     """
-    from scipy.interpolate import PPoly, make_interp_spline, splrep
+    from scipy.interpolate import BSpline, make_interp_spline, splrep
 
-    noise = np.broadcast_to(noise, x.shape)
+    k, noise = min(DEGREE, x.size - 1 - x.size % 2), np.broadcast_to(noise, x.shape)
+    if not noise.all() or x.size <= k + 1:
+        return make_interp_spline(x, y, k=k)
+    t, c, k = splrep(x, y / noise.max(), noise.max() / noise, k=k, s=x.size)
+    return BSpline(t, c * noise.max(), k)
+
+
+def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array]:
+    """Ends (n + 1,) of the pieces of a spline through the points, and their polynomials (n, degree + 1).
+
+    Piece i is Σ_j c_ij u^j with u = (x − x_i)/(x_i+1 − x_i); ``even`` fits the points with their mirror images at −x.
+    """
+    from scipy.interpolate import PPoly
+
     if even:
-        x, y, noise = np.concatenate([-x[:0:-1], x]), *(np.concatenate([v[:0:-1], v]) for v in (y, noise))
+        x, y = np.concatenate([-x[:0:-1], x]), np.concatenate([y[:0:-1], y])
     unit = max(abs(x[0]), abs(x[-1]))
-    k = min(DEGREE, x.size - 1 - x.size % 2)  # odd
-    if noise.all() and x.size > k + 1:
-        spline = PPoly.from_spline(splrep(x / unit, y / noise.max(), noise.max() / noise, k=k, s=x.size))
-        spline.c *= noise.max()
-    else:
-        spline = PPoly.from_spline(make_interp_spline(x / unit, y, k=k))
-    keep = np.flatnonzero(np.diff(spline.x) > 0)
-    ends = np.append(spline.x[keep], spline.x[keep[-1] + 1])
-    pieces = spline.c[::-1, keep].T
+    whole = PPoly.from_spline(spline(x / unit, y, noise))
+    keep = np.flatnonzero(np.diff(whole.x) > 0)
+    ends = np.append(whole.x[keep], whole.x[keep[-1] + 1])
+    pieces = whole.c[::-1, keep].T
     if not even:
         return unit * ends, _moved(pieces, np.zeros(keep.size), np.diff(ends))
     both = np.unique(np.append(0, np.abs(ends)))
@@ -61,7 +66,7 @@ def fit(x: Array, y: Array, noise: Array | float, even: bool) -> tuple[Array, Ar
     right = np.searchsorted(ends, middle) - 1
     left = np.searchsorted(ends, -middle) - 1
     half = _moved(pieces[right], both[:-1] - ends[right], width) + _moved(pieces[left], -both[:-1] - ends[left], -width)
-    half[0, 1:k:2] = 0  # even to the last digit
+    half[0, 1 : pieces.shape[1] - 1 : 2] = 0  # even to the last digit
     return unit * both, half / 2
 
 
@@ -87,6 +92,7 @@ class SplineImage:
         self.radial = self.slopes * powers[1:] + curved  # (r f')'
         kappa = np.array([math.sqrt(math.pi) * math.gamma(j / 2 + 1) / math.gamma((j + 1) / 2) for j in powers])
         self.tip = pieces[0] * kappa  # of g, in u
+        self.tip_slopes = (self.tip * powers)[1:] / self.width[0]
         self.made = np.zeros(self.width.size, dtype=bool)
         self.chebyshev = np.zeros((2, self.width.size, N_NODES))  # of g/x and of the smooth part of dg/dx
         at = np.searchsorted(ends, kinks)
@@ -122,35 +128,17 @@ class SplineImage:
         rest = np.sqrt(a - low) * ((g * t) @ weights)
         return np.asarray(np.where(piece == 0, first, self._areas[piece] + rest))
 
-    def pressure(self, r: Array, a: Array) -> Array:
-        """p(r)/E* for 0 <= r < a."""
-        r = np.maximum(r, EPS * a)
-        p = self._first_pressure(r, np.minimum(a, self.ends[1]))
+    def slope(self, s: Array, low: float) -> Array:
+        """dg/ds at x² = low² + s². A jump of f' at b adds b/√(x² − b²) to dg/dx, which s takes the infinity from."""
+        x = np.minimum(np.hypot(s, low), self.ends[-1])
+        piece = self._piece(x)
+        share = s / x if low > 0 else np.ones_like(s)
+        tip = _horner(self.tip_slopes[None], np.zeros_like(piece), np.where(piece == 0, x / self.width[0], 0))
+        rise = share * np.where(piece == 0, tip, self._outer(1, x, piece))
         for b, jump in zip(self.kinks, self.jumps, strict=True):
-            on = a > b
-            p[on] += jump * b * _kernel(r[on], np.full_like(r[on], b), a[on])
-        rule = double_exponential(0.2)
-        for low, high in pairwise(self.ends[1:]):
-            on = (r < high) & (a > low)
-            if on.any():
-                inner = arcosh(np.maximum(low, r[on]), r[on])
-                way = arcosh(np.minimum(high, a[on]), r[on]) - inner
-                x = r[on, None] * np.cosh(inner[:, None] + way[:, None] * rule.from_low)
-                x = np.clip(x, low, np.minimum(high, a[on])[:, None])
-                piece = np.full(x.size, np.searchsorted(self.ends, low))
-                rise = self._outer(1, x.ravel(), piece).reshape(x.shape)
-                p[on] += way * (rise @ rule.weight)
-        return np.asarray(p / np.pi)
-
-    def _first_pressure(self, r: Array, stop: Array) -> Array:
-        """∫_r^stop g'(x)/√(x² − r²) dx in the first piece: I_k = (x^(k−1) s + (k − 1) r² I_(k−2))/k for x^k."""
-        p, h, s = np.zeros_like(r), self.width[0], leg(stop, r)
-        integrals = [arcosh(stop, r), s / h]
-        for k in range(2, self.tip.size - 1):
-            integrals.append(((stop / h) ** (k - 1) * (s / h) + (k - 1) * (r / h) ** 2 * integrals[k - 2]) / k)
-        for k, integral in enumerate(integrals[: self.tip.size - 1]):
-            p += (k + 1) * self.tip[k + 1] / h * integral
-        return np.where(r < stop, p, 0.0)
+            if b <= low:
+                rise += jump * b * (1 / x if b == low else share / leg(x, b))
+        return rise
 
     @cached_property
     def _areas(self) -> Array:

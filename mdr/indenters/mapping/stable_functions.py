@@ -30,9 +30,9 @@ def angle(x: ArrayLike, b: float) -> Array:
     return np.asarray(np.arctan2(leg(x, b), b), dtype=np.float64)
 
 
-def arcosh(x: Array, y: Array) -> Array:
+def arcosh(x: ArrayLike, y: Array) -> Array:
     """Arcosh(x/y), exact also for x close to y; 0 for x < y."""
-    over = np.maximum(x - y, 0) / y
+    over = np.maximum(np.subtract(x, y), 0) / y
     return np.asarray(np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)))
 
 
