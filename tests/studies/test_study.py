@@ -187,7 +187,8 @@ def test_a_file_of_somebody_else_is_no_study(tmp_path):
     with netcdf_file(tmp_path / "other.nc", "w", version=2) as file:
         file.createDimension("x", 2)
         file.createVariable("status", "b", ("x",))[:] = 1
-    with pytest.raises(mdr.studies.StudyError, match="is no study, or a damaged one: its states are not those of a study"):
+    words = "is no study, or a damaged one: its states are not those of a study"
+    with pytest.raises(mdr.studies.StudyError, match=words):
         mdr.read_study(tmp_path / "other.nc")
 
 

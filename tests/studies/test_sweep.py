@@ -126,7 +126,8 @@ def test_a_cancelled_future_is_a_lost_worker():
             future.set_exception(CancelledError())
             return future
 
-    with pytest.raises(mdr.studies.StudyError, match=r"the workers were lost, .*; nothing is kept, as there is no store"):
+    words = r"the workers were lost, .*; nothing is kept, as there is no store"
+    with pytest.raises(mdr.studies.StudyError, match=words):
         mdr.sweep(RIGID, MANY, executor=Cancelling(), quantities=["v_c"])
 
 
