@@ -40,7 +40,7 @@ class Arms(NamedTuple):
     """The Maxwell arms of a material."""
 
     rho: Array  #: (J,) moduli over the long-time one
-    theta: Array  #: (J,) times
+    rate: Array  #: (J,) 1/theta, with which they relax
 
 
 class Law(NamedTuple):
@@ -56,7 +56,7 @@ def law_of(T: float, rho: tuple[float, ...] = (), theta: tuple[float, ...] = ())
     """The law of a material with these groups."""
     ratios, times = np.array(rho, dtype=float), np.array(theta, dtype=float)
     modes = _modes(T, ratios, times) if T > 0 or rho else None
-    return Law(float(T), modes, Arms(ratios, times) if rho else None)
+    return Law(float(T), modes, Arms(ratios, 1 / times) if rho else None)
 
 
 @njit(error_model="numpy")

@@ -54,7 +54,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     """
     n_t, n = z.size - 1, gap.size
     tools = tools_for(law, 2 * np.pi / n_t)
-    rho, theta = law.arms or (np.empty(0), np.empty(0))
+    rho, rate = law.arms or (np.empty(0), np.empty(0))
     s = np.zeros((1 + rho.size, n))
     s[0] = np.maximum(z[0] - gap, 0)
     sums = np.empty((4, n_t))
@@ -65,7 +65,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
 
     who, move = np.arange(n), np.zeros((rho.size, n))
     trust, before, change = np.ones(n), np.full(n, np.inf), np.zeros(n)
-    forgotten = -np.expm1(-2 * np.pi / theta)[:, None]
+    forgotten = -np.expm1(-2 * np.pi * rate)[:, None]
     for turn in range(MOST_PASSES if rho.size else min(1, tools.decay.shape[1])):
         start, x = s[:, who], s[:, who].copy()
         pass_through(x, who, none, none)

@@ -172,8 +172,8 @@ def force(x, p, q, T, t):
 def fill(t, modes, arms, tools, k):
     """What a time t makes of arms and modes."""
     if arms is not None:
-        for j in range(arms.theta.size):
-            fill_phi(t / arms.theta[j], tools.one)
+        for j in range(arms.rho.size):
+            fill_phi(t * arms.rate[j], tools.one)
             for n in range(N_PHI):
                 tools.phi[k, n, j] = tools.one[n]
     if modes is not None:
@@ -194,11 +194,11 @@ def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
         v, d, bend = a + u * (b + u * c), b + 2.0 * c * u, 2.0 * c
         if arms is not None:
             for j in range(n_arms):
-                rho, theta = arms.rho[j], arms.theta[j]
-                fill_phi(u / theta, phi)
+                rho, rate = arms.rho[j], arms.rate[j]
+                fill_phi(u * rate, phi)
                 y = work[j] * phi[0] + u * (p * phi[1] + 2.0 * q * u * phi[2])
-                slope = p + 2.0 * q * u - y / theta
-                v, d, bend = v + rho * y, d + rho * slope, bend + rho * min(2.0 * q - slope / theta, 0.0)
+                slope = p + 2.0 * q * u - y * rate
+                v, d, bend = v + rho * y, d + rho * slope, bend + rho * min(2.0 * q - slope * rate, 0.0)
             for k in range(n_modes):
                 mu = modes.mu[k]
                 y = work[k] * np.exp(-mu * u)
@@ -264,7 +264,7 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
     if arms is not None:
         J = arms.rho.size
         for j in range(J):
-            fastest = max(fastest, 1.0 / arms.theta[j])
+            fastest = max(fastest, arms.rate[j])
     if arms is not None or (modes is not None and mode != STICK):
         nodes = OF_SLOW_DECAYS if fastest * t < 0.25 else OF_DECAYS
     n = 1
@@ -291,7 +291,7 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
             shear, pressure = T * e_rate * e_rate, T * s_rate * s_rate
             if arms is not None:
                 for j in range(J):
-                    fill_phi(u / arms.theta[j], tools.one)
+                    fill_phi(u * arms.rate[j], tools.one)
                     f_0, f_1, f_2 = tools.one[0], u * tools.one[1], 2.0 * u * u * tools.one[2]
                     s_j, e_j = s[1 + j, i] * f_0 + z_1 * f_1 + z_2 * f_2, e[1 + j, i] * f_0 + x_1 * f_1 + x_2 * f_2
                     normal += arms.rho[j] * s_j if mode != FREE else 0.0
@@ -304,8 +304,8 @@ def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
                         s_j, e_j = of_press, of_lag
                     elif mode != STICK:
                         e_j = sign * (s_j - of_lag)
-                    shear += arms.rho[j] / arms.theta[j] * e_j * e_j
-                    pressure += arms.rho[j] / arms.theta[j] * s_j * s_j
+                    shear += arms.rho[j] * arms.rate[j] * e_j * e_j
+                    pressure += arms.rho[j] * arms.rate[j] * s_j * s_j
             sums[SHEAR_VISCOUS] += weight * shear
             sums[NORMAL_VISCOUS] += weight * pressure
             if mode != FREE:
@@ -333,17 +333,17 @@ def slip_velocity(mode, s, e, i, zd, xd, modes):
 @_inline
 def arms_ends(x, i, p, q, t, k, tools, arms):
     """What the arms of x[:, i], held on p t + q t², add to L."""
-    phi, rho, theta = tools.phi, arms.rho, arms.theta
+    phi, rho, rate = tools.phi, arms.rho, arms.rate
     v_0 = d_0 = v_1 = d_1 = low = high = 0.0
     for j in range(rho.size):
         before = x[1 + j, i]
         after = before * phi[k, 0, j] + t * (p * phi[k, 1, j] + 2.0 * q * t * phi[k, 2, j])
-        slope = p - before / theta[j]
-        bend = rho[j] * (2.0 * q - slope / theta[j])  # falls towards zero
+        slope = p - before * rate[j]
+        bend = rho[j] * (2.0 * q - slope * rate[j])  # falls towards zero
         v_0 += rho[j] * before
         d_0 += rho[j] * slope
         v_1 += rho[j] * after
-        d_1 += rho[j] * (p + 2.0 * q * t - after / theta[j])
+        d_1 += rho[j] * (p + 2.0 * q * t - after * rate[j])
         low += min(bend, 0.0)
         high += max(bend, 0.0)
     return Ends(v_0, d_0, v_1, d_1, low, high)
