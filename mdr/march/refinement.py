@@ -2,11 +2,12 @@
 
 A step is exact but for the parabolas that motion and body take in it, and a sum over the nodes of Fejer's rule but for
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
-though they do not fall evenly, as events come at any place in a step. So beside a run go companions, with a half and
-with three quarters of both numbers. At second order the run differs from them by 3 and by 0.8 times its own error; the
-bound is the greater of 1.5 and 3 times these differences. A companion may agree by chance. So a run of three quarters
-of the half bounds the error of the half, and an eighth of this is the least bound, as errors fall by no more.
-Where the bound is more than is asked for, a run of half the steps and all springs tells which to double.
+though they do not fall evenly, as events come at any place in a step. So beside a run go three companions: with half of
+the steps, with half of the springs too, and with three quarters of both. The first tells what steps may miss, the
+second what springs may: at second order three times their errors. As a companion may agree by chance, three times the
+difference to the third counts as well, if it is more; at second order that is 2.3 times the error. And so does an
+eighth of the same for the second, beside one with three quarters of its own numbers, as no error falls by more.
+Where the bound is more than is asked for, steps or springs are doubled, as these companions tell.
 
 Each run begins in the periodic state of one before it.
 """
@@ -42,8 +43,8 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
-HALF, THREE_QUARTERS = 1.5, 3.0  #: times the difference to a companion with so much of both numbers: the bound
-MOST_GAINED = 8.0  #: by which an error of third order falls where numbers are doubled
+BY_CHANCE = 3.0  #: times the difference to a run with three quarters of steps and springs: what the bound is at least
+MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled
 RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
 
 
@@ -97,7 +98,7 @@ class _Runs:
         cost.
         """
         if self.near is None and self.fast and knobs.start == "full_slip":
-            coarsest = companions(knobs)[0]
+            coarsest = companions(knobs)[1]
             first = steady(self.case, self.v_0, coarsest, None, None, 1)
             if first.settling.solved and first.settling.settled:
                 self.ends[coarsest] = self.near = first
@@ -109,11 +110,7 @@ class _Runs:
 
     def half(self, main: Steady) -> Steady:
         """The companion with half of the steps and springs."""
-        return self.beside(main, companions(main.knobs)[0])
-
-    def same_scheme(self, one: Steady, knobs: Knobs) -> bool:
-        """Whether a body counts as light with these steps too, or with neither."""
-        return at_hand(self.case, knobs)[1].light == one.scaled.light
+        return self.beside(main, companions(main.knobs)[1])
 
     def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
         if knobs not in self.ends:
@@ -128,11 +125,11 @@ class _Runs:
         return self.ends[knobs]
 
 
-def companions(knobs: Knobs) -> tuple[Knobs, Knobs, Knobs]:
-    """Half of the steps and springs of a run, three quarters of them, and three eighths."""
-    eighths = ((k * knobs.steps // 8, k * knobs.n_springs // 8) for k in (4, 6, 3))
-    half, three_quarters, of_half = (knobs.coarser(*numbers) for numbers in eighths)
-    return half, three_quarters, of_half
+def companions(knobs: Knobs) -> tuple[Knobs, Knobs, Knobs, Knobs]:
+    """Beside a run: half of its steps, half of the springs too, three quarters of both, and three quarters of half."""
+    shares = (4, 8), (4, 4), (6, 6), (3, 3)  # eighths of steps and springs
+    steps, half, more, less = (knobs.coarser(k * knobs.steps // 8, m * knobs.n_springs // 8) for k, m in shares)
+    return steps, half, more, less
 
 
 def check_size(n_springs: int, steps: int, record: int) -> None:
@@ -182,7 +179,8 @@ def within(
         share = knobs.accuracy / 2
         if main.slips_fully and (main.off_load <= share or not any(free)) and (march := _clear_of_stick(runs, main)):
             return _Bounded(main, 0.0).finished(record) if record else finish(march), main
-        error = _difference(runs, main) + _of_unresolved(runs, main)
+        missed = _missed_by(runs, main)
+        error = missed.bound + _of_unresolved(runs, main)
         if time_is_over():
             if best is None:
                 why = "the time limit is over before the runs beside it, which bound cof_error, were done"
@@ -193,24 +191,22 @@ def within(
         met = error + main.settling.spread + main.missing_load <= knobs.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(knobs.accuracy, error) / 4  # else finer runs bound no better
-        finer = knobs if met or awaited or not repeats else _finer(runs, main, free)
+        finer = knobs if met or awaited or not repeats else _finer(main, missed, free)
         if finer == knobs:
             return best.finished(record), main
         knobs = finer
 
 
-def _finer(runs: _Runs, main: Steady, free: tuple[bool, bool]) -> Knobs:
-    """Twice the steps or springs, or both: what a run of half the steps and all springs tells to miss too much."""
-    knobs, share = main.knobs, main.knobs.accuracy / 2
-    between = runs.beside(main, knobs.coarser(knobs.steps // 2, knobs.n_springs))
-    of_steps, of_springs = _missed(main, between), max(_missed(between, runs.half(main)), main.off_load)
-    both = max(of_steps, of_springs) <= share  # the error is that of the other companion
-    n_springs, steps = knobs.n_springs, knobs.steps
+def _finer(main: Steady, missed: _Missed, free: tuple[bool, bool]) -> Knobs:
+    """Twice the steps or springs, or both, of which too much is missed."""
+    share, of_springs = main.knobs.accuracy / 2, max(missed.of_springs, main.off_load)
+    both = max(missed.of_steps, of_springs) <= share  # the error is that of the other companion
+    n_springs, steps = main.knobs.n_springs, main.knobs.steps
     if free[0] and (both or of_springs > share):
         n_springs = max(n_springs, min(2 * n_springs, MOST_SPRINGS))
-    if free[1] and (both or of_steps > share):
+    if free[1] and (both or missed.of_steps > share):
         steps = max(steps, min(2 * steps, MOST_STEPS))
-    return knobs._replace(n_springs=n_springs, steps=steps)
+    return main.knobs._replace(n_springs=n_springs, steps=steps)
 
 
 def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
@@ -222,13 +218,28 @@ def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
     return knobs
 
 
-def _difference(runs: _Runs, main: Steady) -> float:
-    """Bound on what steps and springs miss of the COF, over mu_0."""
-    (_, three_quarters, of_half), half, least = companions(main.knobs), runs.half(main), 0.0
-    if runs.same_scheme(half, of_half):
-        least = THREE_QUARTERS * _missed(half, runs.beside(half, of_half)) / MOST_GAINED
-    more = runs.beside(main, three_quarters)
-    return max(HALF * _missed(main, half), THREE_QUARTERS * _missed(main, more), least)
+@dataclass(frozen=True)
+class _Missed:
+    """What a run may miss of the COF, over mu_0."""
+
+    of_steps: float
+    of_springs: float
+    least: float  #: both together, by other companions
+
+    @property
+    def bound(self) -> float:
+        """On the error."""
+        return max(self.of_steps + self.of_springs, self.least)
+
+
+def _missed_by(runs: _Runs, main: Steady) -> _Missed:
+    """What the companions of a run tell."""
+    *finer, last = companions(main.knobs)
+    steps, half, more = (runs.beside(main, knobs) for knobs in finer)
+    least = BY_CHANCE * _missed(main, more)
+    if at_hand(runs.case, last)[1].light == half.scaled.light:  # else a body moves by another scheme there
+        least = max(least, BY_CHANCE * _missed(half, runs.beside(half, last)) / MOST_GAINED)
+    return _Missed(_missed(main, steps), _missed(steps, half), least)
 
 
 def _of_unresolved(runs: _Runs, main: Steady) -> float:
