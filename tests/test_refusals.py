@@ -308,7 +308,7 @@ SAYINGS = {
     # questions
     "slide(CASE)": "missing 1 required positional argument: 'v_0'",
     "slide(CASE, -1e-3)": "the other way is the same where nothing shakes in the plane",
-    "slide(CASE, 1e-3, n_periods=20_000, record=10_000)": "more than memory holds",
+    "slide(CASE, 1e-3, n_periods=200_000, record=200_000)": "more than memory holds",
     "slide(CASE, 1e-15)": "rounding hides the motion",
     "indent(BALL, RUBBER, [0, 1])": "give either u_z",
     "indent(BALL, RUBBER, [0, 1], [0, 1], F_z=[0, 1])": "give either u_z",

@@ -210,7 +210,23 @@ class SlidingContact(Summarised):
         return self if self.shake is None else replace(self, shake=self.shake.mirrored)
 
     def pulled(self, direction: int) -> SlidingContact:
-        """The contact whose pull forward is the pull in this direction, 1 or -1."""
+        """The contact whose pull forward is the pull of this one in a direction.
+
+        Parameters
+        ----------
+        direction : int
+            1 for the pull forward, -1 for the pull the other way.
+
+        Returns
+        -------
+        SlidingContact
+            This one, or its mirror image.
+
+        Raises
+        ------
+        ValueError
+            For any other direction.
+        """
         return self if sign_of(direction) == 1 else self.mirrored
 
     @property

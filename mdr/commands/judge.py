@@ -57,7 +57,7 @@ def _measured(name: str, found: MeasuredVelocity) -> list[Told]:
     bracket = f"{found.low:.9g} to {found.high:.9g} m/s" if known else ""
     return [
         told_velocity("v_c", found.v_c, name, found.kind),
-        Told("low", found.low, "bracket", bracket, "reduced below, full above"),
+        Told("low", found.low, "bracket", bracket, "stick below, none above"),
         Told("high", found.high),
         Told("kind", found.kind),
         Told("why", found.why, "", found.why),

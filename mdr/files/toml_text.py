@@ -34,7 +34,18 @@ class CaseFileError(ValueError):
 
     @classmethod
     def of(cls, faults: Iterable[str]) -> CaseFileError:
-        """The error that tells these faults, one a line."""
+        """The error that tells these faults, one a line.
+
+        Parameters
+        ----------
+        faults : iterable of str
+            What is wrong, each in a sentence.
+
+        Returns
+        -------
+        CaseFileError
+            The error, to be raised.
+        """
         return cls("\n".join(one_line(fault) for fault in faults))
 
 

@@ -617,5 +617,5 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
             fill(t, modes, arms, tools, 1)
         all_area += w[i] * area
         all_moment += w[i] * moment
-        since[i] = pressed / h
+        since[i] = pressed / h if h > 0.0 else 0.0
     return all_area, all_moment

@@ -162,4 +162,4 @@ def test_a_zero_beside_a_kink_is_found_from_afar(at):
         if abs(f(x)) <= 1e-13 * (1 + abs(at)):
             break
         x = float(next_place(x, f(x), 4.0, ends))
-    assert_allclose(x, at, rtol=1e-12, atol=1e-11)
+    assert_allclose(x, at, rtol=0, atol=1e-13 * (1 + abs(at)) / 1.1e-2)  # over the least slope beside the zero

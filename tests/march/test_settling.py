@@ -8,7 +8,7 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march.energy import does_not_close
+from mdr.march.energy import OF_MEMORY, does_not_close
 from mdr.march.march import Knobs, march
 from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, assess, smooth_mean
 from mdr.spring.step import FRICTION_LOSS
@@ -198,7 +198,7 @@ def test_a_run_whose_energies_do_not_close_has_not_settled():
     run = mdr.slide(case, 0.3 * case.unit_velocity, steps_per_period=2048)
     assert not run.settled
     assert run.why.startswith("the energies of a period do not close")
-    assert abs(run.energy_balance.relative) > 0.1
+    assert abs(run.energy_balance.relative) > OF_MEMORY  # more than stiff arms may miss
 
 
 def test_the_account_of_a_period_is_held_to_its_steps():

@@ -123,7 +123,7 @@ def test_a_million_points_are_planned_by_a_few_cases(tmp_path, monkeypatch):
         mdr.sweep(RIGID, {**SQUARES[2], "T": np.linspace(0, 1, 100)}, tmp_path, quantities=["v_c", "alpha"])
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert len(built) <= 2 * MOST_TRIALS
+    assert len(built) <= 3 * MOST_TRIALS  # each trial varies the case, and turns it to the pull
     assert peak < 100e6  # two quantities, status and reason of a million points are 21 MB
 
 

@@ -84,7 +84,7 @@ def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
     assert str(found).splitlines() == [
         "MeasuredVelocity",
         "  v_c        0.1 m/s               end of stick",
-        "  bracket    0.0999 to 0.1001 m/s  reduced below, full above",
+        "  bracket    0.0999 to 0.1001 m/s  stick below, none above",
         "  why        all signs agree",
         "  runs       7",
     ]
