@@ -163,10 +163,16 @@ class March:
         return bool(sums[CONTACT_TIME] > 0 and np.isfinite(sums[LEAST_SLIP]))
 
     @property
+    def stick_share(self) -> float:
+        """Force-weighted share of contact time spent sticking."""
+        sums = self.account.seen.sums
+        return float(sums[STICK_TIME] / sums[CONTACT_TIME])
+
+    @property
     def least_slip(self) -> float:
         """Least slip velocity in contact over v_0, or that of a shake, of a run in full slip; zero of any other."""
         sums = self.account.seen.sums
-        full = float(sums[STICK_TIME]) == 0 and abs(1 - self.cof) < FULL
+        full = self.stick_share == 0 and abs(1 - self.cof) < FULL
         stepper = self.end.stepper
         return float(sums[LEAST_SLIP]) / stepper.scaled.pace(stepper.v) if full else 0.0
 

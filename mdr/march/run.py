@@ -174,7 +174,7 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
     mean_F_z = scaled.normal.mean * force_z
     error += march.end.missing_load
     cof = settling.mean
-    sticks = float(sums[step.STICK_TIME] / sums[step.CONTACT_TIME])
+    sticks = march.stick_share
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     if settling.settled and march.may_rest_elsewhere:
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
