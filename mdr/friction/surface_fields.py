@@ -214,7 +214,7 @@ def _of_run(run: SlidingRun, r: ArrayLike | None, i: int) -> SurfaceFields:
         raise ValueError("the springs of this SlidingRun were not kept: call slide(..., record=1) or more")
     x, width, *springs = kept
     e, s, state, f_z, f_x = (np.asarray(values)[i] for values in springs)
-    faces = x + width / 4
+    faces = np.cumsum(width) / 2  # of the cells that the weights of the springs make
     pressed = f_z > 0
     sticks = np.flatnonzero((state == State.STICK) & pressed)
     c = float(faces[sticks[-1]]) if sticks.size else 0.0
