@@ -20,7 +20,7 @@ from typing import Any
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
-from mdr.commands.arguments import no_options, path_of
+from mdr.commands.arguments import NEGATIVE, no_options, path_of
 from mdr.commands.output import DONE, INTERRUPTED, WRONG_INPUT, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
@@ -127,6 +127,7 @@ def parser() -> argparse.ArgumentParser:
     for name, work, summary, read, add_options in COMMANDS:
         command = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
         command.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help=JSON)
+        command._negative_number_matcher = NEGATIVE
         command.set_defaults(work=work, read=read, top=top)
         if read is not None:
             file, shown = ("study", "study.toml") if name == "sweep" else ("case", "example.toml")

@@ -18,7 +18,8 @@ from mdr.tools.notation import UNITS
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
 _UNITS = UNITS["m/s"] | {OF_V_C: 1.0}
 _WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{'|'.join(map(re.escape, _UNITS))})?", re.DOTALL)
-_NEGATIVE = re.compile(r"-[\d.]")  #: how a value begins that is no option
+#: how a value begins that is no option, as -1e-3 and -0.5v_c; argparse itself knows -1 and -0.001 alone
+NEGATIVE = re.compile(r"-[\d.]")
 T = TypeVar("T")
 
 
@@ -75,11 +76,6 @@ class Velocity(NamedTuple):
         if wrong := _no_scale(v_c):
             raise WrongInput(f"{self.number:g}v_c: {wrong}; give the velocity in m/s")
         return self.number * v_c
-
-
-def let_values_be_negative(command: argparse.ArgumentParser) -> None:
-    """Let -1e-3 and -0.5v_c be values of options; argparse itself knows -1 and -0.001 alone."""
-    command._negative_number_matcher = _NEGATIVE
 
 
 def velocity_in(usual: str) -> Callable[[str], Velocity]:

@@ -10,16 +10,7 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.commands.arguments import (
-    OF_V_C,
-    Velocity,
-    add_accuracy,
-    let_values_be_negative,
-    read_as,
-    stand_in_of_v_c,
-    velocity_in,
-    whole_number,
-)
+from mdr.commands.arguments import OF_V_C, Velocity, add_accuracy, read_as, stand_in_of_v_c, velocity_in, whole_number
 from mdr.commands.output import DONE, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
@@ -40,7 +31,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
     which.add_argument("--up-to", metavar="velocity", type=above, default=UP_TO, help=highest)
     listed = "these velocities, in m/s, with a unit or over the v_c of their way: 1e-3 2mm/s 0.5v_c"
     which.add_argument("--v-0", metavar="velocity", type=velocity_in("m/s"), nargs="+", help=listed)
-    let_values_be_negative(command)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
 
 

@@ -77,12 +77,8 @@ class Figures:
         if curve is not None:
             self.points.data = {**self.line.data, "fill": np.where(curve.settled, COLOURS[0], "#ffffff").tolist()}
         self.run.data = {"v_0": [state.v_0 * factor], "cof": [picture.run.cof]}
-        held = (
-            {"v_0": [], "low": [], "high": []}
-            if band is None
-            else {"v_0": [0.0], "low": [band.low], "high": [band.high]}
-        )
-        self.held.data = held
+        held = [] if band is None else [(0.0, band.low, band.high)]
+        self.held.data = {name: [one[i] for one in held] for i, name in enumerate(("v_0", "low", "high"))}
         back = -picture.v_c_back * factor if picture.v_c_back is not None else np.nan
         places = (mu_0, -mu_0 if both else np.nan, picture.v_c * factor, back)
         for mark, at in zip(self.marks, places, strict=True):
@@ -95,13 +91,11 @@ class Figures:
 
     def _show_forces(self, picture: Picture) -> None:
         run = picture.run
-        assert run.F_x is not None
-        assert run.F_z is not None
-        limit = picture.state.case.mu_0 * run.F_z
-        factor, unit = prefix(np.concatenate([run.F_x, limit]), "N")
-        turns = float(run.F_x.min()) < -1e-9 * float(limit.max())
-        low = (-limit if turns else run.F_x) * factor
-        self.over_time.data = {"t": periods_of(run), "F_x": run.F_x * factor, "low": low, "high": limit * factor}
+        F_x, limit = np.asarray(run.F_x), run.mu_0 * np.asarray(run.F_z)
+        factor, unit = prefix(np.concatenate([F_x, limit]), "N")
+        turns = float(F_x.min()) < -1e-9 * float(limit.max())
+        low = (-limit if turns else F_x) * factor
+        self.over_time.data = {"t": periods_of(run), "F_x": F_x * factor, "low": low, "high": limit * factor}
         top = 1.05 * float(limit.max()) * factor
         _span(self.forces.y_range, -top if turns else 0.0, top)
         self.forces.yaxis.axis_label = f"force [{unit}]"

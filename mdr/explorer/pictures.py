@@ -51,18 +51,14 @@ class Picture:
     @property
     def springs(self) -> NDArray[np.uint8]:
         """Modes (ROWS, n_t) of the springs from the middle to `reach`, in equal rows."""
-        assert self.run.x is not None
-        assert self.run.state is not None
-        order = np.argsort(self.run.x)
-        rows = (np.arange(ROWS) + 0.5) / ROWS * self.reach
-        nearest = np.searchsorted(edges_of(self.run.x[order])[1:-1], rows)
-        return self.run.state[:, order[nearest]].T
+        x, state = np.asarray(self.run.x), np.asarray(self.run.state)
+        order, rows = np.argsort(x), (np.arange(ROWS) + 0.5) / ROWS * self.reach
+        return state[:, order[np.searchsorted(edges_of(x[order])[1:-1], rows)]].T
 
     @property
     def reach(self) -> float:
         """Position of the outermost spring [m]."""
-        assert self.run.x is not None
-        return float(self.run.x.max())
+        return float(np.max(np.asarray(self.run.x)))
 
     @property
     def doubts(self) -> tuple[str, ...]:
