@@ -7,7 +7,7 @@ u + tau u' in the place of u, with u' over the step: as implicit as the rest, of
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,17 +54,12 @@ class Contact:
     def full_slip(self, depth: float) -> Step:
         """The state at rest at this depth with all cells at their limit along x, to begin with. Raises NotConverged."""
         n = self.half_space.n
-        tractions = np.zeros((3, n, n))
-        last = np.zeros(3)
-        for _ in range(TURNS):
-            pulled = self._pulled_down(tractions)
-            tractions[Z] = pressure(self._normal, depth - self.shape - pulled, tractions[Z], self.tolerance * 1e-2)
-            tractions[X] = self.mu_0 * tractions[Z]
-            forces = self.forces(tractions)
-            if np.max(np.abs(forces - last)) <= self.tolerance * 1e-2 * np.max(np.abs(forces)):
-                break
-            last = forces
-        else:
+        tractions, fine = np.zeros((3, n, n)), self.tolerance * 1e-2
+
+        def slipping(tractions: Array) -> Array:
+            return np.stack([self.mu_0 * tractions[Z], np.zeros((n, n))])
+
+        if self._take_turns(tractions, depth - self.shape, slipping, fine):
             raise NotConverged(f"full slip at a depth of {depth:g} m is not found in {TURNS} turns")
         u = self.half_space.displacement(tractions)
         return Step(tractions, u, np.zeros((2, n, n)))
@@ -85,27 +80,41 @@ class Contact:
         """The state after one step. Raises NotConverged."""
         theta = self.tau / dt
         before = state.displacement
-        tractions, last = state.tractions.copy(), np.zeros(3)
+        tractions, fine = state.tractions.copy(), self.tolerance * 1e-2
         down = (1 + theta) * (depth - self.shape) - theta * before[Z]  # what C p must be where it touches
         stick = before[:2] + (1 + theta) * np.array([moved, 0.0])[:, None, None]  # what C q must be where it sticks
-        for _ in range(TURNS):
-            fine = self.tolerance * 1e-2
-            tractions[Z] = pressure(self._normal, down - self._pulled_down(tractions), tractions[Z], fine)
+
+        def sticking_or_not(tractions: Array) -> Array:
             asked = stick - self._dragged(tractions)
             if not self.transverse:
                 asked[Y] = 0.0
-            tractions[:2] = traction(self._tangential, asked, self.mu_0 * tractions[Z], tractions[:2], fine)
-            forces = self.forces(tractions)
-            scale = np.max(np.abs(forces))
-            if not self.half_space.beta or np.max(np.abs(forces - last)) <= self.tolerance * scale:
-                break
-            last = forces
-        else:
-            change = np.max(np.abs(forces - last)) / scale
+            return traction(self._tangential, asked, self.mu_0 * tractions[Z], tractions[:2], fine)
+
+        if change := self._take_turns(tractions, down, sticking_or_not, self.tolerance):
             raise NotConverged(f"pressure and friction still change the forces by {change:.1e} after {TURNS} turns")
         u = (self.half_space.displacement(tractions) + theta * before) / (1 + theta)
         slip = np.where(tractions[Z] > 0, np.array([moved, 0.0])[:, None, None] - (u - before)[:2], 0.0)
         return Step(tractions, u, slip)
+
+    def _take_turns(self, tractions: Array, down: Array, friction: Callable[[Array], Array], tolerance: float) -> float:
+        """Pressure and friction in turns, written into the tractions, until forces change by less than the tolerance.
+
+        They end at once where neither knows of the other. Returns 0, or by what share forces still change after all
+        turns.
+        """
+        last = np.zeros(3)
+        for _ in range(TURNS):
+            gap = down - self._pulled_down(tractions)
+            tractions[Z] = pressure(self._normal, gap, tractions[Z], self.tolerance * 1e-2)
+            tractions[:2] = friction(tractions)
+            if not self.half_space.beta:
+                return 0.0
+            forces = self.forces(tractions)
+            change, scale = np.max(np.abs(forces - last)), np.max(np.abs(forces))
+            if change <= tolerance * scale:
+                return 0.0
+            last = forces
+        return float(change / scale)
 
     # --- products ---
 

@@ -16,10 +16,29 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "COLOURS",
+    "MODES",
+    "edges_of",
+    "periods_of",
+    "plot_curve",
+    "plot_fit",
+    "plot_forces",
+    "plot_profile",
+    "plot_run",
+    "plot_spring_map",
+    "plot_spring_maps",
+    "plot_traces",
+    "prefix",
+    "save",
+    "style",
+]
+
 #: Okabe and Ito (2008): distinct to colour-blind readers, and dark enough on white
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
+FAINT: dict[str, Any] = {"color": "0.75", "linewidth": 0.8, "zorder": 0}
 _FREE = 0
 _MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
@@ -91,10 +110,10 @@ def plot_curve(
         for i, (curve, scale, colour) in enumerate(zip(curves, scales, shades, strict=True)):
             _draw_curve(ax, curve, scale, colour, labels[i] if labels else None)
         for level in {curve.mu_0 / mu for curve, (_, mu) in zip(curves, scales, strict=True)}:
-            for value in (level, 0.0, -level) if both else (level,):
-                ax.axhline(value, color="0.75", linewidth=0.8, zorder=0)
+            _limits(ax, level, both)
         if both:
-            ax.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
+            ax.axhline(0.0, **FAINT)
+            ax.axvline(0.0, **FAINT)
         _mark_critical(ax, curves, scales, shades, both)
         over_v_c = r"pulling velocity $v_0/v_c$" + (", $v_c$ of a forward pull" if both else "")
         ax.set_xlabel(over_v_c if scaled else rf"pulling velocity $v_0$ [{unit}]")
@@ -131,9 +150,7 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
             below.set(xlabel=velocity, ylabel="measured\nless fitted")
         ax.errorbar(data.v_0 * factor, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
         ax.plot(curve.v_0 * factor, curve.cof, color=COLOURS[0], label="fitted contact")
-        ax.axhline(fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
-        if fitted.case.is_shaken:
-            ax.axhline(-fitted.case.mu_0, color="0.75", linewidth=0.8, zorder=0)
+        _limits(ax, fitted.case.mu_0, fitted.case.is_shaken)
         ax.set(xlabel=velocity, ylabel=r"coefficient of friction $\mu$")
         ax.label_outer()
         ax.legend()
@@ -192,17 +209,16 @@ def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
     t = periods_of(_recorded(run))
     limit, F_x = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x)
     factor, unit = prefix(np.concatenate([F_x, limit]), "N")
-    missing = max(0.0, 1 - float(F_x.mean() / limit.mean()))
+    mean = run.mean_F_x / (run.mu_0 * run.mean_F_z)
     turns = float(F_x.min()) < -1e-9 * float(limit.max())
     with style():
         ax = axes_of(ax)
         if turns:
-            mean = float(F_x.mean() / limit.mean())
             ax.fill_between(t, -limit * factor, limit * factor, color="0.9", linewidth=0)
-            ax.axhline(float(F_x.mean()) * factor, color="0.4", lw=1, ls="--", label=rf"mean, {mean:.3g} $\mu_0F_z$")
+            ax.axhline(run.mean_F_x * factor, color="0.4", lw=1, ls="--", label=rf"mean, {mean:.3g} $\mu_0F_z$")
             ax.plot(t, -limit * factor, color="0.6")
         else:
-            gap = f"{100 * missing:.3g} % missing" if missing > 1e-6 else "nothing missing"
+            gap = f"{100 * (1 - mean):.3g} % missing" if mean < 1 - 1e-6 else "nothing missing"
             ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
         ax.plot(t, limit * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
         ax.plot(t, F_x * factor, color="k", label="$F_x$")
@@ -296,21 +312,20 @@ def save(figure: "Figure", script: str, suffix: str = "") -> Path:
     return path
 
 
+def _limits(ax: "Axes", mu: float, both: bool) -> None:
+    """Lines at the full friction of a forward pull, and of a backward one."""
+    for level in (mu, -mu)[: 1 + both]:
+        ax.axhline(level, **FAINT)
+
+
 def _mark_critical(ax: "Axes", curves: Any, scales: Any, shades: Any, both: bool) -> None:
     """Dotted lines at v_c, and at that of the other way: one line for curves that share it, else in their colours."""
-    ahead = [
-        curve.v_c / unit if _is_scale(curve.v_c) else None for curve, (unit, _) in zip(curves, scales, strict=True)
-    ]
-    sides = [("$v_c$", ahead)]
-    if both:
-        back: list[Any] = [getattr(curve, "v_c_back", None) for curve in curves]
-        behind = [-float(one) / unit if _is_scale(one) else None for one, (unit, _) in zip(back, scales, strict=True)]
-        sides.append(("$v_c$, other way", behind))
-    for name, places in sides:
+    for name, field, way in (("$v_c$", "v_c", 1), ("$v_c$, other way", "v_c_back", -1))[: 1 + both]:
         marks: dict[float, Any] = {}
-        for at, shade in zip(places, shades, strict=True):
-            if at is not None:
-                at = float(f"{at:.6g}")
+        for curve, (unit, _), shade in zip(curves, scales, shades, strict=True):
+            v_c: Any = getattr(curve, field, None)
+            if _is_scale(v_c):
+                at = float(f"{way * v_c / unit:.6g}")
                 marks[at] = "0.4" if at in marks or len(curves) == 1 else shade
         for at, shade in marks.items():
             ax.axvline(at, color=shade, linewidth=1.0, linestyle=":", zorder=0)

@@ -34,6 +34,7 @@ LABELS = {
     "stick_share": "share of contact time in stick",
     "cof_error": "error of the coefficient of friction",
 }  #: how quantities are written in figures; any other by its name
+ABSENT = (("failed", Status.FAILED), ("not computed", Status.MISSING))
 LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
 N_LEVELS = 6  #: of a map, at most about so many contours
 PLATEAU = 0.01  #: of the range of a map, in which no contour is drawn at either end
@@ -314,8 +315,7 @@ def _mark(ax: Axes, edges: list[Array], centres: list[Array], empty: NDArray[np.
     if empty.any():
         look: dict[str, Any] = {"hatch": "///", "edgecolor": "0.6", "linewidth": 0}
         ax.pcolor(*edges, np.ma.masked_where(~empty, np.zeros(empty.shape)), cmap="Greys", **look)
-        kinds = (("failed", Status.FAILED), ("not computed", Status.MISSING))
-        names = [name for name, fate in kinds if np.any(status[empty] == fate)] or ["no value"]
+        names = [name for name, fate in ABSENT if np.any(status[empty] == fate)] or ["no value"]
         handles.append(Patch(facecolor="white", label=" or ".join(names), **look))
     rows, columns = np.nonzero(status == Status.UNSETTLED)
     if rows.size:
@@ -331,7 +331,7 @@ def _explain(ax: Axes, status: NDArray[np.uint8], by: Axis | None) -> None:
     handles, _ = ax.get_legend_handles_labels()
     if np.any(status == Status.UNSETTLED):
         handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
-    for name, fate in (("failed", Status.FAILED), ("not computed", Status.MISSING)):
+    for name, fate in ABSENT:
         if count := int(np.count_nonzero(status == fate)):
             handles.append(Line2D([], [], color="none", label=f"{count} {name}"))
     if handles:

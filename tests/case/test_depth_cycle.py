@@ -1,7 +1,5 @@
 """One period of depth: extremes, rates, sums at nodes, and which springs keep contact."""
 
-import math
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -55,12 +53,6 @@ def test_a_harmonic_cycle_is_bitwise_a_cosine():
     phase = 2 * np.pi * np.arange(65) / 64
     assert np.array_equal(z, np.cos(phase))
     assert np.array_equal(rate, -np.sin(phase))
-
-
-@pytest.mark.parametrize("T", [0.0, 0.7, 5.0])
-def test_kept_gap_is_eq_5(T):
-    cycle = Cycle.harmonic(3.0, 1.0, 1.0)
-    assert_allclose(cycle.kept_gap(Rheology(T).response), -math.hypot(1, T), rtol=1e-14)
 
 
 @pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)

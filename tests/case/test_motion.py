@@ -1,7 +1,6 @@
 """The imposed motion, Eq. (3), and what it refuses."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 import mdr
@@ -14,22 +13,6 @@ def test_depth_is_equation_3():
     assert_allclose(MOTION.u_z(t), 20e-6 + 2e-6 * np.cos(300 * t), rtol=1e-15)
     assert_allclose(MOTION.u_z(0), 22e-6, rtol=1e-15)
     assert_allclose(MOTION.u_z(MOTION.period / 2), 18e-6, rtol=1e-15)
-
-
-def test_rate_is_the_derivative_of_the_depth():
-    t, dt = np.linspace(0, 0.1, 50), 1e-6
-    slope = (MOTION.u_z(t + dt) - MOTION.u_z(t - dt)) / (2 * dt)
-    # central difference: (omega dt)**2 / 6 = 1.5e-8 of the amplitude, and rounding 20e-6 * 1e-16 / dt
-    assert_allclose(MOTION.u_z_dot(t), slope, rtol=0, atol=3e-8 * 2e-6 * 300 + 1e-14)
-
-
-def test_period():
-    assert_allclose(MOTION.omega * MOTION.period, 2 * np.pi, rtol=1e-15)
-
-
-@pytest.mark.parametrize("u_z0", [0.0, -1e-6, -1.999e-6])
-def test_tapping_is_legal(u_z0):
-    assert mdr.NormalOscillation(u_z0=u_z0, du_z=2e-6, omega=1.0).u_z0 == u_z0
 
 
 # --- periodic motion ---

@@ -59,9 +59,8 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
         i = np.argmin(np.abs(x[:, None] - np.abs(tops[:, 0]) / 1e6), axis=0)  # drawn in µm
         here = run.state[k, i] != mdr.State.FREE
         assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
-        sheared = np.abs(run.e[k, i]) > 1e-3 * np.abs(run.e).max()  # of others the difference of places is rounded
-        shear = ((tops[:, 0] - feet[:, 0]) / run.e[k, i])[sheared]
-        assert np.ptp(shear) < 1e-9 * shear.max()
+        shear = tops[:, 0] - feet[:, 0]
+        assert np.max(np.abs(shear - picture.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()  # the rounding of places
     plt.close("all")
 
 

@@ -52,7 +52,7 @@ def made_up_run(n_t=64, v_0=1e-3):
     F_z = 2 + np.cos(omega * t)
     return SimpleNamespace(
         t=t, u_x=u_x, F_x=0.4 * F_z, F_z=F_z, x=np.array([1e-5, 1e-4, 4e-4]), e=e, state=state, v_0=v_0,
-        mu_0=0.5, omega=omega,
+        mu_0=0.5, omega=omega, mean_F_x=0.8, mean_F_z=2.0,
     )  # fmt: skip
 
 
@@ -186,7 +186,7 @@ def test_forces_show_the_gap_and_its_share():
     assert_allclose(line(ax, r"$\mu_0 F_z$, the limit").get_ydata(), 0.5 * run.F_z)
     assert legend_texts(ax)[0] == "20 % missing"  # F_x = 0.4 F_z, mu_0 = 0.5
     assert_allclose(ax.get_xlim(), [0.25 - 1 / 32, 2.25 - 1 / 32])  # from the start of the first of 64 steps
-    run.F_x = 0.5 * run.F_z
+    run.F_x, run.mean_F_x = 0.5 * run.F_z, 1.0
     assert legend_texts(plots.plot_forces(run))[0] == "nothing missing"
 
 
