@@ -22,7 +22,7 @@ from mdr.tools.progress import BETWEEN, PATIENCE
 Function = Callable[..., Any]
 
 _STAMP = sources.hash_of(sources.compiled())
-FUNCTIONS = 110  #: that all kinds of runs need together
+FUNCTIONS = 130  #: that all kinds of runs need together
 
 
 class _Files(IndexDataCacheFile):

@@ -260,7 +260,7 @@ def test_a_force_that_turns_is_drawn_between_both_limits():
     case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
     run = mdr.slide(case, -2e-3, record=1, n_springs=32, steps_per_period=64)
     ax = plots.plot_forces(run)
-    assert f"mean, {run.F_x.mean() / (0.4 * run.F_z.mean()):.3g} " in legend_texts(ax)[0]
+    assert f"mean, {run.mean_F_x / (0.4 * run.mean_F_z):.3g} " in legend_texts(ax)[0]
     low, high = ax.get_ylim()
     assert low < 0 < high
     limits = [line.get_ydata() for line in ax.lines if len(line.get_ydata()) == 64]
