@@ -81,11 +81,8 @@ def slide(
 
     Notes
     -----
-    The scheme is of second order in time. Two companion runs with coarser steps, and two or three with coarse steps and
-    all or fewer of the springs, bound the error of the friction. Where three numbers of steps, or of springs, confirm
-    the order, `cof` is extrapolated to steps of no length or springs without number, and the bound is that of the
-    extrapolation. Steps and springs that are given are not extrapolated, and contacts that are shaken in the plane are
-    not.
+    The path of a spring over a step is exact; indenter and body move on parabolas in it. Companion runs with fewer steps
+    and springs bound the error of the friction (refinement.py). The scheme is of second order or better in both.
 
     Examples
     --------
