@@ -51,7 +51,7 @@ def accuracy_of(value: Any) -> float:
     return number
 
 
-class Knobs(NamedTuple):
+class Resolution(NamedTuple):
     """What a march may choose: resolution, start, and what to keep."""
 
     n_springs: int
@@ -61,20 +61,20 @@ class Knobs(NamedTuple):
     record: int = 0
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
 
-    def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Knobs:
-        """The knobs of a companion with other steps or springs, that keeps nothing."""
+    def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
+        """The resolution of a companion with other steps or springs, that keeps nothing."""
         return self._replace(
             n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
         )
 
 
 @dataclass(frozen=True, eq=False)
-class Steady:
+class Converged:
     """A march that has come to its end, not yet looked at closely; in scaled form."""
 
     case: SlidingContact
     v_0: float
-    knobs: Knobs
+    resolution: Resolution
     springs: SpringArray
     stepper: Stepper
     settling: Settling
@@ -117,10 +117,10 @@ class Steady:
 
 
 @dataclass(frozen=True, eq=False)
-class March:
+class Observed:
     """A finished march: its end, and what a close look at its last periods saw; in scaled form."""
 
-    end: Steady
+    end: Converged
     settling: Settling
     account: PeriodRecord  # the period that modes and energies are taken from
     record: tuple[PeriodRecord, ...]  # all observed periods
@@ -135,7 +135,7 @@ class March:
         """COF over mu_0."""
         return self.settling.mean
 
-    def contradicted(self, why: str) -> March:
+    def contradicted(self, why: str) -> Observed:
         """The same, not settled, as its COF contradicts a theorem."""
         settling = replace(self.settling, settled=False, kind="unsettled", why=why, contradicts=True)
         return replace(self, settling=settling)
@@ -180,21 +180,21 @@ class March:
 def steady(
     case: SlidingContact,
     v_0: float,
-    knobs: Knobs,
+    resolution: Resolution,
     n_periods: int | None = None,
-    near: Steady | None = None,
+    near: Converged | None = None,
     most: int | None = None,
-) -> Steady:
-    """March until settled, or exactly n_periods.
+) -> Converged:
+    """Observed until settled, or exactly n_periods.
 
     near: a march of the case at other resolution or velocity, whose periodic state is a good one to search from. most:
     periods after which a march that does not settle ends; None is the most of any.
     """
-    springs, scaled = at_hand(case, knobs)
+    springs, scaled = at_hand(case, resolution)
     if not scaled.normal.mean > 0:
-        raise too_coarse(knobs.steps)
-    stepper = Stepper(scaled, v_0 / scaled.speed, min(TOLERANCE, knobs.accuracy / 10), n_periods)
-    from_full_slip = knobs.start == "full_slip"
+        raise too_coarse(resolution.steps)
+    stepper = Stepper(scaled, v_0 / scaled.speed, min(TOLERANCE, resolution.accuracy / 10), n_periods)
+    from_full_slip = resolution.start == "full_slip"
     orbit = waiting = None
     if n_periods is None:
         orbit = _searched(stepper, from_full_slip, near)
@@ -216,15 +216,15 @@ def steady(
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
     waited, seen = (waiting, None) if orbit is None else (None, orbit.seen)
     before = stepper.n_periods - (seen is not None)
-    return Steady(case, v_0, knobs, springs, stepper, settling, state, before, on_the_way, waited, seen)
+    return Converged(case, v_0, resolution, springs, stepper, settling, state, before, on_the_way, waited, seen)
 
 
-def looked_at(end: Steady) -> March:
+def looked_at(end: Converged) -> Observed:
     """A close look at further periods of a march, one or as many as are to be kept."""
-    stepper, knobs, settling, state = end.stepper, end.knobs, end.settling, end.state
-    records = [end.seen] if end.seen is not None and knobs.record == 0 else []
-    while len(records) < max(1, knobs.record):
-        state, record = stepper.observe(state, keep=knobs.record > 0)
+    stepper, resolution, settling, state = end.stepper, end.resolution, end.settling, end.state
+    records = [end.seen] if end.seen is not None and resolution.record == 0 else []
+    while len(records) < max(1, resolution.record):
+        state, record = stepper.observe(state, keep=resolution.record > 0)
         records.append(record)
     if not all(np.isfinite(record.period.cof).all() for record in records):
         raise out_of_range(end.v_0)
@@ -234,16 +234,16 @@ def looked_at(end: Steady) -> March:
             waited.append(record.period)
         settling = waited.assess()
     account = records[0] if end.waited is None else records[-1]  # the same period however many are kept
-    march = March(end, settling, account, tuple(records))
+    march = Observed(end, settling, account, tuple(records))
     why = _contradiction(stepper, account, settling) if settling.settled else ""
     return march.contradicted(why) if why else march
 
 
-def march(case: SlidingContact, v_0: float, knobs: Knobs, n_periods: int | None = None) -> March:
-    """March until settled, or exactly n_periods, the last ones of which are looked at closely."""
+def march(case: SlidingContact, v_0: float, resolution: Resolution, n_periods: int | None = None) -> Observed:
+    """Observed until settled, or exactly n_periods, the last ones of which are looked at closely."""
     check(case, v_0)
-    before = None if n_periods is None else n_periods - max(1, knobs.record)
-    return looked_at(steady(case, v_0, knobs, before))
+    before = None if n_periods is None else n_periods - max(1, resolution.record)
+    return looked_at(steady(case, v_0, resolution, before))
 
 
 def check(case: SlidingContact, v_0: float) -> None:
@@ -266,7 +266,7 @@ def check(case: SlidingContact, v_0: float) -> None:
         )
 
 
-def _searched(stepper: Stepper, from_full_slip: bool, near: Steady | None) -> Orbit | None:
+def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None) -> Orbit | None:
     """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
     if scaled.rigid and not scaled.remembers and from_full_slip and stepper.v > 0:
@@ -313,13 +313,13 @@ def too_coarse(steps: int) -> ValueError:
     )
 
 
-def at_hand(case: SlidingContact, knobs: Knobs) -> tuple[SpringArray, ScaledContact]:
+def at_hand(case: SlidingContact, resolution: Resolution) -> tuple[SpringArray, ScaledContact]:
     """Springs and their scaled form; runs of one case at other velocities share them."""
-    lump = knobs.lump and knobs.start == "full_slip"
-    if knobs.n_springs > MOST_SHARED:
-        springs = SpringArray.of(case, knobs.n_springs)
-        return springs, ScaledContact.of(case, springs, knobs.steps, lump)
-    return _scaled(case, knobs.n_springs, knobs.steps, lump)
+    lump = resolution.lump and resolution.start == "full_slip"
+    if resolution.n_springs > MOST_SHARED:
+        springs = SpringArray.of(case, resolution.n_springs)
+        return springs, ScaledContact.of(case, springs, resolution.steps, lump)
+    return _scaled(case, resolution.n_springs, resolution.steps, lump)
 
 
 @remembered(maxsize=8)

@@ -24,9 +24,9 @@ from mdr.march.dimensionless import fast_ratio
 from mdr.march.march import (
     BUDGET,
     MOST_BESIDE,
-    Knobs,
-    March,
-    Steady,
+    Converged,
+    Observed,
+    Resolution,
     at_hand,
     check,
     looked_at,
@@ -83,52 +83,54 @@ def _jolts(case: SlidingContact) -> bool:
 
 
 class _Runs:
-    """Runs of one case at one velocity with several knobs, each kept, and begun in a state that was found before."""
+    """Runs of one case at one velocity, each kept, and begun in a state that was found before."""
 
-    def __init__(self, case: SlidingContact, v_0: float, near: Steady | None) -> None:
+    def __init__(self, case: SlidingContact, v_0: float, near: Converged | None) -> None:
         self.case, self.v_0, self.near = case, v_0, near
         self.fast = fast_ratio(case)
-        self.ends: dict[Knobs, Steady] = {}
+        self.ends: dict[Resolution, Converged] = {}
         self.ticker = Ticker("slide", parts="runs")
 
-    def main(self, knobs: Knobs, most: int | None) -> Steady:
+    def main(self, resolution: Resolution, most: int | None) -> Converged:
         """The end of a run that goes on until it settles, or for at most so many periods.
 
         The first one of a body begins where its coarsest companion has come to, which is found at a quarter of the
         cost.
         """
-        if self.near is None and self.fast and knobs.start == "full_slip":
-            coarsest = companions(knobs)[1]
+        if self.near is None and self.fast and resolution.start == "full_slip":
+            coarsest = companions(resolution)[1]
             first = steady(self.case, self.v_0, coarsest, None, None, 1)
             if first.settling.solved and first.settling.settled:
                 self.ends[coarsest] = self.near = first
-        return self._at(knobs, None, most)
+        return self._at(resolution, None, most)
 
-    def beside(self, main: Steady, knobs: Knobs) -> Steady:
+    def beside(self, main: Converged, resolution: Resolution) -> Converged:
         """The end of a companion: solved for by itself if the main run was, else of as many periods."""
-        return self._at(knobs, None if main.settling.solved else main.n_periods, MOST_BESIDE)
+        return self._at(resolution, None if main.settling.solved else main.n_periods, MOST_BESIDE)
 
-    def half(self, main: Steady) -> Steady:
+    def half(self, main: Converged) -> Converged:
         """The companion with half of the steps and springs."""
-        return self.beside(main, companions(main.knobs)[1])
+        return self.beside(main, companions(main.resolution)[1])
 
-    def _at(self, knobs: Knobs, n_periods: int | None, most: int | None) -> Steady:
-        if knobs not in self.ends:
-            end = steady(self.case, self.v_0, knobs, n_periods, self.near, most)
-            self.ends[knobs] = end
+    def _at(self, resolution: Resolution, n_periods: int | None, most: int | None) -> Converged:
+        if resolution not in self.ends:
+            end = steady(self.case, self.v_0, resolution, n_periods, self.near, most)
+            self.ends[resolution] = end
             self.ticker.what = (
-                f"slide, refined for an error of {knobs.accuracy:g} mu_0, {knobs.n_springs} springs and {knobs.steps} "
-                f"steps last"
+                f"slide, refined for an error of {resolution.accuracy:g} mu_0, {resolution.n_springs} springs and "
+                f"{resolution.steps} steps last"
             )
             self.ticker.tick()
             self.near = end if end.settling.solved and end.settling.settled else self.near
-        return self.ends[knobs]
+        return self.ends[resolution]
 
 
-def companions(knobs: Knobs) -> tuple[Knobs, Knobs, Knobs, Knobs]:
+def companions(resolution: Resolution) -> tuple[Resolution, Resolution, Resolution, Resolution]:
     """Beside a run: half of its steps, half of the springs too, three quarters of both, and three quarters of half."""
     shares = (4, 8), (4, 4), (6, 6), (3, 3)  # eighths of steps and springs
-    steps, half, more, less = (knobs.coarser(k * knobs.steps // 8, m * knobs.n_springs // 8) for k, m in shares)
+    steps, half, more, less = (
+        resolution.coarser(k * resolution.steps // 8, m * resolution.n_springs // 8) for k, m in shares
+    )
     return steps, half, more, less
 
 
@@ -142,18 +144,18 @@ def check_size(n_springs: int, steps: int, record: int) -> None:
 
 
 @dataclass(frozen=True)
-class _Bounded:
+class Bounded:
     """A main run, the bound on the numerical error of its COF, over mu_0."""
 
-    main: Steady
+    main: Converged
     error: float
 
-    def looked_at(self, record: int) -> March:
+    def looked_at(self, record: int) -> Observed:
         """The run after a close look, with so many periods kept; one beyond a theorem by more than its error is not
         called settled.
         """
-        check_size(self.main.knobs.n_springs, self.main.knobs.steps, record)
-        march = looked_at(replace(self.main, knobs=self.main.knobs._replace(record=record)))
+        check_size(self.main.resolution.n_springs, self.main.resolution.steps, record)
+        march = looked_at(replace(self.main, resolution=self.main.resolution._replace(record=record)))
         why = outside(march.cof, -1.0, self.error + march.settling.spread + TOLERANCE)
         return march.contradicted(why) if march.settling.settled and why else march
 
@@ -163,63 +165,63 @@ class _Bounded:
 
 
 def within(
-    case: SlidingContact, v_0: float, knobs: Knobs, free: tuple[bool, bool], near: Steady | None = None
-) -> tuple[SlidingRun, Steady]:
+    case: SlidingContact, v_0: float, resolution: Resolution, free: tuple[bool, bool], near: Converged | None = None
+) -> tuple[SlidingRun, Converged]:
     """A run with its companions, and its end; what was left free, springs and steps, is refined until the error is
-    within knobs.accuracy. near: the end of a run at a velocity close by.
+    within resolution.accuracy. near: the end of a run at a velocity close by.
     """
     check(case, v_0)
-    runs, best, record = _Runs(case, v_0, near), None, knobs.record
-    knobs = _that_touch(case, knobs._replace(record=0), free[1])
+    runs, best, record = _Runs(case, v_0, near), None, resolution.record
+    resolution = _that_touch(case, resolution._replace(record=0), free[1])
     while True:
-        main = runs.main(knobs, None if best is None or case.pull.is_rigid else MOST_BESIDE)
+        main = runs.main(resolution, None if best is None or case.pull.is_rigid else MOST_BESIDE)
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
-            best = best or _Bounded(main, 0.0)
+            best = best or Bounded(main, 0.0)
             return best.finished(record), best.main
-        share = knobs.accuracy / 2
+        share = resolution.accuracy / 2
         if main.slips_fully and (main.off_load <= share or not any(free)) and (march := _clear_of_stick(runs, main)):
-            return _Bounded(main, 0.0).finished(record) if record else finish(march), main
+            return Bounded(main, 0.0).finished(record) if record else finish(march), main
         missed = _missed_by(runs, main)
         error = missed.bound + _of_unresolved(runs, main)
         if time_is_over():
             if best is None:
                 why = "the time limit is over before the runs beside it, which bound cof_error, were done"
                 unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
-                best = _Bounded(replace(main, settling=unknown), 0.0)
+                best = Bounded(replace(main, settling=unknown), 0.0)
             return best.finished(record), best.main
-        best = _Bounded(main, error)
-        met = error + main.settling.spread + main.missing_load <= knobs.accuracy
+        best = Bounded(main, error)
+        met = error + main.settling.spread + main.missing_load <= resolution.accuracy
         awaited = not main.scaled.rigid and not main.settling.solved
-        repeats = main.settling.spread <= max(knobs.accuracy, error) / 4  # else finer runs bound no better
-        finer = knobs if met or awaited or not repeats else _finer(main, missed, free)
-        if finer == knobs:
+        repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
+        finer = resolution if met or awaited or not repeats else _finer(main, missed, free)
+        if finer == resolution:
             return best.finished(record), main
-        knobs = finer
+        resolution = finer
 
 
-def _finer(main: Steady, missed: _Missed, free: tuple[bool, bool]) -> Knobs:
+def _finer(main: Converged, missed: Missed, free: tuple[bool, bool]) -> Resolution:
     """Twice the steps or springs, or both, of which too much is missed."""
-    share, of_springs = main.knobs.accuracy / 2, max(missed.of_springs, main.off_load)
+    share, of_springs = main.resolution.accuracy / 2, max(missed.of_springs, main.off_load)
     both = max(missed.of_steps, of_springs) <= share  # the error is that of the other companion
-    n_springs, steps = main.knobs.n_springs, main.knobs.steps
+    n_springs, steps = main.resolution.n_springs, main.resolution.steps
     if free[0] and (both or of_springs > share):
         n_springs = max(n_springs, min(2 * n_springs, MOST_SPRINGS))
     if free[1] and (both or missed.of_steps > share):
         steps = max(steps, min(2 * steps, MOST_STEPS))
-    return main.knobs._replace(n_springs=n_springs, steps=steps)
+    return main.resolution._replace(n_springs=n_springs, steps=steps)
 
 
-def _that_touch(case: SlidingContact, knobs: Knobs, free: bool) -> Knobs:
-    """The knobs, with more steps where they are free and the contact too brief for those of companions."""
-    while not (case.keeps_contact or all(at_hand(case, one)[1].normal.mean > 0 for one in companions(knobs))):
-        if not free or knobs.steps >= MOST_STEPS:
-            raise too_coarse(knobs.steps)
-        knobs = knobs._replace(steps=2 * knobs.steps)
-    return knobs
+def _that_touch(case: SlidingContact, resolution: Resolution, free: bool) -> Resolution:
+    """The resolution, with more steps where they are free and the contact too brief for those of companions."""
+    while not (case.keeps_contact or all(at_hand(case, one)[1].normal.mean > 0 for one in companions(resolution))):
+        if not free or resolution.steps >= MOST_STEPS:
+            raise too_coarse(resolution.steps)
+        resolution = resolution._replace(steps=2 * resolution.steps)
+    return resolution
 
 
 @dataclass(frozen=True)
-class _Missed:
+class Missed:
     """What a run may miss of the COF, over mu_0."""
 
     of_steps: float
@@ -232,29 +234,29 @@ class _Missed:
         return max(self.of_steps + self.of_springs, self.least)
 
 
-def _missed_by(runs: _Runs, main: Steady) -> _Missed:
+def _missed_by(runs: _Runs, main: Converged) -> Missed:
     """What the companions of a run tell."""
-    *finer, last = companions(main.knobs)
-    steps, half, more = (runs.beside(main, knobs) for knobs in finer)
+    *finer, last = companions(main.resolution)
+    steps, half, more = (runs.beside(main, resolution) for resolution in finer)
     least = BY_CHANCE * _missed(main, more)
     if at_hand(runs.case, last)[1].light == half.scaled.light:  # else a body moves by another scheme there
         least = max(least, BY_CHANCE * _missed(half, runs.beside(half, last)) / MOST_GAINED)
-    return _Missed(_missed(main, steps), _missed(steps, half), least)
+    return Missed(_missed(main, steps), _missed(steps, half), least)
 
 
-def _of_unresolved(runs: _Runs, main: Steady) -> float:
+def _of_unresolved(runs: _Runs, main: Converged) -> float:
     """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
     companions do: found beside steps that do. Those that are chosen do, as far as that can be afforded.
     """
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.light and main.scaled.M else 0
-    if main.knobs.steps >= steps or steps > MOST_STEPS:
+    if main.resolution.steps >= steps or steps > MOST_STEPS:
         return 0.0
-    resolved = runs.beside(main, main.knobs.coarser(steps))
+    resolved = runs.beside(main, main.resolution.coarser(steps))
     missed = resolved.settling.spread if resolved.settling.settled else 1.0
     return missed + RINGING * abs(main.cof - resolved.cof)
 
 
-def _clear_of_stick(runs: _Runs, main: Steady) -> March | None:
+def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
     """A close look at a run that slips, where no finer step would stick either, so that F_x is mu_0 F_z without error.
 
     It and its companion of half the size must slip throughout, by more than a tenth of v_0 and ten times what doubling
@@ -270,7 +272,7 @@ def _clear_of_stick(runs: _Runs, main: Steady) -> March | None:
     return march if least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12 else None
 
 
-def _missed(main: Steady, companion: Steady) -> float:
+def _missed(main: Converged, companion: Converged) -> float:
     """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
     if abs(main.cof - companion.cof) <= ROUNDING:
         return 0.0

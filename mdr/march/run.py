@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
-from mdr.march.march import March, too_coarse
+from mdr.march.march import Observed, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
 from mdr.spring import step
@@ -161,7 +161,7 @@ def _turned(values: Any) -> Any:
     return None if values is None else 0.0 - values  # no -0.0
 
 
-def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
+def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
     """From scaled form to SI. error: bound on that of the COF, over mu_0."""
     open_account = does_not_close(march.end.stepper, march.account, error + march.settling.spread)
     if march.settling.settled and open_account:
@@ -192,14 +192,14 @@ def finish(march: March, error: float = 0.0, why: str = "") -> SlidingRun:
         v_0=march.end.v_0,
         mu_0=mu_0,
         omega=scaled.omega,
-        n_springs=march.end.knobs.n_springs,
+        n_springs=march.end.resolution.n_springs,
         steps_per_period=scaled.steps,
         n_periods=march.n_periods,
-        **(_recorded(march) if march.end.knobs.record else {}),
+        **(_recorded(march) if march.end.resolution.record else {}),
     )
 
 
-def _why_not(march: March) -> str:
+def _why_not(march: Observed) -> str:
     settling, n = march.settling, march.n_periods
     if settling.contradicts:
         return f"{settling.why}: change start or steps_per_period"
@@ -207,24 +207,25 @@ def _why_not(march: March) -> str:
         return f"{settling.why}: raise {'limit_s' if 'time limit' in settling.why else 'n_periods or c_x'}"
     if n < MIN_PERIODS:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
-    if march.end.knobs.start == "rest" and n < march.end.on_the_way:
+    if march.end.resolution.start == "rest" and n < march.end.on_the_way:
         return (
             f"a start from rest takes {march.end.on_the_way:.3g} periods to stretch the springs: start from full slip"
         )
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if march.end.scaled.M and march.end.scaled.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
-    return f"{change}: raise n_periods" + ("" if march.end.knobs.start == "full_slip" else " or start from full slip")
+    from_rest = march.end.resolution.start != "full_slip"
+    return f"{change}: raise n_periods" + (" or start from full slip" if from_rest else "")
 
 
-def _recorded(march: March) -> dict[str, Any]:
+def _recorded(march: Observed) -> dict[str, Any]:
     """The last periods in SI, springs that stand alike each for itself."""
     scaled, springs = march.end.scaled, march.end.springs
     F_x, F_z, y, e, s, f_x, f_z, mode = (
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
     )
     n_steps = F_x.size
-    t = (march.n_periods - march.end.knobs.record) * march.end.case.period + np.arange(
+    t = (march.n_periods - march.end.resolution.record) * march.end.case.period + np.arange(
         1, n_steps + 1
     ) * scaled.h / scaled.omega
     n = scaled.n_lumped

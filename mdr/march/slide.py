@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.march.march import BUDGET, Knobs, accuracy_of, check, march, steady
+from mdr.march.march import BUDGET, Resolution, accuracy_of, check, march, steady
 from mdr.march.refinement import check_size, default_springs, default_steps, within
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
@@ -81,8 +81,8 @@ def slide(
 
     Notes
     -----
-    The path of a spring over a step is exact; indenter and body move on parabolas in it. Companion runs with fewer steps
-    and springs bound the error of the friction (refinement.py). The scheme is of second order or better in both.
+    The path of a spring over a step is exact; indenter and body move on parabolas in it. Companion runs with fewer
+    steps and springs bound the error of the friction (refinement.py). The scheme is of second order or better in both.
 
     Examples
     --------
@@ -115,16 +115,16 @@ def slide(
     count("record", record, 0)
     if n_periods is not None and record > n_periods:
         raise ValueError(f"record = {record} periods cannot be kept of n_periods = {n_periods}")
-    resolution = n_springs or default_springs(case), steps_per_period or default_steps(case)
-    knobs = Knobs(*resolution, start, lump, record, accuracy_of(accuracy))
-    check_size(knobs.n_springs, knobs.steps, record)
+    first = n_springs or default_springs(case), steps_per_period or default_steps(case)
+    resolution = Resolution(*first, start, lump, record, accuracy_of(accuracy))
+    check_size(resolution.n_springs, resolution.steps, record)
     if limit_s is not None:
         limit_s = positive("limit_s", limit_s, "seconds")
     with time_limit(limit_s):
         if n_periods is not None:
-            run = finish(march(case, v_0, knobs, n_periods), why="no companion run: cof_error holds settling only")
+            run = finish(march(case, v_0, resolution, n_periods), why="no companion run: cof_error holds settling only")
         else:
-            run = within(case, v_0, knobs, free=(n_springs is None, steps_per_period is None))[0]
+            run = within(case, v_0, resolution, free=(n_springs is None, steps_per_period is None))[0]
     return run.mirrored if back else run
 
 
@@ -148,11 +148,11 @@ def slides(
     accuracy: float = BUDGET,
 ) -> Iterator[SlidingRun]:
     """Runs at rising velocities, each begun in the state of the one before: what `slide` answers, sooner."""
-    resolution = n_springs or default_springs(case), steps_per_period or default_steps(case)
-    knobs, near = Knobs(*resolution, "full_slip", lump=True, accuracy=accuracy_of(accuracy)), None
-    check_size(knobs.n_springs, knobs.steps, 0)
+    first = n_springs or default_springs(case), steps_per_period or default_steps(case)
+    resolution, near = Resolution(*first, "full_slip", lump=True, accuracy=accuracy_of(accuracy)), None
+    check_size(resolution.n_springs, resolution.steps, 0)
     for v_0 in velocities:
-        run, end = within(case, v_0, knobs, (n_springs is None, steps_per_period is None), near)
+        run, end = within(case, v_0, resolution, (n_springs is None, steps_per_period is None), near)
         near = end if end.settling.solved and not end.slips_fully else None
         yield run
 
@@ -161,16 +161,16 @@ def slide_without_bound(
     case: SlidingContact, v_0: float, *, n_springs: int, steps_per_period: int, start: str
 ) -> SlidingRun:
     """A run without companions: its error is that of settling."""
-    return finish(march(case, v_0, Knobs(n_springs, steps_per_period, start, lump=True)))
+    return finish(march(case, v_0, Resolution(n_springs, steps_per_period, start, lump=True)))
 
 
 def cofs_without_bound(
     case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int
 ) -> Iterator[float]:
     """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
-    knobs, near = Knobs(n_springs, steps, "full_slip", lump=True), None
+    resolution, near = Resolution(n_springs, steps, "full_slip", lump=True), None
     for v_0 in velocities:
         check(case, v_0)
-        end = steady(case, v_0, knobs, near=near)
+        end = steady(case, v_0, resolution, near=near)
         near = end if end.settling.solved else None
         yield case.mu_0 * end.cof

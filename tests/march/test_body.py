@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 import mdr
 from mdr.march.body import body_of, harmonics_of, light_harmonics_of
 from mdr.march.loop import march, next_place
-from mdr.march.march import Knobs, at_hand
+from mdr.march.march import Resolution, at_hand
 from mdr.spring.law import law_of
 from mdr.spring.settle import tools_for
 
@@ -144,7 +144,7 @@ LIGHT = {
 def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, steps):
     """Newton's method alone leaves some of each: of a body in flight, whose force is zero, and of one that jolts."""
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
-    _, scaled = at_hand(case, Knobs(64, steps, "full_slip", True))
+    _, scaled = at_hand(case, Resolution(64, steps, "full_slip", True))
     for v in (0.05, 0.3, 0.8):
         parts = scaled.body, scaled.springs, scaled.motion(v), scaled.law, tools_for(scaled.law, scaled.h)
         s = scaled.normal.s.copy()

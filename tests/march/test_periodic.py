@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.march import loop, periodic_orbit
-from mdr.march.march import Knobs, march
+from mdr.march.march import Resolution, march
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -143,7 +143,7 @@ def body(shape, depth_ratio, T, k, omega_0, zeta, share):
 @pytest.mark.parametrize("name", BODIES)
 def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
     case, v_0 = body(*BODIES[name])
-    knobs = Knobs(n_springs=24, steps=128, start="full_slip", lump=True)
+    knobs = Resolution(n_springs=24, steps=128, start="full_slip", lump=True)
     solved = march(case, v_0, knobs)
     without_search(monkeypatch)
     awaited = march(case, v_0, knobs)
@@ -158,7 +158,7 @@ def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
 
 def test_a_failed_search_leaves_no_trace(monkeypatch):
     case, v_0 = body(*BODIES["punch, elastic"])
-    knobs = Knobs(n_springs=32, steps=128, start="full_slip", lump=True)
+    knobs = Resolution(n_springs=32, steps=128, start="full_slip", lump=True)
     with monkeypatch.context() as patch:
         without_search(patch)
         untouched = march(case, v_0, knobs)
@@ -171,9 +171,9 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
 
 def test_a_start_from_rest_goes_its_way_before_the_periodic_state_is_looked_for():
     case, v_0 = body(*BODIES["punch, elastic"])
-    run = march(case, v_0, Knobs(32, 128, "rest", True))
+    run = march(case, v_0, Resolution(32, 128, "rest", True))
     assert run.n_periods >= max(run.end.on_the_way, run.end.scaled.first_look)
-    full = march(case, v_0, Knobs(32, 128, "full_slip", True))
+    full = march(case, v_0, Resolution(32, 128, "full_slip", True))
     assert abs(run.cof - full.cof) <= run.settling.spread + full.settling.spread
 
 
@@ -191,7 +191,7 @@ def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
             rng.choice([0.0, 0.001, 0.005]),
             rng.uniform(0.1, 0.9),
         )
-        knobs = Knobs(n_springs=64, steps=256, start="full_slip", lump=True)
+        knobs = Resolution(n_springs=64, steps=256, start="full_slip", lump=True)
         solved = march(case, v_0, knobs)
         with monkeypatch.context() as patch:
             without_search(patch)

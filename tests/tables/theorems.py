@@ -23,7 +23,7 @@ import numpy as np
 from conftest import SHAPES
 
 import mdr
-from mdr.march.march import MAX_PERIODS, Knobs, at_hand
+from mdr.march.march import MAX_PERIODS, Resolution, at_hand
 from mdr.march.orbit_search import search_from_full_slip
 from mdr.march.stepper import Stepper
 from mdr.march.waiting import Waiting
@@ -135,7 +135,7 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     """What a settled run says, against the mean of ten times as many periods from there on."""
     if not run.settled:
         return []
-    scaled = at_hand(mdr.resolved(case), Knobs(run.n_springs, run.steps_per_period, "full_slip", True))[1]
+    scaled = at_hand(mdr.resolved(case), Resolution(run.n_springs, run.steps_per_period, "full_slip", True))[1]
     stepper = Stepper(scaled, v_0 / scaled.speed)
     orbit = search_from_full_slip(stepper) or Waiting(stepper, stepper.full_slip()).wait(MAX_PERIODS["spring"])
     settling = orbit.settling
