@@ -175,7 +175,12 @@ def roots(
 
 def peak(harmonics: NDArray[np.complex128]) -> float:
     """Greatest value of Re of sum C_n exp(i n phase), n = 1 ... N, over the period."""
-    harmonics = np.asarray(harmonics)
+    return _peak(np.asarray(harmonics, dtype=complex).tobytes())
+
+
+@lru_cache(maxsize=256)
+def _peak(numbers: bytes) -> float:
+    harmonics = np.frombuffer(numbers, dtype=complex)
     return float(harmonic_sum(harmonics, turns(harmonics, highest=MOST_PEAKS)).max()) if harmonics.any() else 0.0
 
 

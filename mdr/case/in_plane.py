@@ -11,6 +11,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -147,6 +148,7 @@ class InPlaneMotion(Shake):
         return replace(self, x_cos=tuple(-x for x in self.x_cos), x_sin=tuple(-x for x in self.x_sin))
 
 
+@lru_cache(maxsize=256)
 def whole_ratio(one: float, other: float) -> tuple[int, int]:
     """p, q of one/other = p/q, two frequencies whose sum is periodic. FieldError where p or q exceeds `MOST`."""
     ratio = Fraction(one / other).limit_denominator(MOST)
