@@ -31,7 +31,7 @@ from validation.report import Check, Checks, Claim
 E_STAR = E / (1 - 0.5**2)  # of the rubber
 ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim
 PLACES = RADIUS * np.array([0.05, 0.4, 0.7, 0.95])  # within the contact, where the half-space is looked at
-ENDS = "the panels end there and each keeps its mean depth: only rounding is left"
+ENDS = "the row is cut there and each stretch keeps its mean depth: only rounding is left"
 AMPLITUDES = {"quick": (1e-9, 1e-3, 0.3, 1.0, 2.0), "full": (1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9, 1.0, 1.3, 2.0)}
 
 
@@ -57,7 +57,7 @@ def claim(effort: str) -> Claim:
         f" {_greatest(checks, 'as a function'):.0e}. That pressure adds up to the force to"
         f" {_greatest(checks, 'over the disc'):.0e}, for each of the {len(SHAPES) + len(CATALOGUE)} shapes, and, put on"
         f" an elastic half-space, sinks its surface into the shape to {_greatest(checks, 'half-space'):.0e} of the"
-        " depth, as far as these quadratures go. The springs add up to F_N and k_zc to rounding at u_z0 and at both"
+        " depth, as far as these quadratures go. The springs add up to F_N and k_zc to rounding at both"
         " extremes of the oscillation, however small it is. In between a force is off by the one spring that is about"
         " to touch: an error that falls with the square of the number of springs.",
         verdict="holds",
@@ -197,13 +197,13 @@ def _sum_checks(amplitudes: tuple[float, ...]) -> Checks:
         force, stiffness = [], []
         for alpha, n_springs in product(amplitudes, (16, 100, 384)):
             springs = mdr.SpringArray.of(contact(shape, alpha), n_springs)
-            for u_z in (DEPTH - alpha * DEPTH, DEPTH, DEPTH + alpha * DEPTH):
+            for u_z in (DEPTH - alpha * DEPTH, DEPTH + alpha * DEPTH):
                 _, F_N, k_zc = textbook(shape, max(u_z, 0.0))
                 force.append(abs(springs.normal_force(u_z, DEPTH) - F_N) / (2 * E_STAR * RADIUS * DEPTH))
                 k_zc = k_zc if u_z > 0 else 0.0
                 stiffness.append(abs(springs.normal_stiffness(u_z, DEPTH) - k_zc) / (2 * E_STAR * RADIUS))
         for what, off, scale in (("F_N", force, "2 E* a u_z0"), ("k_zc", stiffness, "2 E* a")):
-            name = f"{shape}: {what} of 16, 100 and 384 springs at u_z0 and u_z0 ± Δu_z, over {scale}"
+            name = f"{shape}: {what} of 16, 100 and 384 springs at u_z0 ± Δu_z, over {scale}"
             yield Check.at_most(name, max(off), ROUNDING, ENDS)
 
 
@@ -216,9 +216,9 @@ def _catalogue_sum_checks() -> Checks:
         motion = mdr.NormalOscillation(u_z0=u_z0, du_z=0.3 * u_z0, omega=OMEGA)
         case = mdr.SlidingContact(indenter, mdr.Elastic(E=E, nu=0.5), 0.5, motion)
         springs, a = mdr.SpringArray.of(case, 100), float(indenter.contact_radius(u_z0))
-        depths = (0.7 * u_z0, u_z0, 1.3 * u_z0)
+        depths = (0.7 * u_z0, 1.3 * u_z0)
         off = max(abs(springs.normal_force(u_z, u_z0) - float(indenter.force(u_z, E_STAR))) for u_z in depths)
-        name = f"{shape}: F_N of 100 springs at u_z0 and u_z0 ± 0.3 u_z0, over 2 E* a u_z0"
+        name = f"{shape}: F_N of 100 springs at u_z0 ± 0.3 u_z0, over 2 E* a u_z0"
         yield Check.at_most(name, off / (2 * E_STAR * a * u_z0), ROUNDING, ENDS)
 
 
@@ -243,9 +243,8 @@ def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...
         why = "slope of a least-squares line; panels share out whole springs, which bends it by a few hundredths"
         yield Check(f"{shape}: order in the number of springs of F_N(u_z) between the extremes", order, 2.0, 0.1, why)
         name = f"{shape}: greatest error of F_N over that of its widest cell, {counts[-1]} springs"
-        why = "a cell of stiffness dk over which g rises by dg errs by dk dg/8 when half of it touches; g bends"
-        why += " within a cell by less than 5 %"
-        yield Check(name, errors[-1] / bounds[-1], 1.0, 0.05, why)
+        why = "a cell of stiffness dk over which g rises by dg errs by dk dg/8 at most, when half of it touches"
+        yield Check.at_most(name, errors[-1] / bounds[-1], 1.0, why)
 
 
 # --- figures ---
