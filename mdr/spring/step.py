@@ -518,7 +518,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
             done += t
             z_0, z_1, x_1 = z_0 + t * (z_1 + t * z_2), z_1 + 2.0 * z_2 * t, x_1 + 2.0 * x_2 * t
             if after == TOUCHES:  # the rounding of the touch is that of both, so that full slip stays what it is
-                e[0, i] += z_0 - s[0, i]
+                e[0, i] += np.sign(e[0, i]) * (z_0 - s[0, i])
                 s[0, i] = z_0
             mode, t, k = after, h - done, 1
             fill(t, modes, arms, tools, 1)
