@@ -12,6 +12,8 @@ import pytest
 import small_runs
 from numpy.testing import assert_allclose
 
+from mdr.march.loop import SHORTEST
+
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
 def test_small_runs_come_to_the_same_in_python():
@@ -25,7 +27,7 @@ def test_small_runs_come_to_the_same_in_python():
     for name, numbers in got.items():
         scale = np.nanmax(np.abs(expected[name]))
         # the compiler may contract and reorder, and springs with arms stop 1e-13 of their size short of their period
-        # a body on coarse steps: where Newton's method gives up, at a jolt, is a matter of roundings
-        close = 1e-6 if "body" in name else 1e-10
+        # on these steps a body is light, and it is a matter of roundings whether one in which a spring touches within
+        # SHORTEST of an end is cut there
+        close = 10 * SHORTEST if "body" in name else 1e-10
         assert_allclose(numbers, expected[name], rtol=0, atol=close * scale, err_msg=name)
-    assert any(np.isnan(numbers).any() for numbers in got.values())  # also where no periodic motion is found
