@@ -28,7 +28,7 @@ class EnergyBalance:
     normal_work: float  #: of the normal drive, F_z u_z'
     shake_work: float  #: of the drive in the plane: F_x x' at the tool, the pulling force times x' at the pull
     friction_loss: float  #: mu_0 F_z times the slip velocity
-    viscous_loss: float  #: gamma s'² and gamma e'² of the springs
+    viscous_loss: float  #: of the springs: their dashpots, gamma s'² and gamma e'², and Maxwell arms
     damper_loss: float  #: of the system damper c_x
     stored_change: float  #: elastic energy of springs and system, kinetic energy of the body
 

@@ -2,12 +2,12 @@
 
 A step is exact but for the parabolas that motion and body take in it, and a sum over the nodes of Fejer's rule but for
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
-though they do not fall evenly, as events come at any place in a step. So beside a run go three companions: with half of
-the steps, with half of the springs too, and with three quarters of both. The first tells what steps may miss, the
-second what springs may, which counts one and a half times: at second order three times their errors and more. As a
-companion may agree by chance, three times the difference to the third counts as well, if it is more; at second order
-that is 2.3 times the error. And so does an eighth of the same for the second, beside one with three quarters of its own
-numbers, as no error falls by more.
+though they do not fall evenly, as events come at any place in a step. So four coarser
+runs, companions, go beside a run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both;
+(4) three eighths of both. Run less (1) tells the error of the steps, (1) less (2) that of the springs, which counts one
+and a half times; at second order each is three times the true error. The bound is their sum. Two runs may agree by
+chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than
+3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled.
 Where the bound is more than is asked for, steps or springs are doubled, as these companions tell.
 
 Each run begins in the periodic state of one before it.
@@ -96,14 +96,14 @@ class _Runs:
     def main(self, resolution: Resolution, most: int | None) -> Converged:
         """The end of a run that goes on until it settles, or for at most so many periods.
 
-        The first one of a body begins where its coarsest companion has come to, which is found at a quarter of the
-        cost.
+        The first one of a body begins in the end state of its companion of half the steps and springs, which is found
+        at a quarter of the cost.
         """
         if self.near is None and self.fast and resolution.start == "full_slip":
-            coarsest = companions(resolution)[1]
-            first = steady(self.case, self.v_0, coarsest, None, None, 1)
+            half = companions(resolution)[1]
+            first = steady(self.case, self.v_0, half, None, None, 1)
             if first.settling.solved and first.settling.settled:
-                self.ends[coarsest] = self.near = first
+                self.ends[half] = self.near = first
         return self._at(resolution, None, most)
 
     def beside(self, main: Converged, resolution: Resolution) -> Converged:

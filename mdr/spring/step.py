@@ -37,7 +37,7 @@ _call = compiled(error_model="numpy", nogil=True, fastmath=_FAST)
 FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3  #: modes
 TOUCHES, BEGINS = 4, 5  #: the mode is still to be found: just touched; at the begin of a step
 NEVER = np.inf
-MOST_EVENTS = 100  #: of a spring in one step
+MOST_EVENTS = 100  #: of a spring in one step; what comes after the last would be left out
 ROUNDING = 4e-15  #: of a length
 MOST_PARABOLAS = 200  #: to a zero; they double their digits once they are near
 
@@ -126,8 +126,10 @@ def below(f, tol):
 
 @_inline
 def stays(f, t, tol):
-    """Whether it stays above zero by what is known of it: one that is convex above its tangents, one that is concave
-    above its ends, another above one of two parabolas of its least curvature, from either end.
+    """Whether f surely stays above -tol, where it begins; False means that it is not known.
+
+    Convex (low >= 0): it lies above the crossing of the tangents at its ends. Concave (high <= 0): above its values at
+    the ends. Else: above one of two parabolas of the curvature low, from either end.
     """
     lowest = f.v_1
     if f.low >= 0.0:
@@ -152,6 +154,8 @@ def zero_of_parabola(f, t, tol, a, b, c):
     if a <= tol and (b < 0.0 or (b == 0.0 and c < 0.0)):
         return 0.0
     inside = b * b - 4.0 * a * c
+    if inside < 0.0 and c < 0.0:  # it begins below zero by a rounding, and never rises above it
+        return 0.0
     if inside < 0.0 or (c >= 0.0 and (b >= 0.0 or (f.v_1 >= -tol and b * b < 4.0 * c * (a + tol)))):
         return NEVER
     root = np.sqrt(inside)
@@ -409,10 +413,12 @@ def alone(x, rate, decay):
 
 @_call
 def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
-    """All springs over a step: sums of area and moment of their tangential forces, of the time they stuck and its
-    moment, of their forces at the end, and of the weight of those that stick there.
+    """All springs over a step. Lengths are scaled so that Coulomb's law has no coefficient.
 
-    s, e (1 + J, n) are updated. zd, xd: rates of the top at the end of the step; look: None or Look.
+    gap, w (n,): depth of each foot, share in the stiffness. s, e (1 + J, n), updated: row 0 is compression and
+    extension, row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: filled for the step.
+    look: None or Look. Returns six sums weighted by w: area of the tangential force over the time, its moment about the
+    begin of the step, time in stick, its moment, tangential force at the end, share that sticks there.
     """
     h, n_x, rate, decay = tools.h, s.shape[0], 0.0, tools.decay
     if modes is not None:

@@ -138,3 +138,9 @@ def test_the_normal_part_may_be_cut_into_two(material):
         s_2, a_2, m_2, _ = second.pressed()
         assert_allclose(s_2, s, rtol=0, atol=1e-11)
         assert_allclose([a_1 + a_2, m_1 + m_2 + half * a_2], [area, moment], rtol=0, atol=1e-11)
+
+
+def test_a_parabola_that_begins_below_zero_by_a_rounding_and_falls_has_its_zero_at_once():
+    t, a, b, c, tol = 0.1, -2e-15, 1e-9, -1e-2, 4e-15
+    ends = of.Ends(a, b, a + t * (b + c * t), b + 2 * c * t, 2 * c, 2 * c)
+    assert of.zero_of_parabola.py_func(ends, t, tol, a, b, c) == 0.0
