@@ -2,13 +2,13 @@
 
 A step is exact but for the parabolas that motion and body take in it, and a sum over the nodes of Fejer's rule but for
 places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
-though they do not fall evenly, as events come at any place in a step. So four coarser
-runs, companions, go beside a run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both;
-(4) three eighths of both. Run less (1) tells the error of the steps, (1) less (2) that of the springs, which counts one
-and a half times; at second order each is three times the true error. The bound is their sum. Two runs may agree by
-chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than
-3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled.
-Where the bound is more than is asked for, steps or springs are doubled, as these companions tell.
+though they do not fall evenly, as events come at any place in a step. So four coarser runs, companions, go beside a
+run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both; (4) three eighths of both.
+Run less (1) tells the error of the steps, (1) less (2) that of the springs, which counts one and a half times; at
+second order each is three times the true error. The bound is their sum. Two runs may agree by chance, so that it is
+never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than 3/8 |(2) - (4)|, as errors fall at
+most eightfold where both numbers are doubled. Where the bound is more than is asked for, steps or springs are doubled,
+as these companions tell.
 
 Each run begins in the periodic state of one before it.
 """

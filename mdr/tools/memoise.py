@@ -66,11 +66,6 @@ def _records(values: Iterable[Any]) -> Iterator[Any]:
             yield from _records(getattr(one, name) for name in _kind(type(one))[1])  # type: ignore[arg-type]
 
 
-def is_frozen(record: type[Any]) -> bool:
-    """Whether records of a class cannot be changed and have a hash."""
-    return _kind(record)[0]  # type: ignore[arg-type]
-
-
 @lru_cache(256)
 def _kind(record: type[Any]) -> tuple[bool, tuple[str, ...]]:
     """Whether records of a class cannot be changed and have a hash, and their fields."""
