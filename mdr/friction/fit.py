@@ -20,7 +20,8 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
-from mdr.normal.resolved import at_rest
+from mdr.march.refinement import default_springs, default_steps
+from mdr.normal.resolved import at_rest, resolved
 from mdr.normal.vary import still_held
 from mdr.tools.arrays import Array
 from mdr.tools.messages import short
@@ -35,7 +36,6 @@ UNLIKELY = 1e-3  #: probability of deviations as large as these, below which the
 NEAR_END = 1e-4  #: of the range: a best fit so near to an end is at it
 IDLE = 1e-8  #: of the data: a parameter that changes the curve by less on its scale has nothing to do with them
 ERRORS = 3.0  #: times its error that a coefficient of friction may lie outside its range
-N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,7 +59,7 @@ class Fit(Printed, ArrayRecord):
     def curve(self) -> CofCurve:
         """The curve of the fitted contact a little beyond the velocities measured, from rest; computed anew."""
         least, most = 1.05 * min(float(self.data.v_0.min()), 0.0), 1.05 * max(float(self.data.v_0.max()), 0.0)
-        return cof_curve(self.case, np.linspace(least, most, 60), n_springs=N_SPRINGS, steps_per_period=STEPS)
+        return cof_curve(self.case, np.linspace(least, most, 60))
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the data with their errors, the fitted curve, and what is left below.
@@ -221,6 +221,8 @@ class _Model:
     ) -> None:
         self.case, self.data, self.free, self.held = case, data, free, held
         self.error = 1.0 if data.error is None else data.error
+        first = resolved(case)
+        self.size = default_springs(first), default_steps(first)  # the same of all, or curves would jump
         self._ticker = Ticker("fit", parts="curves")
         self._at = lru_cache(maxsize=2)(self._deviations)
 
@@ -249,7 +251,7 @@ class _Model:
     def _deviations(self, x: tuple[float, ...]) -> Array:
         self._ticker.tick()
         try:
-            cof = friction_without_bound(self.case_at(np.array(x)), self.data.v_0, N_SPRINGS, STEPS)
+            cof = friction_without_bound(self.case_at(np.array(x)), self.data.v_0, *self.size)
         except ValueError as refusal:
             where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(np.array(x)).items())
             raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None

@@ -30,7 +30,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.march.refinement import MOST_STEPS, default_springs, default_steps
+from mdr.march.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide, slide_without_bound
 from mdr.normal.resolved import resolved
@@ -41,10 +41,8 @@ from mdr.tools.summary import Summarised, Summary, number
 MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
 NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
-LOOK = 96, 256  #: springs, and steps at least, of a run that tells reduced friction from full
 SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step loses or gains on the drive in a period
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
-FINER = 8  #: times the steps of a run: the rate of a parabola is off by h²/12 where stick ends
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
 HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
@@ -166,7 +164,7 @@ class _Search:
     def __init__(self, case: SlidingContact, start: str, margin: float) -> None:
         self.case, self.start, self.margin, self.n_runs = case, start, margin, 0
         self.ticker = Ticker("critical velocity from runs", parts="runs")
-        self.steps, self.n_springs = min(FINER * default_steps(case), MOST_STEPS), default_springs(case)
+        self.steps, self.n_springs = default_steps(case), default_springs(case)
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity
 
@@ -188,12 +186,6 @@ class _Search:
         self.ticker.tick()
         if time_is_over():
             raise _Undecided(v_0)
-
-    def look(self, v_0: float, start: str) -> SlidingRun:
-        """A run of few springs and steps, enough to tell reduced friction from full."""
-        self._begin(v_0)
-        steps = max(LOOK[1], default_steps(self.case) // 2)
-        return slide(self.case, v_0, start=start, n_springs=LOOK[0], steps_per_period=steps)
 
     def measure(self) -> MeasuredVelocity:
         free = self._first_free_run()
@@ -275,28 +267,29 @@ class _Search:
     def _resolve(self, free: SlidingRun) -> SlidingRun | None:
         """Double steps and springs until the end of stick moves by less than the margin; the last run without stick.
 
-        A first touch falls anywhere within a step, so that its error is irregular: three resolutions are compared.
+        A first touch falls anywhere within a step, so that its error is irregular: three resolutions are compared. The
+        first of them is as good as they are alike.
         """
-        for knob, most in (("steps", 16384), ("n_springs", 3072)):
-            while (known := getattr(self, knob)) < most:
-                slips = [free.least_slip]
-                for finer in (3 * known // 2, 2 * known):
-                    setattr(self, knob, finer)
-                    run = self._decided(free.v_0)
-                    if not _is_free(run):  # free in coarse steps only: begin anew, further up
-                        further = self._first_free_run()
-                        return None if further is None else self._resolve(further)
-                    slips.append(run.least_slip)
-                free, moved = run, max(slips) - min(slips)
-                if moved <= self.margin * max(free.v_0 - free.least_slip, LEAST * self.scale) or 2 * known >= most:
-                    self.doubt += moved
-                    break
-        return free
+        while True:
+            steps, n_springs, slips = self.steps, self.n_springs, [free.least_slip]
+            for halves in (3, 4):
+                self.steps, self.n_springs = halves * steps // 2, halves * n_springs // 2
+                free = self._decided(free.v_0)
+                if not _is_free(free):  # free in coarse steps only: begin anew, further up
+                    further = self._first_free_run()
+                    return None if further is None else self._resolve(further)
+                slips.append(free.least_slip)
+            self.doubt = max(slips) - min(slips)
+            enough = self.margin * max(free.v_0 - free.least_slip, LEAST * self.scale)
+            if self.doubt <= enough or 2 * self.steps > MOST_STEPS or 2 * self.n_springs > MOST_SPRINGS:
+                self.steps, self.n_springs = steps, n_springs
+                return free
 
     def _locate(self, free: SlidingRun) -> tuple[float, float, float]:
         """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
-        low, high = 0.0, free.v_0
-        guess = free.v_0 - free.least_slip
+        low, high, guess = 0.0, free.v_0, free.v_0 - free.least_slip
+        # the rate of a parabola is off by h²/12 where stick ends: that of these steps by half of the margin
+        self.steps = max(self.steps, int(oscillations(self.case) * np.pi * np.sqrt(2 / (3 * self.margin))))
         if guess <= LEAST * self.scale and _is_free(slow := self.quick_run(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         guess = max(guess, LEAST * self.scale)
@@ -305,8 +298,9 @@ class _Search:
             if _is_free(above) and not _is_free(below):
                 return guess, below.v_0, above.v_0
             low = max([low, *(run.v_0 for run in (above, below) if not _is_free(run))])
-            high = min([high, *(run.v_0 for run in (above, below) if _is_free(run))])
-            guess = high * (1 - 1e-12) if not low < guess < high else guess
+            high, guess = min(
+                [(high, guess), *((run.v_0, run.v_0 - run.least_slip) for run in (above, below) if _is_free(run))]
+            )
         while high - low > 2 * self.margin * high:
             run = self._decided(0.5 * (low + high))
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)
@@ -314,12 +308,12 @@ class _Search:
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs above v_c from both starts: is friction full there?"""
-        unsettled = []
+        unsettled, self.steps, self.n_springs = [], default_steps(self.case), default_springs(self.case)
         for factor, start in product(ABOVE, ("full_slip", "rest")):
-            run = self.look(factor * v_c, start)
+            run = self.run(factor * v_c, start)
             if not run.settled:
                 unsettled.append(f"{factor:g} v_c from {start}")
-            elif _is_reduced(run) and _is_reduced(self.run(run.v_0, start)):
+            elif _is_reduced(run):
                 why = f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {run.v_0:.6g} m/s"
                 return self._without("unsettled", f"{why}: no two steady motions do that, so one has not settled")
         why = "stick ends and the COF reaches mu_0 at the same velocity"

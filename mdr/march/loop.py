@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
-from mdr.spring.step import ROUNDING, SHEAR_WORK, Look, Path, Tools, fill, press, row
+from mdr.spring.step import ROUNDING, SHEAR_WORK, Look, Nodes, Path, Tools, fill, nodes_of, press, row
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -63,6 +63,7 @@ class Trace(NamedTuple):
 class Seen(NamedTuple):
     """What a close look at a period fills, of n_t steps and n springs."""
 
+    nodes: Nodes  #: over a step
     sums: Array  #: (N_SUMS,)
     F: Array  #: (n_t, 3) at the end of each step: tangential and normal force, least slip velocity
     mode: Array  #: (n_t or 0, n) of each spring
@@ -123,7 +124,7 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
                 path, _, _, found = balance(e, s, e_0, s_0, held, 0.0, body, springs, here, law, now)
                 solved, gained = solved and found, 0.0
                 if seen is not None:
-                    look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, k, seen)
+                    look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, h, k, seen)
                 path, now = rest, tools_of(h - flown, law, tools)
         put(e, e_0)
         put(s, s_0)
@@ -140,7 +141,7 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
         solved = solved and found
         gained = held[RATE] - rate_0
         if seen is not None:
-            look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, now, k, seen)
+            look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, now, h, k, seen)
         trace.area[j], trace.moment[j] = area, moment + flown * area
         trace.y[j], trace.rate[j] = held[Y], held[RATE]
     return solved
@@ -305,14 +306,15 @@ def flight_of(s, gap, path, law, tools):
 
 
 @_jit
-def look_at(s_0, e_0, s, e, springs, path, zd, xd, law, tools, k, seen):
+def look_at(s_0, e_0, s, e, springs, path, zd, xd, law, tools, whole, k, seen):
     """A close look at a step from s_0, e_0 (which it uses up) to s, e; fills place k of seen. zd, xd: rates of the top
-    at its end.
+    at its end; whole: length of a step that is not cut.
     """
     keeps = seen.mode.shape[0] > 0
     n = springs.gap.size
     mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.zeros(3)
-    look = Look(seen.sums, F, mode, f_x, f_z)
+    nodes = seen.nodes if tools.h == whole else nodes_of(tools.h, law.modes, law.arms)
+    look = Look(nodes, seen.sums, F, mode, f_x, f_z)
     area, moment, _, _, _, _ = row(
         s_0, e_0, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd, look
     )

@@ -59,7 +59,7 @@ def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: their half still resolves the oscillation of the
     body on the contact, if that can be afforded.
     """
-    plain, fast = N_STEPS * _harder(case)[1] * int(np.ceil(_oscillations(case) - 1e-9)), fast_ratio(case)
+    plain, fast = N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)), fast_ratio(case)
     resolved = 0 if np.isinf(fast) else N_STEPS * int(np.ceil(2.02 * RESOLVED * fast / N_STEPS))
     return min(max(plain, resolved), MOST_STEPS)
 
@@ -73,7 +73,7 @@ def _harder(case: SlidingContact) -> tuple[int, int]:
     return (1, 2) if np.isinf(fast_ratio(case)) else (1, 1)
 
 
-def _oscillations(case: SlidingContact) -> float:
+def oscillations(case: SlidingContact) -> float:
     """Frequency over omega by which the third derivative of depth or shake exceeds the motion: a parabola misses it."""
     motions = [np.abs(motion) for motion in (case.cycle.harmonics, case.shake_harmonics) if motion.any()]
     return max(float((a @ np.arange(1.0, a.size + 1) ** 3 / a.sum()) ** (1 / 3)) for a in motions)

@@ -16,7 +16,7 @@ from mdr.march.body import RATE, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import TOLERANCE
 from mdr.spring.settle import tools_for
-from mdr.spring.step import LEAST_SLIP, N_SUMS, SHAKE_WORK
+from mdr.spring.step import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
@@ -134,14 +134,14 @@ class Stepper:
         scaled, n, n_steps = self.scaled, self.scaled.gap.size, self.scaled.steps
         before, state = state, state.copy()
         kept = n_steps if keep else 0
-        seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_steps, 3)), *np.zeros((5, kept, n)))
+        nodes = nodes_of(scaled.h, scaled.law.modes, scaled.law.arms)
+        seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 3)), *np.zeros((5, kept, n)))
         seen.sums[LEAST_SLIP] = np.inf
         trace = self._marched(state, 1, seen)
         x_2 = np.diff(scaled.x_dot) / (2 * scaled.h)  # the shake goes on parabolas
         x_1 = np.diff(scaled.x) / scaled.h - x_2 * scaled.h
         seen.sums[SHAKE_WORK] = x_1 @ trace.area + 2 * x_2 @ trace.moment
-        slips = seen.F[:, 2]
-        seen.sums[LEAST_SLIP] = slips.min()
+        seen.sums[LEAST_SLIP] = min(seen.sums[LEAST_SLIP], least_between(seen.F[:, 2]))
         y, rate = (np.concatenate([before.body[k : k + 1], of]) for k, of in ((Y, trace.y), (RATE, trace.rate)))
         stored = self.stored_energy(before), self.stored_energy(state)
         return state, PeriodRecord(seen, y, rate, stored, self._periods_of(trace))
@@ -178,6 +178,19 @@ class Stepper:
         ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)
         system = 0.0 if scaled.rigid else 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2
         return float(springs + normal * ratio + system)
+
+
+def least_between(values: Array) -> float:
+    """Least value over a period of a function that is known at equidistant phases (n,): where it is positive there, of
+    the polynomial through the five nearest to its least value.
+    """
+    k = int(np.argmin(values))
+    near = np.take(values, np.arange(k - 2, k + 3), mode="wrap")
+    if values[k] <= 0 or not np.isfinite(near).all():
+        return float(values[k])
+    through = np.polynomial.Polynomial.fit(np.arange(-2, 3), near, 4, domain=[-1, 1])
+    flat = through.deriv().roots()
+    return float(min(values[k], *through(flat[np.isreal(flat) & (np.abs(flat) <= 1)].real)))
 
 
 def joined(parts: list[Periods]) -> Periods:

@@ -41,7 +41,7 @@ MOST_EVENTS = 100  #: of a spring in one step; what comes after the last would b
 ROUNDING = 4e-15  #: of a length
 MOST_PARABOLAS = 200  #: to a zero; they double their digits once they are near
 
-# what a look adds up, in this order
+# what a look adds up, in this order; of the slip velocity the least of springs that touch
 N_SUMS = 9
 (
     STICK_TIME,
@@ -86,7 +86,7 @@ class Tools(NamedTuple):
     modes: Array  #: (K,)
     work: Array  #: (J + K,)
     one: Array  #: (N_PHI,)
-    more: Array  #: (2, K)
+    more: Array  #: (4, K)
 
 
 class Ends(NamedTuple):
@@ -100,11 +100,21 @@ class Ends(NamedTuple):
     high: float
 
 
+class Nodes(NamedTuple):
+    """A rule of N nodes over a time, and what that makes of arms and modes up to each of them."""
+
+    u: Array  #: (N,) times
+    weight: Array  #: (N,)
+    phi: Array  #: (N, 3, J) phi_0, u phi_1 and 2 u² phi_2 of u/theta_j
+    decay: Array  #: (N, K) exp(-mu_k u)
+
+
 class Look(NamedTuple):
     """What a close look at a step fills, of n springs."""
 
+    nodes: Nodes  #: over the whole step
     sums: Array  #: (N_SUMS,) of which it adds up
-    F: Array  #: (3,) forces at the end of the step, tangential and normal, and least slip velocity
+    F: Array  #: (3,) at the end of the step: forces, tangential and normal, and least slip velocity in contact
     mode: Array  #: (n,) of each spring at the end of the step
     f_x: Array  #: (n,) tangential force of each spring over its stiffness
     f_z: Array  #: (n,) normal force likewise
@@ -249,74 +259,104 @@ def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
 
 
 @_call
-def account(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
-    """Energies of a stretch of a step in one mode, each from its own definition, by Gauss's rule."""
+def nodes_of(t, modes, arms):
+    """Gauss's rule over a time for energies of springs in one mode: exact for elastic ones, to rounding for others, on
+    parts of the time that double in length where something decays fast.
+    """
+    J, K, fastest, rule = 0, 0, 0.0, OF_CUBES
+    if arms is not None:
+        J = arms.rate.size
+        fastest = arms.rate.max()
+    if modes is not None:
+        K = modes.mu.size
+        fastest = max(fastest, modes.mu.max())
+        rule = OF_SLOW_DECAYS if fastest * t < 0.25 else OF_DECAYS
+    n, per = 1, rule.shape[0]
+    while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
+        n += 1
+    nodes = Nodes(np.empty(n * per), np.empty(n * per), np.empty((n * per, 3, J)), np.empty((n * per, K)))
+    values = np.empty(N_PHI)
+    for part in range(n):
+        start = 0.0 if part == 0 else t * 0.5 ** (n - part)
+        length = t * 0.5 ** (n - 1 - part) - start
+        for m in range(per):
+            g, u = part * per + m, start + length * rule[m, 0]
+            nodes.u[g], nodes.weight[g] = u, length * rule[m, 1]
+            if arms is not None:
+                for j in range(J):
+                    fill_phi(u * arms.rate[j], values)
+                    nodes.phi[g, 0, j], nodes.phi[g, 1, j], nodes.phi[g, 2, j] = (
+                        values[0],
+                        u * values[1],
+                        2.0 * u * u * values[2],
+                    )
+            if modes is not None:
+                for k in range(K):
+                    nodes.decay[g, k] = np.exp(-modes.mu[k] * u)
+    return nodes
+
+
+@_call
+def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
+    """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time."""
     if modes is None and mode == FREE:
         return
-    J, K, fastest, nodes = 0, 0, 0.0, OF_CUBES
-    press, lag = tools.more[0], tools.more[1]
+    J, K = 0, 0
+    press, lag, press_now, lag_now = tools.more
     sign = -1.0 if mode == SLIP_BACK else 1.0
     z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
-    if modes is not None:
+    if modes is not None and mode != STICK:
         K = modes.mu.size
         for k in range(K):
             press[k] = lag[k] = 0.0
             for j in range(s.shape[0]):
                 press[k] += modes.into[k, j] * s[j, i]
                 lag[k] += modes.into[k, j] * (e[j, i] if mode == FREE else s[j, i] - sign * e[j, i])
-            fastest = max(fastest, modes.mu[k])
     if arms is not None:
         J = arms.rho.size
-        for j in range(J):
-            fastest = max(fastest, arms.rate[j])
-    if arms is not None or (modes is not None and mode != STICK):
-        nodes = OF_SLOW_DECAYS if fastest * t < 0.25 else OF_DECAYS
-    n = 1
-    while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
-        n += 1
-    for part in range(n):
-        start = 0.0 if part == 0 else t * 0.5 ** (n - part)
-        length = (t * 0.5 ** (n - 1 - part)) - start
-        for g in range(nodes.shape[0]):
-            u, weight = start + length * nodes[g, 0], w * length * nodes[g, 1]
-            s_rate, x_rate = z_1 + 2.0 * z_2 * u, x_1 + 2.0 * x_2 * u
-            e_rate = x_rate
-            normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
-            lag_rate = press_rate = 0.0
-            if modes is not None:
-                for k in range(K):
-                    fallen = modes.mu[k] * modes.out[0, k] * np.exp(-modes.mu[k] * u)
-                    lag_rate -= lag[k] * fallen
-                    press_rate -= press[k] * fallen
-            if mode == FREE:
-                s_rate, e_rate, normal = press_rate, lag_rate, 0.0
-            elif mode != STICK:
-                e_rate = sign * (s_rate - lag_rate)
-            shear, pressure = T * e_rate * e_rate, T * s_rate * s_rate
-            if arms is not None:
-                for j in range(J):
-                    fill_phi(u * arms.rate[j], tools.one)
-                    f_0, f_1, f_2 = tools.one[0], u * tools.one[1], 2.0 * u * u * tools.one[2]
-                    s_j, e_j = s[1 + j, i] * f_0 + z_1 * f_1 + z_2 * f_2, e[1 + j, i] * f_0 + x_1 * f_1 + x_2 * f_2
-                    normal += arms.rho[j] * s_j if mode != FREE else 0.0
+    pressed = slipped = worked = shear_lost = normal_lost = 0.0
+    for g in range(nodes.u.size):
+        u, weight, phi = nodes.u[g], nodes.weight[g], nodes.phi[g]
+        s_rate, x_rate = z_1 + 2.0 * z_2 * u, x_1 + 2.0 * x_2 * u
+        e_rate, lag_rate, press_rate = x_rate, 0.0, 0.0
+        normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
+        if modes is not None and mode != STICK:
+            for k in range(K):
+                lag_now[k], press_now[k] = lag[k] * nodes.decay[g, k], press[k] * nodes.decay[g, k]
+                rate = modes.mu[k] * modes.out[0, k]
+                lag_rate -= rate * lag_now[k]
+                press_rate -= rate * press_now[k]
+        if mode == FREE:
+            s_rate, e_rate = press_rate, lag_rate
+        elif mode != STICK:
+            e_rate = sign * (s_rate - lag_rate)
+        shear, pressure = T * e_rate * e_rate, T * s_rate * s_rate
+        if arms is not None:
+            for j in range(J):
+                s_j = s[1 + j, i] * phi[0, j] + z_1 * phi[1, j] + z_2 * phi[2, j]
+                normal += arms.rho[j] * s_j
+                if mode == STICK:
+                    e_j = e[1 + j, i] * phi[0, j] + x_1 * phi[1, j] + x_2 * phi[2, j]
+                else:
                     of_lag = of_press = 0.0
                     for k in range(K):
-                        fallen = modes.out[1 + j, k] * np.exp(-modes.mu[k] * u)
-                        of_lag += lag[k] * fallen
-                        of_press += press[k] * fallen
-                    if mode == FREE:
-                        s_j, e_j = of_press, of_lag
-                    elif mode != STICK:
-                        e_j = sign * (s_j - of_lag)
-                    shear += arms.rho[j] * arms.rate[j] * e_j * e_j
-                    pressure += arms.rho[j] * arms.rate[j] * s_j * s_j
-            sums[SHEAR_VISCOUS] += weight * shear
-            sums[NORMAL_VISCOUS] += weight * pressure
-            if mode != FREE:
-                sums[FRICTION_LOSS] += weight * normal * abs(x_rate - e_rate) if mode != STICK else 0.0
-                sums[STICK_TIME] += weight * normal if mode == STICK else 0.0
-                sums[CONTACT_TIME] += weight * normal
-                sums[NORMAL_WORK] += weight * normal * s_rate
+                        of_lag += modes.out[1 + j, k] * lag_now[k]
+                        of_press += modes.out[1 + j, k] * press_now[k]
+                    s_j, e_j = (of_press, of_lag) if mode == FREE else (s_j, sign * (s_j - of_lag))
+                shear += arms.rho[j] * arms.rate[j] * e_j * e_j
+                pressure += arms.rho[j] * arms.rate[j] * s_j * s_j
+        shear_lost += weight * shear
+        normal_lost += weight * pressure
+        pressed += weight * normal
+        slipped += weight * normal * abs(x_rate - e_rate)
+        worked += weight * normal * s_rate
+    sums[SHEAR_VISCOUS] += w * shear_lost
+    sums[NORMAL_VISCOUS] += w * normal_lost
+    if mode != FREE:
+        sums[CONTACT_TIME] += w * pressed
+        sums[NORMAL_WORK] += w * worked
+        sums[STICK_TIME] += w * pressed if mode == STICK else 0.0
+        sums[FRICTION_LOSS] += w * slipped if mode != STICK else 0.0
 
 
 @_call
@@ -424,6 +464,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
     if modes is not None:
         rate = modes.mu[0]
     area, moment, stuck, when, end, sticking, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf
+    off_z, off_x = zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h
     for i in range(gap.size):
         tol = ROUNDING * (1.0 + abs(gap[i]))
         z_0, z_1, z_2, x_1, x_2 = path.z_0 - gap[i], path.z_1, path.z_2, path.x_1, path.x_2
@@ -447,8 +488,10 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 mode = SLIP_BACK if backward else STICK
                 if forward and (ahead.v_0 <= behind.v_0 or not backward):
                     mode = SLIP
-            if look is not None and touches:
-                least = min(least, slip_velocity(mode, s, e, i, z_1, x_1, modes))
+            if look is not None and touches:  # rates of the cubic that has the true ones at both ends of the step
+                bend = 1.0 - 6.0 * (done / h) * (1.0 - done / h)
+                slip = slip_velocity(mode, s, e, i, z_1 + bend * off_z, x_1 + bend * off_x, modes)
+                look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], slip)
             sign = -1.0 if mode == SLIP_BACK else 1.0
             # when the mode ends, and what follows
             until, second = NEVER, NEVER
@@ -489,7 +532,8 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 fill(t, modes, arms, tools, 1)
             if look is not None:
                 here = Path(z_0, z_1, z_2, x_1, x_2)
-                account(look.sums, mode, s, e, i, w[i], here, t, T, modes, arms, tools)
+                nodes = look.nodes if t == h else nodes_of(t, modes, arms)
+                account(look.sums, mode, s, e, i, w[i], here, nodes, T, modes, arms, tools)
             # the state after that time
             fallen = 0.0
             if modes is not None:

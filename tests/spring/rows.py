@@ -6,7 +6,7 @@ import numpy as np
 
 from mdr.spring.law import law_of
 from mdr.spring.settle import tools_for
-from mdr.spring.step import LEAST_SLIP, N_SUMS, Look, Path, press, row
+from mdr.spring.step import LEAST_SLIP, N_SUMS, Look, Path, nodes_of, press, row
 
 MATERIALS = {
     "elastic": (0.0, (), ()),
@@ -99,7 +99,7 @@ class Row:
     def looked_at(self):
         """The same with a close look at each spring."""
         n = self.gap.size
-        looks = [Look(np.zeros(N_SUMS), np.zeros(3), *np.zeros((3, 1))) for _ in range(n)]
+        looks = [Look(nodes_of(self.h, *self.law[1:]), np.zeros(N_SUMS), np.zeros(3), *np.zeros((3, 1))) for _ in range(n)]
         for look in looks:
             look.sums[LEAST_SLIP] = np.inf
         return self.stepped(look=looks), looks
