@@ -24,6 +24,10 @@ Y, RATE = range(2)  #: parts of a state of the body
 N_BODY = 2
 
 
+Pair = tuple[float, float]
+Square = tuple[Pair, Pair]
+
+
 class Body(NamedTuple):
     """The body over steps of h."""
 
@@ -33,15 +37,15 @@ class Body(NamedTuple):
     C: float
     K: float
     h: float
-    free: Array  #: (2, 2) motion without force, of (y, y')
-    area: Array  #: (2,) what the area of the force takes off
-    moment: Array  #: (2,) what its moment takes off
-    stuck: Array  #: (2, 2) derivative of what the force takes off by (y, y') at the end, if all springs stick
+    free: Square  #: motion without force, of (y, y')
+    area: Pair  #: what the area of the force takes off
+    moment: Pair  #: what its moment takes off
+    stuck: Square  #: derivative of what the force takes off by (y, y') at the end, if all springs stick
 
 
 def body_of(M: float, C: float, K: float, law: Law, h: float, light: bool) -> Body:
     """The body of these groups over steps of h; K is infinite under a rigid pull."""
-    none, square = np.zeros(2), np.zeros((2, 2))
+    none, square = (0.0, 0.0), ((0.0, 0.0), (0.0, 0.0))
     if np.isinf(K):
         return Body(True, False, 0.0, 0.0, 0.0, h, square, none, none, square)
     if light:
@@ -57,7 +61,18 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, light: bool) -> Bo
     # f = 4 a/h - 6 b/h², g = 12 b/h³ - 6 a/h² has the area a and the moment b
     area = -(4 / h * constant - 6 / h**2 * linear)
     moment = -(12 / h**3 * linear - 6 / h**2 * constant)
-    return Body(False, False, M, C, K, h, free, area, moment, _stuck(law, h, area, moment))
+    stuck = _stuck(law, h, area, moment)
+    return Body(False, False, M, C, K, h, _square(free), _pair(area), _pair(moment), _square(stuck))
+
+
+def _pair(of: Array) -> Pair:
+    a, b = of.tolist()
+    return a, b
+
+
+def _square(of: Array) -> Square:
+    a, b = of
+    return _pair(a), _pair(b)
 
 
 def _stuck(law: Law, h: float, area: Array, moment: Array) -> Array:

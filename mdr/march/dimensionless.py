@@ -23,6 +23,7 @@ from mdr.normal.springs import SpringArray
 from mdr.spring.law import Law, law_of
 from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
+from mdr.tools.memoise import remembered
 
 RINGING_PASSES = 20  #: of the iteration for the oscillation of a body on springs with arms
 FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
@@ -278,6 +279,7 @@ def _over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array
     return harmonic_sum(harmonics, phase), harmonic_sum(1j * n * harmonics, phase)
 
 
+@remembered(maxsize=64)
 def fast_ratio(case: SlidingContact) -> float:
     """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
     if case.pull.is_rigid:

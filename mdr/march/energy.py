@@ -10,6 +10,7 @@ from mdr.march.stepper import PeriodRecord, Stepper
 from mdr.spring.step import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
 from mdr.tools.arrays import Array
 
+OF_CUBICS = gauss(3)
 OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
 OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
 
@@ -48,14 +49,14 @@ class EnergyBalance:
         return self.residual / self.lost
 
 
-def does_not_close(stepper: Stepper, account: PeriodRecord, error: float) -> str:
-    """Why the account of a period cannot be that of the motion; nothing if it can. error: of the COF, over mu_0.
+def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodRecord, error: float) -> str:
+    """Why the balance of a period cannot be that of the motion; nothing if it can. error: of the COF, over mu_0.
 
     What is missing is of second order in h n, over what is lost and what friction takes at the pace of the run; n omega
     is the fastest oscillation that steps resolve: that of the body on the contact, or the drive where steps damp the
     former. Arms and dashpots that are far stiffer than the spring add to it, by a small share of what is lost.
     """
-    scaled, balance = stepper.scaled, energy_balance(stepper, account)
+    scaled = stepper.scaled
     unit = scaled.stiffness_x * scaled.length_x**2
     of_friction = 2 * np.pi * unit * stepper.mean_F_z * scaled.pace(stepper.v)
     fastest = 1.0 if scaled.light else max(1.0, scaled.ringing)
@@ -80,7 +81,7 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
         if at_pull := bool(scaled.far_end.any()):
             stretch, rate = stretch + scaled.x - scaled.far_end, rate + scaled.x_dot - scaled.far_end_dot
         pull, of_shake = 0.0, 0.0
-        for u, w in gauss(3):
+        for u, w in OF_CUBICS:
             y, y_dot = _between(stretch, rate, h, u, scaled.light)
             force = -scaled.K * y - scaled.C * y_dot  # of the pull, forward
             pull += v * h * w * float(force.sum())

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
@@ -19,6 +20,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+_inline = njit(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 16  #: of the solution of a step
@@ -73,7 +75,7 @@ class Seen(NamedTuple):
     s: Array  #: (n_t or 0, n)
 
 
-@_jit
+@_inline
 def put(x, out):
     """Copy x into out, of the same shape (k, n)."""
     for j in range(x.shape[0]):
@@ -81,7 +83,7 @@ def put(x, out):
             out[j, i] = x[j, i]
 
 
-@_jit
+@_inline
 def path_of(motion, k, h, y_0, rate_0, y_1, rate_1):
     """The parabolas of a step, with the body from y_0 to y_1 and its rates at both ends."""
     z, zd, x, xd = motion.z, motion.z_dot, motion.x, motion.x_dot
@@ -91,7 +93,7 @@ def path_of(motion, k, h, y_0, rate_0, y_1, rate_1):
     return Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, x_1, x_2)
 
 
-@_jit
+@_inline
 def later(path, t):
     """The same motion from a time in the step on."""
     z_0 = path.z_0 + t * (path.z_1 + t * path.z_2)
@@ -106,65 +108,49 @@ def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, 
     """
     h, n_t, solved = tools.h, motion.z.size - 1, True
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
+    (areas, moments, ys, rates), (gap, w), (T, modes, arms) = trace, springs, law
     gained = 0.0  # change of the rate in the step before, as a guess
     for j in range(n_steps):
         k = (first + j) % n_t
         if k == 0:  # the same guess however many periods are marched at once
             gained = 0.0
-        rate_0, flown, now, zd, xd = held[RATE], 0.0, tools, motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
+        rate_0, zd, xd = held[RATE], motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
         path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
         if body.light:
-            flown = flight_of(s, springs.gap, path, law, tools)
-            if flown > 0.0:  # a step of its own: the body is thrown as the first spring touches
-                now = tools_of(flown, law, tools)
-                put(e, e_0)
-                put(s, s_0)
-                rest = later(path, flown)
-                here = Here(path, rest.z_1, rest.x_1)
-                path, _, _, found = balance(e, s, e_0, s_0, held, 0.0, body, springs, here, law, now)
-                solved, gained = solved and found, 0.0
-                if seen is not None:
-                    look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, h, k, seen)
-                path, now = rest, tools_of(h - flown, law, tools)
-        put(e, e_0)
-        put(s, s_0)
-        if body.rigid:
-            found = True
-            area, moment, _, _, _, _ = row(
-                s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
-            )
-        elif body.light:
-            here = Here(path, zd, xd)
-            path, area, moment, found = balance(e, s, e_0, s_0, held, gained, body, springs, here, law, now)
+            area, moment, found = follow(e, s, e_0, s_0, held, gained, body, springs, path, zd, xd, law, tools, k, seen)
         else:
-            path, area, moment, found = answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools)
+            put(e, e_0)
+            put(s, s_0)
+            if body.rigid:
+                found = True
+                area, moment, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
+            else:
+                path, area, moment, found = answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools)
+            if seen is not None:
+                look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, tools, h, k, seen)
         solved = solved and found
         gained = held[RATE] - rate_0
-        if seen is not None:
-            look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, now, h, k, seen)
-        trace.area[j], trace.moment[j] = area, moment + flown * area
-        trace.y[j], trace.rate[j] = held[Y], held[RATE]
+        areas[j], moments[j], ys[j], rates[j] = area, moment, held[Y], held[RATE]
     return solved
 
 
-@_jit
+@_inline
 def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
     """A step of a body with mass: it moves as area and moment of the force make it, and the springs move with it.
 
     Newton's method on its motion at the end, by the stiffness of what sticks. gained: change of its velocity in the
     step before. Returns path, area, moment and whether this was solved; e, s, held are updated.
     """
+    (gap, w), (T, modes, arms) = springs, law
     h, free, y_0, rate_0 = tools.h, body.free, held[Y], held[RATE]
-    y_free, rate_free = free[0, 0] * y_0 + free[0, 1] * rate_0, free[1, 0] * y_0 + free[1, 1] * rate_0
+    y_free, rate_free = free[0][0] * y_0 + free[0][1] * rate_0, free[1][0] * y_0 + free[1][1] * rate_0
     y, rate, found = y_0 + h * (rate_0 + 0.5 * gained), rate_0 + gained, False
     for turn in range(MOST_TURNS):
         if turn > 0:
             put(e_0, e)
             put(s_0, s)
         path = path_of(motion, k, h, y_0, rate_0, y, rate)
-        area, moment, stuck, _, _, _ = row(
-            s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, 0.0, 0.0, None
-        )
+        area, moment, stuck, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
         push = body.area[0] * area + body.moment[0] * moment
         push_rate = body.area[1] * area + body.moment[1] * moment
         off, off_rate = y - y_free + push, rate - rate_free + push_rate
@@ -173,12 +159,40 @@ def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
         if found:
             break
         share = stuck / h
-        a, b = 1.0 + share * body.stuck[0, 0], share * body.stuck[0, 1]
-        c, d = share * body.stuck[1, 0], 1.0 + share * body.stuck[1, 1]
+        a, b = 1.0 + share * body.stuck[0][0], share * body.stuck[0][1]
+        c, d = share * body.stuck[1][0], 1.0 + share * body.stuck[1][1]
         det = a * d - b * c
         y, rate = y - (d * off - b * off_rate) / det, rate - (a * off_rate - c * off) / det
     held[Y], held[RATE] = y, rate
     return path, area, moment, found
+
+
+@_jit
+def follow(e, s, e_0, s_0, held, gained, body, springs, path, zd, xd, law, tools, k, seen):
+    """A step of a light body, in two parts where the first spring touches within it, as that throws the body.
+
+    path, zd, xd: motion of the indenter and its rates at the end; others as of `march`. Returns area and moment of the
+    force and whether all was solved.
+    """
+    h, now, solved = tools.h, tools, True
+    flown = flight_of(s, springs.gap, path, law, tools)
+    if flown > 0.0:
+        now, gained = tools_of(flown, law, tools), 0.0
+        put(e, e_0)
+        put(s, s_0)
+        rest = later(path, flown)
+        path, _, _, solved = balance(
+            e, s, e_0, s_0, held, gained, body, springs, Here(path, rest.z_1, rest.x_1), law, now
+        )
+        if seen is not None:
+            look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, h, k, seen)
+        path, now = rest, tools_of(h - flown, law, tools)
+    put(e, e_0)
+    put(s, s_0)
+    path, area, moment, found = balance(e, s, e_0, s_0, held, gained, body, springs, Here(path, zd, xd), law, now)
+    if seen is not None:
+        look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, now, h, k, seen)
+    return area, moment + flown * area, solved and found
 
 
 @_jit

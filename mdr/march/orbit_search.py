@@ -21,6 +21,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
+SHARE = 20.0  #: times a change over a period, that adds up over its gain, is less than a tolerance; twice in the force
 NEARLY = 1e-5  #: what is missing in the COF where, within the error of a loose search, it may be that of full slip
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
@@ -57,12 +58,12 @@ def search(
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
     if scaled.pull_time > SLOW_PULL:
         slow += (2 * scaled.pull_time / periodic.CREEP,)  # a material may be slower than is seen; this is known
-    loose = (periodic.LOOSE,) if near and not slow else ()
     how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
+    first = stepper.tolerance / (SHARE * (gain or max((1.0, *slow))))
     for start in starts:
-        x, orbit, period = start.x, None, _Period(stepper, start)
-        for close in (*loose, periodic.CLOSE, periodic.CLOSEST):
-            how = how if close == how.close else replace(how, close=close)
+        x, orbit, period, close = start.x, None, _Period(stepper, start), first
+        while True:
+            how = replace(how, close=max(close, periodic.CLOSEST))
             try:
                 arrived = _by_anderson(stepper, start.with_vector(x), norm, how)
                 if arrived is not None and (full := _full_slip(stepper, start, arrived, norm)) is not None:
@@ -73,13 +74,13 @@ def search(
             if found is None:
                 break
             orbit = _repeated(stepper, start.with_vector(found.x), found, norm)
-            told = close < periodic.LOOSE or not _nearly_full(orbit.settling.mean)
-            if orbit.settling.spread <= stepper.tolerance and told:
+            spread, x = orbit.settling.spread, found.x
+            if spread <= stepper.tolerance and (close <= periodic.CLOSE or not _nearly_full(orbit.settling.mean)):
                 return orbit
-            if orbit.settling.settled and (slow or close == periodic.CLOSEST):
-                return orbit
-            x = found.x
-        if slow and orbit is not None:  # waiting for arms takes far longer
+            if close <= periodic.CLOSEST:
+                break
+            close *= min(0.01, stepper.tolerance / (SHARE * spread + 1e-300))
+        if orbit is not None and (slow or orbit.settling.settled):  # waiting for arms takes far longer
             return orbit
     stepper.n_periods = n_before
     return None

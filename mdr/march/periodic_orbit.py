@@ -20,7 +20,7 @@ as makes the change smaller; the springs follow by marching.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -36,10 +36,8 @@ PLAIN = 3  #: periods marched before the first combination, while springs find t
 MOST = 80  #: periods after which Anderson's method gives up
 PATIENCE = 30  #: periods without a smaller change, after which it gives up as well
 A_TIME = (3, 20)  #: how much more memory, and how many more periods, each slow time of a material gets
-CLOSE = 1e-10  #: change over a period, over the size of the state, at which a search has mostly arrived
-LOOSE = 1e-8  #: the same that is enough near a state that was found, where no material remembers long
-CLOSEST = 1e-13  #: the same where a change adds up over many periods: some roundings
-AWAY = 1e-6  #: distance, over the size of the state, to which a slow time lets a change over a period add up
+CLOSE = 1e-10  #: change over a period, over the size of the state, that any answer may have
+CLOSEST = 1e-13  #: the same that can be reached: some roundings
 GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
 PUSH = 1e-4  #: displacement of the body, over the size of the state
 FARTHEST = 0.1  #: the same, where the motion has kinks
@@ -106,16 +104,6 @@ class Options:
     plain: int = PLAIN  #: periods that are marched before the first combination
 
     @property
-    def closest(self) -> float:
-        """`close`, or less where changes add up over the slow times."""
-        return min(self.close, AWAY / max(self.slow)) if self.slow else self.close
-
-    @property
-    def enough(self) -> float:
-        """Change that an answer may have."""
-        return replace(self, close=max(self.close, CLOSE)).closest
-
-    @property
     def most(self) -> int:
         """Periods after which Anderson's method gives up."""
         return MOST + A_TIME[1] * len(self.slow)
@@ -134,7 +122,7 @@ class Options:
             d_moved=d_moved,
             counts=np.zeros(3, dtype=np.int64),
             changes=np.array([np.inf, np.inf]),
-            close=self.closest,
+            close=self.close,
             plain=self.plain,
             patience=PATIENCE,
             growth=GROWTH,
@@ -157,9 +145,9 @@ def find(
     """
     if near is None:
         return None
-    if near.change > how.closest:
-        near = _newton_picard(step, near, measure, pushes(), how.closest)
-    if near.change > how.enough:
+    if near.change > how.close:
+        near = _newton_picard(step, near, measure, pushes(), how.close)
+    if near.change > max(how.close, CLOSE):
         return None
     if gain is None:
         gain = _gain(step, near, measure, pushes(), how.slow, how.stable)

@@ -42,6 +42,7 @@ from mdr.tools.progress import Ticker, time_is_over
 ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
+EIGHTHS = 64  #: steps are a multiple of it, as companions have eighths of them and of their half
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
 UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an error was seen to fall by a fifth only
@@ -60,7 +61,7 @@ def default_steps(case: SlidingContact) -> int:
     body on the contact, if that can be afforded.
     """
     plain, fast = N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)), fast_ratio(case)
-    resolved = 0 if np.isinf(fast) else N_STEPS * int(np.ceil(2.02 * RESOLVED * fast / N_STEPS))
+    resolved = 0 if np.isinf(fast) else EIGHTHS * int(np.ceil(2.02 * RESOLVED * fast / EIGHTHS))
     return min(max(plain, resolved), MOST_STEPS)
 
 

@@ -163,7 +163,8 @@ def _turned(values: Any) -> Any:
 
 def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
     """From scaled form to SI. error: bound on that of the COF, over mu_0."""
-    open_account = does_not_close(march.end.stepper, march.account, error + march.settling.spread)
+    balance = energy_balance(march.end.stepper, march.account)
+    open_account = does_not_close(balance, march.end.stepper, march.account, error + march.settling.spread)
     if march.settling.settled and open_account:
         march = march.contradicted(open_account)
     case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
@@ -188,7 +189,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         least_slip=float(sums[step.LEAST_SLIP]) * scaled.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
         mean_F_z=mean_F_z,
-        energy_balance=energy_balance(march.end.stepper, march.account),
+        energy_balance=balance,
         v_0=march.end.v_0,
         mu_0=mu_0,
         omega=scaled.omega,

@@ -182,7 +182,7 @@ def force(x, p, q, T, t):
     return area + T * dx, moment + T * (t * (x + dx) - area)
 
 
-@_call
+@_inline
 def fill(t, modes, arms, tools, k):
     """What a time t makes of arms and modes."""
     if arms is not None:
@@ -235,7 +235,7 @@ def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
     return u
 
 
-@_call
+@_inline
 def until_held(f, x, s, e, i, of_s, of_e, p, q, t, tol, T, modes, arms, tools):
     """When L of of_s s + of_e e, which is x, held on p t + q t², falls below zero."""
     if arms is None:
@@ -246,7 +246,7 @@ def until_held(f, x, s, e, i, of_s, of_e, p, q, t, tol, T, modes, arms, tools):
     return zero(t, tol, x + T * p, p + 2.0 * T * q, q, p, q, 0.0, J, 0, modes, arms, tools)
 
 
-@_call
+@_inline
 def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
     """When a + b t + c t² and x that is left alone, or its rate, falls below zero; with arms, of tools.modes."""
     if modes is None:

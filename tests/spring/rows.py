@@ -99,7 +99,8 @@ class Row:
     def looked_at(self):
         """The same with a close look at each spring."""
         n = self.gap.size
-        looks = [Look(nodes_of(self.h, *self.law[1:]), np.zeros(N_SUMS), np.zeros(3), *np.zeros((3, 1))) for _ in range(n)]
+        nodes = nodes_of(self.h, *self.law[1:])
+        looks = [Look(nodes, np.zeros(N_SUMS), np.zeros(3), *np.zeros((3, 1))) for _ in range(n)]
         for look in looks:
             look.sums[LEAST_SLIP] = np.inf
         return self.stepped(look=looks), looks
