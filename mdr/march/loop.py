@@ -388,9 +388,9 @@ def combine(at, image, roots):
         changes[BEST], counts[SINCE] = change, period
     if change <= at.close or period - counts[SINCE] > at.patience:
         return True
-    if change > at.growth * changes[LEAST] or period == 0:
+    if change > at.growth * changes[LEAST]:
         counts[KEPT], changes[LEAST] = 0, np.inf
-    else:
+    elif period > 0:
         if counts[KEPT] == at.d_image.shape[0]:
             for j in range(1, counts[KEPT]):
                 at.d_image[j - 1] = at.d_image[j]

@@ -21,9 +21,11 @@ from mdr.march.orbit_search import (
     Orbit,
     at_other_resolution,
     gain_at_other_resolution,
+    motions_at_other_resolution,
     search,
     search_from_full_slip,
 )
+from mdr.march.periodic_orbit import Slow
 from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
 from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.march.theorems import outside
@@ -83,6 +85,7 @@ class Converged:
     on_the_way: float  # periods that a run from rest takes to stretch springs and system
     waited: Waiting | None  # of a march of so many periods
     seen: PeriodRecord | None  # a close look at the last period, where one was taken
+    slow: Slow | None  # slow motions about a periodic state
 
     @property
     def scaled(self) -> ScaledContact:
@@ -214,9 +217,9 @@ def steady(
     if not np.isfinite(periods.cof).all():
         raise out_of_range(v_0)
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
-    waited, seen = (waiting, None) if orbit is None else (None, orbit.seen)
+    waited, seen, slow = (waiting, None, None) if orbit is None else (None, orbit.seen, orbit.slow)
     before = stepper.n_periods - (seen is not None)
-    return Converged(case, v_0, resolution, springs, stepper, settling, state, before, on_the_way, waited, seen)
+    return Converged(case, v_0, resolution, springs, stepper, settling, state, before, on_the_way, waited, seen, slow)
 
 
 def looked_at(end: Converged) -> Observed:
@@ -275,7 +278,9 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None) ->
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start = at_other_resolution(near.state, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else None
-        orbit = search(stepper, (start,), gain_at_other_resolution(gain, near.scaled, scaled), near=True)
+        gain, slow = gain_at_other_resolution(gain, near.scaled, scaled), near.slow
+        motions = motions_at_other_resolution(slow, near.scaled, scaled)
+        orbit = search(stepper, (start,), gain, near=True, motions=motions)
     if from_full_slip and (orbit is None or not orbit.settling.settled):
         again = search_from_full_slip(stepper)
         orbit = again if orbit is None or (again is not None and again.settling.settled) else orbit

@@ -38,6 +38,7 @@ class Orbit:
     period: Periods
     settling: Settling
     seen: PeriodRecord | None = None  #: a close look at that period, where one was taken
+    slow: periodic.Slow | None = None  #: the slow motions about it, where they are known
 
 
 class _OutOfTime(Exception):
@@ -45,12 +46,17 @@ class _OutOfTime(Exception):
 
 
 def search(
-    stepper: Stepper, starts: tuple[MarchState, ...], gain: float | None = None, near: bool = False
+    stepper: Stepper,
+    starts: tuple[MarchState, ...],
+    gain: float | None = None,
+    near: bool = False,
+    motions: periodic.Slow | None = None,
 ) -> Orbit | None:
     """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
 
     gain: how far a state may be from the periodic one, over its change over a period, where that is known. near:
-    whether the starts are periodic states themselves, at other steps, springs or velocity.
+    whether the starts are periodic states themselves, at other steps, springs or velocity; motions: the slow ones about
+    them.
     """
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
@@ -58,14 +64,14 @@ def search(
         slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
     if scaled.pull_time > SLOW_PULL:
         slow += (2 * scaled.pull_time / periodic.CREEP,)  # a material may be slower than is seen; this is known
-    how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=1 if near else periodic.PLAIN)
+    how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=0 if near else periodic.PLAIN)
     first = stepper.tolerance / (SHARE * (gain or max((1.0, *slow))))
     for start in starts:
         x, orbit, period, close = start.x, None, _Period(stepper, start), first
         while True:
             how = replace(how, close=max(close, periodic.CLOSEST))
             try:
-                arrived = _by_anderson(stepper, start.with_vector(x), norm, how)
+                arrived = _by_anderson(stepper, start.with_vector(x), norm, how, motions)
                 if arrived is not None and (full := _full_slip(stepper, start, arrived, norm)) is not None:
                     return full
                 found = periodic.find(period, arrived, norm.of, norm.pushes, how, gain)
@@ -73,7 +79,8 @@ def search(
                 found = None
             if found is None:
                 break
-            orbit = _repeated(stepper, start.with_vector(found.x), found, norm)
+            motions = found.slow or motions
+            orbit = replace(_repeated(stepper, start.with_vector(found.x), found, norm), slow=motions)
             spread, x = orbit.settling.spread, found.x
             if spread <= stepper.tolerance and (close <= periodic.CLOSE or not _nearly_full(orbit.settling.mean)):
                 return orbit
@@ -104,10 +111,10 @@ class _Period(periodic.PeriodMap):
 
 
 def _by_anderson(
-    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options
+    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options, slow: periodic.Slow | None
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
-    at, left, ended = how.by_anderson(start.x), how.most, False
+    at, left, ended = how.by_anderson(start.x, norm.of, slow), how.most, False
     at_once = max(1, UNWATCHED // (start.e.size * stepper.scaled.steps))
     while left > 0 and not ended:
         if time_is_over():
@@ -134,11 +141,25 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
 
 def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
     """A state of a march with other springs or steps, on the springs and steps of this one."""
-    e = state.e
-    if not np.array_equal(on.gap, of.gap):
-        order = np.argsort(of.gap, kind="stable")
-        e = np.stack([np.interp(on.gap, of.gap[order], row[order]) for row in state.e])
-    return MarchState.of(e, on.normal.s, state.body)
+    return MarchState(_on_other_springs(state.x, of, on), on.normal.s.copy())
+
+
+def motions_at_other_resolution(
+    slow: periodic.Slow | None, of: ScaledContact, on: ScaledContact
+) -> periodic.Slow | None:
+    """Slow motions of a march with other springs or steps, on the springs of this one."""
+    if slow is None:
+        return None
+    return periodic.Slow(*(np.array([_on_other_springs(x, of, on) for x in xs]) for xs in (slow.before, slow.after)))
+
+
+def _on_other_springs(x: Array, of: ScaledContact, on: ScaledContact) -> Array:
+    """A state vector of other springs on the springs of this march."""
+    if np.array_equal(on.gap, of.gap):
+        return x.copy()
+    order = np.argsort(of.gap, kind="stable")
+    e = x[:-N_BODY].reshape(-1, of.gap.size)
+    return np.concatenate([*(np.interp(on.gap, of.gap[order], row[order]) for row in e), x[-N_BODY:]])
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:

@@ -77,11 +77,22 @@ class Iterate:
 
 
 @dataclass(frozen=True, eq=False)
+class Slow:
+    """What is known of the slow motions about a periodic state: k displacements of length PUSH that outlive a few
+    periods, in all parts (k, n) of the state, and what they are a period later.
+    """
+
+    before: Array
+    after: Array
+
+
+@dataclass(frozen=True, eq=False)
 class FixedPoint:
     """A state that returns after a period."""
 
     end: Iterate  #: the state
     gain: float  #: bound on its distance to the exact fixed point, over its change over a period
+    slow: Slow | None = None  #: where they were looked at
 
     @property
     def x(self) -> Array:
@@ -108,10 +119,14 @@ class Options:
         """Periods after which Anderson's method gives up."""
         return MOST + A_TIME[1] * len(self.slow)
 
-    def by_anderson(self, x: Array) -> loop.Search:
-        """Anderson's method at its beginning, from a state (n,)."""
+    def by_anderson(self, x: Array, measure: Measure = np.asarray, slow: Slow | None = None) -> loop.Search:
+        """Anderson's method at its beginning, from a state (n,); slow: motions that it may begin to combine."""
         memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # differences between so many images
         (start, image, moved, best), (d_image, d_moved) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
+        counts = np.zeros(3, dtype=np.int64)
+        if slow is not None:
+            counts[loop.KEPT] = k = min(len(slow.after), memory)
+            d_image[:k], d_moved[:k] = slow.after[:k], measure(slow.after[:k] - slow.before[:k])
         return loop.Search(
             x=x.copy(),
             start=start,
@@ -120,7 +135,7 @@ class Options:
             best=best,
             d_image=d_image,
             d_moved=d_moved,
-            counts=np.zeros(3, dtype=np.int64),
+            counts=counts,
             changes=np.array([np.inf, np.inf]),
             close=self.close,
             plain=self.plain,
@@ -149,9 +164,11 @@ def find(
         near = _newton_picard(step, near, measure, pushes(), how.close)
     if near.change > max(how.close, CLOSE):
         return None
-    if gain is None:
-        gain = _gain(step, near, measure, pushes(), how.slow, how.stable)
-    return FixedPoint(near, gain) if gain is not None else None
+    if gain is not None:
+        return FixedPoint(near, gain)
+    slow = Slow(*_displaced(step, near.x, (near.x, near.x), measure, pushes(), PUSH))
+    gain = _gain(near, slow, measure, how.slow, how.stable)
+    return FixedPoint(near, gain, slow) if gain is not None else None
 
 
 def _newton_picard(
@@ -214,19 +231,13 @@ def _displaced(
 
 
 def _gain(
-    step: PeriodMap,
-    found: Iterate,
-    measure: Measure,
-    pushes: tuple[Array, ...],
-    slow: tuple[float, ...],
-    guaranteed_stable: bool,
+    found: Iterate, slow_motions: Slow, measure: Measure, slow: tuple[float, ...], guaranteed_stable: bool
 ) -> float | None:
     """Bound on the distance to the fixed point over the change over a period; None for a map that expands.
 
     found: a state that returns, so closely that its own change is small beside a push, and blurs what is seen of it.
     """
-    x = found.x
-    before, after = _displaced(step, x, (x, x), measure, pushes, PUSH)
+    x, before, after = found.x, slow_motions.before, slow_motions.after
     if not (np.isfinite(before).all() and np.isfinite(after).all()):
         return None
     size = PUSH * (float(np.linalg.norm(measure(x))) or 1.0)

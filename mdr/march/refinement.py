@@ -91,18 +91,20 @@ class _Runs:
     def __init__(self, case: SlidingContact, v_0: float, near: Converged | None) -> None:
         self.case, self.v_0, self.near = case, v_0, near
         self.fast = fast_ratio(case)
+        self.searched = not case.pull.is_rigid or case.rheology.remembers
         self.ends: dict[Resolution, Converged] = {}
         self.ticker = Ticker("slide", parts="runs")
 
     def main(self, resolution: Resolution, most: int | None) -> Converged:
         """The end of a run that goes on until it settles, or for at most so many periods.
 
-        The first one of a body begins in the end state of its companion of half the steps and springs, which is found
-        at a quarter of the cost.
+        Where the periodic state has to be searched for, it begins in that of the companion of half the steps and
+        springs, which is found, with its gain, at a quarter of the cost.
         """
-        if self.near is None and self.fast and resolution.start == "full_slip":
+        known = self.near is not None and self.near.v_0 == self.v_0
+        if not known and self.searched and resolution.start == "full_slip":
             half = companions(resolution)[1]
-            first = steady(self.case, self.v_0, half, None, None, 1)
+            first = steady(self.case, self.v_0, half, None, self.near, 1)
             if first.settling.solved and first.settling.settled:
                 self.ends[half] = self.near = first
         return self._at(resolution, None, most)
