@@ -75,12 +75,13 @@ class HalfSpace:
         self, tractions: Array, of: tuple[int, ...] = (X, Y, Z), under: tuple[int, ...] = (X, Y, Z)
     ) -> Array:
         """The components `of` of the displacement, (len(of), n, n), under the components `under` of the tractions."""
+        pairs = [(a, b) for a, i in enumerate(of) for b, j in enumerate(under) if (i, j) in self.spectra]
+        if not pairs:
+            return np.zeros((len(of), self.n, self.n))
         loads = fft.rfft2(tractions, (self.size, self.size))
         answers = np.zeros((len(of), *loads.shape[1:]), complex)
-        for i, answer in zip(of, answers, strict=True):
-            for j, load in zip(under, loads, strict=True):
-                if (i, j) in self.spectra:
-                    answer += self.spectra[i, j] * load
+        for a, b in pairs:
+            answers[a] += self.spectra[of[a], under[b]] * loads[b]
         shifts: Array = fft.irfft2(answers, (self.size, self.size))
         return shifts[:, : self.n, : self.n]
 
