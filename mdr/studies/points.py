@@ -16,7 +16,7 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import cof_curve
 from mdr.studies.axes import without_addresses
-from mdr.studies.quantities import CurveQuantity, Quantity
+from mdr.studies.quantities import CurveQuantity
 from mdr.studies.work import Work
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
@@ -24,7 +24,6 @@ from mdr.tools.progress import silent
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)
-LONGEST_REASON = 240  #: characters
 
 
 class Status(IntEnum):
@@ -64,7 +63,7 @@ class Points:
     def end(self, status: Status, why: str) -> None:
         """Say how they ended; a worse end stands."""
         self.status[:] = np.maximum(self.status, status)
-        self.why[:] = [one_line(f"{known}; {why}" if known else why, LONGEST_REASON) for known in self.why]
+        self.why[:] = [one_line(f"{known}; {why}" if known else why) for known in self.why]
 
     @contextmanager
     def failing(self, name: str = "") -> Iterator[None]:
@@ -106,7 +105,7 @@ def _known(work: Work, unit: int) -> tuple[SlidingContact | None, Points]:
     with known.failing():
         case = work.case_of(unit)
         for row, one in enumerate(work.quantities):
-            if isinstance(one, Quantity) and not one.per_velocity:
+            if not one.per_velocity:
                 with known.failing(one.name):
                     known.values[row] = _number(one.of(case))
     return case, known
@@ -128,7 +127,7 @@ def _fill(work: Work, case: SlidingContact, velocities: Array, points: Points) -
                 with point.failing():
                     _fill_curves(work, case, v, point)
         for row, one in moving:
-            if isinstance(one, Quantity):
+            if not isinstance(one, CurveQuantity):
                 for v, point in each:
                     with point.failing(one.name):
                         point.values[row] = _number(one.of(case, v.item()))
@@ -159,7 +158,7 @@ def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
 def reason_of(error: BaseException) -> str:
     """An error in one line: in its own words where these are meant for readers."""
     told = str(error) if isinstance(error, ValueError | TypeError) and str(error) else ""
-    return without_addresses(one_line(told or f"{type(error).__name__}: {error}".rstrip(": "), LONGEST_REASON))
+    return without_addresses(one_line(told or f"{type(error).__name__}: {error}".rstrip(": ")))
 
 
 def _number(value: Any) -> float:

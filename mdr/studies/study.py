@@ -24,12 +24,11 @@ from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.messages import offer, short
+from mdr.tools.messages import MOST_TOLD, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
-MOST_REASONS = 5  #: told in print
 
 
 @dataclass(frozen=True)
@@ -325,9 +324,9 @@ class Study(Printed, ArrayRecord):
         for why in filter(None, np.ravel(self.why).tolist()):
             kinds.setdefault(_NUMBERS.sub("#", why), []).append(why)
         ranked = sorted(kinds.values(), key=len, reverse=True)
-        lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_REASONS]]
-        rest = sum(map(len, ranked[MOST_REASONS:]))
-        return lines + ([f"    {rest}: for {len(ranked) - MOST_REASONS} other reasons"] if rest else [])
+        lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_TOLD]]
+        rest = sum(map(len, ranked[MOST_TOLD:]))
+        return lines + ([f"    {rest}: for {len(ranked) - MOST_TOLD} other reasons"] if rest else [])
 
 
 def study_of_points(frame: Frame, layout: Layout, points: Points) -> Study:

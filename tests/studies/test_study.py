@@ -106,7 +106,7 @@ def test_print_tells_the_most_frequent_reasons():
     axes = {"mu_0": [0.4, *(0.5 + 0.1 * k for k in range(12))]}
     lines = str(mdr.sweep(RIGID, axes, quantities=[mdr.Quantity("own", "-", of)])).splitlines()
     assert lines[2:4] == ["  1 done, 12 failed", "    2: own: slippery"]
-    assert lines[-1] == "    6: for 6 other reasons"
+    assert lines[-1] == "    7: for 7 other reasons"
 
 
 # --- files ---
