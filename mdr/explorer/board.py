@@ -12,7 +12,8 @@ from mdr.case.contact import KINDS
 from mdr.explorer import look
 from mdr.explorer.controls import Control, controls_of
 from mdr.explorer.links import meaning_of, typed
-from mdr.explorer.state import PARTS, State, group_values, kind_of
+from mdr.explorer.state import State, group_values, kind_of
+from mdr.files.examples import PARTS
 
 Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answer is why it was refused, or ""
 TITLES = {

@@ -16,16 +16,13 @@ from mdr.case.contact import KINDS, as_given
 from mdr.case.in_plane import PLACES
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.explorer.state import State, group_values, scales_of
+from mdr.explorer.state import DECADE, UP_TO, State, group_values, scales_of
 from mdr.normal.vary import GROUPS
 from mdr.tools.checks import positive
 from mdr.tools.fields import Facts, Rule, facts_of
 
 POINTS = 200  #: of a grid, half of them on each side of the first value
-DECADE = 10.0  #: up and down from the first value
-GROUPS_FROM_TO = (1e-2, 10.0)
-VELOCITIES_TO = 1.5  #: of the velocity scale
-RATIOS = sorted({p / q for p in range(1, 5) for q in range(1, 5)})  #: of the frequency of a shake
+RATIOS = sorted({p / q for p in range(1, 5) for q in range(1, 5)})  #: of the frequency of a shake: of short periods
 HIDDEN = ("du_y", "phi_y", "y_cos", "y_sin")  #: across the pull, where nothing may move
 
 
@@ -54,7 +51,7 @@ class Control:
         value = state.value(self.path)
         known = not self.grid or self.grid[0] <= value <= self.grid[-1]
         if self.path == "v_0":  # of a case whose velocity scale has moved
-            known &= 1.0 <= self.grid[-1] / velocity_scale(state.case) <= 3 * VELOCITIES_TO
+            known &= 1.0 <= self.grid[-1] / velocity_scale(state.case) <= DECADE
         return replace(self, value=value) if known else _control(state, self.path, self.facts)
 
 
@@ -84,18 +81,15 @@ def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float
     """Values of a slider, which the rule of the field accepts."""
     case, name, rule = state.case, path.rpartition(".")[2], facts.rule
     if path in ("v_0", "v_0/v_c"):  # of both signs where something shakes in the plane
-        top = max(VELOCITIES_TO * (velocity_scale(case) if path == "v_0" else 1.0), abs(value))
+        top = max(UP_TO * (velocity_scale(case) if path == "v_0" else 1.0), abs(value))
         return np.linspace(-top, top, POINTS + 1) if case.is_shaken else np.linspace(0, top, POINTS + 1)[1:]
-    if path in GROUPS:
-        low, high = GROUPS_FROM_TO
+    if path in GROUPS:  # as the field that it sets
         rule = positive if path == "omega_0/omega" else facts_at(GROUPS[path]).rule
-        both = np.geomspace(min(low, abs(value) or low), max(high, abs(value)), POINTS + 1)
-        return _accepted(both, rule, name)
     if path == "shake.omega" and case.oscillation.omega:
         return sorted({*(ratio * case.oscillation.omega for ratio in RATIOS), value})
     if facts.unit == "rad" and _accepts(rule, name, -1.0):
         return np.linspace(-np.pi, np.pi, POINTS + 1)
-    if facts.unit == "-" and not _accepts(rule, name, DECADE):  # a ratio with two ends
+    if path not in GROUPS and facts.unit == "-" and not _accepts(rule, name, DECADE):  # a ratio with two ends
         return _accepted(np.linspace(0.0, 1.0, POINTS + 1), rule, name)
     middle = value or scales_of(case).get(name, 1.0)
     if value < 0 or (value == 0 and name == "u_z0"):

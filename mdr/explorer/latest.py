@@ -19,16 +19,14 @@ class Latest(Generic[Request, Answer]):
 
     `work(request, watch)` yields answers and calls `watch` now and then, which raises `Superseded`. `deliver(request,
     answer)` is called in the thread of the work, with the exception where the work raised one and None at its end.
-    After each answer the work rests for `rest` seconds, so that the page can show it, and a newer request come.
     """
 
     def __init__(
         self,
         work: Callable[[Request, Callable[[], None]], Iterable[Answer]],
         deliver: Callable[[Request, Answer | Exception | None], None],
-        rest: float = 0.0,
     ) -> None:
-        self.work, self.deliver, self.rest = work, deliver, rest
+        self.work, self.deliver = work, deliver
         self.at_work, self.superseded = Lock(), Event()
 
     def drop(self) -> None:
@@ -52,7 +50,6 @@ class Latest(Generic[Request, Answer]):
                 for answer in self.work(request, watch):
                     watch()
                     self.deliver(request, answer)
-                    superseded.wait(self.rest)
                 watch()
                 self.deliver(request, None)
             except Superseded:

@@ -13,21 +13,16 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
-from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAKES, SHAPES, STILL
+from mdr.files.examples import PARTS, STILL
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
 from mdr.tools.checks import finite, positive
 
-V_0 = 0.5  #: of the velocity scale of a case: where its first run is
-SMALL, DAMPED, NATURAL = 0.1, 0.1, 2.0  #: amplitude over mean, damping ratio, omega_0/omega
-#: what each part can be, with the record that a new one is made of
-PARTS: dict[str, dict[str, Any]] = {
-    "indenter": SHAPES,
-    "material": MATERIALS,
-    "oscillation": MOTIONS,
-    "pull": PULLS,
-    "shake": {STILL: None, **SHAKES},
-}
+UP_TO = 1.3  #: of the velocity scale of a case, at which friction has become mu_0: end of a curve
+V_0 = 0.5  #: of that scale: where the first run is, in the middle of what vibration does
+SMALL = 0.1  #: of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
+NATURAL = 2.0  #: omega_0/omega of a new body: off resonance, which is at 1
+DECADE = 10.0  #: how far a slider goes to both sides of the first value, and a curve beyond the velocity scale
 
 
 @dataclass(frozen=True)
@@ -135,7 +130,7 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
         "tau": SMALL / case.omega,
         "k_x": k_x,
         "m": m,
-        "c_x": 2 * DAMPED * float(np.sqrt(k_x * m)),
+        "c_x": 2 * SMALL * float(np.sqrt(k_x * m)),
         "du_x": case.mu_0 * kappa * depth / 2,
     }
     return {name: float(f"{size:.2g}") for name, size in sizes.items()} | {"omega": case.omega}

@@ -14,9 +14,9 @@ from mdr.case.units import facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest, Superseded
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
-from mdr.explorer.pictures import ROWS, pictures_of
-from mdr.explorer.state import PARTS, State, group_values, kind_of
-from mdr.files.examples import example, example_file
+from mdr.explorer.pictures import pictures_of
+from mdr.explorer.state import State, group_values, kind_of
+from mdr.files.examples import PARTS, example, example_file
 from mdr.normal.vary import GROUPS
 
 CASES = {
@@ -153,7 +153,7 @@ def test_pictures_are_those_of_the_library(state):
     assert_allclose(last.cof[::7], exact.cof, atol=1e-3 * state.case.mu_0)
     assert_allclose(first.cof[::7], exact.cof, atol=0.05 * state.case.mu_0)  # no bound: a first sight
     assert abs(last.run.cof - mdr.slide(state.case, state.v_0).cof) <= 1e-3 * state.case.mu_0
-    assert last.springs.shape == (ROWS, last.run.steps_per_period)
+    assert last.springs.shape == (last.run.n_springs, last.run.steps_per_period)
     assert_array_equal(np.unique(last.springs), np.unique(last.run.state))
     assert (last.band is not None) == state.case.is_shaken
     assert all(name and value and meaning for name, value, meaning in last.numbers)
