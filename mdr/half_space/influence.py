@@ -46,14 +46,8 @@ class HalfSpace:
     @cached_property
     def spectra(self) -> dict[tuple[int, int], NDArray[np.complex128]]:
         """Transforms of the coefficients that are not zero: (i, j) for u_i under q_j."""
-        found = {}
-        for pair in ((X, X), (Y, Y), (Z, Z), (X, Y), (X, Z), (Y, Z)):
-            kernel = self.coefficients(*pair)
-            if np.any(kernel):
-                found[pair] = fft.rfft2(self._wrapped(kernel))
-                if pair[0] != pair[1]:
-                    found[pair[::-1]] = fft.rfft2(self._wrapped(self.coefficients(*pair[::-1])))
-        return found
+        kernels = {(i, j): self.coefficients(i, j) for i in (X, Y, Z) for j in (X, Y, Z)}
+        return {pair: fft.rfft2(self._wrapped(kernel)) for pair, kernel in kernels.items() if np.any(kernel)}
 
     def coefficients(self, i: int, j: int) -> Array:
         """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
