@@ -14,9 +14,7 @@ from mdr.commands.arguments import OF_V_C, Velocity, add_accuracy, read_as, stan
 from mdr.commands.output import DONE, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.explorer.state import UP_TO
-
-POINTS = 24  #: of a curve, unless asked otherwise: its corner at v_c is seen to a twentieth
+from mdr.explorer.state import POINTS, UP_TO
 
 
 def add_options(command: argparse.ArgumentParser) -> None:

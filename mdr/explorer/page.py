@@ -17,12 +17,13 @@ from mdr.explorer.figures import FORCES_LEGEND, SPRINGS_LEGEND, Figures, curve_l
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
-from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
+from mdr.explorer.pictures import Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case
+from mdr.march.march import LEAST_ACCURATE
 
 FIRST_SIGHT = "first sight, its error is not bounded yet"
-BOUNDED = f"error of friction ≤ {ACCURACY:g} μ<sub>0</sub>, where settled; hollow points are not"
+BOUNDED = f"error of friction ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>, where settled; hollow points are not"
 
 
 class Page:
@@ -59,10 +60,10 @@ class Page:
 
     # --- changes ---
 
-    def attempt(self, change: Callable[[State], State], anew: bool = False) -> str:
+    def attempt(self, change: Callable[[State], State]) -> str:
         """Change the state; the answer is why that was refused."""
         try:
-            self._take(change(self.state), anew)
+            self._take(change(self.state))
         except look.REFUSALS as refusal:
             return look.words_of(refusal)
         return ""
@@ -73,12 +74,12 @@ class Page:
         def loaded(state: State) -> State:
             return replace(State.of(parse_case(data.decode("utf-8-sig"), name)), in_groups=state.in_groups)
 
-        self.alert.object = look.refused(self.attempt(loaded, anew=True))
+        self.alert.object = look.refused(self.attempt(loaded))
 
-    def _take(self, state: State, anew: bool = False) -> None:
+    def _take(self, state: State) -> None:
         """Make this the state: the controls stand at it, and its pictures are asked for."""
         self.state = state
-        self.board.show(state, anew)
+        self.board.show(state)
         self.said.object = ""
         self.verdicts.drop()
         if self.loaded:

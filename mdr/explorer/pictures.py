@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
-from mdr.explorer.state import DECADE, UP_TO, State
+from mdr.explorer.state import DECADE, POINTS, UP_TO, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
 from mdr.friction.verdict import verdict
+from mdr.march.march import LEAST_ACCURATE
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import plausibility, resolved
@@ -24,8 +25,6 @@ from mdr.plots import edges_of, prefix
 from mdr.tools.arrays import Array
 from mdr.tools.progress import silent, time_limit
 
-ACCURACY = 1e-3  #: of the curve and the run, over mu_0
-POINTS = 13  #: of a curve on each side of zero
 RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
 PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
 
@@ -88,7 +87,7 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
     """Pictures of a state, each better than the one before. `watch` may end the work by raising an error."""
     case = state.case
     with silent(watch), time_limit(PATIENCE):
-        run = slide(case, state.v_0, n_springs=RUN[0], steps_per_period=RUN[1], record=1, accuracy=ACCURACY)
+        run = slide(case, state.v_0, n_springs=RUN[0], steps_per_period=RUN[1], record=1, accuracy=LEAST_ACCURATE)
         v_0 = velocities_of(state)
         watch()
         cof = friction_without_bound(case, v_0, RUN[0] // 2, RUN[1] // 2)
@@ -96,7 +95,7 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
         first = Picture(state, run, v_0, cof, critical_velocity(case), back)
     yield first
     with silent(watch), time_limit(PATIENCE):
-        curve = cof_curve(case, v_0, accuracy=ACCURACY)
+        curve = cof_curve(case, v_0, accuracy=LEAST_ACCURATE)
         second = replace(first, cof=curve.cof, curve=curve, band=holding_band(case) if case.is_shaken else None)
     yield second
 
@@ -105,7 +104,7 @@ def velocities_of(state: State) -> Array:
     """Velocities [m/s] of the curve: to a little beyond v_c, or to the run; both ways where something shakes."""
     scales = [velocity_scale(case) for case in (state.case, state.case.mirrored)]
     forward, back = (min(max(UP_TO * one, 1.1 * abs(state.v_0)), DECADE * one) for one in scales)
-    share = np.linspace(0, 1, POINTS)
+    share = np.linspace(0, 1, POINTS // 2 + 1)  # half as fine as elsewhere, to be there at once
     if not state.case.is_shaken:
         return share * forward
     share[0] = share[1] ** 2  # beside zero, where friction of a shaken contact jumps

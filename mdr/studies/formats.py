@@ -32,7 +32,7 @@ def packed(study: Study, history: str = "") -> bytes:
     file = netcdf_file(buffer, "w", version=2)
     _tell(file, title=_TITLE, identity=frame.identity, mdr_version=frame.version, case=frame.case, history=history)
     _tell(file, selected=json.dumps(frame.selected) if frame.selected else "")
-    dims = tuple(name_of(axis.path) for axis in frame.grid)
+    dims = tuple(axis.path.replace("/", "_over_") for axis in frame.grid)
     for name, axis in zip(dims, frame.grid, strict=True):
         told = {"units": _ONE.get(axis.unit, axis.unit), "long_name": axis.meaning, "path": axis.path}
         if axis.is_numeric:
@@ -60,20 +60,6 @@ def unpacked(data: bytes) -> Study:
         return _study(file)
     except (TypeError, ValueError, LookupError, AttributeError, EOFError, ArithmeticError) as fault:
         raise ValueError(f"no study, or a damaged one: {fault}") from fault
-
-
-def to_xarray(study: Study) -> Any:
-    """The study as an xarray.Dataset."""
-    try:
-        import xarray
-    except ImportError:
-        raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
-    return xarray.load_dataset(BytesIO(packed(study)), engine="scipy")
-
-
-def name_of(path: str) -> str:
-    """The name of an axis in the file."""
-    return path.replace("/", "_over_")
 
 
 def table(study: Study) -> str:

@@ -20,7 +20,7 @@ from mdr.studies.quantities import CurveQuantity
 from mdr.studies.work import Work
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
-from mdr.tools.progress import silent
+from mdr.tools.progress import silent, unless
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)
@@ -33,10 +33,6 @@ class Status(IntEnum):
     UNSETTLED = 1  #: a run did not settle; its numbers are there
     FAILED = 2  #: at least one quantity is missing, NaN
     MISSING = 3  #: not computed yet
-
-
-class Ended(Exception):
-    """Raised to end a sweep before its work is done."""
 
 
 @dataclass
@@ -76,12 +72,7 @@ class Points:
 
 def compute(work: Work, units: range, ended: Event | None = None) -> Points:
     """The points of some units. Raises Ended soon after the event is set."""
-
-    def watch() -> None:
-        if ended is not None and ended.is_set():
-            raise Ended
-
-    layout = work.layout
+    layout, watch = work.layout, unless(ended or Event())
     where = layout.points(units)
     found = Points.blank(len(work.quantities), where.stop - where.start, Status.DONE)
     case, known, n = None, found, 0

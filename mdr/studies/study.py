@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -218,9 +219,13 @@ class Study(Printed, ArrayRecord):
         xarray.Dataset
             Quantities with labelled axes and units.
         """
-        from mdr.studies.formats import to_xarray
+        from mdr.studies.formats import packed
 
-        return to_xarray(self)
+        try:
+            import xarray
+        except ImportError:
+            raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
+        return xarray.load_dataset(BytesIO(packed(self)), engine="scipy")
 
     def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Any:
         """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
