@@ -15,7 +15,7 @@ from mdr.files.toml_text import StandardInput
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.notation import UNITS
 
-MOST = 100_000  #: points, springs, steps of a period: with more of them memory ends before the patience of anybody
+MOST = 100_000  #: points, springs or steps of a period; more are a slip of the hand, and do not fit into memory
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
 _UNIT = "|".join(map(re.escape, (*UNITS["m/s"], OF_V_C)))
 _WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{_UNIT})?", re.DOTALL)

@@ -9,19 +9,13 @@ from typing import Any
 import panel as pn
 
 from mdr.case.contact import KINDS
+from mdr.case.units import facts_at
 from mdr.explorer import look
 from mdr.explorer.controls import Control, control_of, controls_of
 from mdr.explorer.links import meaning_of, typed
 from mdr.explorer.state import State, group_values
 
 Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answer is why it was refused, or ""
-TITLES = {
-    "indenter": "Shape",
-    "material": "Material",
-    "oscillation": "Motion in depth",
-    "pull": "Pull",
-    "shake": "Shake in the plane",
-}
 
 
 class Knob:
@@ -104,10 +98,10 @@ class Board:
             options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5), **look.WIDE
         )
         self.held.param.watch(lambda event: attempt(lambda state: replace(state, in_groups=event.new)), "value")
-        titled = [
-            (look.heading(TITLES[slot], "margin-top:10px;"), self.kinds[slot].view, self.parts[slot]) for slot in KINDS
-        ]
-        self.view = look.area("controls", self.held, self.parts[""], *(one for three in titled for one in three))
+        self.view = look.area("controls", self.held, self.parts[""])
+        for slot, kind in self.kinds.items():
+            title = facts_at(slot).meaning.capitalize()
+            self.view.extend([look.heading(title, "margin-top:10px;"), kind.view, self.parts[slot]])
 
     def show(self, state: State) -> None:
         """Stand at a state."""

@@ -41,7 +41,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from inspect import isabstract
 from os import PathLike, fsdecode
 from types import ModuleType
@@ -57,7 +57,7 @@ from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml
 from mdr.normal.doubts import warn_outside
 from mdr.normal.rig import OPEN, settings_of
 from mdr.normal.vary import contact_of, fields_of, fields_set
-from mdr.tools.fields import checked, example_of
+from mdr.tools.fields import checked, example_of, required
 from mdr.tools.messages import nearest, offer, short
 
 # --- public ---
@@ -436,10 +436,8 @@ def _field_faults(
     record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str], spoilt: Collection[str | None] = ()
 ) -> list[str]:
     """What is missing, but for what was `spoilt` already, then what each field refuses by its rule."""
-    asked = [one for one in fields(record) if one.init]
-    required = [one.name for one in asked if one.default is MISSING and one.default_factory is MISSING]
-    refused = [tried(checked, one, given[one.name])[1] for one in asked if one.name in given]
-    absent = [name for name in required if name not in given and name not in spoilt]
+    refused = [tried(checked, one, given[one.name])[1] for one in fields(record) if one.init and one.name in given]
+    absent = [one.name for one in required(record) if one.name not in given and one.name not in spoilt]
     missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
     return missing + [fault for found in refused for fault in found]
 

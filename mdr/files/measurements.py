@@ -119,7 +119,7 @@ def profile_points(
         raise ValueError(f'side must be "both", "left" or "right", got {side!r}')
     table = read_table(path, PROFILE, units, columns)
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
-    tiny = 8 * EPS * float(np.max(np.abs(table.values["r"])))  # what rounding leaves of two equal distances
+    tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
     _refuse_repeated(table, "r", x, tiny)
     at_tip = np.flatnonzero(np.abs(x) <= tiny)
     if not at_tip.size:

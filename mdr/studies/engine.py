@@ -88,7 +88,7 @@ class Call:
         if study.identity != self.identity:
             raise StudyError(f"{store.file}: is of another study than study.json beside it; give another folder")
         store.clear()
-        return replace(study, frame=self.frame)
+        return replace(study, grid=self.frame.grid)
 
     def _cut(self, store: Store, chunk_seconds: float) -> range:
         """As the store has it, or as a trial finds; all processes on a store cut alike."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -50,7 +50,7 @@ class Frame:
     case: str  #: what the axes vary, as the text of a case file where one can carry it
     version: str  #: of mdr
     identity: str  #: SHA-256 of the specification; "" where it has none
-    selected: tuple[tuple[str, str], ...] = ()  #: paths and values that `Study.select` has fixed
+    selected: tuple[tuple[str, str], ...]  #: paths and values that `Study.select` has fixed
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -61,7 +61,7 @@ class Frame:
     def of(cls, work: Work, identity: str) -> Frame:
         """The frame of the study that this work makes."""
         columns = tuple(Column(one.name, one.unit, one.meaning) for one in work.quantities)
-        return cls(work.axes, columns, _text(work.case, work.held), version.__version__, identity)
+        return cls(work.axes, columns, _text(work.case, work.held), version.__version__, identity, ())
 
     def tree(self) -> dict[str, Any]:
         """All but the numbers of its axes, for JSON."""
@@ -76,18 +76,17 @@ class Frame:
         values = {**known["axes"], **tree["labels"]}
         grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
         columns = tuple(Column(**column) for column in tree["columns"])
-        return cls(grid, columns, tree["case"], tree["version"], head["identity"])
+        return cls(grid, columns, tree["case"], tree["version"], head["identity"], ())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(Printed, ArrayRecord):
+class Study(Printed, ArrayRecord, Frame):
     """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
 
     A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle
     keeps its numbers. Printing it tells how many there are of either.
     """
 
-    frame: Frame
     values: Array  #: of shape ``(n_quantities, *shape)``, NaN where there is none
     status: NDArray[np.uint8]  #: of shape ``(*shape,)``, see `Status`: 0 done, 1 unsettled, 2 failed, 3 missing
     reason: NDArray[np.int32]  #: of shape ``(*shape,)``, which of the reasons
@@ -103,23 +102,18 @@ class Study(Printed, ArrayRecord):
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities."""
-        return tuple(column.name for column in self.frame.columns)
+        return tuple(column.name for column in self.columns)
 
     @property
     def axes(self) -> dict[str, Array | tuple[Any, ...]]:
         """The values of every axis by its path, in the order of the arrays' axes."""
-        return {axis.path: axis.values for axis in self.frame.grid}
+        return {axis.path: axis.values for axis in self.grid}
 
     @property
     def units(self) -> dict[str, str]:
         """Units of axes and quantities, "-" for a pure number, "" where there is none."""
-        units = {axis.path: axis.unit for axis in self.frame.grid}
-        return units | {column.name: column.unit for column in self.frame.columns}
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """How many values each axis has."""
-        return self.frame.shape
+        units = {axis.path: axis.unit for axis in self.grid}
+        return units | {column.name: column.unit for column in self.columns}
 
     @property
     def why(self) -> NDArray[np.object_]:
@@ -130,16 +124,6 @@ class Study(Printed, ArrayRecord):
     def complete(self) -> bool:
         """Whether every point was computed, however it ended."""
         return not bool(np.any(self.status == Status.MISSING))
-
-    @property
-    def identity(self) -> str:
-        """SHA-256 of the specification; "" where it has none."""
-        return self.frame.identity
-
-    @property
-    def case(self) -> str:
-        """The case that the axes vary, as the text of a case file where one can carry it."""
-        return self.frame.case
 
     def count(self, status: Status) -> int:
         """Number of points that ended in one way.
@@ -180,11 +164,11 @@ class Study(Printed, ArrayRecord):
             raise TypeError(f"values must map paths to values, got {short(repr(values))}")
         if unknown := [path for path in values if path not in self.axes]:
             raise KeyError(f"{unknown[0]!r} is no axis of the study; there are {', '.join(self.axes)}")
-        fixed = {axis.path: axis.index(values[axis.path]) for axis in self.frame.grid if axis.path in values}
-        where = tuple(fixed.get(axis.path, slice(None)) for axis in self.frame.grid)
-        told = tuple((axis.path, axis.told(fixed[axis.path])) for axis in self.frame.grid if axis.path in fixed)
-        grid = tuple(axis for axis in self.frame.grid if axis.path not in fixed)
-        frame = replace(self.frame, grid=grid, selected=self.frame.selected + told)
+        fixed = {axis.path: axis.index(values[axis.path]) for axis in self.grid if axis.path in values}
+        where = tuple(fixed.get(axis.path, slice(None)) for axis in self.grid)
+        told = tuple((axis.path, axis.told(fixed[axis.path])) for axis in self.grid if axis.path in fixed)
+        grid = tuple(axis for axis in self.grid if axis.path not in fixed)
+        frame = Frame(grid, self.columns, self.case, self.version, self.identity, self.selected + told)
         return study_of(frame, self.values[(slice(None), *where)], self.status[where], self.why[where])
 
     def to_netcdf(self, path: str | PathLike[str]) -> None:
@@ -315,11 +299,11 @@ class Study(Printed, ArrayRecord):
 
     def __repr__(self) -> str:
         n = self.status.size
-        names = ", ".join(f"{column.name} [{column.unit}]" for column in self.frame.columns)
+        names = ", ".join(f"{column.name} [{column.unit}]" for column in self.columns)
         size = " x ".join(map(str, self.shape)) or "1"
         lines = [f"Study of {n} points ({size}): {names}"]
-        lines += [f"  {axis.path}{f' [{axis.unit}]' if axis.unit else ''}: {axis.summary}" for axis in self.frame.grid]
-        lines += [f"  at {path} = {value}" for path, value in self.frame.selected]
+        lines += [f"  {axis.path}{f' [{axis.unit}]' if axis.unit else ''}: {axis.summary}" for axis in self.grid]
+        lines += [f"  at {path} = {value}" for path, value in self.selected]
         counts = [f"{self.count(status)} {status.name.lower()}" for status in Status if self.count(status)]
         return "\n".join([*lines, f"  {', '.join(counts)}", *self._most_frequent()])
 
@@ -344,7 +328,8 @@ def study_of(frame: Frame, values: Array, status: NDArray[np.uint8], why: Any) -
     why = np.asarray(why, dtype=object)
     codes = {reason: code for code, reason in enumerate(dict.fromkeys(["", *why.flat]))}
     reason = np.array([codes[one] for one in why.flat], dtype=np.int32).reshape(why.shape)
-    return Study(frame, np.array(values, order="C"), np.array(status, dtype=np.uint8, order="C"), reason, tuple(codes))
+    values, status = np.array(values, order="C"), np.array(status, dtype=np.uint8, order="C")
+    return Study(**vars(frame), values=values, status=status, reason=reason, reasons=tuple(codes))
 
 
 def _text(case: SlidingContact, held: Mapping[str, float]) -> str:

@@ -55,7 +55,7 @@ def test_a_part_is_selected_by_its_values(study):
     assert_array_equal(part["cof"], study["cof"][1, 1])
     assert_array_equal(part.status, study.status[1, 1])
     assert part.why.tolist() == study.why[1, 1].tolist()
-    assert part.frame.selected == (("v_0/v_c", "0.5"), ("indenter", "Cone(theta=0.05)"))
+    assert part.selected == (("v_0/v_c", "0.5"), ("indenter", "Cone(theta=0.05)"))
     assert "at indenter = Cone(theta=0.05)" in str(part)
     assert study.select({}) == study
     assert study.select({"v_0/v_c": 0.5}).select({"indenter": "Cone(theta=0.05)"}) == part
