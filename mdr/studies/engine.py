@@ -19,7 +19,7 @@ from mdr.studies.formats import packed
 from mdr.studies.points import Points, Status, compute
 from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
-from mdr.studies.study import Frame, Study, study_of_points
+from mdr.studies.study import Study, frame_of, study_of_points, tree_of
 from mdr.studies.work import Work, units_of
 from mdr.tools.progress import progress
 
@@ -43,7 +43,7 @@ class Call:
         except ValueError:  # a function without a name, which only a store has to tell from others
             if store is not None:
                 raise
-        self.frame = Frame.of(work, self.identity)
+        self.frame = frame_of(work, self.identity)
 
     def study(self, chunk_seconds: float, shard: tuple[int, int]) -> Study:
         """The study; what is missing of this shard in the store is computed before."""
@@ -68,7 +68,7 @@ class Call:
         return study_of_points(self.frame, self.work.layout, self.points)
 
     def _in_store(self, store: Store, chunk_seconds: float, shard: tuple[int, int]) -> Study:
-        head = {"identity": self.identity, "specification": self.specification, "frame": self.frame.tree()}
+        head = {"identity": self.identity, "specification": self.specification, "frame": tree_of(self.frame)}
         store.open({**head, "block": self.work.layout.block})
         if (done := self._merged(store)) is not None:
             return done

@@ -57,27 +57,6 @@ class Frame:
         """How many values each axis has."""
         return tuple(len(axis) for axis in self.grid)
 
-    @classmethod
-    def of(cls, work: Work, identity: str) -> Frame:
-        """The frame of the study that this work makes."""
-        columns = tuple(Column(one.name, one.unit, one.meaning) for one in work.quantities)
-        return cls(work.axes, columns, _text(work.case, work.held), version.__version__, identity, ())
-
-    def tree(self) -> dict[str, Any]:
-        """All but the numbers of its axes, for JSON."""
-        labels = {axis.path: list(axis.labels) for axis in self.grid if not axis.is_numeric}
-        columns = [asdict(column) for column in self.columns]
-        return {"labels": labels, "columns": columns, "case": self.case, "version": self.version}
-
-    @classmethod
-    def from_head(cls, head: Mapping[str, Any]) -> Frame:
-        """The frame in the head of a store, with labels for records."""
-        tree, known = head["frame"], head["specification"]
-        values = {**known["axes"], **tree["labels"]}
-        grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
-        columns = tuple(Column(**column) for column in tree["columns"])
-        return cls(grid, columns, tree["case"], tree["version"], head["identity"], ())
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Study(Printed, ArrayRecord, Frame):
@@ -316,6 +295,28 @@ class Study(Printed, ArrayRecord, Frame):
         lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_TOLD]]
         rest = sum(map(len, ranked[MOST_TOLD:]))
         return lines + ([f"    {rest}: for {len(ranked) - MOST_TOLD} other reasons"] if rest else [])
+
+
+def frame_of(work: Work, identity: str) -> Frame:
+    """The frame of the study that this work makes."""
+    columns = tuple(Column(one.name, one.unit, one.meaning) for one in work.quantities)
+    return Frame(work.axes, columns, _text(work.case, work.held), version.__version__, identity, ())
+
+
+def tree_of(frame: Frame) -> dict[str, Any]:
+    """All but the numbers of its axes, for JSON."""
+    labels = {axis.path: list(axis.labels) for axis in frame.grid if not axis.is_numeric}
+    columns = [asdict(column) for column in frame.columns]
+    return {"labels": labels, "columns": columns, "case": frame.case, "version": frame.version}
+
+
+def frame_in(head: Mapping[str, Any]) -> Frame:
+    """The frame in the head of a store, with labels for records."""
+    tree, known = head["frame"], head["specification"]
+    values = {**known["axes"], **tree["labels"]}
+    grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
+    columns = tuple(Column(**column) for column in tree["columns"])
+    return Frame(grid, columns, tree["case"], tree["version"], head["identity"], ())
 
 
 def study_of_points(frame: Frame, layout: Layout, points: Points) -> Study:
