@@ -41,15 +41,15 @@ def path_of(text: str) -> str:
     return StandardInput("standard input") if text == "-" else text
 
 
-def whole_number(least: int) -> Callable[[str], int]:
+def whole_number(least: int, most: int = MOST) -> Callable[[str], int]:
     """What argparse reads a whole number with."""
 
     def read(text: str) -> int:
-        if not text.isascii() or not text.isdigit() or not least <= int(text[: len(str(MOST)) + 1]) <= MOST:
+        if not text.isascii() or not text.isdigit() or not least <= int(text[: len(str(most)) + 1]) <= most:
             raise ValueError
         return int(text)
 
-    return read_as(f"a whole number from {least} to {MOST}", read)
+    return read_as(f"a whole number from {least} to {most}", read)
 
 
 def no_options(_: argparse.ArgumentParser) -> None:

@@ -10,7 +10,7 @@ from mdr.commands.arguments import path_of, whole_number
 from mdr.commands.output import DONE, WrongInput, answer
 from mdr.files.examples import example
 
-PORT = 5006  #: that of Bokeh's own server
+PORT, HIGHEST_PORT = 5006, 65535  #: that of Bokeh's own server; ports are numbers of 16 bits
 INSTALL = (
     "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
     "python3 -m pip --python .venv install -e '.[explore]'"
@@ -22,7 +22,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     file = "the case file; - is standard input (default: the example of mdr case)"
     command.add_argument("case", metavar="case.toml", nargs="?", type=path_of, help=file)
     port = f"port, 0 for a free one (default: {PORT})"
-    command.add_argument("--port", type=whole_number(0), default=PORT, help=port)
+    command.add_argument("--port", type=whole_number(0, HIGHEST_PORT), default=PORT, help=port)
     command.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
 
 
@@ -41,8 +41,8 @@ def explore(args: argparse.Namespace, _: None) -> int:
         raise WrongInput(f"{args.case}: {fault}") from None
     try:
         server, address = server_of(case, args.port)
-    except (OSError, OverflowError) as taken:
-        reason = getattr(taken, "strerror", None) or taken
+    except OSError as taken:
+        reason = taken.strerror or taken
         way_out = "give another, or --port 0 for a free one"
         raise WrongInput(f"port {args.port} cannot be used ({reason}); {way_out}") from None
     server.start()

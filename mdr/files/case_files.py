@@ -356,7 +356,7 @@ class _Table:
                 held |= {key: said} if field in OPEN else {}
         given.pop(self.choice, None)
         refused = _field_faults(record, given, self._ways_out(record), spoilt)
-        made, together = (None, []) if refused else tried(record, **given)
+        made, together = (None, []) if refused or spoilt else tried(record, **given)
         if faults := [*faults, *refused, *together]:
             raise CaseFileError.of(faults)
         return made, held
