@@ -15,6 +15,7 @@ import shlex
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import mdr
@@ -77,9 +78,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(args: argparse.Namespace) -> int:
     """Read the file, do the work, and turn what goes wrong into a sentence and a status."""
     work: Callable[[argparse.Namespace, Any], int] = args.work
+
+    @cache  # each once; PYTHONWARNINGS=ignore silences them
+    def warned(text: str) -> None:
+        complain(f"warning: {text}")
+
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _Warnings()
+            warnings.showwarning = lambda message, *_, **__: warned(str(message))
             status = work(args, _read(args) if args.read else None)
         sys.stdout.flush()  # a full disk shows here
         return status
@@ -90,18 +96,6 @@ def _run(args: argparse.Namespace) -> int:
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
         return complain(f"{where}{str(fault) or type(fault).__name__}")
-
-
-class _Warnings:
-    """Says what is warned of on standard error, each once. PYTHONWARNINGS=ignore silences it."""
-
-    def __init__(self) -> None:
-        self.said: set[str] = set()
-
-    def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
-        if str(message) not in self.said:
-            self.said.add(str(message))
-            complain(f"warning: {message}")
 
 
 def _read(args: argparse.Namespace) -> Any:

@@ -15,9 +15,10 @@ from mdr.files.toml_text import StandardInput
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.notation import UNITS
 
+MOST = 100_000  #: points, springs or steps of a period; more are a slip of the hand, and do not fit into memory
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
-_UNITS = UNITS["m/s"] | {OF_V_C: 1.0}
-_WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{'|'.join(map(re.escape, _UNITS))})?", re.DOTALL)
+_UNIT = "|".join(map(re.escape, (*UNITS["m/s"], OF_V_C)))
+_WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{_UNIT})?", re.DOTALL)
 #: how a value begins that is no option, as -1e-3 and -0.5v_c; argparse itself knows -1 and -0.001 alone
 NEGATIVE = re.compile(r"-[\d.]")
 T = TypeVar("T")
@@ -40,7 +41,7 @@ def path_of(text: str) -> str:
     return StandardInput("standard input") if text == "-" else text
 
 
-def whole_number(least: int, most: int) -> Callable[[str], int]:
+def whole_number(least: int, most: int = MOST) -> Callable[[str], int]:
     """What argparse reads a whole number with."""
 
     def read(text: str) -> int:
@@ -87,7 +88,7 @@ def velocity_in(usual: str) -> Callable[[str], Velocity]:
         unit, number = found["unit"] or usual, float(found["number"])
         if not math.isfinite(number):
             raise ValueError
-        return Velocity(number * _UNITS[unit], unit == OF_V_C)
+        return Velocity(number * UNITS["m/s"].get(unit, 1.0), unit == OF_V_C)
 
     return read_as("a velocity such as 1e-3, 1mm/s or 0.5v_c", read)
 

@@ -14,21 +14,19 @@ from mdr.commands.arguments import OF_V_C, Velocity, add_accuracy, read_as, stan
 from mdr.commands.output import DONE, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-
-POINTS, MOST_POINTS = 24, 100_000  #: of a curve
-UP_TO = Velocity(1.3, of_v_c=True)  #: highest velocity, unless asked otherwise
+from mdr.explorer.state import POINTS, UP_TO
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Where to write, and over which velocities."""
     add_output(command, "curve.csv", "curve.png", "curve.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
-    points = whole_number(2, MOST_POINTS)
+    points = whole_number(2)
     command.add_argument("--points", metavar="n", type=points, help=f"how many velocities (default: {POINTS})")
     which = command.add_mutually_exclusive_group()
-    highest = f"highest velocity, over v_c or with a unit: 1.3, 5mm/s (default: {UP_TO.number:g})"
+    highest = f"highest velocity, over v_c or with a unit: 1.3, 5mm/s (default: {UP_TO:g})"
     above = read_as("above zero", _highest)
-    which.add_argument("--up-to", metavar="velocity", type=above, default=UP_TO, help=highest)
+    which.add_argument("--up-to", metavar="velocity", type=above, default=Velocity(UP_TO, of_v_c=True), help=highest)
     listed = "these velocities, in m/s, with a unit or over the v_c of their way: 1e-3 2mm/s 0.5v_c"
     which.add_argument("--v-0", metavar="velocity", type=velocity_in("m/s"), nargs="+", help=listed)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."

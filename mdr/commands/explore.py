@@ -10,7 +10,7 @@ from mdr.commands.arguments import path_of, whole_number
 from mdr.commands.output import DONE, WrongInput, answer
 from mdr.files.examples import example
 
-PORT, HIGHEST_PORT = 5006, 65535
+PORT, HIGHEST_PORT = 5006, 65535  #: that of Bokeh's own server; ports are numbers of 16 bits
 INSTALL = (
     "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
     "python3 -m pip --python .venv install -e '.[explore]'"

@@ -13,8 +13,6 @@ from mdr.commands.velocity import equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.friction.cof_curve import LEAST_KNOB
 
-MOST = 100_000  #: springs, or steps of a period
-
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The velocity, how accurately, and where to write."""
@@ -23,7 +21,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
     add_output(command, "run.csv", "run.png", "run.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
-    size = whole_number(LEAST_KNOB, MOST)
+    size = whole_number(LEAST_KNOB)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: as the accuracy needs)")
     command.add_argument("--steps", metavar="n", type=size, help="time steps of a period (default: likewise)")
     command.epilog = (

@@ -84,7 +84,7 @@ def _write(args: argparse.Namespace, study: mdr.Study) -> None:
 
 
 def _told(study: mdr.Study) -> dict[str, Any]:
-    grid = study.frame.grid
+    grid = study.grid
     axes = {axis.path: [axis[i] if axis.is_numeric else axis.labels[i] for i in range(len(axis))] for axis in grid}
     return {
         **picked(study, "case", "identity", "complete"),

@@ -9,45 +9,37 @@ from typing import Any
 import panel as pn
 
 from mdr.case.contact import KINDS
+from mdr.case.units import facts_at
 from mdr.explorer import look
-from mdr.explorer.controls import Control, controls_of
+from mdr.explorer.controls import Control, control_of, controls_of
 from mdr.explorer.links import meaning_of, typed
-from mdr.explorer.state import PARTS, State, group_values, kind_of
+from mdr.explorer.state import State, group_values
 
 Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answer is why it was refused, or ""
-TITLES = {
-    "indenter": "Shape",
-    "material": "Material",
-    "oscillation": "Motion in depth",
-    "pull": "Pull",
-    "shake": "Shake in the plane",
-}
-
-
-class Slider(pn.widgets.IntSlider):  # type: ignore[misc]
-    """A slider whose value is taken almost at once."""
-
-    _debounce = 5  # ms in which moves are gathered, 50 in Panel
 
 
 class Knob:
-    """One control: name and meaning, a box to type in, a slider, and below it why a value was refused."""
+    """One control: name and meaning, a box to type in or to choose from, a slider, and below why a value was refused.
+
+    The kind of a part is named by the heading above it.
+    """
 
     def __init__(self, control: Control, attempt: Attempt) -> None:
         self.control, self.attempt, self.showing = control, attempt, False
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), **look.WIDE)
-        listed, named = isinstance(control.value, tuple), {"css_classes": ["box", control.path], "margin": (0, 5)}
-        size: dict[str, Any] = look.WIDE if listed else {"width": 104}
+        kind, listed = control.path in KINDS, isinstance(control.value, tuple)
+        named = {"css_classes": ["kind" if kind else "box", control.path], "margin": (0, 5)}
+        size: dict[str, Any] = look.WIDE if kind or listed else {"width": 104}
         if control.words:
             self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, **named, **size)
         else:
             self.box = pn.widgets.TextInput(value=typed(control.value), name="", **named, **size)
         self.box.param.watch(self._typed, "value")
-        label = look.label(control.name, control.facts)
-        rows: list[Any] = [(pn.Column if listed else pn.Row)(label, self.box, margin=(4, 0, 0, 0), **look.WIDE)]
+        label = [] if kind else [look.label(control.name, control.facts)]
+        rows: list[Any] = [(pn.Column if listed else pn.Row)(*label, self.box, margin=(4, 0, 0, 0), **look.WIDE)]
         self.slider: Any = None
         if control.grid:
-            self.slider = Slider(
+            self.slider = pn.widgets.IntSlider(
                 start=0, end=len(control.grid) - 1, value=control.place, show_value=False, tooltips=False,
                 margin=(2, 10, 2, 8), height=14, name="", css_classes=["slider", control.path], **look.WIDE,
             )  # fmt: skip
@@ -58,12 +50,15 @@ class Knob:
     def show(self, state: State) -> None:
         """Stand at the value of a state."""
         self.control = self.control.of(state)
+        self._stand()
+        self._say("")
+
+    def _stand(self) -> None:
         self.showing = True
         self.box.value = self.control.value if self.control.words else typed(self.control.value)
         if self.slider is not None:
             self.slider.end, self.slider.value = len(self.control.grid) - 1, self.control.place
         self.showing = False
-        self._say("")
 
     def _moved(self, event: Any) -> None:
         if not self.showing:
@@ -78,7 +73,11 @@ class Knob:
             self._set(event.new if self.control.words else meaning_of(event.new))
 
     def _set(self, value: Any) -> None:
-        self._say(self.attempt(lambda state: state.changed(self.control.path, value)))
+        why = self.attempt(lambda state: state.changed(self.control.path, value))
+        if why and self.control.words:  # what was chosen is not what is shown below
+            self._stand()
+            why = f"{value}: {why}"
+        self._say(why)
 
     def _say(self, words: str) -> None:
         """Why a value was refused; nothing where it was not."""
@@ -90,47 +89,29 @@ class Board:
     """All controls."""
 
     def __init__(self, state: State, attempt: Attempt) -> None:
-        self.state, self.attempt = state, attempt
+        self.attempt = attempt
         self.built: tuple[Any, ...] = ()
         self.knobs: list[Knob] = []
         self.parts: dict[str, Any] = {slot: pn.Column(margin=0, **look.WIDE) for slot in ("", *KINDS)}
-        self.kinds = {slot: self._kind(slot) for slot in KINDS}
+        self.kinds = {slot: Knob(control_of(state, slot), attempt) for slot in KINDS}
         self.held: Any = pn.widgets.RadioButtonGroup(
             options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5), **look.WIDE
         )
         self.held.param.watch(lambda event: attempt(lambda state: replace(state, in_groups=event.new)), "value")
-        titled = [
-            (look.heading(TITLES[slot], "margin-top:10px;"), self.kinds[slot], self.parts[slot]) for slot in KINDS
-        ]
-        self.view = look.area("controls", self.held, self.parts[""], *(one for three in titled for one in three))
+        self.view = look.area("controls", self.held, self.parts[""])
+        for slot, kind in self.kinds.items():
+            title = facts_at(slot).meaning.capitalize()
+            self.view.extend([look.heading(title, "margin-top:10px;"), kind.view, self.parts[slot]])
 
-    def show(self, state: State, anew: bool = False) -> None:
-        """Stand at a state; `anew` also moves every grid there."""
-        self.state, case = state, state.case
-        kinds = [kind_of(case, slot) for slot in KINDS]
-        built = (state.in_groups, state.v_c is None, case.is_shaken, *kinds, *group_values(case))
-        if anew or self.built != built:
+    def show(self, state: State) -> None:
+        """Stand at a state."""
+        kinds = [state.value(slot) for slot in KINDS]
+        built = (state.in_groups, state.v_c is None, state.case.is_shaken, *kinds, *group_values(state.case))
+        if self.built != built:
             self.built, self.knobs = built, []
             for slot, controls in controls_of(state).items():
                 made = [Knob(one, self.attempt) for one in controls]
                 self.knobs += made
                 self.parts[slot].objects = [knob.view for knob in made]
-        for slot, kind in zip(KINDS, kinds, strict=True):
-            self.kinds[slot][0].value, self.kinds[slot][1].object = kind, ""
-        for knob in self.knobs:
+        for knob in (*self.kinds.values(), *self.knobs):
             knob.show(state)
-
-    def _kind(self, slot: str) -> Any:
-        """The choice of a kind of a part, and below it why it was refused."""
-        named = {"css_classes": ["kind", slot], "margin": (2, 5)}
-        kind = kind_of(self.state.case, slot)
-        choice, words = pn.widgets.Select(options=list(PARTS[slot]), value=kind, **named, **look.WIDE), look.html()
-
-        def chosen(event: Any) -> None:
-            before = kind_of(self.state.case, slot)
-            if event.new != before and (why := self.attempt(lambda state: state.with_kind(slot, event.new))):
-                choice.value = before
-                words.object = look.refused(f"{event.new}: {why}")
-
-        choice.param.watch(chosen, "value")
-        return pn.Column(choice, words, margin=0, **look.WIDE)

@@ -13,19 +13,16 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, as_given
-from mdr.case.in_plane import PLACES
+from mdr.case.in_plane import MOST, PLACES
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.explorer.state import State, group_values, scales_of
+from mdr.explorer.state import DECADE, UP_TO, State, group_values, scales_of
+from mdr.files.examples import PARTS
 from mdr.normal.vary import GROUPS
 from mdr.tools.checks import positive
 from mdr.tools.fields import Facts, Rule, facts_of
 
-POINTS = 200  #: of a grid, half of them on each side of the first value
-DECADE = 10.0  #: up and down from the first value
-GROUPS_FROM_TO = (1e-2, 10.0)
-VELOCITIES_TO = 1.5  #: of the velocity scale
-RATIOS = sorted({p / q for p in range(1, 5) for q in range(1, 5)})  #: of the frequency of a shake
+STEPS = 200  #: of a slider: as many as it has pixels
 HIDDEN = ("du_y", "phi_y", "y_cos", "y_sin")  #: across the pull, where nothing may move
 
 
@@ -54,29 +51,30 @@ class Control:
         value = state.value(self.path)
         known = not self.grid or self.grid[0] <= value <= self.grid[-1]
         if self.path == "v_0":  # of a case whose velocity scale has moved
-            known &= 1.0 <= self.grid[-1] / velocity_scale(state.case) <= 3 * VELOCITIES_TO
-        return replace(self, value=value) if known else _control(state, self.path, self.facts)
+            known &= 1.0 <= self.grid[-1] / velocity_scale(state.case) <= DECADE
+        return replace(self, value=value) if known else control_of(state, self.path, self.facts)
 
 
 def controls_of(state: State) -> dict[str, list[Control]]:
     """The controls of a state, under the part that they belong to; "" are those of the contact as a whole."""
     case = as_given(state.case)
     groups = group_values(case) if state.in_groups else {}
-    found = {"": [_control(state, "mu_0"), _control(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
+    found = {"": [control_of(state, "mu_0"), control_of(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
     for slot in KINDS:
         part = getattr(case, slot)
         own = {f"{slot}.{one.name}": one for one in fields(part) if one.init} if is_dataclass(part) else {}
         set_by = {GROUPS[path]: path for path in groups}
-        found[slot] = [_control(state, path) for at, path in set_by.items() if at.startswith(f"{slot}.")]
-        found[slot] += [_control(state, path, facts_of(one)) for path, one in own.items()
+        found[slot] = [control_of(state, path) for at, path in set_by.items() if at.startswith(f"{slot}.")]
+        found[slot] += [control_of(state, path, facts_of(one)) for path, one in own.items()
                         if path not in set_by and one.name not in HIDDEN]  # fmt: skip
     return found
 
 
-def _control(state: State, path: str, facts: Facts | None = None) -> Control:
+def control_of(state: State, path: str, facts: Facts | None = None) -> Control:
+    """The control at a path."""
     facts, value = facts or facts_at(path), state.value(path)
     if isinstance(value, str | tuple):
-        return Control(path, facts, value, words=PLACES if path.endswith(".at") else ())
+        return Control(path, facts, value, words=PLACES if path.endswith(".at") else tuple(PARTS.get(path, ())))
     return Control(path, facts, value, tuple(float(one) for one in _grid(state, path, facts, value)))
 
 
@@ -84,23 +82,21 @@ def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float
     """Values of a slider, which the rule of the field accepts."""
     case, name, rule = state.case, path.rpartition(".")[2], facts.rule
     if path in ("v_0", "v_0/v_c"):  # of both signs where something shakes in the plane
-        top = max(VELOCITIES_TO * (velocity_scale(case) if path == "v_0" else 1.0), abs(value))
-        return np.linspace(-top, top, POINTS + 1) if case.is_shaken else np.linspace(0, top, POINTS + 1)[1:]
-    if path in GROUPS:
-        low, high = GROUPS_FROM_TO
+        top = max(UP_TO * (velocity_scale(case) if path == "v_0" else 1.0), abs(value))
+        return np.linspace(-top, top, STEPS + 1) if case.is_shaken else np.linspace(0, top, STEPS + 1)[1:]
+    if path in GROUPS:  # as the field that it sets
         rule = positive if path == "omega_0/omega" else facts_at(GROUPS[path]).rule
-        both = np.geomspace(min(low, abs(value) or low), max(high, abs(value)), POINTS + 1)
-        return _accepted(both, rule, name)
     if path == "shake.omega" and case.oscillation.omega:
-        return sorted({*(ratio * case.oscillation.omega for ratio in RATIOS), value})
+        ratios = {ratio for n in range(1, MOST + 1) for ratio in (n, 1 / n)}  # multiples and parts: of short periods
+        return sorted({*(ratio * case.oscillation.omega for ratio in ratios), value})
     if facts.unit == "rad" and _accepts(rule, name, -1.0):
-        return np.linspace(-np.pi, np.pi, POINTS + 1)
-    if facts.unit == "-" and not _accepts(rule, name, DECADE):  # a ratio with two ends
-        return _accepted(np.linspace(0.0, 1.0, POINTS + 1), rule, name)
+        return np.linspace(-np.pi, np.pi, STEPS + 1)
+    if path not in GROUPS and facts.unit == "-" and not _accepts(rule, name, DECADE):  # a ratio with two ends
+        return _accepted(np.linspace(0.0, 1.0, STEPS + 1), rule, name)
     middle = value or scales_of(case).get(name, 1.0)
     if value < 0 or (value == 0 and name == "u_z0"):
-        return np.linspace(-DECADE * abs(middle), DECADE * abs(middle), POINTS + 1)
-    return _accepted(middle * np.geomspace(1 / DECADE, DECADE, POINTS + 1), rule, name)
+        return np.linspace(-DECADE * abs(middle), DECADE * abs(middle), STEPS + 1)
+    return _accepted(middle * np.geomspace(1 / DECADE, DECADE, STEPS + 1), rule, name)
 
 
 def _accepted(values: Iterable[float], rule: Rule | None, name: str) -> list[float]:

@@ -23,9 +23,13 @@ def swatches(*named: tuple[str, str]) -> str:
 
 SPRINGS_LEGEND = swatches(*((name, colour) for name, colour in MODES))
 FORCES_LEGEND = swatches(("F<sub>x</sub>", "#000000"), ("μ<sub>0</sub> F<sub>z</sub>, the limit", GREY))
-CURVE_LEGEND = swatches(("friction", COLOURS[0]), ("the run at v<sub>0</sub>", COLOURS[1]))
-CURVE_LEGEND += f'<span style="border-left:2px dotted {DARK};margin:0 6px 0 14px"></span>v<sub>c</sub>'
-BAND_LEGEND = swatches(("held at rest by a rigid pull", COLOURS[2]))
+
+
+def curve_legend(picture: Picture) -> str:
+    """The legend of the curve."""
+    critical = f'<span style="border-left:2px dotted {DARK};margin:0 6px 0 14px"></span>v<sub>c</sub>'
+    held = swatches(("held at rest by a rigid pull", COLOURS[2])) if picture.band else ""
+    return swatches(("friction", COLOURS[0]), ("the run at v<sub>0</sub>", COLOURS[1])) + critical + held
 
 
 class Figures:

@@ -6,29 +6,25 @@ from collections.abc import Callable, Iterable
 from threading import Event, Lock, Thread
 from typing import Generic, TypeVar
 
+from mdr.tools.progress import Ended, unless
+
 Request = TypeVar("Request")
 Answer = TypeVar("Answer")
-
-
-class Superseded(Exception):
-    """A newer request has come, or nobody waits for an answer any more."""
 
 
 class Latest(Generic[Request, Answer]):
     """Answers requests one at a time. A newer one ends the work on an older one, whose answers are dropped.
 
-    `work(request, watch)` yields answers and calls `watch` now and then, which raises `Superseded`. `deliver(request,
+    `work(request, watch)` yields answers and calls `watch` now and then, which raises `Ended`. `deliver(request,
     answer)` is called in the thread of the work, with the exception where the work raised one and None at its end.
-    After each answer the work rests for `rest` seconds, so that the page can show it, and a newer request come.
     """
 
     def __init__(
         self,
         work: Callable[[Request, Callable[[], None]], Iterable[Answer]],
         deliver: Callable[[Request, Answer | Exception | None], None],
-        rest: float = 0.0,
     ) -> None:
-        self.work, self.deliver, self.rest = work, deliver, rest
+        self.work, self.deliver = work, deliver
         self.at_work, self.superseded = Lock(), Event()
 
     def drop(self) -> None:
@@ -42,20 +38,16 @@ class Latest(Generic[Request, Answer]):
         Thread(target=self._run, args=(request, self.superseded), daemon=True).start()
 
     def _run(self, request: Request, superseded: Event) -> None:
-        def watch() -> None:
-            if superseded.is_set():
-                raise Superseded
-
+        watch = unless(superseded)
         with self.at_work:
             try:
                 watch()
                 for answer in self.work(request, watch):
                     watch()
                     self.deliver(request, answer)
-                    superseded.wait(self.rest)
                 watch()
                 self.deliver(request, None)
-            except Superseded:
+            except Ended:
                 pass
             except Exception as fault:  # whatever it is, the page says so and goes on
                 self.deliver(request, fault)

@@ -13,17 +13,17 @@ import panel as pn
 from mdr.case.contact import SlidingContact
 from mdr.explorer import look
 from mdr.explorer.board import Board
-from mdr.explorer.figures import BAND_LEGEND, CURVE_LEGEND, FORCES_LEGEND, SPRINGS_LEGEND, Figures
+from mdr.explorer.figures import FORCES_LEGEND, SPRINGS_LEGEND, Figures, curve_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
-from mdr.explorer.pictures import ACCURACY, Picture, pictures_of, verdict_of
+from mdr.explorer.pictures import Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case
+from mdr.march.march import LEAST_ACCURATE
 
-REST = 0.1  #: s between the first sight of a curve and the work on a better one
 FIRST_SIGHT = "first sight, its error is not bounded yet"
-BOUNDED = f"error of friction ≤ {ACCURACY:g} μ<sub>0</sub>, where settled; hollow points are not"
+BOUNDED = f"error of friction ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>, where settled; hollow points are not"
 
 
 class Page:
@@ -33,7 +33,7 @@ class Page:
         self.state, self.document, self.loaded = state, pn.state.curdoc, False
         self.alert, self.status, self.numbers, self.said, self.legend = (look.html() for _ in range(5))
         self.figures, self.keep, self.board = Figures(), Keep(self._load), Board(state, self.attempt)
-        self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show), REST)
+        self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
         self.alert.object = look.refused(refusal)
         self._take(state)
@@ -60,10 +60,10 @@ class Page:
 
     # --- changes ---
 
-    def attempt(self, change: Callable[[State], State], anew: bool = False) -> str:
+    def attempt(self, change: Callable[[State], State]) -> str:
         """Change the state; the answer is why that was refused."""
         try:
-            self._take(change(self.state), anew)
+            self._take(change(self.state))
         except look.REFUSALS as refusal:
             return look.words_of(refusal)
         return ""
@@ -74,12 +74,12 @@ class Page:
         def loaded(state: State) -> State:
             return replace(State.of(parse_case(data.decode("utf-8-sig"), name)), in_groups=state.in_groups)
 
-        self.alert.object = look.refused(self.attempt(loaded, anew=True))
+        self.alert.object = look.refused(self.attempt(loaded))
 
-    def _take(self, state: State, anew: bool = False) -> None:
+    def _take(self, state: State) -> None:
         """Make this the state: the controls stand at it, and its pictures are asked for."""
         self.state = state
-        self.board.show(state, anew)
+        self.board.show(state)
         self.said.object = ""
         self.verdicts.drop()
         if self.loaded:
@@ -111,8 +111,7 @@ class Page:
     def _draw(self, picture: Picture) -> None:
         self.keep.picture = picture
         self.figures.show(picture)
-        legend = CURVE_LEGEND + (BAND_LEGEND if picture.band else "")
-        self.legend.object = f'<span style="{look.SMALL}">{legend}</span>'
+        self.legend.object = f'<span style="{look.SMALL}">{curve_legend(picture)}</span>'
         self.numbers.object = look.table(picture.numbers) + "".join(map(look.doubted, picture.doubts))
         self._tell(BOUNDED if picture.curve else FIRST_SIGHT)
 

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
-from mdr.explorer.state import State
+from mdr.explorer.state import DECADE, POINTS, UP_TO, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
 from mdr.friction.verdict import verdict
+from mdr.march.march import LEAST_ACCURATE
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import plausibility, resolved
@@ -24,15 +25,8 @@ from mdr.plots import edges_of, prefix
 from mdr.tools.arrays import Array
 from mdr.tools.progress import silent, time_limit
 
-ACCURACY = 1e-3  #: of the curve and the run, over mu_0
-POINTS = 13  #: of a curve on each side of zero
-LEAST = 0.004  #: of the velocity scale: beside zero, where friction of a shaken contact jumps
-UP_TO, FARTHEST = 1.35, 3.0  #: of that scale: end of the curve, and where it ends if v_0 lies beyond
-FIRST = (48, 128)  #: springs and steps of the curve without a bound
-RUN = (96, 256)  #: springs and steps of the run
-ROWS = 120  #: of the picture of the springs
+RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
 PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
-LONGEST_VERDICT = 120.0  #: s of computing, after which a verdict ends without a measurement
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,9 +44,9 @@ class Picture:
 
     @property
     def springs(self) -> NDArray[np.uint8]:
-        """Modes (ROWS, n_t) of the springs from the middle to `reach`, in equal rows."""
+        """Modes (n_springs, n_t) of the springs from the middle to `reach`, in equal rows."""
         x, state = np.asarray(self.run.x), np.asarray(self.run.state)
-        order, rows = np.argsort(x), (np.arange(ROWS) + 0.5) / ROWS * self.reach
+        order, rows = np.argsort(x), (np.arange(x.size) + 0.5) / x.size * self.reach
         return state[:, order[np.searchsorted(edges_of(x[order])[1:-1], rows)]].T
 
     @property
@@ -93,15 +87,15 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
     """Pictures of a state, each better than the one before. `watch` may end the work by raising an error."""
     case = state.case
     with silent(watch), time_limit(PATIENCE):
-        run = slide(case, state.v_0, n_springs=RUN[0], steps_per_period=RUN[1], record=1, accuracy=ACCURACY)
+        run = slide(case, state.v_0, n_springs=RUN[0], steps_per_period=RUN[1], record=1, accuracy=LEAST_ACCURATE)
         v_0 = velocities_of(state)
         watch()
-        cof = friction_without_bound(case, v_0, *FIRST)
+        cof = friction_without_bound(case, v_0, RUN[0] // 2, RUN[1] // 2)
         back = critical_velocity(case, -1) if case.is_shaken else None
         first = Picture(state, run, v_0, cof, critical_velocity(case), back)
     yield first
     with silent(watch), time_limit(PATIENCE):
-        curve = cof_curve(case, v_0, accuracy=ACCURACY)
+        curve = cof_curve(case, v_0, accuracy=LEAST_ACCURATE)
         second = replace(first, cof=curve.cof, curve=curve, band=holding_band(case) if case.is_shaken else None)
     yield second
 
@@ -109,11 +103,11 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
 def velocities_of(state: State) -> Array:
     """Velocities [m/s] of the curve: to a little beyond v_c, or to the run; both ways where something shakes."""
     scales = [velocity_scale(case) for case in (state.case, state.case.mirrored)]
-    forward, back = (min(max(UP_TO * one, 1.1 * abs(state.v_0)), FARTHEST * one) for one in scales)
-    share = np.linspace(0, 1, POINTS)
+    forward, back = (min(max(UP_TO * one, 1.1 * abs(state.v_0)), DECADE * one) for one in scales)
+    share = np.linspace(0, 1, POINTS // 2 + 1)  # half as fine as elsewhere, to be there at once
     if not state.case.is_shaken:
         return share * forward
-    share[0] = LEAST
+    share[0] = share[1] ** 2  # beside zero, where friction of a shaken contact jumps
     return np.concatenate([-back * share[::-1], forward * share])
 
 
@@ -128,4 +122,4 @@ def with_prefix(value: float, unit: str) -> str:
 def verdict_of(case: SlidingContact, watch: Callable[[], None] = lambda: None) -> Iterator[str]:
     """The sentence on how good the closed form is for a case."""
     with silent(watch):
-        yield str(verdict(case, limit_s=LONGEST_VERDICT))
+        yield str(verdict(case))

@@ -13,21 +13,16 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
-from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAKES, SHAPES, STILL
+from mdr.files.examples import PARTS, STILL
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
 from mdr.tools.checks import finite, positive
 
-V_0 = 0.5  #: of the velocity scale of a case: where its first run is
-SMALL, DAMPED, NATURAL = 0.1, 0.1, 2.0  #: amplitude over mean, damping ratio, omega_0/omega
-#: what each part can be, with the record that a new one is made of
-PARTS: dict[str, dict[str, Any]] = {
-    "indenter": SHAPES,
-    "material": MATERIALS,
-    "oscillation": MOTIONS,
-    "pull": PULLS,
-    "shake": {STILL: None, **SHAKES},
-}
+UP_TO = 1.3  #: of the velocity scale of a case, at which friction has become mu_0: end of a curve
+POINTS = 24  #: of a curve: its corner at v_c is seen to a twentieth
+SMALL = 0.1  #: of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
+NATURAL = 2.0  #: omega_0/omega of a new body: off resonance, which is at 1
+DECADE = 10.0  #: how far a slider goes to both sides of the first value, and a curve beyond the velocity scale
 
 
 @dataclass(frozen=True)
@@ -40,7 +35,7 @@ class State:
 
     @classmethod
     def of(cls, case: SlidingContact) -> State:
-        """The case and half of its velocity scale."""
+        """The case and the middle of its curve."""
         return cls(case, _first(case))
 
     @property
@@ -50,16 +45,19 @@ class State:
         return v_c if 0 < v_c < np.inf else None
 
     def value(self, path: str) -> Any:
-        """The value at a path: a field, a group, or the velocity."""
+        """The value at a path: a field, a group, or the velocity; of a part what it is, by name."""
         if path == "v_0":
             return self.v_0
         if path == "v_0/v_c":
             return self.v_0 / (self.v_c or np.nan)
-        return value_at(as_given(self.case), path)
+        value = value_at(as_given(self.case), path)
+        return value if path not in PARTS else STILL if value is None else type(value).__name__
 
     def changed(self, path: str, value: Any) -> State:
         """The state with another value at a path. ValueError or TypeError, as its record words it."""
         case = self.case
+        if path in PARTS:
+            return self._with_kind(path, value)
         if path in ("v_0", "v_0/v_c"):
             v_0 = finite(path, value) if case.is_shaken else positive(path, value, "pulling velocity")
             return replace(self, v_0=v_0 if path == "v_0" else v_0 * (self.v_c or np.nan))
@@ -71,7 +69,7 @@ class State:
             settings["shake.omega"] = ratio * positive("omega", value, "angular frequency in rad/s")
         return self._with(case_at(as_given(case), settings))
 
-    def with_kind(self, slot: str, name: str) -> State:
+    def _with_kind(self, slot: str, name: str) -> State:
         """The state with another kind of a part; what it shares with the one before keeps its value."""
         case: Any = as_given(self.case)
         old, new, known = getattr(case, slot), PARTS[slot][name], scales_of(case)
@@ -80,7 +78,7 @@ class State:
         known |= {one: getattr(old, one) for one in fields_of(old)}
         shared = {one: known[one] for one in fields_of(new) if one in known}
         if slot == "oscillation" and not new.omega and case.shake is None:
-            case = self.with_kind("shake", "InPlaneOscillation").case
+            case = self._with_kind("shake", "InPlaneOscillation").case
         try:
             return self._with(replace(case, **{slot: replace(new, **shared)}))
         except (TypeError, ValueError):  # what has the same name may mean another thing
@@ -99,13 +97,7 @@ class State:
 
 def _first(case: SlidingContact) -> float:
     """Velocity [m/s] of a first run, to three digits."""
-    return float(f"{V_0 * velocity_scale(case):.3g}")
-
-
-def kind_of(case: SlidingContact, slot: str) -> str:
-    """What a part of the case is."""
-    part = getattr(as_given(case), slot)
-    return STILL if part is None else type(part).__name__
+    return float(f"{UP_TO / 2 * velocity_scale(case):.3g}")
 
 
 def group_values(case: SlidingContact) -> dict[str, float]:
@@ -135,7 +127,7 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
         "tau": SMALL / case.omega,
         "k_x": k_x,
         "m": m,
-        "c_x": 2 * DAMPED * float(np.sqrt(k_x * m)),
+        "c_x": 2 * SMALL * float(np.sqrt(k_x * m)),
         "du_x": case.mu_0 * kappa * depth / 2,
     }
     return {name: float(f"{size:.2g}") for name, size in sizes.items()} | {"omega": case.omega}

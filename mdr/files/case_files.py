@@ -40,8 +40,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
 from inspect import isabstract
 from os import PathLike, fsdecode
 from types import ModuleType
@@ -57,7 +57,7 @@ from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml
 from mdr.normal.doubts import warn_outside
 from mdr.normal.rig import OPEN, settings_of
 from mdr.normal.vary import contact_of, fields_of, fields_set
-from mdr.tools.fields import checked
+from mdr.tools.fields import checked, example_of, required
 from mdr.tools.messages import nearest, offer, short
 
 # --- public ---
@@ -338,6 +338,7 @@ class _Table:
         given: dict[str, Any] = {}
         held: dict[str, Any] = {}
         faults: list[str] = []
+        spoilt: set[str | None] = set()
         for key, value in table.items():
             setting = settings.get(key)
             field = setting.field_of(self.name, record) if setting else key
@@ -350,11 +351,12 @@ class _Table:
             else:
                 said, wrong = tried(setting.convert, value)
                 faults += wrong
-                given[field] = HARMLESS if wrong or field in OPEN else said
+                spoilt |= {field} if wrong else set()
+                given |= {} if wrong else {field: said}  # a stand-in for what is held: a number above zero
                 held |= {key: said} if field in OPEN else {}
         given.pop(self.choice, None)
-        refused = _field_faults(record, given, self._ways_out(record))
-        made, together = (None, []) if refused else tried(record, **given)
+        refused = _field_faults(record, given, self._ways_out(record), spoilt)
+        made, together = (None, []) if refused or spoilt else tried(record, **given)
         if faults := [*faults, *refused, *together]:
             raise CaseFileError.of(faults)
         return made, held
@@ -395,11 +397,10 @@ _TABLES = {
 }
 #: a sound record for each part that a case cannot do without
 _HARMLESS = {
-    "indenter": indenters.Paraboloid(R=1.0),
-    "material": materials.Elastic(E=1.0, nu=0.5),
-    "oscillation": NormalOscillation(u_z0=1.0, du_z=1.0, omega=1.0),
+    "indenter": example_of(indenters.Paraboloid),
+    "material": example_of(materials.Elastic),
+    "oscillation": example_of(NormalOscillation),
 }
-HARMLESS = 0.5  # within the rule of every field that a setting stands for
 TOP = fields_of(SlidingContact)
 FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
@@ -431,12 +432,12 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
-def _field_faults(record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str]) -> list[str]:
-    """What is missing, then what each field refuses by its rule."""
-    asked = [one for one in fields(record) if one.init]
-    required = [one.name for one in asked if one.default is MISSING and one.default_factory is MISSING]
-    refused = [tried(checked, one, given[one.name])[1] for one in asked if one.name in given]
-    absent = [name for name in required if name not in given]
+def _field_faults(
+    record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str], spoilt: Collection[str | None] = ()
+) -> list[str]:
+    """What is missing, but for what was `spoilt` already, then what each field refuses by its rule."""
+    refused = [tried(checked, one, given[one.name])[1] for one in fields(record) if one.init and one.name in given]
+    absent = [one.name for one in required(record) if one.name not in given and one.name not in spoilt]
     missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
     return missing + [fault for found in refused for fault in found]
 

@@ -42,6 +42,14 @@ MOTIONS: dict[str, motions.Motion] = _examples(motions)
 PULLS: dict[str, RigidPull | SpringPull] = {"SpringPull": example_of(SpringPull), "RigidPull": RigidPull()}
 SHAKES: dict[str, in_plane.Shake] = _examples(in_plane)
 STILL = "none"  #: the name of no shake
+#: what each part can be
+PARTS: dict[str, dict[str, Any]] = {
+    "indenter": SHAPES,
+    "material": MATERIALS,
+    "oscillation": MOTIONS,
+    "pull": PULLS,
+    "shake": {STILL: None, **SHAKES},
+}
 
 
 def example(
@@ -56,12 +64,11 @@ def example(
     A constant depth or load is shaken in the plane, unless asked otherwise harmonically, as something has to move.
     Raises ValueError for a name that is none, with the nearest.
     """
-    indenter, body = SHAPES[_named("shape", shape, SHAPES)], MATERIALS[_named("material", material, MATERIALS)]
-    moved = MOTIONS[_named("motion", motion, MOTIONS)]
-    shaken = SHAKES.get(_named("shake", shake, (*SHAKES, STILL)))
+    indenter, body = _named("shape", shape, SHAPES), _named("material", material, MATERIALS)
+    moved, shaken = _named("motion", motion, MOTIONS), _named("shake", shake, PARTS["shake"])
     if shaken is None and not moved.omega:
         shaken = SHAKES["InPlaneOscillation"]
-    return SlidingContact(indenter, body, 0.5, moved, PULLS[_named("pull", pull, PULLS)], shaken)
+    return SlidingContact(indenter, body, 0.5, moved, _named("pull", pull, PULLS), shaken)
 
 
 def example_file(case: SlidingContact) -> str:
@@ -101,14 +108,11 @@ def _written(value: Any) -> str:
     return np.format_float_scientific(value, trim="-", exp_digits=1).replace("e+", "e")
 
 
-def _named(kind: str, name: str, known: Any) -> str:
-    """The name as Python writes it."""
+def _named(kind: str, name: str, known: dict[str, Any]) -> Any:
+    """What has this name."""
     if not isinstance(name, str):
         raise TypeError(f"{kind} must be a name, got {short(repr(name))}")
     plain: dict[str, str] = {one.casefold(): one for one in known}
     if (found := plain.get(name.replace("_", "").replace("-", "").casefold())) is None:
         raise ValueError(f"{short(name)} is no {kind} of an example; {offer(name, list(known))}")
-    return found
-
-
-__all__ = ["MATERIALS", "MOTIONS", "PULLS", "SHAKES", "SHAPES", "STILL", "example", "example_file"]
+    return known[found]

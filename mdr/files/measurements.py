@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 
 from mdr.files.toml_text import read_text
 from mdr.materials.base import poisson_ratio
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.csv_table import Column, Table, fault, table_of
 
 Words = Mapping[str, str] | None
-SAME = 1e-9  #: of the greatest radius: two points nearer than this are one
 
 PROFILE = (
     Column("r", ("x", "radius", "position", "distance"), "m"),
@@ -120,7 +119,7 @@ def profile_points(
         raise ValueError(f'side must be "both", "left" or "right", got {side!r}')
     table = read_table(path, PROFILE, units, columns)
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
-    tiny = SAME * float(np.max(np.abs(x)))
+    tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
     _refuse_repeated(table, "r", x, tiny)
     at_tip = np.flatnonzero(np.abs(x) <= tiny)
     if not at_tip.size:

@@ -65,7 +65,9 @@ def read_text(path: str | PathLike[str]) -> str:
     with told(f"{fsdecode(path)}: "):
         try:
             if isinstance(path, StandardInput):
-                data = _read_standard_input()
+                if sys.stdin is None:
+                    raise OSError("it is closed")
+                data = sys.stdin.buffer.read(MAX_BYTES + 1)
             else:
                 with open(path, "rb") as file:
                     data = file.read(MAX_BYTES + 1)
@@ -79,12 +81,6 @@ def read_text(path: str | PathLike[str]) -> str:
             line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
             what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
             raise CaseFileError(what) from None
-
-
-def _read_standard_input() -> bytes:
-    if sys.stdin is None:
-        raise OSError("it is closed")
-    return sys.stdin.buffer.read(MAX_BYTES + 1)
 
 
 def tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:

@@ -18,7 +18,6 @@ from mdr.tools.arrays import Array
 #: off then carries 1e-4 of F_z
 MARGIN = 1.06
 BELOW = 1 - 1e-5  #: its limit, where a traction counts as that of a cell that sticks
-OUT_OF_REACH = 1e3  #: depths, where a shape has ended
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,8 @@ class LastPeriod:
     @property
     def stick(self) -> Array:
         """Share of the area in contact that sticks in each step, (steps,); NaN where nothing touches."""
-        return np.array([_share_stuck(self.contact, step) for step in self.steps])
+        touching = np.array([np.count_nonzero(step.pressure) or np.nan for step in self.steps])
+        return np.array([np.count_nonzero(stuck(self.contact, step)) for step in self.steps] / touching)
 
 
 def in_three_dimensions(case: SlidingContact, v_0: float, settings: Settings) -> Friction:
@@ -99,7 +99,7 @@ def contact_of(case: SlidingContact, settings: Settings) -> Contact:
     h = 2 * MARGIN * float(shape.contact_radius(deepest)) / cells
     places = (np.arange(cells) - (cells - 1) / 2) * h
     r = np.hypot(places[:, None], places[None, :])
-    height = np.full(r.shape, OUT_OF_REACH * deepest)
+    height = np.full(r.shape, np.inf)  # where the shape has ended
     height[r <= shape.max_radius] = shape.profile_3d(r[r <= shape.max_radius])
     beta = material.dundurs_beta if settings.coupled else 0.0
     half_space = HalfSpace(cells, h, material.E_star, material.G_star, beta)
@@ -129,8 +129,3 @@ def _settling(cofs: Array) -> float:
         return float(abs(cofs[-1] - cofs[0])) if len(cofs) > 1 else np.nan
     last, before = abs(cofs[-1] - cofs[-2]), abs(cofs[-2] - cofs[-3])
     return float(last if not before else last / max(1 - last / before, 0.1))
-
-
-def _share_stuck(contact: Contact, step: Step) -> float:
-    touching = np.count_nonzero(step.pressure)
-    return np.count_nonzero(stuck(contact, step)) / touching if touching else np.nan

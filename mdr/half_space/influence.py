@@ -46,14 +46,8 @@ class HalfSpace:
     @cached_property
     def spectra(self) -> dict[tuple[int, int], NDArray[np.complex128]]:
         """Transforms of the coefficients that are not zero: (i, j) for u_i under q_j."""
-        found = {}
-        for pair in ((X, X), (Y, Y), (Z, Z), (X, Y), (X, Z), (Y, Z)):
-            kernel = self.coefficients(*pair)
-            if np.any(kernel):
-                found[pair] = fft.rfft2(self._wrapped(kernel))
-                if pair[0] != pair[1]:
-                    found[pair[::-1]] = fft.rfft2(self._wrapped(self.coefficients(*pair[::-1])))
-        return found
+        kernels = {(i, j): self.coefficients(i, j) for i in (X, Y, Z) for j in (X, Y, Z)}
+        return {pair: fft.rfft2(self._wrapped(kernel)) for pair, kernel in kernels.items() if np.any(kernel)}
 
     def coefficients(self, i: int, j: int) -> Array:
         """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
@@ -75,12 +69,13 @@ class HalfSpace:
         self, tractions: Array, of: tuple[int, ...] = (X, Y, Z), under: tuple[int, ...] = (X, Y, Z)
     ) -> Array:
         """The components `of` of the displacement, (len(of), n, n), under the components `under` of the tractions."""
+        pairs = [(a, b) for a, i in enumerate(of) for b, j in enumerate(under) if (i, j) in self.spectra]
+        if not pairs:
+            return np.zeros((len(of), self.n, self.n))
         loads = fft.rfft2(tractions, (self.size, self.size))
         answers = np.zeros((len(of), *loads.shape[1:]), complex)
-        for i, answer in zip(of, answers, strict=True):
-            for j, load in zip(under, loads, strict=True):
-                if (i, j) in self.spectra:
-                    answer += self.spectra[i, j] * load
+        for a, b in pairs:
+            answers[a] += self.spectra[of[a], under[b]] * loads[b]
         shifts: Array = fft.irfft2(answers, (self.size, self.size))
         return shifts[:, : self.n, : self.n]
 

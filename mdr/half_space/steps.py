@@ -85,7 +85,7 @@ class Contact:
         stick = before[:2] + (1 + theta) * np.array([moved, 0.0])[:, None, None]  # what C q must be where it sticks
 
         def sticking_or_not(tractions: Array) -> Array:
-            asked = stick - self._dragged(tractions)
+            asked = stick - self.half_space.displacement(tractions[Z:], (X, Y), (Z,))
             if not self.transverse:
                 asked[Y] = 0.0
             return traction(self._tangential, asked, self.mu_0 * tractions[Z], tractions[:2], fine)
@@ -104,7 +104,7 @@ class Contact:
         """
         last = np.zeros(3)
         for _ in range(TURNS):
-            gap = down - self._pulled_down(tractions)
+            gap = down - self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
             tractions[Z] = pressure(self._normal, gap, tractions[Z], self.tolerance * 1e-2)
             tractions[:2] = friction(tractions)
             if not self.half_space.beta:
@@ -127,16 +127,3 @@ class Contact:
         if not self.transverse:
             u[Y] = 0.0
         return u
-
-    def _pulled_down(self, tractions: Array) -> Array:
-        """u_z that tangential tractions make."""
-        if not self.half_space.beta:
-            return np.zeros_like(self.shape)
-        u_z: Array = self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
-        return u_z
-
-    def _dragged(self, tractions: Array) -> Array:
-        """u_x, u_y that pressure makes."""
-        if not self.half_space.beta:
-            return np.zeros_like(tractions[:2])
-        return self.half_space.displacement(tractions[Z:], (X, Y), (Z,))

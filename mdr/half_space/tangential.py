@@ -15,12 +15,13 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, cg
 
 from mdr.half_space.normal import NotConverged
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 
-ON_THE_RIM = 1 - 1e-12  #: of its bound, from which a traction counts as at it
-CLOSE, MOST_INNER = 1e-2, 400  #: to which part of what is left a Newton step is solved, and in how many iterations
+#: to which part of what is left a Newton step is solved: the step is only a direction, which the line search shortens
+CLOSE = 1e-2
 
 
 def traction(
@@ -65,7 +66,8 @@ def _rim(q: Array, gradient: Array, bound: Array) -> tuple[NDArray[np.bool_], Ar
     size = np.hypot(*q)
     normal = np.where(size > 0, q / np.where(size > 0, size, 1.0), 0.0)
     outward = -np.sum(gradient * normal, axis=0)
-    rim = (size >= ON_THE_RIM * bound) & (bound > 0) & (outward > 0)
+    at_limit = size >= (1 - 4 * EPS) * bound  # as projected, but for the rounding of ratio, product and length
+    rim = at_limit & (bound > 0) & (outward > 0)
     return rim, np.where(rim, outward / np.where(bound > 0, bound, 1.0), 0.0), normal
 
 
@@ -84,22 +86,17 @@ def _newton(
         out = v - np.where(rim, np.sum(v * normal, axis=0), 0.0) * normal
         return np.where(alive, out, 0.0)
 
-    ease = 1 / (1 / stiff + curvature)  # of the diagonal
-    r = -free(gradient)
-    z = ease * r
-    step, direction, norm = np.zeros_like(r), z, float(np.sum(r * z))
-    target = norm * CLOSE**2
-    for _ in range(MOST_INNER):
-        if norm <= target or norm == 0:
-            break
-        image = free(product(direction)) + curvature * direction
-        along = norm / float(np.sum(direction * image))
-        step = step + along * direction
-        r = r - along * image
-        z = ease * r
-        new = float(np.sum(r * z))
-        direction, norm = z + new / norm * direction, new
-    return step
+    def system(v: Array) -> Array:
+        direction = v.reshape(gradient.shape)
+        return np.ravel(free(product(direction)) + curvature * direction)
+
+    def scaled(v: Array) -> Array:
+        return np.ravel(v.reshape(gradient.shape) / (1 / stiff + curvature))
+
+    size = (gradient.size, gradient.size)
+    matrix, diagonal = (LinearOperator(size, matvec=apply, dtype=float) for apply in (system, scaled))
+    step: Array = cg(matrix, -np.ravel(free(gradient)), rtol=CLOSE, M=diagonal)[0]
+    return step.reshape(gradient.shape)
 
 
 def _searched(

@@ -18,7 +18,7 @@ from mdr.tools.progress import progress
 SECONDS = 4.0  #: that one period lasts in the picture
 MOST_DRAWN = 24  #: springs on each side
 LEAN = 0.06  #: greatest lean of a spring, over the width of the picture
-DPI, SHADES = 80, 64  #: resolution, and colours of the GIF
+DPI = 80  #: resolution of the GIF
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
                 part.show(k)
             pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy()))
     few = Image.fromarray(np.concatenate([np.asarray(one) for one in pictures[:: max(1, len(pictures) // 4)]]))
-    palette = few.quantize(SHADES, Image.Quantize.FASTOCTREE)
+    palette = few.quantize(method=Image.Quantize.FASTOCTREE)
     first, *rest = (one.quantize(palette=palette, dither=Image.Dither.NONE) for one in pictures)
     first.save(path, save_all=True, append_images=rest, duration=round(1e3 * SECONDS * periods / len(at)), loop=0)
     return Gif(path)

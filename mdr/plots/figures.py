@@ -38,8 +38,8 @@ __all__ = [
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
-FAINT: dict[str, Any] = {"color": "0.75", "linewidth": 0.8, "zorder": 0}
-_FREE = 0
+
+
 _MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
 
@@ -112,8 +112,8 @@ def plot_curve(
         for level in {curve.mu_0 / mu for curve, (_, mu) in zip(curves, scales, strict=True)}:
             _limits(ax, level, both)
         if both:
-            ax.axhline(0.0, **FAINT)
-            ax.axvline(0.0, **FAINT)
+            _faint(ax.axhline, 0.0)
+            _faint(ax.axvline, 0.0)
         _mark_critical(ax, curves, scales, shades, both)
         over_v_c = r"pulling velocity $v_0/v_c$" + (", $v_c$ of a forward pull" if both else "")
         ax.set_xlabel(over_v_c if scaled else rf"pulling velocity $v_0$ [{unit}]")
@@ -293,9 +293,10 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: "ArrayLi
     units = prefix([1.5 * a], "m"), prefix([d], "m")
     with style():
         fig, (left, right) = subplots(1, 2, sharex=True, sharey=True, figsize=(7.4, 3.6))
-        _draw_shape(left, indenter.profile_3d, a, d, units)
+        r = np.linspace(0.0, min(1.6 * a, indenter.max_radius), 321)
+        _draw_shape(left, r, indenter.profile_3d(r), a, d, units)
         _draw_springs(right, indenter.profile_1d, x, a, d, units)
-        _draw_shape(right, indenter.profile_1d, a, d, units)
+        _draw_shape(right, r, indenter.profile_1d(r), a, d, units)
         left.set(title="shape $f(r)$", xlabel=f"$r$ [{units[0][1]}]", ylabel=f"height [{units[1][1]}]")
         right.set(title="image $g(x)$ on its springs", xlabel=f"$x$ [{units[0][1]}]")
         reach = max(1.52 * a, 1.03 * np.max(x)) * units[0][0]
@@ -315,7 +316,12 @@ def save(figure: "Figure", script: str, suffix: str = "") -> Path:
 def _limits(ax: "Axes", mu: float, both: bool) -> None:
     """Lines at the full friction of a forward pull, and of a backward one."""
     for level in (mu, -mu)[: 1 + both]:
-        ax.axhline(level, **FAINT)
+        _faint(ax.axhline, level)
+
+
+def _faint(draw: Any, at: float) -> None:
+    """A line to read other things by."""
+    draw(at, color="0.75", linewidth=0.8, zorder=0)
 
 
 def _mark_critical(ax: "Axes", curves: Any, scales: Any, shades: Any, both: bool) -> None:
@@ -420,7 +426,7 @@ def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
 
 def _draw_velocities(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
     """Velocity of the foot points over v_0: zero where one sticks."""
-    ax.axhline(0.0, color="0.75", linewidth=0.8)
+    _faint(ax.axhline, 0.0)
     for foot, look in _feet(run):
         ax.plot(t, np.gradient(foot, run.t) / (run.v_0 or 1.0), **look)
     ax.set_ylabel("foot velocity / $v_0$" if run.v_0 else "foot velocity [m/s]")
@@ -431,7 +437,7 @@ def _feet(run: Any) -> "Iterable[tuple[NDArray[np.float64], dict[str, Any]]]":
 
     Lines grow thinner, so that feet moving as one all show.
     """
-    x, free = np.asarray(run.x), np.asarray(run.state) == _FREE
+    x, free = np.asarray(run.x), np.array([name == "free" for name, _ in MODES])[run.state]
     touching = np.flatnonzero(free.mean(axis=0) <= 0.5)
     edge = touching[np.argmax(x[touching])] if len(touching) else np.argmin(x)
     chosen = {"centre": np.argmin(x), "half-way": np.argmin(np.abs(x - x[edge] / 2)), "mean edge": edge}
@@ -444,10 +450,16 @@ def _feet(run: Any) -> "Iterable[tuple[NDArray[np.float64], dict[str, Any]]]":
         taken.add(i)
 
 
-def _draw_shape(ax: "Axes", profile: Any, a: float, d: float, units: Any) -> None:
-    """Draw the indenter, pressed down by d into the undeformed surface, and the contact radius."""
+def _draw_shape(ax: "Axes", r: Any, profile: Any, a: float, d: float, units: Any) -> None:
+    """Draw the indenter, pressed down by d into the undeformed surface, and the contact radius.
+
+    Both flanks out to 1.6 a, with a vertical wall where the profile ends before that.
+    """
     (per_r, _), (per_z, _) = units
-    r, z = _outline(profile, a, d)
+    r, z = r[np.isfinite(profile)], profile[np.isfinite(profile)] - d
+    if r[-1] < 1.6 * a:
+        r, z = np.append(r, r[-1]), np.append(z, max(z[-1], d))
+    r, z = np.concatenate([-r[::-1], r]), np.concatenate([z[::-1], z])
     top = 0.6 * d
     ax.fill_between(r * per_r, np.minimum(z, top) * per_z, top * per_z, color="0.88", linewidth=0, zorder=1)
     ax.plot(r * per_r, z * per_z, color="k", zorder=4)
@@ -456,21 +468,6 @@ def _draw_shape(ax: "Axes", profile: Any, a: float, d: float, units: Any) -> Non
         ax.axvline(side * per_r, color="0.4", linewidth=1.0, linestyle=":", zorder=0)
     ax.annotate("$a$", (a * per_r, 0.0), (3, 3), ("data", "axes fraction"), "offset points")
     ax.set_ylim(-1.7 * d * per_z, top * per_z)
-
-
-def _outline(profile: Any, a: float, d: float) -> "tuple[NDArray[np.float64], NDArray[np.float64]]":
-    """Both flanks of profile − d out to 1.6 a, with a vertical wall where the profile ends before that."""
-    r = np.linspace(0.0, 1.6 * a, 321)
-    try:
-        z = np.asarray(profile(r), dtype=float)
-    except ValueError:  # a shape that ends, like a sphere
-        r = np.linspace(0.0, a, 201)
-        z = np.asarray(profile(r), dtype=float)
-    here = np.isfinite(z)
-    r, z = r[here], z[here] - d
-    if r[-1] < 1.6 * a:
-        r, z = np.append(r, r[-1]), np.append(z, max(z[-1], d))
-    return np.concatenate([-r[::-1], r]), np.concatenate([z[::-1], z])
 
 
 def _draw_springs(ax: "Axes", profile: Any, x: Any, a: float, d: float, units: Any) -> None:

@@ -49,9 +49,9 @@ def plot(study: Study, quantity: str | None = None, levels: Sequence[float] | No
     value are left out. Raises ValueError for a study of other axes.
     """
     quantity = study.quantities[0] if quantity is None else quantity
-    lone = {axis.path: axis.values[0] for axis in study.frame.grid if len(axis) == 1}
+    lone = {axis.path: axis.values[0] for axis in study.grid if len(axis) == 1}
     study = study.select(lone) if len(lone) < len(study.axes) else study
-    numbers = [axis.path for axis in study.frame.grid if axis.is_numeric]
+    numbers = [axis.path for axis in study.grid if axis.is_numeric]
     if not numbers:
         raise ValueError(f"no axis of numbers to draw along; the study has {', '.join(study.axes)}")
     x = next((path for path in numbers if path in ("v_0", "v_0/v_c")), numbers[-1])
@@ -152,7 +152,7 @@ def plot_multiples(
         raise ValueError(f"columns must be at least 1, got {columns!r}")
     axis = _axis(study, over)
     parts = [study.select({over: axis.values[i]}) for i in range(len(axis))]
-    is_map = len(parts[0].axes) == 2 and all(one.is_numeric for one in parts[0].frame.grid)
+    is_map = len(parts[0].axes) == 2 and all(one.is_numeric for one in parts[0].grid)
     if knobs and not is_map:
         raise TypeError(f"{', '.join(knobs)} is for maps, and these are curves")
     columns = min(columns, len(parts))
@@ -237,7 +237,7 @@ def _colorbar(fig: Any, mesh: Any, ax: Any, study: Study, quantity: str) -> None
 def _axis(study: Study, path: str) -> Axis:
     if path not in study.axes:
         raise ValueError(f"{path!r} is no axis of the study; there are {', '.join(study.axes)}")
-    return study.frame.grid[list(study.axes).index(path)]
+    return study.grid[list(study.axes).index(path)]
 
 
 def _two_axes(study: Study, x: str | None) -> tuple[Axis, Axis]:
@@ -254,15 +254,15 @@ def _one_or_two_axes(study: Study, x: str | None) -> tuple[Axis, Axis | None]:
             f"a picture has one or two axes, the study has {len(study.axes)} ({', '.join(study.axes)}); "
             "fix the others with study.select({path: value}), or use plot_multiples"
         )
-    across = _axis(study, x) if x is not None else study.frame.grid[-1]
+    across = _axis(study, x) if x is not None else study.grid[-1]
     if not across.is_numeric:
         raise ValueError(f"{across.path} has no numbers to draw along; give another axis as x")
-    return across, next((one for one in study.frame.grid if one is not across), None)
+    return across, next((one for one in study.grid if one is not across), None)
 
 
 def _over(study: Study, up: Axis, across: Axis, values: NDArray[Any]) -> NDArray[Any]:
     """Values (n_up, n_across), whatever the order of the axes in the study."""
-    return values if study.frame.grid[0] is up else values.T
+    return values if study.grid[0] is up else values.T
 
 
 def _scale(ax: Axes, which: str, axis: Axis) -> float:

@@ -100,7 +100,10 @@ class Axis(ArrayRecord):
     def index(self, value: Any) -> int:
         """Position of a value on the axis; ValueError, with the nearest value, if it is not there."""
         if not self.is_numeric:
-            return self._index_of_label(value)
+            for i, known in enumerate(self.values):
+                if (type(known) is type(value) and known == value) or value == self.labels[i]:
+                    return i
+            raise ValueError(f"{self.path} has no value {short(repr(value))}; there are {', '.join(self.labels)}")
         try:
             asked = float(value)
         except (TypeError, ValueError):
@@ -109,12 +112,6 @@ class Axis(ArrayRecord):
         if self[nearest_one] != asked:
             raise ValueError(f"{self.path} has no value {asked!r}; the nearest is {self[nearest_one]!r}")
         return nearest_one
-
-    def _index_of_label(self, value: Any) -> int:
-        for i, known in enumerate(self.values):
-            if (type(known) is type(value) and known == value) or value == self.labels[i]:
-                return i
-        raise ValueError(f"{self.path} has no value {short(repr(value))}; there are {', '.join(self.labels)}")
 
 
 def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]:

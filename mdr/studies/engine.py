@@ -19,15 +19,14 @@ from mdr.studies.formats import packed
 from mdr.studies.points import Points, Status, compute
 from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
-from mdr.studies.study import Frame, Study, study_of_points
+from mdr.studies.study import Study, frame_of, study_of_points, tree_of
 from mdr.studies.work import Work, units_of
 from mdr.tools.progress import progress
 
-TRIAL = 1.0  #: s in which units are timed
-MOST_TRIALS = 32
-LEAST_CHUNKS = 32  #: where there are so many units, so that several workers share them evenly
-IN_MEMORY = 256  #: chunks of a study without a store
-MOST_IN_FLIGHT = 1024  #: chunks that an executor of the user is given at a time
+#: of a study with a store that has so many units, so that several workers share them evenly; as many units are timed
+LEAST_CHUNKS = 32
+#: chunks that an executor of the user is given at a time, more than a cluster has workers; and of a study in memory
+MOST_IN_FLIGHT = 1024
 
 
 class Call:
@@ -44,7 +43,7 @@ class Call:
         except ValueError:  # a function without a name, which only a store has to tell from others
             if store is not None:
                 raise
-        self.frame = Frame.of(work, self.identity)
+        self.frame = frame_of(work, self.identity)
 
     def study(self, chunk_seconds: float, shard: tuple[int, int]) -> Study:
         """The study; what is missing of this shard in the store is computed before."""
@@ -52,7 +51,7 @@ class Call:
         try:
             if self.store is not None:
                 return self._in_store(self.store, chunk_seconds, shard)
-            cut = range(0, n, max(1, n // IN_MEMORY))
+            cut = range(0, n, max(1, n // MOST_IN_FLIGHT))
             self._compute(range(len(cut)), cut, len(cut))
             return self._found()
         except KeyboardInterrupt:
@@ -69,7 +68,7 @@ class Call:
         return study_of_points(self.frame, self.work.layout, self.points)
 
     def _in_store(self, store: Store, chunk_seconds: float, shard: tuple[int, int]) -> Study:
-        head = {"identity": self.identity, "specification": self.specification, "frame": self.frame.tree()}
+        head = {"identity": self.identity, "specification": self.specification, "frame": tree_of(self.frame)}
         store.open({**head, "block": self.work.layout.block})
         if (done := self._merged(store)) is not None:
             return done
@@ -89,7 +88,7 @@ class Call:
         if study.identity != self.identity:
             raise StudyError(f"{store.file}: is of another study than study.json beside it; give another folder")
         store.clear()
-        return replace(study, frame=self.frame)
+        return replace(study, grid=self.frame.grid)
 
     def _cut(self, store: Store, chunk_seconds: float) -> range:
         """As the store has it, or as a trial finds; all processes on a store cut alike."""
@@ -191,12 +190,12 @@ def timed(work: Work, seconds: float) -> range:
     most = n // LEAST_CHUNKS
     if most < 2:
         return range(n)
-    trials = Random(0).sample(range(n), MOST_TRIALS)
+    trials = Random(0).sample(range(n), LEAST_CHUNKS)
     coarse = {"n_springs": LEAST_KNOB, "steps_per_period": LEAST_KNOB}
     compute(replace(work, knobs={**work.knobs, **coarse}), range(trials[0], trials[0] + 1))
     lasted, begin = [0.0], time.perf_counter()
     for unit in trials:
-        if lasted[-1] > TRIAL:
+        if lasted[-1] > seconds:
             break
         compute(work, range(unit, unit + 1))
         lasted.append(time.perf_counter() - begin)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mdr.studies.axes import Axis
 from mdr.studies.points import Status
-from mdr.studies.study import Column, Frame, Study
+from mdr.studies.study import Column, Study
 
 _TITLE = "Sliding friction under normal oscillation, a study by mdr"
 _ONE, _DASH = {"-": "1"}, {"1": "-"}  #: a pure number in the file, and here
@@ -28,19 +28,19 @@ def packed(study: Study, history: str = "") -> bytes:
     """The bytes of the file; history is what made it, kept as the CF conventions have it."""
     from scipy.io import netcdf_file
 
-    buffer, frame = BytesIO(), study.frame
+    buffer = BytesIO()
     file = netcdf_file(buffer, "w", version=2)
-    _tell(file, title=_TITLE, identity=frame.identity, mdr_version=frame.version, case=frame.case, history=history)
-    _tell(file, selected=json.dumps(frame.selected) if frame.selected else "")
-    dims = tuple(name_of(axis.path) for axis in frame.grid)
-    for name, axis in zip(dims, frame.grid, strict=True):
+    _tell(file, title=_TITLE, identity=study.identity, mdr_version=study.version, case=study.case, history=history)
+    _tell(file, selected=json.dumps(study.selected) if study.selected else "")
+    dims = tuple(axis.path.replace("/", "_over_") for axis in study.grid)
+    for name, axis in zip(dims, study.grid, strict=True):
         told = {"units": _ONE.get(axis.unit, axis.unit), "long_name": axis.meaning, "path": axis.path}
         if axis.is_numeric:
             file.createDimension(name, len(axis))
             _put(file, name, "d", (name,), axis.values, **told)
         else:
             _put_texts(file, name, axis.labels, **told)
-    for column, values in zip(frame.columns, study.values, strict=True):
+    for column, values in zip(study.columns, study.values, strict=True):
         _put(file, column.name, "d", dims, values, units=_ONE.get(column.unit, column.unit), long_name=column.meaning)
     flags = np.array([int(status) for status in Status], dtype=np.int8)
     ended = "how the computation of the point ended"
@@ -62,28 +62,14 @@ def unpacked(data: bytes) -> Study:
         raise ValueError(f"no study, or a damaged one: {fault}") from fault
 
 
-def to_xarray(study: Study) -> Any:
-    """The study as an xarray.Dataset."""
-    try:
-        import xarray
-    except ImportError:
-        raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
-    return xarray.load_dataset(BytesIO(packed(study)), engine="scipy")
-
-
-def name_of(path: str) -> str:
-    """The name of an axis in the file."""
-    return path.replace("/", "_over_")
-
-
 def table(study: Study) -> str:
     """CSV, one row for each point: the axes, the quantities, status and reason; numbers with all their digits."""
-    grid, out = study.frame.grid, StringIO()
+    grid, out = study.grid, StringIO()
     writer = csv.writer(out, lineterminator="\n")
     named = [(axis.path, axis.unit) for axis in grid]
-    named += [(column.name, column.unit) for column in study.frame.columns]
+    named += [(column.name, column.unit) for column in study.columns]
     writer.writerow([*(f"{name} [{unit}]" if unit else name for name, unit in named), "status", "why"])
-    values = study.values.reshape(len(study.frame.columns), -1).T.tolist()
+    values = study.values.reshape(len(study.columns), -1).T.tolist()
     ends = zip(study.status.ravel().tolist(), np.ravel(study.why).tolist(), strict=True)
     for where, numbers, (status, why) in zip(np.ndindex(study.shape), values, ends, strict=True):
         coordinates = [axis.told(i) for axis, i in zip(grid, where, strict=True)]
@@ -133,16 +119,18 @@ def _study(file: Any) -> Study:
         for name, one in variables.items()
         if name not in apart
     )
-    frame = Frame(
+    return Study(
         grid,
         columns,
         case=_text(file, "case"),
         version=_text(file, "mdr_version"),
         identity=_text(file, "identity"),
         selected=tuple((path, told) for path, told in json.loads(_text(file, "selected") or "[]")),
+        values=np.stack([_native(variables[column.name], "f8") for column in columns]),
+        status=_native(status, "u1"),
+        reason=_native(variables["reason"], "i4"),
+        reasons=_texts(variables["reasons"]),
     )
-    values = np.stack([_native(variables[column.name], "f8") for column in columns])
-    return Study(frame, values, _native(status, "u1"), _native(variables["reason"], "i4"), _texts(variables["reasons"]))
 
 
 def _axis(variable: Any) -> Axis:

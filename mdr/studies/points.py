@@ -16,15 +16,14 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import cof_curve
 from mdr.studies.axes import without_addresses
-from mdr.studies.quantities import CurveQuantity, Quantity
+from mdr.studies.quantities import CurveQuantity
 from mdr.studies.work import Work
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
-from mdr.tools.progress import silent
+from mdr.tools.progress import silent, unless
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)
-LONGEST_REASON = 240  #: characters
 
 
 class Status(IntEnum):
@@ -34,10 +33,6 @@ class Status(IntEnum):
     UNSETTLED = 1  #: a run did not settle; its numbers are there
     FAILED = 2  #: at least one quantity is missing, NaN
     MISSING = 3  #: not computed yet
-
-
-class Ended(Exception):
-    """Raised to end a sweep before its work is done."""
 
 
 @dataclass
@@ -64,7 +59,7 @@ class Points:
     def end(self, status: Status, why: str) -> None:
         """Say how they ended; a worse end stands."""
         self.status[:] = np.maximum(self.status, status)
-        self.why[:] = [one_line(f"{known}; {why}" if known else why, LONGEST_REASON) for known in self.why]
+        self.why[:] = [one_line(f"{known}; {why}" if known else why) for known in self.why]
 
     @contextmanager
     def failing(self, name: str = "") -> Iterator[None]:
@@ -77,12 +72,7 @@ class Points:
 
 def compute(work: Work, units: range, ended: Event | None = None) -> Points:
     """The points of some units. Raises Ended soon after the event is set."""
-
-    def watch() -> None:
-        if ended is not None and ended.is_set():
-            raise Ended
-
-    layout = work.layout
+    layout, watch = work.layout, unless(ended or Event())
     where = layout.points(units)
     found = Points.blank(len(work.quantities), where.stop - where.start, Status.DONE)
     case, known, n = None, found, 0
@@ -106,7 +96,7 @@ def _known(work: Work, unit: int) -> tuple[SlidingContact | None, Points]:
     with known.failing():
         case = work.case_of(unit)
         for row, one in enumerate(work.quantities):
-            if isinstance(one, Quantity) and not one.per_velocity:
+            if not one.per_velocity:
                 with known.failing(one.name):
                     known.values[row] = _number(one.of(case))
     return case, known
@@ -128,7 +118,7 @@ def _fill(work: Work, case: SlidingContact, velocities: Array, points: Points) -
                 with point.failing():
                     _fill_curves(work, case, v, point)
         for row, one in moving:
-            if isinstance(one, Quantity):
+            if not isinstance(one, CurveQuantity):
                 for v, point in each:
                     with point.failing(one.name):
                         point.values[row] = _number(one.of(case, v.item()))
@@ -159,7 +149,7 @@ def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
 def reason_of(error: BaseException) -> str:
     """An error in one line: in its own words where these are meant for readers."""
     told = str(error) if isinstance(error, ValueError | TypeError) and str(error) else ""
-    return without_addresses(one_line(told or f"{type(error).__name__}: {error}".rstrip(": "), LONGEST_REASON))
+    return without_addresses(one_line(told or f"{type(error).__name__}: {error}".rstrip(": ")))
 
 
 def _number(value: Any) -> float:

@@ -60,14 +60,11 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class CurveQuantity:
+class CurveQuantity(Quantity):
     """A quantity of a whole COF curve: of(case, curve) returns an array in the shape of its velocities."""
 
-    name: str
-    unit: str
-    of: Callable[[SlidingContact, CofCurve], Array]
-    meaning: str
-    per_velocity: bool = field(default=True, init=False)
+    of: Callable[..., Any]
+    per_velocity: bool = field(default=True, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -96,7 +93,7 @@ def _measured(case: SlidingContact) -> float:
     return found.v_c
 
 
-CATALOGUE: dict[str, Quantity | CurveQuantity] = {
+CATALOGUE: dict[str, Quantity] = {
     one.name: one
     for one in (
         Quantity("v_c", "m/s", critical_velocity, "critical velocity, Eq. (15)"),
@@ -118,7 +115,7 @@ CATALOGUE: dict[str, Quantity | CurveQuantity] = {
 }
 
 
-def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) -> tuple[Quantity | CurveQuantity, ...]:
+def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) -> tuple[Quantity, ...]:
     """The quantities of a study with axes of these paths; ValueError or TypeError for what it cannot compute."""
     if isinstance(quantities, str | Quantity) or not isinstance(quantities, Iterable):
         raise TypeError(f"quantities must be a list of names, got {short(repr(quantities))}; write [...]")
@@ -138,7 +135,7 @@ def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) 
     return found
 
 
-def _known(one: Any) -> Quantity | CurveQuantity:
+def _known(one: Any) -> Quantity:
     if isinstance(one, str):
         if one not in CATALOGUE:
             raise ValueError(f"{short(one)} is no quantity of the catalogue; {offer(one, list(CATALOGUE))}")

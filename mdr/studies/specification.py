@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 
 from mdr.studies.axes import without_addresses
-from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
+from mdr.studies.quantities import CATALOGUE, Quantity
 from mdr.studies.work import Work
 from mdr.tools import version
-from mdr.tools.messages import short
+from mdr.tools.messages import MOST_TOLD, short
 from mdr.tools.sources import hash_of, texts
 
 NO_NUMBERS = ("__main__", "commands", "explorer", "files", "plots")  #: parts of mdr that move no value of a study
-MOST_TOLD = 4  #: differences
 
 
 def specification(work: Work) -> dict[str, Any]:
@@ -72,7 +71,7 @@ def _call(record: Any) -> str:
     return f"{own}{kind.__qualname__}({', '.join(given)})"
 
 
-def _quantity(one: Quantity | CurveQuantity) -> Any:
+def _quantity(one: Quantity) -> Any:
     """A quantity of the catalogue by its name, one of the user by all but its function."""
     if CATALOGUE.get(one.name) == one:
         return one.name

@@ -29,7 +29,7 @@ import numpy as np
 from mdr.studies.formats import unpacked
 from mdr.studies.points import Points, Status
 from mdr.studies.specification import differences
-from mdr.studies.study import Frame, Study, study_of_points
+from mdr.studies.study import Study, frame_in, study_of_points
 from mdr.studies.work import Layout, units_of
 from mdr.tools.atomic_write import is_partial, write_once, write_whole
 
@@ -231,7 +231,7 @@ def _read_store(store: Store) -> Study:
     head = store.head()
     if head is None:
         raise StudyError(f"{store.folder}: holds no study: there is no study.json")
-    frame, cut = Frame.from_head(head), store.plan()
+    frame, cut = frame_in(head), store.plan()
     layout = Layout.of(frame.grid, head["block"])
     points = Points.blank(len(frame.columns), layout.n_points, Status.MISSING)
     if cut is not None:

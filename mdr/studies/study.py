@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
+from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -24,12 +25,11 @@ from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.messages import offer, short
+from mdr.tools.messages import MOST_TOLD, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
-MOST_REASONS = 5  #: told in print
 
 
 @dataclass(frozen=True)
@@ -50,44 +50,22 @@ class Frame:
     case: str  #: what the axes vary, as the text of a case file where one can carry it
     version: str  #: of mdr
     identity: str  #: SHA-256 of the specification; "" where it has none
-    selected: tuple[tuple[str, str], ...] = ()  #: paths and values that `Study.select` has fixed
+    selected: tuple[tuple[str, str], ...]  #: paths and values that `Study.select` has fixed
 
     @property
     def shape(self) -> tuple[int, ...]:
         """How many values each axis has."""
         return tuple(len(axis) for axis in self.grid)
 
-    @classmethod
-    def of(cls, work: Work, identity: str) -> Frame:
-        """The frame of the study that this work makes."""
-        columns = tuple(Column(one.name, one.unit, one.meaning) for one in work.quantities)
-        return cls(work.axes, columns, _text(work.case, work.held), version.__version__, identity)
-
-    def tree(self) -> dict[str, Any]:
-        """All but the numbers of its axes, for JSON."""
-        labels = {axis.path: list(axis.labels) for axis in self.grid if not axis.is_numeric}
-        columns = [asdict(column) for column in self.columns]
-        return {"labels": labels, "columns": columns, "case": self.case, "version": self.version}
-
-    @classmethod
-    def from_head(cls, head: Mapping[str, Any]) -> Frame:
-        """The frame in the head of a store, with labels for records."""
-        tree, known = head["frame"], head["specification"]
-        values = {**known["axes"], **tree["labels"]}
-        grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
-        columns = tuple(Column(**column) for column in tree["columns"])
-        return cls(grid, columns, tree["case"], tree["version"], head["identity"])
-
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(Printed, ArrayRecord):
+class Study(Printed, ArrayRecord, Frame):
     """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
 
     A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle
     keeps its numbers. Printing it tells how many there are of either.
     """
 
-    frame: Frame
     values: Array  #: of shape ``(n_quantities, *shape)``, NaN where there is none
     status: NDArray[np.uint8]  #: of shape ``(*shape,)``, see `Status`: 0 done, 1 unsettled, 2 failed, 3 missing
     reason: NDArray[np.int32]  #: of shape ``(*shape,)``, which of the reasons
@@ -103,23 +81,18 @@ class Study(Printed, ArrayRecord):
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities."""
-        return tuple(column.name for column in self.frame.columns)
+        return tuple(column.name for column in self.columns)
 
     @property
     def axes(self) -> dict[str, Array | tuple[Any, ...]]:
         """The values of every axis by its path, in the order of the arrays' axes."""
-        return {axis.path: axis.values for axis in self.frame.grid}
+        return {axis.path: axis.values for axis in self.grid}
 
     @property
     def units(self) -> dict[str, str]:
         """Units of axes and quantities, "-" for a pure number, "" where there is none."""
-        units = {axis.path: axis.unit for axis in self.frame.grid}
-        return units | {column.name: column.unit for column in self.frame.columns}
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """How many values each axis has."""
-        return self.frame.shape
+        units = {axis.path: axis.unit for axis in self.grid}
+        return units | {column.name: column.unit for column in self.columns}
 
     @property
     def why(self) -> NDArray[np.object_]:
@@ -130,16 +103,6 @@ class Study(Printed, ArrayRecord):
     def complete(self) -> bool:
         """Whether every point was computed, however it ended."""
         return not bool(np.any(self.status == Status.MISSING))
-
-    @property
-    def identity(self) -> str:
-        """SHA-256 of the specification; "" where it has none."""
-        return self.frame.identity
-
-    @property
-    def case(self) -> str:
-        """The case that the axes vary, as the text of a case file where one can carry it."""
-        return self.frame.case
 
     def count(self, status: Status) -> int:
         """Number of points that ended in one way.
@@ -180,11 +143,11 @@ class Study(Printed, ArrayRecord):
             raise TypeError(f"values must map paths to values, got {short(repr(values))}")
         if unknown := [path for path in values if path not in self.axes]:
             raise KeyError(f"{unknown[0]!r} is no axis of the study; there are {', '.join(self.axes)}")
-        fixed = {axis.path: axis.index(values[axis.path]) for axis in self.frame.grid if axis.path in values}
-        where = tuple(fixed.get(axis.path, slice(None)) for axis in self.frame.grid)
-        told = tuple((axis.path, axis.told(fixed[axis.path])) for axis in self.frame.grid if axis.path in fixed)
-        grid = tuple(axis for axis in self.frame.grid if axis.path not in fixed)
-        frame = replace(self.frame, grid=grid, selected=self.frame.selected + told)
+        fixed = {axis.path: axis.index(values[axis.path]) for axis in self.grid if axis.path in values}
+        where = tuple(fixed.get(axis.path, slice(None)) for axis in self.grid)
+        told = tuple((axis.path, axis.told(fixed[axis.path])) for axis in self.grid if axis.path in fixed)
+        grid = tuple(axis for axis in self.grid if axis.path not in fixed)
+        frame = Frame(grid, self.columns, self.case, self.version, self.identity, self.selected + told)
         return study_of(frame, self.values[(slice(None), *where)], self.status[where], self.why[where])
 
     def to_netcdf(self, path: str | PathLike[str]) -> None:
@@ -219,9 +182,13 @@ class Study(Printed, ArrayRecord):
         xarray.Dataset
             Quantities with labelled axes and units.
         """
-        from mdr.studies.formats import to_xarray
+        from mdr.studies.formats import packed
 
-        return to_xarray(self)
+        try:
+            import xarray
+        except ImportError:
+            raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
+        return xarray.load_dataset(BytesIO(packed(self)), engine="scipy")
 
     def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Any:
         """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
@@ -311,11 +278,11 @@ class Study(Printed, ArrayRecord):
 
     def __repr__(self) -> str:
         n = self.status.size
-        names = ", ".join(f"{column.name} [{column.unit}]" for column in self.frame.columns)
+        names = ", ".join(f"{column.name} [{column.unit}]" for column in self.columns)
         size = " x ".join(map(str, self.shape)) or "1"
         lines = [f"Study of {n} points ({size}): {names}"]
-        lines += [f"  {axis.path}{f' [{axis.unit}]' if axis.unit else ''}: {axis.summary}" for axis in self.frame.grid]
-        lines += [f"  at {path} = {value}" for path, value in self.frame.selected]
+        lines += [f"  {axis.path}{f' [{axis.unit}]' if axis.unit else ''}: {axis.summary}" for axis in self.grid]
+        lines += [f"  at {path} = {value}" for path, value in self.selected]
         counts = [f"{self.count(status)} {status.name.lower()}" for status in Status if self.count(status)]
         return "\n".join([*lines, f"  {', '.join(counts)}", *self._most_frequent()])
 
@@ -325,9 +292,31 @@ class Study(Printed, ArrayRecord):
         for why in filter(None, np.ravel(self.why).tolist()):
             kinds.setdefault(_NUMBERS.sub("#", why), []).append(why)
         ranked = sorted(kinds.values(), key=len, reverse=True)
-        lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_REASONS]]
-        rest = sum(map(len, ranked[MOST_REASONS:]))
-        return lines + ([f"    {rest}: for {len(ranked) - MOST_REASONS} other reasons"] if rest else [])
+        lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_TOLD]]
+        rest = sum(map(len, ranked[MOST_TOLD:]))
+        return lines + ([f"    {rest}: for {len(ranked) - MOST_TOLD} other reasons"] if rest else [])
+
+
+def frame_of(work: Work, identity: str) -> Frame:
+    """The frame of the study that this work makes."""
+    columns = tuple(Column(one.name, one.unit, one.meaning) for one in work.quantities)
+    return Frame(work.axes, columns, _text(work.case, work.held), version.__version__, identity, ())
+
+
+def tree_of(frame: Frame) -> dict[str, Any]:
+    """All but the numbers of its axes, for JSON."""
+    labels = {axis.path: list(axis.labels) for axis in frame.grid if not axis.is_numeric}
+    columns = [asdict(column) for column in frame.columns]
+    return {"labels": labels, "columns": columns, "case": frame.case, "version": frame.version}
+
+
+def frame_in(head: Mapping[str, Any]) -> Frame:
+    """The frame in the head of a store, with labels for records."""
+    tree, known = head["frame"], head["specification"]
+    values = {**known["axes"], **tree["labels"]}
+    grid = tuple(Axis.known(path, values[path]) for path in known["order of axes"])
+    columns = tuple(Column(**column) for column in tree["columns"])
+    return Frame(grid, columns, tree["case"], tree["version"], head["identity"], ())
 
 
 def study_of_points(frame: Frame, layout: Layout, points: Points) -> Study:
@@ -340,7 +329,8 @@ def study_of(frame: Frame, values: Array, status: NDArray[np.uint8], why: Any) -
     why = np.asarray(why, dtype=object)
     codes = {reason: code for code, reason in enumerate(dict.fromkeys(["", *why.flat]))}
     reason = np.array([codes[one] for one in why.flat], dtype=np.int32).reshape(why.shape)
-    return Study(frame, np.array(values, order="C"), np.array(status, dtype=np.uint8, order="C"), reason, tuple(codes))
+    values, status = np.array(values, order="C"), np.array(status, dtype=np.uint8, order="C")
+    return Study(**vars(frame), values=values, status=status, reason=reason, reasons=tuple(codes))
 
 
 def _text(case: SlidingContact, held: Mapping[str, float]) -> str:

@@ -35,11 +35,11 @@ from mdr.march.march import BUDGET, accuracy_of
 from mdr.normal.vary import fields_set
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
+from mdr.studies.work import MOST_NUMBERS
 from mdr.tools.checks import count, finite
 from mdr.tools.messages import offer, short
 
 KEYS = ("axes", "quantities", "n_springs", "steps_per_period", "accuracy")
-MOST_VALUES = 10**7  #: of an axis
 
 
 @dataclass(frozen=True)
@@ -123,8 +123,8 @@ def _read_values(path: str, written: Any) -> Any:
 
 
 def _number_of_values(name: str, value: Any) -> None:
-    if count(name, value, 2) > MOST_VALUES:
-        raise ValueError(f"{name} must be at most {MOST_VALUES}, got {value}")
+    if count(name, value, 2) > MOST_NUMBERS:
+        raise ValueError(f"{name} must be at most {MOST_NUMBERS}, got {value}")
 
 
 def _spacing(name: str, value: Any) -> None:

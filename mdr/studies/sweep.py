@@ -18,11 +18,9 @@ from mdr.studies.engine import Call
 from mdr.studies.quantities import Quantity, read_quantities
 from mdr.studies.store import Store
 from mdr.studies.study import Study
-from mdr.studies.work import Work
+from mdr.studies.work import MOST_NUMBERS, Work
 from mdr.tools.checks import count, positive
 from mdr.tools.messages import short
-
-MOST_NUMBERS = 10**9  #: of a study
 
 
 def sweep(

@@ -1,9 +1,10 @@
 """The work of a study: a case, what varies it, what is computed at every point, and in which order and pieces.
 
-Points are computed in units, blocks of the velocities of one case, numbered from 0. The velocity is innermost whatever
-the order of the axes, so that a case is built once for all its velocities. A unit is computed in one piece and alike
-wherever it is, so that no result depends on how the units are dealt out. A chunk is some consecutive units, equally
-many but in the last; how a study is cut is told by the first unit of each, as range(0, n_units, units_per_chunk).
+Points are computed in units, blocks of the velocities of one case, numbered from 0; under a rigid pull, where friction
+is found at all of them together, a unit has all. The velocity is innermost whatever the order of the axes, so that a
+case is built once for all its velocities. A unit is computed in one piece and alike wherever it is, so that no result
+depends on how the units are dealt out. A chunk is some consecutive units, equally many but in the last; how a study is
+cut is told by the first unit of each, as range(0, n_units, units_per_chunk).
 """
 
 from __future__ import annotations
@@ -20,9 +21,11 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.normal.vary import case_at
 from mdr.studies.axes import Axis
-from mdr.studies.quantities import CurveQuantity, Quantity
+from mdr.studies.quantities import Quantity
 
-IN_CLOSED_FORM, MARCHED = 64, 8  #: velocities of a unit under a rigid pull, and of one that is run velocity by velocity
+MARCHED = 8  #: velocities of a unit that is run velocity by velocity: some seconds of work for one of several workers
+#: of a study, and of an axis: with its status and reason a number takes some 20 bytes, and all of them 2 GB of memory
+MOST_NUMBERS = 10**8
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,7 @@ class Work:
 
     case: SlidingContact  #: what the axes vary
     axes: tuple[Axis, ...]
-    quantities: tuple[Quantity | CurveQuantity, ...]
+    quantities: tuple[Quantity, ...]
     knobs: Mapping[str, Any] = field(default_factory=dict)  #: of runs: n_springs, steps_per_period and accuracy
     held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
 
@@ -111,7 +114,8 @@ class Work:
     def layout(self) -> Layout:
         """The order of its points."""
         pulls = next((axis.values for axis in self.axes if axis.path == "pull"), (self.case.pull,))
-        return Layout.of(self.axes, IN_CLOSED_FORM if all(pull.is_rigid for pull in pulls) else MARCHED)
+        n = 1 if self.velocity_axis is None else len(self.velocity_axis)
+        return Layout.of(self.axes, n if all(pull.is_rigid for pull in pulls) else MARCHED)
 
     def case_of(self, unit: int) -> SlidingContact:
         """The case of a unit; what its records refuse is raised."""

@@ -59,10 +59,13 @@ def facts_of(field: Field[Any]) -> Facts:
 
 def has_example(record: Any) -> bool:
     """Whether this is a record of which each field without a default has an example."""
-    if not is_dataclass(record):
-        return False
-    asked = [one for one in fields(record) if one.init and one.default is MISSING and one.default_factory is MISSING]
-    return all(facts_of(one).example is not None for one in asked)
+    return is_dataclass(record) and all(facts_of(one).example is not None for one in required(record))
+
+
+def required(record: Any) -> list[Field[Any]]:
+    """The fields of a record that have no default."""
+    asked = [one for one in fields(record) if one.init]
+    return [one for one in asked if one.default is MISSING and one.default_factory is MISSING]
 
 
 def example_of(record: type[T]) -> T:

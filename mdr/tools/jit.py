@@ -6,7 +6,6 @@ What takes long is said on standard error: the first run on a machine waits for 
 # mypy: disallow-untyped-calls=false
 from __future__ import annotations
 
-import sys
 import time
 import warnings
 from collections.abc import Callable
@@ -17,12 +16,11 @@ from numba.core import event
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 from mdr.tools import sources
-from mdr.tools.progress import BETWEEN, PATIENCE
+from mdr.tools.progress import PATIENCE, Ticker
 
 Function = Callable[..., Any]
 
 _STAMP = sources.hash_of(sources.compiled())
-FUNCTIONS = 130  #: that all kinds of runs need together
 
 
 class _Files(IndexDataCacheFile):
@@ -84,27 +82,22 @@ class Notice(event.Listener):
     """Says on standard error how many functions of this package have been compiled, if it takes long."""
 
     def __init__(self) -> None:
-        self.next, self.open, self.done = 0.0, 0, 0
+        self.open = 0
+        parts = "functions, which take nearly a minute of one core,"
+        self.line = Ticker("compiling, once on this machine", parts=parts)
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
-        if not _is_ours(event):
-            return
-        if not self.open:
-            self.next = max(self.next, time.monotonic() + PATIENCE)
-        self.open += 1
+        if _is_ours(event):
+            if not self.open:
+                self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
+            self.open += 1
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
-        if not _is_ours(event):
-            return
-        self.open -= 1
-        self.done += 1
-        now = time.monotonic()
-        if now > self.next:
-            self.next = now + BETWEEN
-            done = f"{self.done} of at most some {FUNCTIONS} functions, which take nearly a minute of one core"
-            print(f"compiling, once on this machine: {done}", file=sys.stderr, flush=True)
+        if _is_ours(event):
+            self.open -= 1
+            self.line.tick()
 
 
 def _is_ours(event: Any) -> bool:

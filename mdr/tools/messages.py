@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-LONGEST = 400  #: characters of a message in one line
+LONGEST = 400  #: characters of a message in one line: some five lines of a terminal
+MOST_TOLD = 4  #: differences or reasons that one message tells before it counts the rest
 
 
 def offer(word: str, known: Sequence[str]) -> str:

@@ -15,7 +15,6 @@ def _prefixed(unit: str, prefixes: str, rest: str = "") -> dict[str, float]:
     return {f"{prefix}{unit}{rest}": 10.0 ** powers[prefix] for prefix in ("", *prefixes)}
 
 
-PURE = {"": 1.0, "-": 1.0, "1": 1.0}  #: units of a pure number
 UNITS = {
     "m": _prefixed("m", "cmuµμn"),
     "m/s": _prefixed("m", "cmuµμn", "/s") | {"mm/min": 1e-3 / 60},
@@ -23,7 +22,7 @@ UNITS = {
     "Pa": _prefixed("Pa", "kMG") | {"N/mm²": 1e6, "N/mm^2": 1e6, "N/mm2": 1e6},
     "rad/s": {"rad/s": 1.0} | {unit: math.tau * hertz for unit, hertz in _prefixed("Hz", "mkM").items()},
     "s": _prefixed("s", "muµμn"),
-    "-": PURE,
+    "-": dict.fromkeys(("", "-", "1"), 1.0),
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"

@@ -10,9 +10,15 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from threading import Event
 from typing import TypeVar
 
 T = TypeVar("T")
+
+
+class Ended(Exception):
+    """Work was ended before it was done, as nobody waits for it any more."""
+
 
 PATIENCE = 2.0  #: s before the first word
 BETWEEN = 10.0  #: s between plain lines
@@ -48,6 +54,16 @@ def silent(watch: Callable[[], None]) -> Iterator[None]:
         yield
     finally:
         _watch.reset(token)
+
+
+def unless(ended: Event) -> Callable[[], None]:
+    """What `silent` calls for work to end by Ended, soon after the event is set."""
+
+    def watch() -> None:
+        if ended.is_set():
+            raise Ended
+
+    return watch
 
 
 @contextmanager

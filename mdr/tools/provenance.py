@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 import platform
-from importlib.metadata import PackageNotFoundError, version
+
+from mdr.tools.version import version_of
 
 PARTS = ("numpy", "scipy", "numba", "matplotlib")  #: whose versions can move a digit or a figure
-
-
-def version_of(name: str) -> str:
-    """The installed version of a distribution."""
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "(not installed)"
 
 
 def versions() -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-LONGEST = 80  #: characters of a value in a record that prints in one line
+from mdr.tools.messages import short
 
 
 class ArrayRecord:
@@ -58,4 +58,4 @@ def _short(value: Any) -> str:
     if isinstance(value, float | np.floating):
         return f"{value:.6g}"
     text = repr(value)
-    return text if len(text) <= LONGEST else f"{type(value).__name__}(...)"
+    return text if text == short(text) else f"{type(value).__name__}(...)"

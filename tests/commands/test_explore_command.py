@@ -92,6 +92,12 @@ def test_a_port_that_is_taken_is_status_2(capsys):
     assert f"port {port} cannot be used (" in capsys.readouterr().err
 
 
+def test_a_port_has_sixteen_bits(capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["explore", "--port", "65536"])
+    assert "must be a whole number from 0 to 65535, got '65536'" in capsys.readouterr().err
+
+
 def test_without_panel_it_says_how_to_install_it(capsys, monkeypatch):
     monkeypatch.delitem(sys.modules, "mdr.explorer.server", raising=False)
     monkeypatch.setitem(sys.modules, "panel", None)

@@ -12,12 +12,13 @@ import mdr
 from mdr.case.contact import KINDS
 from mdr.case.units import facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
-from mdr.explorer.latest import Latest, Superseded
+from mdr.explorer.latest import Latest
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
-from mdr.explorer.pictures import ROWS, pictures_of
-from mdr.explorer.state import PARTS, State, group_values, kind_of
-from mdr.files.examples import example, example_file
+from mdr.explorer.pictures import pictures_of
+from mdr.explorer.state import State, group_values
+from mdr.files.examples import PARTS, example, example_file
 from mdr.normal.vary import GROUPS
+from mdr.tools.progress import Ended
 
 CASES = {
     "rigid": example(pull="RigidPull"),
@@ -38,12 +39,12 @@ def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
     body = State.of(CASES["body"])
     for slot in KINDS:
         for kind in PARTS[slot]:
-            after = body.with_kind(slot, kind)
-            assert kind_of(after.case, slot) == kind
+            after = body.changed(slot, kind)
+            assert after.value(slot) == kind
             if slot == "material" and kind != "ElasticPair":
                 assert after.case.material.nu == body.case.material.nu
-    assert body.with_kind("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
-    heavy = body.with_kind("oscillation", "LoadOscillation").case
+    assert body.changed("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
+    heavy = body.changed("oscillation", "LoadOscillation").case
     assert_allclose(mdr.resolved(heavy).working_depth, body.case.working_depth, rtol=0.05)  # two digits of the load
 
 
@@ -153,7 +154,7 @@ def test_pictures_are_those_of_the_library(state):
     assert_allclose(last.cof[::7], exact.cof, atol=1e-3 * state.case.mu_0)
     assert_allclose(first.cof[::7], exact.cof, atol=0.05 * state.case.mu_0)  # no bound: a first sight
     assert abs(last.run.cof - mdr.slide(state.case, state.v_0).cof) <= 1e-3 * state.case.mu_0
-    assert last.springs.shape == (ROWS, last.run.steps_per_period)
+    assert last.springs.shape == (last.run.n_springs, last.run.steps_per_period)
     assert_array_equal(np.unique(last.springs), np.unique(last.run.state))
     assert (last.band is not None) == state.case.is_shaken
     assert all(name and value and meaning for name, value, meaning in last.numbers)
@@ -198,9 +199,9 @@ def test_only_the_latest_request_is_answered():
 
 def test_a_picture_is_dropped_on_the_way():
     def watch():
-        raise Superseded
+        raise Ended
 
-    with pytest.raises(Superseded):
+    with pytest.raises(Ended):
         list(pictures_of(State.of(CASES["body"]), watch))
 
 

@@ -270,6 +270,16 @@ def test_a_setting_is_refused_in_its_own_words_and_once(parts, words):
     assert len(refused.value.faults) <= 2
 
 
+@pytest.mark.parametrize(
+    "parts",
+    [{"slope": 'theta_deg = "x"'}, {"loss": "tan_delta = -1"}, {"motion": 'frequency = "x"\nu_z0 = 2e-5\ndu_z = 2e-6'}],
+)
+def test_a_wrong_setting_is_one_fault(parts):
+    with pytest.raises(CaseFileError) as refused:
+        read(**parts)
+    assert len(refused.value.faults) == 1, refused.value
+
+
 def test_a_load_waits_for_a_sound_shape():
     """Of a refused shape no depth is asked; the shape's own fault is told, and no other."""
     with pytest.raises(CaseFileError) as refused:

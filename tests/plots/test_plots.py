@@ -59,7 +59,7 @@ def made_up_run(n_t=64, v_0=1e-3):
 class Ball:
     """A shape that ends at R, as a sphere does."""
 
-    R = 1e-3
+    R = max_radius = 1e-3
 
     def profile_3d(self, r):
         return self.profile_1d(r) / 2

@@ -9,8 +9,9 @@ from grids import BODY, COARSE, RIGID, SHAPES, work
 from numpy.testing import assert_array_equal
 
 import mdr
-from mdr.studies.points import Ended, Status, compute, reason_of
+from mdr.studies.points import Status, compute, reason_of
 from mdr.studies.quantities import Quantity
+from mdr.tools.progress import Ended
 
 
 def test_values_are_those_of_direct_calls():
@@ -102,7 +103,7 @@ def test_reasons_are_one_line_without_places_in_memory():
     assert reason_of(ValueError("a\nb")) == "a b"
     assert reason_of(ZeroDivisionError()) == "ZeroDivisionError"
     assert reason_of(TypeError(f"got {object()!r}")) == "got <object object>"
-    assert len(reason_of(ValueError("x" * 1000))) == 240
+    assert len(reason_of(ValueError("x" * 1000))) == 400
 
 
 def test_the_work_ends_soon_after_it_is_asked_to():

@@ -55,7 +55,7 @@ def test_a_part_is_selected_by_its_values(study):
     assert_array_equal(part["cof"], study["cof"][1, 1])
     assert_array_equal(part.status, study.status[1, 1])
     assert part.why.tolist() == study.why[1, 1].tolist()
-    assert part.frame.selected == (("v_0/v_c", "0.5"), ("indenter", "Cone(theta=0.05)"))
+    assert part.selected == (("v_0/v_c", "0.5"), ("indenter", "Cone(theta=0.05)"))
     assert "at indenter = Cone(theta=0.05)" in str(part)
     assert study.select({}) == study
     assert study.select({"v_0/v_c": 0.5}).select({"indenter": "Cone(theta=0.05)"}) == part
@@ -106,7 +106,7 @@ def test_print_tells_the_most_frequent_reasons():
     axes = {"mu_0": [0.4, *(0.5 + 0.1 * k for k in range(12))]}
     lines = str(mdr.sweep(RIGID, axes, quantities=[mdr.Quantity("own", "-", of)])).splitlines()
     assert lines[2:4] == ["  1 done, 12 failed", "    2: own: slippery"]
-    assert lines[-1] == "    6: for 6 other reasons"
+    assert lines[-1] == "    7: for 7 other reasons"
 
 
 # --- files ---

@@ -78,7 +78,7 @@ FAULTS = [  # what stands under [axes] and at the top, and how the faults begin
         "[axes] v_0: too is no key of a range; did you mean to?", "[axes] v_0: to is missing from the range",
         "[axes] v_0: n must be at least 2, got 1", '[axes] v_0: spacing must be "linear" or "log", got logarithmic',
     ]),
-    ('"v_0" = { from = 0, to = 1, n = 1000000000000 }', "", ["[axes] v_0: n must be at most 10000000, got 10000"]),
+    ('"v_0" = { from = 0, to = 1, n = 1000000000000 }', "", ["[axes] v_0: n must be at most 100000000, got 10000"]),
     ('"T" = { from = 0, to = 1, n = 3, spacing = "log" }', "", ['[axes] T: a range with spacing = "log" must']),
     ('oscillation = [{ load = 3.0, du_z = 1e-6, frequency = 2e4 }]\n"v_0" = [1]', "", [
         "[axes] [oscillation] load cannot stand in a list of tables: give oscillation.F_z0 or oscillation.u_z0"]),
