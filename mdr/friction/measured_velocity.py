@@ -310,10 +310,10 @@ class _Search:
         """Runs above v_c from both starts: is friction full there?"""
         unsettled, self.steps, self.n_springs = [], default_steps(self.case), default_springs(self.case)
         for factor, start in product(ABOVE, ("full_slip", "rest")):
-            run = self.run(factor * v_c, start)
+            run = self.quick_run(factor * v_c, start)
             if not run.settled:
                 unsettled.append(f"{factor:g} v_c from {start}")
-            elif _is_reduced(run):
+            elif _is_reduced(run) and _is_reduced(self.run(run.v_0, start)):
                 why = f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {run.v_0:.6g} m/s"
                 return self._without("unsettled", f"{why}: no two steady motions do that, so one has not settled")
         why = "stick ends and the COF reaches mu_0 at the same velocity"

@@ -187,11 +187,13 @@ def steady(
     n_periods: int | None = None,
     near: Converged | None = None,
     most: int | None = None,
+    gain: float | None = None,
 ) -> Converged:
     """Observed until settled, or exactly n_periods.
 
     near: a march of the case at other resolution or velocity, whose periodic state is a good one to search from. most:
-    periods after which a march that does not settle ends; None is the most of any.
+    periods after which a march that does not settle ends; None is the most of any. gain: of that state, where it need
+    not be measured.
     """
     springs, scaled = at_hand(case, resolution)
     if not scaled.normal.mean > 0:
@@ -200,7 +202,7 @@ def steady(
     from_full_slip = resolution.start == "full_slip"
     orbit = waiting = None
     if n_periods is None:
-        orbit = _searched(stepper, from_full_slip, near)
+        orbit = _searched(stepper, from_full_slip, near, gain)
     if orbit is None:
         start = stepper.full_slip() if from_full_slip else stepper.rest()
         waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
@@ -269,7 +271,7 @@ def check(case: SlidingContact, v_0: float) -> None:
         )
 
 
-def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None) -> Orbit | None:
+def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, gain: float | None) -> Orbit | None:
     """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
     if scaled.rigid and not scaled.remembers and from_full_slip and stepper.v > 0:
@@ -277,7 +279,7 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None) ->
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start = at_other_resolution(near.state, near.scaled, scaled)
-        gain = near.settling.gain if near.stepper.v == stepper.v else None
+        gain = near.settling.gain if near.stepper.v == stepper.v else gain
         gain, slow = gain_at_other_resolution(gain, near.scaled, scaled), near.slow
         motions = motions_at_other_resolution(slow, near.scaled, scaled)
         orbit = search(stepper, (start,), gain, near=True, motions=motions)

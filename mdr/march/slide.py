@@ -171,6 +171,6 @@ def cofs_without_bound(
     resolution, near = Resolution(n_springs, steps, "full_slip", lump=True), None
     for v_0 in velocities:
         check(case, v_0)
-        end = steady(case, v_0, resolution, near=near)
+        end = steady(case, v_0, resolution, near=near, gain=None if near is None else near.settling.gain)
         near = end if end.settling.solved else None
         yield case.mu_0 * end.cof

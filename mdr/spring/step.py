@@ -63,8 +63,8 @@ def gauss(n: int) -> Array:
 
 
 OF_CUBES = gauss(2)  #: exact for what elastic or sticking springs do, which is cubic in time
-OF_SLOW_DECAYS = gauss(4)  #: to rounding for decays by less than a factor of exp(1/4)
-OF_DECAYS = gauss(8)  #: to rounding for any, on parts of the time that double in length
+OF_SLOW_DECAYS = gauss(4)  #: to 1e-9 for energies of decays, over half of their time
+OF_DECAYS = gauss(8)  #: to rounding, on parts of the time that double in length, the first half a decay time
 
 
 class Path(NamedTuple):
@@ -270,7 +270,7 @@ def nodes_of(t, modes, arms):
     if modes is not None:
         K = modes.mu.size
         fastest = max(fastest, modes.mu.max())
-        rule = OF_SLOW_DECAYS if fastest * t < 0.25 else OF_DECAYS
+        rule = OF_SLOW_DECAYS if fastest * t <= 0.5 else OF_DECAYS
     n, per = 1, rule.shape[0]
     while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
         n += 1
