@@ -71,13 +71,6 @@ def test_what_was_not_computed_is_refused(change, words):
     assert "may still stick above" in mdr.verdict(case, limit_s=1e-3).why  # without a measurement
 
 
-def test_what_is_no_case_is_refused():
-    with pytest.raises(TypeError, match="SlidingContact"):
-        mdr.laws.radial_rub(3)
-    with pytest.raises(TypeError, match="SlidingContact"):
-        mdr.laws.coupling_loss(3)
-
-
 @pytest.mark.parametrize(("nu", "mu_0", "alpha", "words"), [
     (0.3, 0.3, 0.3, "by up to about 0.03 of mu_0, and part of the contact sticks up to about 1.50 times"),
     (0.45, 0.3, 0.3, "by up to about 0.004 of mu_0, and part of the contact sticks up to about 1.14 times"),

@@ -13,9 +13,6 @@ import mdr
 from mdr.closed_forms import paper
 from mdr.closed_forms.full_slip import full_slip, mean_normal_force, normal_force_harmonics
 
-CURVED = ["cone", "paraboloid", "r4"]
-
-
 # --- the normal force ---
 
 

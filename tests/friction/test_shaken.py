@@ -97,13 +97,6 @@ def test_the_formula_of_a_kept_punch_knows_the_sign_of_the_phase(way):
     assert v_c != pytest.approx(mdr.critical_velocity(other, way), rel=1e-3)
 
 
-def test_directions_are_1_and_minus_1():
-    for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity):
-        for wrong in (0, 2, True, "forward"):
-            with pytest.raises((ValueError, TypeError), match="direction must be 1"):
-                ask(contact(), wrong)
-
-
 @pytest.mark.parametrize("ask", [mdr.critical_velocity, mdr.full_slip_critical_velocity])
 def test_without_a_shake_both_ways_are_one(ask):
     still = replace(body(contact(alpha=0.5)), shake=None)

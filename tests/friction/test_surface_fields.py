@@ -226,13 +226,6 @@ def test_a_contact_of_one_or_two_springs_carries_its_force():
 
 
 def test_what_is_refused(pulled_run):
-    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), BODY, MU_0, mdr.NormalOscillation(DEPTH, DEPTH / 2, 100.0))
-    with pytest.raises(ValueError, match=r"slide\(..., record=1\)"):
-        surface_fields(mdr.slide(case, 1e-4, n_periods=1))
-    with pytest.raises(TypeError, match="source must be of kind"):
-        surface_fields(3)
-    with pytest.raises(ValueError, match="record=True"):
-        surface_fields(indent(mdr.Cone(theta=0.02), BODY, [0, 1], [0, DEPTH]))
     with pytest.raises(ValueError, match="ascend"):
         from_line_load([1.0, 0.5], [1.0, 0.0], 0.1)
     with pytest.raises(ValueError, match="one length"):

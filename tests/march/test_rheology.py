@@ -104,15 +104,6 @@ def test_energy_is_kept(T, arms):
         assert abs(run.energy_balance.relative) < 3e-5 * (64 / steps) ** 2
 
 
-@pytest.mark.parametrize("start", ["full_slip", "rest"])
-def test_both_starts_end_alike(start):
-    contact = case(0.2, *ARMS["one"], pull=mdr.SpringPull(2e3, 0.02, 1.0))
-    run = mdr.slide(contact, 0.5 * contact.unit_velocity, start=start, n_springs=96, steps_per_period=256)
-    other = mdr.slide(contact, 0.5 * contact.unit_velocity, n_springs=96, steps_per_period=256)
-    assert run.settled
-    assert abs(run.cof - other.cof) <= run.cof_error + other.cof_error
-
-
 def test_forces_of_springs_add_up():
     contact = case(0.2, *ARMS["two"], pull=mdr.SpringPull(2e3, 0.02, 1.0))
     for lump in (True, False):
@@ -146,13 +137,6 @@ def test_springs_on_a_material_of_fast_arms_find_their_periodic_motion_in_coarse
     coarse, fine = (mdr.slide(contact, 0.3 * contact.unit_velocity, steps_per_period=n) for n in (64, 1024))
     assert coarse.settled
     assert abs(coarse.cof - fine.cof) <= coarse.cof_error + fine.cof_error
-
-
-def test_a_material_that_flows_is_refused():
-    with pytest.raises(ValueError, match="E_inf = 0: a mean load relaxes"):
-        mdr.SlidingContact(
-            SHAPES["cone"][0], mdr.Prony(0.0, [(1e6, 1.0)], 0.3), 0.5, mdr.NormalOscillation(1e-6, 1e-7, 1.0)
-        )
 
 
 @pytest.mark.filterwarnings("error", "ignore::mdr.PlausibilityWarning")

@@ -99,17 +99,6 @@ def test_a_stiff_contact_is_the_rigid_one(r):
     assert abs(off[1]) < abs(off[0]) / 8
 
 
-@pytest.mark.parametrize("v", [0.2, 0.7])
-@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
-def test_at_small_amplitude_the_shake_does_what_the_normal_oscillation_does(shape, v):
-    """Only w = s - u_x/(mu_0 kappa) counts while no spring slips back: the lost friction is the same."""
-    lost = []
-    for case in (contact(shape, chi=1e-3), contact(shape, alpha=1e-3, shake=None)):
-        cof = mdr.slide(case, v * mdr.critical_velocity(case), accuracy=1e-8).cof
-        lost.append(1 - cof / MU_0)
-    assert lost[0] == pytest.approx(lost[1], rel=2e-3)
-
-
 def test_in_phase_with_the_depth_a_shake_leaves_friction_full_forward():
     """x = mu_0 kappa u_z: every spring slips at the velocity of the pull, whatever the instant."""
     case = contact("paraboloid", alpha=0.5, chi=0.5, phi=0.0)
@@ -173,19 +162,6 @@ def test_units_and_mu_0_and_moduli_drop_out(body):
 
 def slower_of(one, two):
     return one.omega / two.omega
-
-
-def test_a_signal_added_to_depth_and_shake_alike_changes_nothing_forward():
-    """mu_0 kappa q(t) added to x, q(t) to the depth of a kept punch: w = s - u_x/(mu_0 kappa) stays as it is."""
-    q = 0.2 * DEPTH
-    plain = contact("flat", alpha=0.3, chi=0.0, shake=None)
-    both = mdr.PeriodicMotion(OMEGA, DEPTH, cos=(0.3 * DEPTH,), sin=(0.0, q))
-    shake = mdr.InPlaneMotion(OMEGA, x_sin=(0.0, MU_0 * KAPPA * q))
-    added = replace(plain, oscillation=both, shake=shake)
-    for v in (0.3, 0.8):
-        v_0 = v * mdr.critical_velocity(plain)
-        one, other = (mdr.slide(case, v_0, accuracy=1e-7).cof for case in (plain, added))
-        assert other == pytest.approx(one, abs=2e-7 * MU_0)
 
 
 def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
@@ -255,26 +231,11 @@ def test_energy_has_three_drives(T, body, at):
     assert account.shake_work > 0.1 * account.friction_loss
 
 
-def test_from_either_start_friction_is_one():
-    case = contact("cone", alpha=0.5, T=0.3, chi=1.5)
-    one, other = (mdr.slide(case, 1e-3, start=start) for start in ("full_slip", "rest"))
-    assert one.settled
-    assert other.settled
-    assert abs(one.cof - other.cof) <= one.cof_error + other.cof_error
-
-
 def test_at_rest_the_start_decides_where_a_contact_can_hold():
     case = contact("flat", chi=0.5)
     forward, rest = (mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest"))
     assert abs(forward.cof - 0.5 * MU_0) <= forward.cof_error
     assert abs(rest.cof) < 0.5 * MU_0 - 1e-6
-
-
-def test_without_a_shake_a_velocity_is_positive():
-    still = contact(alpha=0.5, shake=None)
-    for v_0 in (0.0, -1e-3):
-        with pytest.raises(ValueError, match=r"v_0 must be positive.*nothing shakes in the plane"):
-            mdr.slide(still, v_0)
 
 
 def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():

@@ -272,25 +272,6 @@ def test_a_depth_history_may_never_touch_or_be_one_sample():
 # --- refusals ---
 
 
-@pytest.mark.parametrize(
-    ("change", "error", "match"),
-    [
-        ({"t": [0, math.nan, 1]}, ValueError, "finite"),
-        ({"t": 1.0}, ValueError, "list of instants"),
-        ({"t": []}, ValueError, "list of instants"),
-        ({"indenter": mdr.Cone}, TypeError, "indenter must be of kind"),
-        ({"material": 3e6}, TypeError, "material must be of kind"),
-        ({"record": 1}, TypeError, "record"),
-        ({"n_springs": 8}, ValueError, "n_springs"),
-        ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-3)}, ValueError, "deeper"),
-    ],
-)
-def test_what_is_refused(change, error, match):
-    given = {"indenter": SHAPES["cone"], "material": MATERIALS["elastic"], "t": [0, 1, 2], "u_z": [0, DEPTH, DEPTH]}
-    with pytest.raises(error, match=match):
-        indent(**{**given, **change})
-
-
 def test_a_shape_that_ends_before_the_depth_under_a_force_says_so():
     lens = mdr.Profile(lambda r: r**2 / 1e-2, r_max=1e-3)
     with pytest.raises(ValueError, match="F_z = 100 N is more than Profile"):

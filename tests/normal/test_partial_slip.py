@@ -125,18 +125,3 @@ def test_answers_come_in_the_shape_of_the_question():
     assert isinstance(pulled.F_z, float)
     assert isinstance(partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, 1e-6).F_x, float)
     assert pulled == partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, np.zeros((2, 3)))
-
-
-@pytest.mark.parametrize(
-    ("change", "error", "match"),
-    [
-        ({"u_z0": -1e-6}, ValueError, "u_z0"),
-        ({"indenter": 3}, TypeError, "indenter"),
-        ({"material": mdr.Elastic}, TypeError, "write Elastic"),
-        ({"material": mdr.StandardLinearSolid(E_inf=0, E_1=1e6, tau_1=1, nu=0.5)}, ValueError, "flows"),
-    ],
-)
-def test_what_is_refused(change, error, match):
-    given = {"indenter": mdr.Cone(theta=0.02), "material": BODY, "mu_0": MU_0, "u_z0": DEPTH, "u_x": 1e-6}
-    with pytest.raises(error, match=match):
-        partial_slip(**{**given, **change})

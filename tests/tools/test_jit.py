@@ -96,6 +96,19 @@ def test_a_broken_file_is_compiled_anew(small, ending):
     assert [answer_of(small), answer_of(small)] == ["30.0 0 1", "30.0 1 0"]
 
 
+@compiles
+def test_without_a_folder_to_write_to_it_is_compiled_all_the_same(monkeypatch):
+    def refuse(*args, **options):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", refuse)  # how numba finds out
+    with pytest.warns(UserWarning, match="NUMBA_CACHE_DIR") as told:
+        double = jit.compiled(nogil=True)(lambda x: 2 * x)
+    assert len(told) == 1
+    assert double(1.5) == 3.0
+    assert double.signatures  # compiled, not left to Python
+
+
 def compiling(module):
     return SimpleNamespace(data={"dispatcher": SimpleNamespace(py_func=SimpleNamespace(__module__=module))})
 
