@@ -14,6 +14,7 @@ from shutil import which
 
 import numpy as np
 import pytest
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
@@ -29,10 +30,7 @@ EXAMPLE = str(Path(__file__).parents[2] / "docs" / "example.toml")
 def punch(tmp_path):
     """A case file that is quick to march: flat punch, elastic, rigid pull."""
     path = tmp_path / "punch.toml"
-    path.write_text(
-        'mu_0 = 0.4\n[indenter]\nshape = "FlatPunch"\na = 1e-3\n[material]\nmodel = "Elastic"\nE = 1e9\nnu = 0.3\n'
-        "[oscillation]\nu_z0 = 2e-6\ndu_z = 1e-6\nomega = 100.0\n"
-    )
+    path.write_text(write_case(contact("flat", 2.0, du_z=1e-6, omega=100.0, nu=0.3, E=1e9)), encoding="utf-8")
     return str(path)
 
 
