@@ -90,14 +90,6 @@ def test_static_cof_against_the_twin(shape, depth_ratio, T):
         assert got == 0
 
 
-@pytest.mark.parametrize("T", [0.0, 0.3, 2.0])
-def test_static_cof_of_the_punch_is_eq_7(T):
-    case = contact("flat", 3.0, T)
-    osc = case.oscillation
-    expected = paper.eq_7(case.mu_0, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc) / (case.k_zc * osc.u_z0)
-    assert_allclose(mdr.static_cof(case), expected, rtol=1e-12)
-
-
 @pytest.mark.parametrize("question", [mdr.static_cof, mdr.full_slip_critical_velocity])
 def test_a_contact_too_brief_to_follow_is_refused_by_name(question):
     motion = mdr.PeriodicMotion(300.0, 1e-6, (2e-6, 5e-7), (0.0, 3e-7))

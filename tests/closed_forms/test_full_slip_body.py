@@ -18,6 +18,7 @@ DAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15}
 SOFT = {"k_ratio": 0.05, "omega_0_ratio": 0.4, "c_ratio": 0.0}
 STIFF = {"k_ratio": 5.0, "omega_0_ratio": 7.3, "c_ratio": 0.0}
 BODIES = {"damped": DAMPED, "soft": SOFT, "stiff": STIFF}
+LIGHT = {name: {"k_ratio": 0.7, "omega_0_ratio": r, "c_ratio": 0.1} for name, r in (("light", 1e3), ("none", math.inf))}
 BUDGET = 1e-8
 
 
@@ -26,17 +27,11 @@ def v_hat_c(case):
 
 
 @pytest.mark.parametrize("T", [0.0, 0.5, 2.5])
-@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+@pytest.mark.parametrize("body", [*BODIES.values(), *LIGHT.values()], ids=[*BODIES, *LIGHT])
 def test_a_punch_that_keeps_contact_has_eq_15(body, T):
     case = contact("flat", 3.0, T, **body)
-    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-10)
-
-
-@pytest.mark.parametrize("omega_0_ratio", [math.inf, 1e3])
-@pytest.mark.parametrize("T", [0.0, 0.5])
-def test_a_light_body_has_eq_15_too(T, omega_0_ratio):
-    case = contact("flat", 3.0, T, 0.7, omega_0_ratio, 0.1)
-    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-9)
+    near = 1e-9 if body in LIGHT.values() else 1e-10
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=near)
 
 
 @pytest.mark.parametrize(("depth_ratio", "T"), [(30.0, 0.0), (1.01, 0.0), (4.0, 3.0)])
@@ -66,24 +61,11 @@ def test_small_deviations_from_eq_15_go_with_the_square_of_the_amplitude(shape, 
     assert_allclose(two, 4 * one, rtol=1e-2)  # the next power adds a few alpha
 
 
-def check_against_the_twin(shape, depth_ratio, T, body):
-    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
-    assert_allclose(
-        v_hat_c(contact(shape, depth_ratio, T, **body)), twin, rtol=BUDGET, err_msg=f"{shape} {depth_ratio} {T} {body}"
-    )
-
-
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-@pytest.mark.parametrize("depth_ratio", [10.0, 3.0, 1.5])
-@pytest.mark.parametrize("shape", CURVED)
-def test_elastic_body_against_the_twin(shape, depth_ratio, body):
-    check_against_the_twin(shape, depth_ratio, 0.0, body)
-
-
-@pytest.mark.parametrize("body", [DAMPED, SOFT], ids=["damped", "soft"])
 @pytest.mark.parametrize(
     ("shape", "depth_ratio", "T"),
     [
+        *((shape, depth_ratio, 0.0) for shape in CURVED for depth_ratio in (10.0, 3.0, 1.5)),
         ("flat", 0.6, 0.0),
         ("r4", 0.6, 0.0),
         ("cone", 0.6, 0.0),
@@ -93,8 +75,9 @@ def test_elastic_body_against_the_twin(shape, depth_ratio, body):
         *((shape, 5.0, T) for shape in CURVED for T in (0.3, 3.0)),
     ],
 )
-def test_kelvin_or_lost_contact_under_a_body_against_the_twin(shape, depth_ratio, T, body):
-    check_against_the_twin(shape, depth_ratio, T, body)
+def test_a_body_against_the_twin(shape, depth_ratio, T, body):
+    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
+    assert_allclose(v_hat_c(contact(shape, depth_ratio, T, **body)), twin, rtol=BUDGET)
 
 
 # --- resonance ---
@@ -230,14 +213,6 @@ def test_a_motion_written_in_another_way_has_the_same_velocity(kind, way):
         case = contact(shape, depth_ratio, T, **kind)
         # 1e-9 times what a resonance or the rate of the force makes of a harmonic; of the rate of F_N rounding 1e-7
         assert_allclose(mdr.full_slip_critical_velocity(way(case)), mdr.full_slip_critical_velocity(case), rtol=1.5e-7)
-
-
-@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
-def test_a_motion_written_in_another_way_has_the_same_static_limit(way):
-    for shape, depth_ratio, T in [("cone", 4.0, 0.0), ("paraboloid", 8.0, 1.2), ("flat", 3.0, 0.3), ("r4", 0.6, 5.0)]:
-        case = contact(shape, depth_ratio, T)
-        # friction at rest of a shake is an integral to 1e-9, and a shake of 1e-9 may hold as much
-        assert_allclose(mdr.static_cof(way(case)), mdr.static_cof(case), rtol=0, atol=1e-8)
 
 
 def test_the_shake_of_a_cone_is_fastest_between_the_last_and_the_first_phase():

@@ -10,7 +10,7 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms import paper, rigid_pull
+from mdr.closed_forms import rigid_pull
 from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
 
 SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(1e-3, 1e-4, 300.0)
@@ -54,12 +54,6 @@ def test_sixteen_kelvin_contacts_against_the_twin():
         worst.append(abs(cof - twin))
         assert abs(cof - twin) <= error + 2e-11, (shape, depth_ratio, T, v_hat)  # the twin's own quadrature
     assert max(worst) <= KELVIN_BUDGET
-
-
-@pytest.mark.parametrize("v_hat", [0.03, 0.4, 0.9])
-def test_the_punch_has_the_deficit_of_one_spring(v_hat):
-    cof, _, _ = friction(contact("flat", 3.0), v_hat)
-    assert_allclose(1 - cof, paper.deficit(v_hat) / 3, rtol=1e-11)
 
 
 @pytest.mark.parametrize("T", [0.0, 0.7])
