@@ -150,21 +150,6 @@ def test_a_light_body_jumps_when_dashpots_touch_unless_the_tip_is_sharp(shape):
     assert math.isfinite(v_hat_c(contact(shape, 0.5, 0.0, 0.7, math.inf)))
 
 
-@pytest.mark.parametrize("length", [1e-9, 1e6])
-def test_units_do_not_matter(length):
-    """Lengths in another unit, with moduli, masses and dampers that keep all groups."""
-    case = contact("paraboloid", 1.3, 0.5, **DAMPED)
-    osc, pull = case.oscillation, case.pull
-    other = mdr.SlidingContact(
-        mdr.Paraboloid(R=case.indenter.R * length),
-        case.material,
-        case.mu_0,
-        mdr.NormalOscillation(osc.u_z0 * length, osc.du_z * length, osc.omega),
-        mdr.SpringPull(pull.k_x * length, pull.m * length, pull.c_x * length),
-    )
-    assert_allclose(v_hat_c(other), v_hat_c(case), rtol=1e-12)
-
-
 # --- any motion and any material, by one method ---
 
 

@@ -110,15 +110,6 @@ def test_the_slow_pull_knows_the_long_time_modulus_only():
     assert one.F_x == pytest.approx(two.F_x, rel=1e-14)
 
 
-@pytest.mark.parametrize(("length", "force"), [(1e-6, 1e-9), (1e3, 1e6)])
-def test_units_do_not_matter(length, force):
-    one = tangential_loop(mdr.Paraboloid(R=5e-3), BODY, MU_0, DEPTH, FULL_SLIP / 2)
-    body = mdr.Elastic(E=3e6 * force / length**2, nu=0.3)
-    other = tangential_loop(mdr.Paraboloid(R=5e-3 * length), body, MU_0, DEPTH * length, FULL_SLIP / 2 * length)
-    assert_allclose(other.F_x / force, one.F_x, rtol=1e-9, atol=1e-12 * one.F_z)
-    assert other.loss / (force * length) == pytest.approx(one.loss, rel=1e-9)
-
-
 def test_answers_come_in_the_shape_of_the_question():
     pulled = partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, np.zeros((2, 3)))
     assert pulled.F_x.shape == pulled.stick_radius.shape == (2, 3)
