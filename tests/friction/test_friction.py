@@ -31,7 +31,6 @@ MEASURED = {
     "paraboloid, body, elastic": ("paraboloid", 1.25, 0.0, (0.5, 2.5, 0.2)),
     "r4, body, elastic": ("r4", 3.0, 0.0, (0.5, 2.5, 0.2)),
     # least slip is that of a few springs in the instant of their touch, which falls anywhere within a step
-    "cone, body, touches late": ("cone", 0.876, 2.0, (0.524, 1.25, 0.0694)),
     "paraboloid, body, touches late": ("paraboloid", 0.963, 2.0, (0.528, 1.5, 0.0919)),
 }
 
@@ -338,13 +337,6 @@ def test_a_critical_velocity_thousands_of_times_eq_1_is_found(case):
     verdict = mdr.verdict(case)
     assert_allclose(verdict.measured, eq_15, rtol=BUDGET)
     assert verdict.holds
-
-
-def test_a_velocity_beyond_reach_is_not_judged():
-    case = contact("flat", 10.0, 0.0, 0.01, 1.0, reference.damping_for(1e-6, 0.01, 1.0))
-    verdict = mdr.verdict(case)
-    assert mdr.critical_velocity(case) > 1e7 * unit_of_velocity(case)
-    assert (verdict.holds, verdict.measured) == (None, None)
 
 
 def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():
