@@ -1,6 +1,7 @@
 """slide(): what a run says of itself agrees with its own records, with its limits, and with what it says otherwise."""
 
 import math
+import tracemalloc
 from dataclasses import fields, replace
 
 import numpy as np
@@ -68,6 +69,18 @@ def test_recording_changes_no_bit_of_a_run_that_waits_and_refines(name, lump):
     for quantity in ("cof", "cof_error", "settled", "kind", "n_springs", "steps_per_period"):
         assert getattr(blind, quantity) == getattr(seeing, quantity), quantity
     assert seeing.n_periods == blind.n_periods + 1  # marched on to keep a second period, after all was decided
+
+
+def test_a_period_costs_two_numbers_of_memory():
+    """Its COF and its swing, whatever the number of steps and springs."""
+    peaks, numbers = [], (10_000, 40_000)
+    for n_periods in numbers:
+        coarse(CONTACTS["rigid elastic"], 0.43, n_periods, n_springs=32, steps_per_period=32)
+        tracemalloc.start()
+        coarse(CONTACTS["rigid elastic"], 0.43, n_periods, n_springs=32, steps_per_period=32)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] - peaks[0] < 5 * 8 * (numbers[1] - numbers[0])  # the two, and what judges them
 
 
 @on_all
