@@ -63,17 +63,6 @@ def test_units_and_sizes_drop_out(shape, pull):
     assert_allclose(list(values.values()), values["rubber ball"], rtol=0, atol=TOLERANCE)
 
 
-@pytest.mark.parametrize("pull", PULLS)
-def test_mu_0_E_and_nu_drop_out(pull):
-    T, body = PULLS[pull]
-    rng = np.random.default_rng(15)
-    expected = cof(contact("paraboloid", 2.5, T, **body), 0.5)
-    for _ in range(6):
-        changes = {"mu_0": 10 ** rng.uniform(-3, 1), "E": 10 ** rng.uniform(0, 12), "nu": rng.uniform(-0.9, 0.5)}
-        got = cof(contact("paraboloid", 2.5, T, **body, **changes), 0.5)
-        assert_allclose(got, expected, rtol=0, atol=TOLERANCE, err_msg=str(changes))
-
-
 @pytest.mark.parametrize("shape", ["flat", "paraboloid"])
 @pytest.mark.parametrize("T", [0.0, 0.6])
 def test_E_scales_the_forces_of_a_rigid_pull(shape, T):

@@ -171,17 +171,6 @@ def test_cof_is_the_mean_force_over_the_mean_load(case):
     assert_allclose(np.mean(run.F_z), run.mean_F_z, rtol=tolerance)
 
 
-@on_all
-@pytest.mark.parametrize("v_hat", [0.05, 0.43, 0.9])
-def test_cof_lies_between_static_and_mu_0(case, v_hat):
-    run = run_at(case, v_hat)
-    assert run.settled, run.why
-    assert mdr.static_cof(case) < run.cof <= case.mu_0 * (1 + 1e-12) or isinstance(case.pull, mdr.SpringPull)
-    assert 0 < run.cof <= case.mu_0 * (1 + 1e-12)
-    assert 0 < run.stick_share < 1
-    assert run.least_slip < 1e-9 * run.v_0
-
-
 @pytest.mark.parametrize("name", CONTACTS)
 def test_above_v_c_nothing_sticks_and_friction_is_full(name):
     case = CONTACTS[name]
