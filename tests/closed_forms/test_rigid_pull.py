@@ -108,43 +108,6 @@ def test_the_stick_of_the_punch_in_closed_form():
 # --- what follows from it ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("shape", "depth_ratio", "T"),
-    [("flat", 3.0, 0.0), ("cone", 0.5, 0.0), ("paraboloid", 3.0, 0.0), ("flat", 5.0, 1.0), ("r4", 4.0, 0.3)],
-)
-def test_near_v_c(shape, depth_ratio, T):
-    case = contact(shape, depth_ratio, T)
-    law = near_critical(case)
-    assert law.power == (1.5 if T else 2.0)
-    short = np.array([1e-3, 1e-4])
-    ratio = (1 - friction(case, 1 - short)[0]) / (law.coefficient * short**law.power)
-    # the next term is a power of one half higher, and for a Kelvin contact the elastic term beside it goes like 1/T
-    miss = np.abs(ratio - 1)
-    assert miss[1] < 3 * math.sqrt(short[1]) * (1 + (1 / T if T else 0))
-    assert miss[1] < 0.5 * miss[0]
-
-
-@pytest.mark.parametrize(
-    ("shape", "depth_ratio", "T", "power"),
-    [
-        ("flat", 3.0, 0.0, 1.0),
-        ("cone", 0.5, 0.0, 1.0),
-        ("paraboloid", 3.0, 0.0, 1.0),
-        ("flat", 5.0, 1.0, 2 / 3),
-        ("paraboloid", 4.0, 0.3, 2 / 3),
-    ],
-)
-def test_near_rest(shape, depth_ratio, T, power):
-    case = contact(shape, depth_ratio, T)
-    law = small_velocity(case)
-    assert law.power == power
-    v_hat = np.array([1e-4, 1e-6])
-    rise = friction(case, v_hat)[0] - mdr.static_cof(case) / case.mu_0
-    miss = np.abs(rise / (law.coefficient * v_hat**power) - 1)
-    assert miss[1] < 0.02
-    assert miss[1] < 0.4 * miss[0]
-
-
 def test_asymptotes_that_are_not_known_are_refused():
     with pytest.raises(ValueError, match="lost entirely"):
         small_velocity(contact("flat", 0.5, 1.0))

@@ -88,17 +88,6 @@ def test_a_body_is_within_its_error_of_the_twin(shape, alpha, T, chi, at):
 # --- limits ---
 
 
-@pytest.mark.parametrize("r", [0.1, 0.5, 0.9])
-def test_a_stiff_contact_is_the_rigid_one(r):
-    """Amplitude far beyond the reach of the springs: (2/pi) arcsin of v_0 over that of the shake."""
-    off = []
-    for chi in (30.0, 300.0):
-        case = contact("flat", chi=chi)
-        off.append(mdr.slide(case, r * OMEGA * chi * REACH).cof / MU_0 - 2 / np.pi * math.asin(r))
-    assert abs(off[1]) < 4e-3
-    assert abs(off[1]) < abs(off[0]) / 8
-
-
 def test_in_phase_with_the_depth_a_shake_leaves_friction_full_forward():
     """x = mu_0 kappa u_z: every spring slips at the velocity of the pull, whatever the instant."""
     case = contact("paraboloid", alpha=0.5, chi=0.5, phi=0.0)
