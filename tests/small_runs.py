@@ -52,7 +52,7 @@ def slides():
         of_pull = contact("paraboloid", **groups).pull
         case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull, shake)
         (start, n_periods), way = next(starts), next(ways) if shake else 1
-        knobs = {"n_springs": 16, "steps_per_period": 31 + n_periods, "n_periods": n_periods, "start": start}
+        knobs = {"n_springs": 16, "steps_per_period": 17 + n_periods, "n_periods": n_periods, "start": start}
         run = mdr.slide(case, way * 0.4 * case.unit_velocity, record=n_periods - 2, **knobs)
         energy = run.energy_balance
         numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss, energy.shake_work]

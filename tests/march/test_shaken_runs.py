@@ -184,8 +184,11 @@ def test_different_frequencies_are_marched_over_their_common_period():
 # --- accuracy, energy, the ends ---
 
 
-@pytest.mark.parametrize(("alpha", "chi"), [(0.0, 2.0), (0.4, 1.0), (1.4, 2.0)])
-@pytest.mark.parametrize(("T", "body"), [(0.0, (1.0, 0.7, 0.4)), (0.4, None)], ids=["elastic body", "Kelvin, rigid"])
+@pytest.mark.parametrize(
+    ("T", "body", "alpha", "chi"),
+    [(0.0, (1.0, 0.7, 0.4), 0.0, 2.0), (0.0, (1.0, 0.7, 0.4), 0.4, 1.0), (0.4, None, 1.4, 2.0)],
+    ids=["elastic body, alone", "elastic body", "Kelvin, rigid, lost"],
+)
 def test_the_scheme_is_of_second_order(T, alpha, chi, body):
     """In steps, and in springs, by a line through errors over a factor of 8 and 16, each of several contacts: the end
     of slip crosses springs one by one, so that the error of one is erratic."""
@@ -206,7 +209,7 @@ def test_the_scheme_is_of_second_order(T, alpha, chi, body):
     some = [(phi, 0.0) for phi in (0.3, 0.7, 1.9, 2.5)]
     assert order(256 * 2 ** np.arange(4), some, lambda *one: of(one[2], 48, *one[:2]), 8192) > 1.95
     more = [(phi, 0.019 * k) for k, phi in enumerate(np.linspace(0.15, 5.9, 8))]
-    assert order(24 * 2 ** np.arange(5), more, lambda *one: of(64, one[2], *one[:2]), 3072) > 1.9
+    assert order(24 * 2 ** np.arange(5), more, lambda *one: of(64, one[2], *one[:2]), 1536) > 1.9
 
 
 @pytest.mark.parametrize("at", ["tool", "pull"])
