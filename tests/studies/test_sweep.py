@@ -59,11 +59,6 @@ def spawned(n):
     return ProcessPoolExecutor(n, mp_context=get_context("spawn"))
 
 
-def test_spawned_processes(serial):
-    with spawned(1) as processes:
-        assert mdr.sweep(**RUNS, executor=processes) == serial
-
-
 def test_a_cluster_that_loses_a_worker(serial, tmp_path):
     distributed = pytest.importorskip("distributed")
     store, killed = tmp_path / "store", []
