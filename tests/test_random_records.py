@@ -313,13 +313,13 @@ def test_any_record_answers_or_says_why_not(question, n):
 def test_what_is_drawn_is_of_every_kind():
     """The dice reach every shape, material, motion and pull, and most contacts slide; each prints as a few lines."""
     kinds, slide = set(), 0
-    for seed in range(200):
+    for seed in range(130):
         with contextlib.suppress(Refused):
             case = asked(random_records.contact, random_records.Dice(seed))
             asked(mdr.resolved, case)
             slide += 1
             assert 6 <= len(str(case).splitlines()) <= 8
             kinds |= {type(part).__name__ for part in (case.indenter, case.material, case.oscillation, case.pull)}
-    assert slide > 120
+    assert slide > 80
     assert kinds >= {*SHAPES, *MATERIALS, "Profile", "NormalOscillation", "PeriodicMotion", "LoadOscillation"}
     assert kinds >= {"RigidPull", "SpringPull"}
