@@ -77,14 +77,6 @@ def test_a_fast_arm_is_a_dashpot(v):
     assert_allclose(one, two, rtol=1e-4)
 
 
-def test_a_slow_arm_is_a_spring():
-    # beside a mean load it has relaxed; to the oscillation the body is stiffer by 1 + rho
-    soft = case(0.0, [1.5], [1e5], "flat", 3.0)
-    for v in (0.3, 0.8):
-        deficit = 2.5 * (1 / 3) * mdr.closed_forms.paper.deficit(v)
-        assert_allclose(1 - mdr.slide(soft, v * soft.unit_velocity).cof / 0.4, deficit, rtol=2e-4)
-
-
 @pytest.mark.parametrize("arms", [ARMS["one"], ARMS["two"]], ids=["one", "two"])
 @pytest.mark.parametrize("T", [0.0, 0.5])
 def test_energy_is_kept(T, arms):
@@ -92,18 +84,6 @@ def test_energy_is_kept(T, arms):
     for steps in (64, 256):  # the loss in the damper is a sum over nodes, of second order
         run = mdr.slide(contact, 0.4 * contact.unit_velocity, steps_per_period=steps, n_springs=64)
         assert abs(run.energy_balance.relative) < 3e-5 * (64 / steps) ** 2
-
-
-def test_forces_of_springs_add_up():
-    contact = case(0.2, *ARMS["two"], pull=mdr.SpringPull(2e3, 0.02, 1.0))
-    for lump in (True, False):
-        run = mdr.slide(contact, 0.5 * contact.unit_velocity, n_springs=96, steps_per_period=256, record=1, lump=lump)
-        assert_allclose(run.f_x.sum(axis=1), run.F_x, rtol=1e-10, atol=1e-12 * run.F_z.max())
-        assert_allclose(run.f_z.sum(axis=1), run.F_z, rtol=1e-10)
-        assert np.all(np.abs(run.f_x) <= contact.mu_0 * run.f_z * (1 + 1e-9) + 1e-12 * run.F_z.max())
-        sticks = run.state == mdr.State.STICK
-        assert np.all(run.f_z[run.state == mdr.State.FREE] == 0)
-        assert sticks.any()
 
 
 @pytest.mark.parametrize(("v", "least"), [(3.0, 1.0), (0.3, 0.5)])

@@ -206,41 +206,6 @@ def test_modes_and_forces_of_elastic_springs(case, v_hat):
     check_forces(case, run, normal, shear)
 
 
-@pytest.mark.parametrize("name", ["rigid Kelvin", "flat, contact lost", "tapping", "body Kelvin", "massless Kelvin"])
-def test_modes_and_forces_of_kelvin_springs(name):
-    """With dashpots: rates by the motion where a spring sticks, by the law where it slips."""
-    case = CONTACTS[name]
-    run, springs = coarse(case, 0.43, 24, record=2), mdr.SpringArray.of(case, 96)
-    tau, omega = case.material.tau, case.oscillation.omega
-    s = run.u_z[:, None] - case.oscillation.u_z0 - springs.gap
-    rate = case.oscillation.u_z_dot(run.t)[:, None]
-    normal = springs.dk_z * (s + tau * rate)
-    free = run.state == State.FREE
-    touching = ~free
-    assert np.all(normal[touching] > 0)
-    assert np.all(s[touching] > -1e-12 * case.oscillation.du_z)
-    # free springs relax: over a step from free to free e decays by exp(-dt/tau)
-    decay = math.exp(-2 * math.pi / 256 / (omega * tau))
-    both = free[1:] & free[:-1]
-    if both.any():
-        # a spring that was touched for a part of the step between has more; none has less
-        relaxed = np.isclose(run.e[1:], decay * run.e[:-1], rtol=1e-9, atol=1e-13 * case.oscillation.du_z)
-        assert np.mean(relaxed[both]) > 0.95
-    sticks = run.state == State.STICK
-    both = sticks[1:] & sticks[:-1]
-    assert both.any()
-    du = np.diff(run.u_x)[:, None]
-    moved = np.isclose(np.diff(run.e, axis=0), du, rtol=0, atol=1e-6 * case.mu_0 * case.oscillation.du_z)
-    assert np.mean(moved[both]) > 0.98  # but for a short slip within a step
-    total = np.where(sticks, 0, np.where(run.state == State.SLIP_BACK, -1, 1)) * np.where(free, 0, normal)
-    slipping = np.sum(total, axis=1) * case.mu_0
-    n_stick = np.sum(sticks, axis=1)
-    all_slip = n_stick == 0
-    if all_slip.any():
-        assert_allclose(run.F_x[all_slip], slipping[all_slip], rtol=1e-9, atol=1e-12 * np.max(run.F_z))
-    assert_allclose(run.F_z, np.sum(np.where(free, 0, normal), axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
-
-
 def check_forces(case, run, normal, shear):
     stick, slip, back, free = (run.state == mode for mode in (State.STICK, State.SLIP, State.SLIP_BACK, State.FREE))
     bound = case.mu_0 * normal
@@ -336,9 +301,6 @@ def test_default_knobs_refine_until_the_budget_is_met():
     given = run_at(contact("cone", 0.7), 0.05, n_springs=32, steps_per_period=64)
     assert (given.n_springs, given.steps_per_period) == (32, 64)
     assert abs(given.cof - run.cof) <= given.cof_error + run.cof_error
-
-
-# --- Eq. (10) -----------------------------------------------------------------------------------------------
 
 
 # --- found by trying to break it --------------------------------------------------------------------------------
