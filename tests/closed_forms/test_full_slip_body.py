@@ -153,53 +153,6 @@ def test_a_light_body_jumps_when_dashpots_touch_unless_the_tip_is_sharp(shape):
 # --- any motion and any material, by one method ---
 
 
-def another_way(case, n=1, shift=0.0, more=0.0):
-    """The harmonic depth of a case as harmonic n of omega/n, later by a phase, with a harmonic beside it."""
-    osc, cos, sin = case.oscillation, [0.0] * (2 * n), [0.0] * n
-    cos[n - 1], sin[n - 1], cos[-1] = osc.du_z * math.cos(shift), -osc.du_z * math.sin(shift), more * osc.du_z
-    return replace(case, oscillation=mdr.PeriodicMotion(osc.omega / n, osc.u_z0, tuple(cos), tuple(sin)))
-
-
-def shaken(case, ratio):
-    du_x = 1e-9 * case.mu_0 * case.oscillation.du_z
-    return replace(case, shake=mdr.InPlaneOscillation(ratio * case.oscillation.omega, du_x))
-
-
-def with_arm(case, weight):
-    body = case.material
-    arm = (weight * body.E, 0.7 / case.oscillation.omega)
-    return replace(case, material=mdr.Prony(body.E, [arm], body.nu, getattr(body, "tau", 0.0)))
-
-
-WAYS = {
-    "a series": another_way,
-    "second harmonic": lambda case: another_way(case, 2),
-    "fifth harmonic": lambda case: another_way(case, 5),
-    "later": lambda case: another_way(case, 1, 1.234),
-    "a harmonic beside it": lambda case: another_way(case, 1, 0.0, 1e-9),
-    "shaken": lambda case: shaken(case, 1),
-    "shaken slowly": lambda case: shaken(case, 1 / 8),
-    "shaken in another rhythm": lambda case: shaken(case, 3 / 2),
-    "an arm without weight": lambda case: with_arm(case, 1e-9),
-}
-KINDS = {
-    "rigid": {},
-    "damped": DAMPED,
-    "light": {"k_ratio": 0.3, "omega_0_ratio": 40.0, "c_ratio": 0.3},
-    "massless": {"k_ratio": 0.3, "omega_0_ratio": math.inf, "c_ratio": 0.3},
-    "no damper": {"k_ratio": 0.3, "omega_0_ratio": math.inf},
-}
-
-
-@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
-@pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
-def test_a_motion_written_in_another_way_has_the_same_velocity(kind, way):
-    for shape, depth_ratio, T in [("cone", 4.0, 0.0), ("paraboloid", 8.0, 1.2), ("flat", 0.6, 0.3), ("cone", 0.6, 5.0)]:
-        case = contact(shape, depth_ratio, T, **kind)
-        # 1e-9 times what a resonance or the rate of the force makes of a harmonic; of the rate of F_N rounding 1e-7
-        assert_allclose(mdr.full_slip_critical_velocity(way(case)), mdr.full_slip_critical_velocity(case), rtol=1.5e-7)
-
-
 def test_the_shake_of_a_cone_is_fastest_between_the_last_and_the_first_phase():
     """Always in contact: the greatest of one cosine, |mu_0 kappa du_z - du_x exp(i phi_x)| omega."""
     case = contact("cone", 1 / 0.13293341054260277)
