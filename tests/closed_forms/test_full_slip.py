@@ -65,18 +65,6 @@ def test_mean_force_is_that_of_the_mean_compression(shape, depth_ratio, T):
     assert_allclose(got, twin, rtol=1e-10)  # both are quadratures between the same kinks
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_a_series_that_begins_a_quarter_period_later_has_the_same_force(shape):
-    """sin instead of cos."""
-    case = contact(shape, 3.0, 0.5)
-    osc = case.oscillation
-    later = replace(case, oscillation=mdr.PeriodicMotion(osc.omega, osc.u_z0, (0.0,), (osc.du_z,)))
-    one, other = full_slip(case, 256), full_slip(later, 256)
-    assert_allclose(np.roll(one.F_N, 64), other.F_N, rtol=0, atol=1e-12 * one.F_N.max())
-    assert_allclose(mean_normal_force(later), mean_normal_force(case), rtol=1e-12)
-    assert_allclose(np.roll(one.u_z_dot, 64), other.u_z_dot, rtol=0, atol=1e-12 * osc.omega * osc.du_z)
-
-
 # --- static friction ---
 
 

@@ -236,17 +236,6 @@ def test_depth_drops_out_for_the_flat_punch_alone(T):
     assert abs(v_c("paraboloid", 3.0) / v_c("paraboloid", 300.0) - 1) > 0.1
 
 
-@pytest.mark.parametrize("T", [0.0, 0.5])
-def test_it_scales_as_it_should(T):
-    # at fixed groups mu_0, the amplitude, the frequency and the modulus enter through the unit of velocity alone
-    groups = "paraboloid", 5.0, T, 0.7, 1.6, 0.2
-    one = mdr.critical_velocity(contact(*groups))
-    assert_allclose(mdr.critical_velocity(contact(*groups, E=3e9)), one, rtol=1e-13)
-    assert_allclose(mdr.critical_velocity(contact(*groups, mu_0=0.8)), 2 * one, rtol=1e-13)
-    assert_allclose(mdr.critical_velocity(contact(*groups, omega=3000.0)), 10 * one, rtol=1e-13)
-    assert_allclose(mdr.critical_velocity(contact(*groups, du_z=2e-9)), 1e-3 * one, rtol=1e-13)
-
-
 # --- the deficit ---
 
 

@@ -165,22 +165,6 @@ def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
         assert one.energy_balance.shake_work != pytest.approx(other.energy_balance.shake_work, rel=0.1)
 
 
-def test_different_frequencies_are_marched_over_their_common_period():
-    case = contact("cone", alpha=0.4, chi=0.7)
-    case = replace(
-        case, oscillation=replace(case.oscillation, omega=3 * OMEGA), shake=replace(case.shake, omega=2 * OMEGA)
-    )
-    assert case.omega == pytest.approx(OMEGA)
-    series = replace(
-        case,
-        oscillation=mdr.PeriodicMotion(OMEGA, DEPTH, cos=(0.0, 0.0, 0.4 * DEPTH)),
-        shake=mdr.InPlaneMotion(OMEGA, (0.0, 0.7 * REACH * math.cos(0.7)), (0.0, -0.7 * REACH * math.sin(0.7))),
-    )
-    for v_0 in (1e-3, -2e-3):
-        one, other = (mdr.slide(each, v_0, **KNOBS).cof for each in (case, series))
-        assert one == pytest.approx(other, rel=1e-9)
-
-
 # --- accuracy, energy, the ends ---
 
 
