@@ -22,6 +22,8 @@ NAN, INF = math.nan, math.inf
 BALL, RUBBER, SLED = mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.SpringPull(2e4, 0.1, 4.0)
 TAPPING = mdr.NormalOscillation(20e-6, 2e-6, 314.0)
 CASE = mdr.SlidingContact(BALL, RUBBER, 0.5, TAPPING, SLED)
+RIGID = replace(CASE, pull=mdr.RigidPull())
+SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(1e-3, 1e-4, 314.0)
 SOME = mdr.FrictionData([1e-4, 2e-4, 3e-4], [0.4, 0.45, 0.5])
 CONE = 'mu_0 = 0.5\n[indenter]\nshape = "Cone"\n'
 NINE, SHAKE = np.linspace(0, 1e-6, 9), mdr.InPlaneOscillation(300.0, 1e-6)
@@ -379,6 +381,12 @@ SAYINGS = {
     'fit(CASE, SOME, ["tau"], bounds={"tau": 3})': "bounds of tau must be a pair (low, high), got 3",
     'fit(CASE, SOME, ["tau"], bounds={"k_x": (1, 2)})': "bounds: k_x is not fitted; the parameters are tau",
     'fit(CASE, SOME, ["tau"], bounds=[(1, 2)])': "bounds must be a dict",
+    "closed_forms.rigid_pull.average_friction('case', 1e-3)": "case must be a SlidingContact",
+    "closed_forms.rigid_pull.average_friction(CASE, 1e-3)": "rigid pull",
+    "closed_forms.rigid_pull.average_friction(RIGID, [1e-3, 0.0])": "v_0 must be positive",
+    "closed_forms.rigid_pull.average_friction(RIGID, NAN)": "v_0 must be finite",
+    "closed_forms.rigid_pull.average_friction(replace(RIGID, material=SOLID), 1e-4)": "harmonic depth",
+    "closed_forms.rigid_pull.average_friction(replace(RIGID, oscillation=LOAD), 1e-4)": "harmonic depth",
     # files
     'read_case("nofile.toml")': "nofile.toml: cannot be read: No such file",
     'Prony.read("arms.txt")': "arms.txt",
