@@ -19,9 +19,9 @@ LONGEST = (
     "guide/test_docs.py",
     "explorer/test_browser.py",
     "guide/test_geometries.py",
-    "validation/test_report.py",
-    "normal/test_load_control.py",
-    "test_reference.py",
+    "march/test_shaken_runs.py",
+    "studies/test_sweep.py",
+    "tools/test_jit.py",
 )
 assert all((Path(__file__).parent / name).exists() for name in LONGEST)
 

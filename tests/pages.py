@@ -14,10 +14,12 @@ import io
 import os
 import pkgutil
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
+import warnings
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,6 +32,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"
 FENCE = re.compile(r"^(`{3,})([^\n`]*)\n(.*?)^\1 *$", re.DOTALL | re.MULTILINE)
 FIGURE = re.compile(r"!\[[^\]]+\]\((?:\.\./)?figures/([\w.-]+)\)")
 RUN = re.compile(r"(\.venv/bin/)?(mdr (?!explore)|sed |python -m validation --quick --only)")  # lines of sh
+MDR = re.compile(r"mdr [^$|&;<>]*(> [\w.]+)?")  # those that need no shell
 PATH = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 SHELL = {**os.environ, "PATH": PATH, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "ignore", "SLURM_ARRAY_TASK_ID": "1"}
 
@@ -72,9 +75,7 @@ def run(page: Path) -> list[tuple[Block, str]]:
         elif block.language == "sh":
             lines = block.text.replace("\\\n", " ").splitlines()
             wanted = [line.replace(".venv/bin/", "") for line in lines if RUN.match(line)]
-            done = subprocess.run(["bash", "-e"], input="\n".join(wanted), capture_output=True, text=True, env=SHELL)
-            assert done.returncode == 0, f"{where}: {done.stderr}"
-            printed = done.stdout
+            printed = "".join(by_mdr(line) if MDR.fullmatch(line) else by_shell(line) for line in wanted)
         elif block.language == "toml":
             (parse_study if "[axes]" in block.text else parse_case)(block.text)
             if name := re.match(r"# (\w+\.toml)\n", block.text):
@@ -87,6 +88,23 @@ def run(page: Path) -> list[tuple[Block, str]]:
             assert block.language == "{eval-rst}", f"{where}: a block of {block.language!r}"
             documented(block.text)
     return shown
+
+
+def by_shell(line: str) -> str:
+    """What a line of shell prints."""
+    return subprocess.run(["bash", "-ec", line], check=True, stdout=subprocess.PIPE, text=True, env=SHELL).stdout
+
+
+def by_mdr(line: str) -> str:
+    """What a line of mdr prints, or writes to the file that it names: in this process, which has imported it."""
+    from mdr.__main__ import main
+
+    words, _, file = line.partition(" > ")
+    with captured() as out, warnings.catch_warnings(action="ignore"):
+        assert main(shlex.split(words)[1:]) == 0, line
+    if file:
+        Path(file).write_text(out.getvalue(), encoding="utf-8")
+    return "" if file else out.getvalue()
 
 
 @contextlib.contextmanager

@@ -224,7 +224,7 @@ def coarse_run(case, dice):
     steps *= len(getattr(case.oscillation, "cos", "x"))
     start = "rest" if dice.happens(0.2) else "full_slip"
     knobs = {"n_springs": n, "steps_per_period": steps, "start": start, "lump": not dice.happens(0.2)}
-    run = mdr.slide(case, velocity(case, dice), record=int(dice.happens(0.3)), **knobs)
+    run = mdr.slide(case, velocity(case, dice), record=1, **knobs)
     judge(case, run)
 
 
@@ -237,7 +237,7 @@ def short_run(case, dice):
         steps_per_period=16 + dice.below(100),
         n_periods=1 + dice.below(12),
         start=dice.one_of(["rest", "full_slip"]),
-        record=dice.below(2),
+        record=1,
     )
     judge(case, run)
 
@@ -254,8 +254,7 @@ def judge(case, run):
     assert balance.friction_loss >= -ROUNDING * max(map(abs, energies))
     assert balance.viscous_loss >= -ROUNDING * max(map(abs, energies))
     assert balance.damper_loss >= 0
-    if run.state is not None:
-        recorded(case, run)
+    recorded(case, run)
     if not run.settled:
         assert run.why, "unsettled without a reason"
         return
@@ -271,7 +270,8 @@ def recorded(case, run):
     assert np.all(run.f_z >= -ROUNDING * most)
     assert np.all(np.abs(run.f_x) <= case.mu_0 * (run.f_z + ROUNDING * most))
     assert np.all((run.f_z == 0) | (run.state != mdr.State.FREE))
-    np.testing.assert_allclose(run.f_z.sum(axis=1), run.F_z, rtol=0, atol=ROUNDING * np.abs(run.F_z).max())
+    for whole, each in ((run.F_x, run.f_x), (run.F_z, run.f_z)):
+        np.testing.assert_allclose(each.sum(axis=1), whole, rtol=0, atol=ROUNDING * np.abs(run.F_z).max())
 
 
 def other_units(case, dice):
@@ -291,6 +291,7 @@ def other_units(case, dice):
     if not (ours.settled and theirs.settled):
         return
     assert abs(ours.cof - theirs.cof) <= slack * case.mu_0 + min(ours.cof_error, theirs.cof_error)
+    np.testing.assert_allclose(theirs.mean_F_z, ours.mean_F_z * force, rtol=slack)
 
 
 QUICK = (identity, numbers, shape, velocities, static, curve, held)
@@ -299,7 +300,7 @@ RUNS = (pressed, coarse_run, short_run, other_units)
 
 @pytest.mark.parametrize(
     ("question", "n"),
-    [*((one, 16) for one in QUICK), *((one, 4) for one in RUNS)],
+    [*((one, 16) for one in QUICK), *((one, 14) for one in RUNS)],
     ids=lambda one: getattr(one, "__name__", str(one)),
 )
 def test_any_record_answers_or_says_why_not(question, n):
@@ -313,13 +314,13 @@ def test_any_record_answers_or_says_why_not(question, n):
 def test_what_is_drawn_is_of_every_kind():
     """The dice reach every shape, material, motion and pull, and most contacts slide; each prints as a few lines."""
     kinds, slide = set(), 0
-    for seed in range(200):
+    for seed in range(130):
         with contextlib.suppress(Refused):
             case = asked(random_records.contact, random_records.Dice(seed))
             asked(mdr.resolved, case)
             slide += 1
             assert 6 <= len(str(case).splitlines()) <= 8
             kinds |= {type(part).__name__ for part in (case.indenter, case.material, case.oscillation, case.pull)}
-    assert slide > 120
+    assert slide > 80
     assert kinds >= {*SHAPES, *MATERIALS, "Profile", "NormalOscillation", "PeriodicMotion", "LoadOscillation"}
     assert kinds >= {"RigidPull", "SpringPull"}

@@ -22,6 +22,8 @@ NAN, INF = math.nan, math.inf
 BALL, RUBBER, SLED = mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.SpringPull(2e4, 0.1, 4.0)
 TAPPING = mdr.NormalOscillation(20e-6, 2e-6, 314.0)
 CASE = mdr.SlidingContact(BALL, RUBBER, 0.5, TAPPING, SLED)
+RIGID = replace(CASE, pull=mdr.RigidPull())
+SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(1e-3, 1e-4, 314.0)
 SOME = mdr.FrictionData([1e-4, 2e-4, 3e-4], [0.4, 0.45, 0.5])
 CONE = 'mu_0 = 0.5\n[indenter]\nshape = "Cone"\n'
 NINE, SHAKE = np.linspace(0, 1e-6, 9), mdr.InPlaneOscillation(300.0, 1e-6)
@@ -191,12 +193,18 @@ ARGUMENTS = [
     ("record", lambda n: mdr.slide(CASE, 1e-3, n_periods=2, record=n), [*COUNT, (-1, "at least"), (3, "cannot be")]),
     ("lump", lambda value: mdr.slide(CASE, 1e-3, lump=value), FLAG),
     ("start", lambda start: mdr.slide(CASE, 1e-3, start=start), [*STARTS, ("Rest", '"full_slip" or "rest"')]),
-    ("accuracy", lambda value: mdr.slide(CASE, 1e-3, accuracy=value), [(1e-12, "must lie between 1e-08 and 0.001")]),
+    *[("accuracy", ask, [*((one, "must lie between 1e-08 and 0.001") for one in (0.0, 1e-9, 2e-3, -1e-5)),
+                         (NAN, "must be a finite number"), ("high", "must be a real number")])
+      for ask in (lambda value: mdr.slide(CASE, 1e-3, accuracy=value),
+                  lambda value: mdr.cof_curve(CASE, 1e-3, accuracy=value),
+                  lambda value: mdr.measure_critical_velocity(CASE, accuracy=value))],
     ("v_0", lambda v_0: mdr.cof_curve(CASE, v_0), [*ARRAY, ([], "list"), ([[1e-3]], "list"), ([-1e-3], "negative")]),
     ("steps_per_period", lambda n: mdr.cof_curve(CASE, 1e-3, steps_per_period=n), [*COUNT, (8, "at least 32")]),
     ("method", lambda method: mdr.cof_curve(CASE, 1e-3, method=method), [("exact", 'must be None or "march"')]),
     ("start", lambda start: mdr.measure_critical_velocity(CASE, start=start), STARTS),
-    ("direction", lambda way: mdr.critical_velocity(CASE, way), [(0, "must be 1 (forward) or -1")]),
+    *[("direction", lambda way, ask=ask: ask(CASE, way), [
+        (one, "must be 1 (forward) or -1") for one in (0, 2, True, "forward")])
+      for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity)],
     ("within", lambda value: mdr.verdict(CASE, within=value), [
         (NAN, "finite"), (1, "between 0 and 1, got 1.0"), (5, "0.01 for 1 %"), ("1%", "must be a real number")]),
     ("n_springs", lambda n: mdr.SpringArray.of(CASE, n), [*COUNT, (15, "must be at least 16")]),
@@ -236,12 +244,17 @@ ARGUMENTS = [
     ("mu_0", lambda mu_0: mdr.partial_slip(BALL, RUBBER, mu_0, 1e-6, 1e-7), ABOVE_ZERO),
     ("u_x", lambda u_x: mdr.partial_slip(BALL, RUBBER, 0.5, 1e-6, u_x), [*ARRAY, (-1e-7, "must not be negative")]),
     ("u_z", lambda u_z: mdr.indent(BALL, RUBBER, [0, 1], u_z), [([0, NAN], "finite"), ([0], "one value for each")]),
-    ("t", lambda t: mdr.indent(BALL, RUBBER, t, [0, 1e-6]), [([1, 0], "must not descend"), (["a", "b"], "must be")]),
+    ("t", lambda t: mdr.indent(BALL, RUBBER, t, [0, 1e-6]), [
+        ([1, 0], "must not descend"), (["a", "b"], "must be"), ([0, NAN], "finite"),
+        *((one, "list of instants") for one in (1.0, []))]),
+    ("record", lambda flag: mdr.indent(BALL, RUBBER, [0, 1], [0, 1e-6], record=flag), [(1, "must be True or False")]),
+    ("n_springs", lambda n: mdr.indent(BALL, RUBBER, [0, 1], [0, 1e-6], n_springs=n), [*COUNT, (8, "at least 16")]),
     ("F_z", lambda F_z: mdr.indent(BALL, RUBBER, [0, 1], F_z=F_z), [([0, -1], "must not be negative")]),
     ("n_t", lambda n: full_slip(CASE, n_t=n), [*COUNT, (0, "must be")]),
     *[("case", ask, [(one, "must be a SlidingContact, got") for one in (BALL, None, "case.toml", mdr.SlidingContact)])
       for ask in (mdr.SpringArray.of, mdr.measure_critical_velocity, mdr.verdict, mdr.critical_velocity, mdr.static_cof,
-                  mdr.full_slip_critical_velocity, mdr.write_case, lambda case: mdr.slide(case, 1e-3),
+                  mdr.full_slip_critical_velocity, mdr.write_case, mdr.resolved, mdr.laws.radial_rub,
+                  mdr.laws.coupling_loss, lambda case: mdr.slide(case, 1e-3),
                   lambda case: mdr.cof_curve(case, 1e-3), lambda case: mdr.sweep(case, {"v_0": [1e-3]}))],
 ]  # fmt: skip
 
@@ -310,6 +323,18 @@ SAYINGS = {
     "slide(CASE, -1e-3)": "the other way is the same where nothing shakes in the plane",
     "slide(CASE, 1e-3, n_periods=200_000, record=200_000)": "more than memory holds",
     "slide(CASE, 1e-15)": "rounding hides the motion",
+    "slide(CASE, 1e25)": "full slip but for rounding; lower it",
+    "cof_curve(CASE, [5e-4], n_springs=10**8)": "more than memory holds",
+    "partial_slip(BALL, RUBBER, 0.5, -1e-6, 1e-7)": "u_z0 must be positive",
+    "partial_slip(3, RUBBER, 0.5, 1e-6, 1e-7)": "indenter must be of kind",
+    "partial_slip(BALL, Elastic, 0.5, 1e-6, 1e-7)": "write Elastic(...)",
+    "partial_slip(BALL, Prony(0, [(1e6, 1)], 0.5), 0.5, 1e-6, 1e-7)": "flows",
+    "surface_fields(3)": "source must be of kind",
+    "surface_fields(indent(BALL, RUBBER, [0, 1], [0, 1e-6]))": "record=True",
+    "surface_fields(slide(CASE, 1e-3, n_periods=1))": "slide(..., record=1)",
+    "indent(Cone, RUBBER, [0, 1], [0, 1e-6])": "indenter must be of kind",
+    "indent(BALL, 3e6, [0, 1], [0, 1e-6])": "material must be of kind",
+    "indent(Profile(np.square, r_max=1e-3), RUBBER, [0, 1], [0, 1e-5])": "deeper",
     "indent(BALL, RUBBER, [0, 1])": "give either u_z",
     "indent(BALL, RUBBER, [0, 1], [0, 1], F_z=[0, 1])": "give either u_z",
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["coff"])': "did you mean cof?",
@@ -340,7 +365,28 @@ SAYINGS = {
     'sweep(CASE, {"material": [Elastic(E=1e6, nu=0.3)], "T": [1.0]})': "T sets material.tau, which Elastic has not",
     'sweep(CASE, {"oscillation": [LoadOscillation(1, 0.5, 3)], "alpha": [0.1]})': "alpha sets oscillation.du_z, which",
     'sweep(CASE, {"indenter": [Cone(theta=0.1)], "indenter.R": [1e-3]})': "Cone has none; did you mean indenter",
-    'fit(CASE, SOME, ["mu0"])': "did you mean mu_0?",
+    'fit(CASE, SOME, "mu_0")': "parameters must be a list of names",
+    "fit(CASE, SOME, [])": "must name at least one",
+    "fit(CASE, SOME, [3])": "parameters must be names",
+    'fit(CASE, SOME, ["theta"])': "theta is no parameter of this case",
+    'fit(CASE, SOME, ["taw"])': "taw is no parameter of this case; did you mean tau?",
+    'fit(CASE, SOME, ["tau", "material.tau"])': "name one twice",
+    'fit(CASE, SOME, ["mu_0", "tau", "R"])': "3 parameters need more than 3 measurements",
+    'fit(CASE, ((0, 0.3),), ["mu_0"])': "must be FrictionData, as read_friction_data gives, got ((0, 0.3),)",
+    'fit(CASE, SOME, ["mu_0"], confidence=95)': "confidence must lie between 0 and 1, got 95",
+    'fit(CASE, SOME, ["tau"], bounds={"tau": (1e-5, 1e-4)})': "where the search begins: 0.001 is not",
+    'fit(CASE, SOME, ["tau"], bounds={"tau": (1e-1, 1e-5)})': "low < high, got 0.1 and 1e-05",
+    'fit(CASE, SOME, ["tau"], bounds={"tau": (-1.0, 1.0)})': "-1 is no value of it: tau must not be negative",
+    'fit(CASE, SOME, ["tau"], bounds={"tau": (0.0, NAN)})': "bounds of tau must be a finite number",
+    'fit(CASE, SOME, ["tau"], bounds={"tau": 3})': "bounds of tau must be a pair (low, high), got 3",
+    'fit(CASE, SOME, ["tau"], bounds={"k_x": (1, 2)})': "bounds: k_x is not fitted; the parameters are tau",
+    'fit(CASE, SOME, ["tau"], bounds=[(1, 2)])': "bounds must be a dict",
+    "closed_forms.rigid_pull.average_friction('case', 1e-3)": "case must be a SlidingContact",
+    "closed_forms.rigid_pull.average_friction(CASE, 1e-3)": "rigid pull",
+    "closed_forms.rigid_pull.average_friction(RIGID, [1e-3, 0.0])": "v_0 must be positive",
+    "closed_forms.rigid_pull.average_friction(RIGID, NAN)": "v_0 must be finite",
+    "closed_forms.rigid_pull.average_friction(replace(RIGID, material=SOLID), 1e-4)": "harmonic depth",
+    "closed_forms.rigid_pull.average_friction(replace(RIGID, oscillation=LOAD), 1e-4)": "harmonic depth",
     # files
     'read_case("nofile.toml")': "nofile.toml: cannot be read: No such file",
     'Prony.read("arms.txt")': "arms.txt",

@@ -26,13 +26,6 @@ def test_stiffness_and_damping_belong_to_the_mean_depth():
     assert_allclose([CASE.alpha, CASE.T, CASE.u_z_max], [0.1, 0.5, 22e-6], rtol=1e-14)
 
 
-@pytest.mark.parametrize("T", [0.0, 0.5, 3.0])
-def test_keeps_contact_is_equation_5(T):
-    limit = math.hypot(1, T)
-    assert contact("flat", depth_ratio=limit * (1 + 1e-9), T=T).keeps_contact
-    assert not contact("flat", depth_ratio=limit * (1 - 1e-9), T=T).keeps_contact
-
-
 def test_tapping_is_legal():
     assert TAPPING.k_zc == TAPPING.k_xc == 0
     assert TAPPING.alpha < 0

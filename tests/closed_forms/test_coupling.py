@@ -7,8 +7,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.half_space.friction import Settings, in_three_dimensions
-from validation.half_space.springs import of_springs
 
 SHAKEN = mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
 BALL = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.3), 0.3, SHAKEN)
@@ -46,15 +44,6 @@ def test_stick_ends_later_with_coupling():
     assert later > 1.3 * v_c
 
 
-def test_the_loss_is_that_of_three_dimensions():
-    settings = Settings(cells=9, steps=12, cycles=2)
-    for nu in (0.3, 0.0):
-        case = replace(BALL, material=mdr.Elastic(E=3e6, nu=nu))
-        v_0 = 0.7 * mdr.critical_velocity(case)
-        found = (of_springs(case, v_0, settings).cof - in_three_dimensions(case, v_0, settings).cof) / case.mu_0
-        assert_allclose(mdr.laws.coupling_loss(case), found, rtol=0.25)  # that of the law
-
-
 @pytest.mark.parametrize(("change", "words"), [
     ({"pull": mdr.SpringPull(k_x=1e4)}, "a SpringPull, not a rigid pull"),
     ({"oscillation": mdr.LoadOscillation(F_z0=0.1, dF_z=0.03, omega=300.0)}, "a LoadOscillation, not a harmonic"),
@@ -69,13 +58,6 @@ def test_what_was_not_computed_is_refused(change, words):
         with pytest.raises(ValueError, match=words):
             ask(case)
     assert "may still stick above" in mdr.verdict(case, limit_s=1e-3).why  # without a measurement
-
-
-def test_what_is_no_case_is_refused():
-    with pytest.raises(TypeError, match="SlidingContact"):
-        mdr.laws.radial_rub(3)
-    with pytest.raises(TypeError, match="SlidingContact"):
-        mdr.laws.coupling_loss(3)
 
 
 @pytest.mark.parametrize(("nu", "mu_0", "alpha", "words"), [

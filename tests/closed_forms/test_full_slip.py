@@ -13,9 +13,6 @@ import mdr
 from mdr.closed_forms import paper
 from mdr.closed_forms.full_slip import full_slip, mean_normal_force, normal_force_harmonics
 
-CURVED = ["cone", "paraboloid", "r4"]
-
-
 # --- the normal force ---
 
 
@@ -68,18 +65,6 @@ def test_mean_force_is_that_of_the_mean_compression(shape, depth_ratio, T):
     assert_allclose(got, twin, rtol=1e-10)  # both are quadratures between the same kinks
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_a_series_that_begins_a_quarter_period_later_has_the_same_force(shape):
-    """sin instead of cos."""
-    case = contact(shape, 3.0, 0.5)
-    osc = case.oscillation
-    later = replace(case, oscillation=mdr.PeriodicMotion(osc.omega, osc.u_z0, (0.0,), (osc.du_z,)))
-    one, other = full_slip(case, 256), full_slip(later, 256)
-    assert_allclose(np.roll(one.F_N, 64), other.F_N, rtol=0, atol=1e-12 * one.F_N.max())
-    assert_allclose(mean_normal_force(later), mean_normal_force(case), rtol=1e-12)
-    assert_allclose(np.roll(one.u_z_dot, 64), other.u_z_dot, rtol=0, atol=1e-12 * osc.omega * osc.du_z)
-
-
 # --- static friction ---
 
 
@@ -91,14 +76,6 @@ def test_static_cof_against_the_twin(shape, depth_ratio, T):
     assert_allclose(got, twin, rtol=0, atol=1e-11)  # the twin looks for the minimum of F_N itself
     if depth_ratio < math.hypot(1, T):
         assert got == 0
-
-
-@pytest.mark.parametrize("T", [0.0, 0.3, 2.0])
-def test_static_cof_of_the_punch_is_eq_7(T):
-    case = contact("flat", 3.0, T)
-    osc = case.oscillation
-    expected = paper.eq_7(case.mu_0, osc.u_z0, osc.du_z, osc.omega, case.k_zc, case.gamma_zc) / (case.k_zc * osc.u_z0)
-    assert_allclose(mdr.static_cof(case), expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("question", [mdr.static_cof, mdr.full_slip_critical_velocity])

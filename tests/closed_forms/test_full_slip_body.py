@@ -18,6 +18,7 @@ DAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.15}
 SOFT = {"k_ratio": 0.05, "omega_0_ratio": 0.4, "c_ratio": 0.0}
 STIFF = {"k_ratio": 5.0, "omega_0_ratio": 7.3, "c_ratio": 0.0}
 BODIES = {"damped": DAMPED, "soft": SOFT, "stiff": STIFF}
+LIGHT = {name: {"k_ratio": 0.7, "omega_0_ratio": r, "c_ratio": 0.1} for name, r in (("light", 1e3), ("none", math.inf))}
 BUDGET = 1e-8
 
 
@@ -26,17 +27,11 @@ def v_hat_c(case):
 
 
 @pytest.mark.parametrize("T", [0.0, 0.5, 2.5])
-@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+@pytest.mark.parametrize("body", [*BODIES.values(), *LIGHT.values()], ids=[*BODIES, *LIGHT])
 def test_a_punch_that_keeps_contact_has_eq_15(body, T):
     case = contact("flat", 3.0, T, **body)
-    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-10)
-
-
-@pytest.mark.parametrize("omega_0_ratio", [math.inf, 1e3])
-@pytest.mark.parametrize("T", [0.0, 0.5])
-def test_a_light_body_has_eq_15_too(T, omega_0_ratio):
-    case = contact("flat", 3.0, T, 0.7, omega_0_ratio, 0.1)
-    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-9)
+    near = 1e-9 if body in LIGHT.values() else 1e-10
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=near)
 
 
 @pytest.mark.parametrize(("depth_ratio", "T"), [(30.0, 0.0), (1.01, 0.0), (4.0, 3.0)])
@@ -66,24 +61,11 @@ def test_small_deviations_from_eq_15_go_with_the_square_of_the_amplitude(shape, 
     assert_allclose(two, 4 * one, rtol=1e-2)  # the next power adds a few alpha
 
 
-def check_against_the_twin(shape, depth_ratio, T, body):
-    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
-    assert_allclose(
-        v_hat_c(contact(shape, depth_ratio, T, **body)), twin, rtol=BUDGET, err_msg=f"{shape} {depth_ratio} {T} {body}"
-    )
-
-
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-@pytest.mark.parametrize("depth_ratio", [10.0, 3.0, 1.5])
-@pytest.mark.parametrize("shape", CURVED)
-def test_elastic_body_against_the_twin(shape, depth_ratio, body):
-    check_against_the_twin(shape, depth_ratio, 0.0, body)
-
-
-@pytest.mark.parametrize("body", [DAMPED, SOFT], ids=["damped", "soft"])
 @pytest.mark.parametrize(
     ("shape", "depth_ratio", "T"),
     [
+        *((shape, depth_ratio, 0.0) for shape in CURVED for depth_ratio in (10.0, 3.0, 1.5)),
         ("flat", 0.6, 0.0),
         ("r4", 0.6, 0.0),
         ("cone", 0.6, 0.0),
@@ -93,8 +75,9 @@ def test_elastic_body_against_the_twin(shape, depth_ratio, body):
         *((shape, 5.0, T) for shape in CURVED for T in (0.3, 3.0)),
     ],
 )
-def test_kelvin_or_lost_contact_under_a_body_against_the_twin(shape, depth_ratio, T, body):
-    check_against_the_twin(shape, depth_ratio, T, body)
+def test_a_body_against_the_twin(shape, depth_ratio, T, body):
+    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
+    assert_allclose(v_hat_c(contact(shape, depth_ratio, T, **body)), twin, rtol=BUDGET)
 
 
 # --- resonance ---
@@ -167,77 +150,7 @@ def test_a_light_body_jumps_when_dashpots_touch_unless_the_tip_is_sharp(shape):
     assert math.isfinite(v_hat_c(contact(shape, 0.5, 0.0, 0.7, math.inf)))
 
 
-@pytest.mark.parametrize("length", [1e-9, 1e6])
-def test_units_do_not_matter(length):
-    """Lengths in another unit, with moduli, masses and dampers that keep all groups."""
-    case = contact("paraboloid", 1.3, 0.5, **DAMPED)
-    osc, pull = case.oscillation, case.pull
-    other = mdr.SlidingContact(
-        mdr.Paraboloid(R=case.indenter.R * length),
-        case.material,
-        case.mu_0,
-        mdr.NormalOscillation(osc.u_z0 * length, osc.du_z * length, osc.omega),
-        mdr.SpringPull(pull.k_x * length, pull.m * length, pull.c_x * length),
-    )
-    assert_allclose(v_hat_c(other), v_hat_c(case), rtol=1e-12)
-
-
 # --- any motion and any material, by one method ---
-
-
-def another_way(case, n=1, shift=0.0, more=0.0):
-    """The harmonic depth of a case as harmonic n of omega/n, later by a phase, with a harmonic beside it."""
-    osc, cos, sin = case.oscillation, [0.0] * (2 * n), [0.0] * n
-    cos[n - 1], sin[n - 1], cos[-1] = osc.du_z * math.cos(shift), -osc.du_z * math.sin(shift), more * osc.du_z
-    return replace(case, oscillation=mdr.PeriodicMotion(osc.omega / n, osc.u_z0, tuple(cos), tuple(sin)))
-
-
-def shaken(case, ratio):
-    du_x = 1e-9 * case.mu_0 * case.oscillation.du_z
-    return replace(case, shake=mdr.InPlaneOscillation(ratio * case.oscillation.omega, du_x))
-
-
-def with_arm(case, weight):
-    body = case.material
-    arm = (weight * body.E, 0.7 / case.oscillation.omega)
-    return replace(case, material=mdr.Prony(body.E, [arm], body.nu, getattr(body, "tau", 0.0)))
-
-
-WAYS = {
-    "a series": another_way,
-    "second harmonic": lambda case: another_way(case, 2),
-    "fifth harmonic": lambda case: another_way(case, 5),
-    "later": lambda case: another_way(case, 1, 1.234),
-    "a harmonic beside it": lambda case: another_way(case, 1, 0.0, 1e-9),
-    "shaken": lambda case: shaken(case, 1),
-    "shaken slowly": lambda case: shaken(case, 1 / 8),
-    "shaken in another rhythm": lambda case: shaken(case, 3 / 2),
-    "an arm without weight": lambda case: with_arm(case, 1e-9),
-}
-KINDS = {
-    "rigid": {},
-    "damped": DAMPED,
-    "light": {"k_ratio": 0.3, "omega_0_ratio": 40.0, "c_ratio": 0.3},
-    "massless": {"k_ratio": 0.3, "omega_0_ratio": math.inf, "c_ratio": 0.3},
-    "no damper": {"k_ratio": 0.3, "omega_0_ratio": math.inf},
-}
-
-
-@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
-@pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
-def test_a_motion_written_in_another_way_has_the_same_velocity(kind, way):
-    for shape, depth_ratio, T in [("cone", 4.0, 0.0), ("paraboloid", 8.0, 1.2), ("flat", 0.6, 0.3), ("cone", 0.6, 5.0)]:
-        case = contact(shape, depth_ratio, T, **kind)
-        # 1e-9 times what a resonance or the rate of the force makes of a harmonic; of the rate of F_N rounding 1e-7
-        assert_allclose(mdr.full_slip_critical_velocity(way(case)), mdr.full_slip_critical_velocity(case), rtol=1.5e-7)
-
-
-@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
-def test_a_motion_written_in_another_way_has_the_same_static_limit(way):
-    for shape, depth_ratio, T in [("cone", 4.0, 0.0), ("paraboloid", 8.0, 1.2), ("flat", 3.0, 0.3), ("r4", 0.6, 5.0)]:
-        case = contact(shape, depth_ratio, T)
-        # friction at rest of a shake is an integral to 1e-9, and a shake of 1e-9 may hold as much
-        assert_allclose(mdr.static_cof(way(case)), mdr.static_cof(case), rtol=0, atol=1e-8)
 
 
 def test_the_shake_of_a_cone_is_fastest_between_the_last_and_the_first_phase():

@@ -1,7 +1,6 @@
 """The closed form of a rigid pull against the twin, the march, its own asymptotics, and the definition of friction."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,10 +9,9 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms import paper, rigid_pull
+from mdr.closed_forms import rigid_pull
 from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
 
-SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(1e-3, 1e-4, 300.0)
 KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
 
 
@@ -56,12 +54,6 @@ def test_sixteen_kelvin_contacts_against_the_twin():
     assert max(worst) <= KELVIN_BUDGET
 
 
-@pytest.mark.parametrize("v_hat", [0.03, 0.4, 0.9])
-def test_the_punch_has_the_deficit_of_one_spring(v_hat):
-    cof, _, _ = friction(contact("flat", 3.0), v_hat)
-    assert_allclose(1 - cof, paper.deficit(v_hat) / 3, rtol=1e-11)
-
-
 @pytest.mark.parametrize("T", [0.0, 0.7])
 def test_above_v_c_friction_is_full_and_nothing_sticks(T):
     cof, error, sticks = friction(contact("cone", 2.0, T), [1.0, 1.3, 1e6])
@@ -102,18 +94,6 @@ def test_a_shape_with_a_kink_and_a_rim_against_a_sum_over_its_springs():
         assert_allclose(friction(case, v_hat)[0], twin, rtol=0, atol=2e-9)  # Profile maps to 1e-9
 
 
-@pytest.mark.parametrize("T", [0.0, 0.4, 3.0])
-@pytest.mark.parametrize(("shape", "depth_ratio"), [("flat", 5.0), ("paraboloid", 3.0), ("cone", 0.7), ("r4", 0.0)])
-def test_the_march_agrees_within_its_own_bound(shape, depth_ratio, T):
-    case = contact(shape, depth_ratio, T)
-    for v_hat in (0.1, 0.55, 0.9):
-        run = mdr.slide(case, v_hat * unit_of_velocity(case))
-        cof, _, sticks = friction(case, v_hat)
-        assert abs(run.cof / case.mu_0 - cof) <= run.cof_error / case.mu_0
-        # modes are counted at the nodes: a few steps of a period of 1024, and a few springs of 512
-        assert_allclose(run.stick_share, sticks, rtol=0, atol=8e-3)
-
-
 def test_the_stick_of_the_punch_in_closed_form():
     """Elastic, contact kept: the stick runs from phi_1 to phi_2, and the force is u_z0 + du_z cos phi."""
     v_hat, depth_ratio = 0.3, 4.0
@@ -124,43 +104,6 @@ def test_the_stick_of_the_punch_in_closed_form():
 
 
 # --- what follows from it ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("shape", "depth_ratio", "T"),
-    [("flat", 3.0, 0.0), ("cone", 0.5, 0.0), ("paraboloid", 3.0, 0.0), ("flat", 5.0, 1.0), ("r4", 4.0, 0.3)],
-)
-def test_near_v_c(shape, depth_ratio, T):
-    case = contact(shape, depth_ratio, T)
-    law = near_critical(case)
-    assert law.power == (1.5 if T else 2.0)
-    short = np.array([1e-3, 1e-4])
-    ratio = (1 - friction(case, 1 - short)[0]) / (law.coefficient * short**law.power)
-    # the next term is a power of one half higher, and for a Kelvin contact the elastic term beside it goes like 1/T
-    miss = np.abs(ratio - 1)
-    assert miss[1] < 3 * math.sqrt(short[1]) * (1 + (1 / T if T else 0))
-    assert miss[1] < 0.5 * miss[0]
-
-
-@pytest.mark.parametrize(
-    ("shape", "depth_ratio", "T", "power"),
-    [
-        ("flat", 3.0, 0.0, 1.0),
-        ("cone", 0.5, 0.0, 1.0),
-        ("paraboloid", 3.0, 0.0, 1.0),
-        ("flat", 5.0, 1.0, 2 / 3),
-        ("paraboloid", 4.0, 0.3, 2 / 3),
-    ],
-)
-def test_near_rest(shape, depth_ratio, T, power):
-    case = contact(shape, depth_ratio, T)
-    law = small_velocity(case)
-    assert law.power == power
-    v_hat = np.array([1e-4, 1e-6])
-    rise = friction(case, v_hat)[0] - mdr.static_cof(case) / case.mu_0
-    miss = np.abs(rise / (law.coefficient * v_hat**power) - 1)
-    assert miss[1] < 0.02
-    assert miss[1] < 0.4 * miss[0]
 
 
 def test_asymptotes_that_are_not_known_are_refused():
@@ -183,22 +126,6 @@ def test_a_curve_takes_the_closed_form_by_itself():
     assert curve.cof[0] == mdr.static_cof(case)
     assert curve.settled.all()
     assert curve.why == ("", "", "")
-
-
-@pytest.mark.parametrize(
-    ("call", "error", "match"),
-    [
-        (lambda: average_friction(contact("flat", 3.0, 0.0, 0.7, 1.6), 1e-3), TypeError, "rigid pull"),
-        (lambda: average_friction("case", 1e-3), TypeError, "case must be"),
-        (lambda: average_friction(contact("flat"), [1e-3, 0.0]), ValueError, "v_0 must be positive"),
-        (lambda: average_friction(contact("flat"), math.nan), ValueError, "v_0 must be finite"),
-        (lambda: average_friction(replace(contact("flat"), material=SOLID), 1e-4), ValueError, "harmonic depth"),
-        (lambda: average_friction(replace(contact("flat"), oscillation=LOAD), 1e-4), ValueError, "harmonic depth"),
-    ],
-)
-def test_wrong_input(call, error, match):
-    with pytest.raises(error, match=match):
-        call()
 
 
 @pytest.mark.parametrize("dip", [1e-4, 1e-8, 1e-10])

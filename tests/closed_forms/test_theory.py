@@ -60,15 +60,15 @@ def test_eq_5_is_a_positive_least_force(gamma):
     limit = paper.eq_6(DU_Z, OMEGA, K_ZC, gamma) / K_ZC
     for u_z0 in (limit * (1 + 1e-12), limit * (1 - 1e-12)):
         assert paper.eq_5(u_z0, DU_Z, OMEGA, K_ZC, gamma) == (paper.eq_7(MU_0, u_z0, DU_Z, OMEGA, K_ZC, gamma) > 0)
-    assert paper.eq_5(limit * 1.01, DU_Z, OMEGA, K_ZC, gamma)
-    assert not paper.eq_5(limit * 0.99, DU_Z, OMEGA, K_ZC, gamma)
 
 
-@pytest.mark.parametrize(("depth_ratio", "T"), [(3.0, 0.0), (3.0, 2.0), (3.0, 2.9), (0.9, 0.0)])
-def test_eq_5_says_what_the_case_says(depth_ratio, T):
-    case = contact("flat", depth_ratio, T)
+@pytest.mark.parametrize("T", [0.0, 0.5, 3.0])
+@pytest.mark.parametrize("share", [0.3, 1 - 1e-9, 1 + 1e-9, 2.0])
+def test_eq_5_says_what_the_case_says(share, T):
+    case = contact("flat", share * math.hypot(1, T), T)
     motion = case.oscillation
-    assert paper.eq_5(motion.u_z0, motion.du_z, motion.omega, case.k_zc, case.gamma_zc) == case.keeps_contact
+    kept = paper.eq_5(motion.u_z0, motion.du_z, motion.omega, case.k_zc, case.gamma_zc)
+    assert kept == case.keeps_contact == (share > 1)
 
 
 # --- motion in full slip ---
@@ -234,17 +234,6 @@ def test_depth_drops_out_for_the_flat_punch_alone(T):
 
     assert v_c("flat", 3.0) == v_c("flat", 300.0)
     assert abs(v_c("paraboloid", 3.0) / v_c("paraboloid", 300.0) - 1) > 0.1
-
-
-@pytest.mark.parametrize("T", [0.0, 0.5])
-def test_it_scales_as_it_should(T):
-    # at fixed groups mu_0, the amplitude, the frequency and the modulus enter through the unit of velocity alone
-    groups = "paraboloid", 5.0, T, 0.7, 1.6, 0.2
-    one = mdr.critical_velocity(contact(*groups))
-    assert_allclose(mdr.critical_velocity(contact(*groups, E=3e9)), one, rtol=1e-13)
-    assert_allclose(mdr.critical_velocity(contact(*groups, mu_0=0.8)), 2 * one, rtol=1e-13)
-    assert_allclose(mdr.critical_velocity(contact(*groups, omega=3000.0)), 10 * one, rtol=1e-13)
-    assert_allclose(mdr.critical_velocity(contact(*groups, du_z=2e-9)), 1e-3 * one, rtol=1e-13)
 
 
 # --- the deficit ---

@@ -4,28 +4,15 @@ import json
 import logging
 import socket
 import sys
+from dataclasses import replace
 from types import SimpleNamespace
 
 import matplotlib as mpl
 import pytest
+from conftest import contact
 
+import mdr
 from mdr.__main__ import main
-
-LOADED = """
-mu_0 = 0.4
-[indenter]
-shape = "ConcavePunch"
-a = 1e-3
-R = 1.0
-[material]
-model = "Elastic"
-E = 3e6
-nu = 0.5
-[oscillation]
-F_z0 = 1e-9
-dF_z = 1e-10
-omega = 300.0
-"""
 
 
 @pytest.fixture(autouse=True)
@@ -79,7 +66,10 @@ def test_a_wrong_file_is_status_2(capsys, tmp_path):
 def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
     pytest.importorskip("panel")
     path = tmp_path / "case.toml"
-    path.write_text(LOADED)
+    case = replace(
+        contact("flat"), indenter=mdr.ConcavePunch(1e-3, 1.0), oscillation=mdr.LoadOscillation(1e-9, 1e-10, 300)
+    )
+    path.write_text(mdr.write_case(case))
     assert main(["explore", str(path)]) == 2
     assert str(path) in capsys.readouterr().err
 

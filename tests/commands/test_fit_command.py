@@ -7,25 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import contact
 
 import mdr
 from mdr.__main__ import main
 from mdr.files.case_files import read_case
 
-CASE = """mu_0 = 0.4
-[indenter]
-shape = "Cone"
-theta = 0.02
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.4
-tau = 1e-3
-[oscillation]
-u_z0 = 20e-6
-du_z = 6e-6
-omega = 300.0
-"""
+CASE = mdr.write_case(contact("cone", 10 / 3, 0.3, du_z=6e-6))
 DATA = "v_0 [mm/s], cof, error\n0.1, 0.40, 0.01\n0.4, 0.46, 0.01\n0.8, 0.49, 0.01\n1.6, 0.50, 0.01\n3.2, 0.5, 0.01\n"
 
 
@@ -64,9 +52,6 @@ def test_machines_are_told_what_is_not_determined(files, capsys):
     [
         (["--free", "taw"], "taw is no parameter of this case; did you mean tau?"),
         (["--free", "mu_0", "--bounds", "mu_0=0.1-1"], "must be name=low:high, such as material.tau=1e-5:1e-1"),
-        (["--free", "mu_0", "--bounds", "mu_0=0.5:1"], "must hold the value of the case"),
-        (["--free", "mu_0", "--bounds", "R=1:2"], "bounds: R is not fitted"),
-        (["--free", "mu_0", "--confidence", "95"], "confidence must lie between 0 and 1"),
         (["--free", "mu_0", "-o", "data.csv"], "data.csv: no folder to write to"),
         ([], "the following arguments are required: --free"),
     ],
@@ -94,13 +79,13 @@ def test_standard_input_stands_for_one_file(files, capsys, monkeypatch):
 
 def test_a_load_of_the_file_holds_while_the_modulus_is_fitted(files, capsys):
     """At a depth that is held the modulus has nothing to do with the friction."""
-    text = CASE.replace("u_z0 = 20e-6", "load = 0.5").replace("tau = 1e-3", "tan_delta = 0.1")
+    text = CASE.replace("u_z0 = 2e-05", "load = 0.5").replace("tau = 0.001", "tan_delta = 0.1")
     truth = mdr.parse_case(text)
     v_0 = mdr.critical_velocity(truth) * np.linspace(0.1, 0.9, 6)
     cof = mdr.cof_curve(truth, v_0).cof
     rows = [f"{1e3 * v!r}, {one!r}, 1e-4" for v, one in zip(v_0.tolist(), cof.tolist(), strict=True)]
     Path("data.csv").write_text("\n".join(["v_0 [mm/s], cof, error", *rows]))
-    Path("case.toml").write_text(text.replace("E = 3e6", "E = 2e6"))
+    Path("case.toml").write_text(text.replace("E = 3000000.0", "E = 2e6"))
     assert main([*files, "--free", "material.E", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["parameters"]["material.E"]
     assert found["value"] == pytest.approx(3e6, rel=1e-3)

@@ -6,31 +6,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
 from mdr.tools.provenance import versions
 
-STUDY = """
+CASE = mdr.write_case(contact("paraboloid", 3.0, 0.3))
+STUDY = f"""
 quantities = ["cof", "v_c"]
-mu_0 = 0.5
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
+{CASE}
 [axes]
-"v_0/v_c" = { from = 0, to = 1.2, n = 3 }
+"v_0/v_c" = {{ from = 0, to = 1.2, n = 3 }}
 "T" = [0.1, 1.0]
-indenter = [{ shape = "Paraboloid", R = 5e-3 }, { shape = "Cone", theta = 0.05 }]
+indenter = [{{ shape = "Paraboloid", R = 5e-3 }}, {{ shape = "Cone", theta = 0.05 }}]
 """
 
 
@@ -109,7 +99,7 @@ def test_json_is_for_machines(file, capsys):
     assert len(answer["values"]["cof"]) == 3
     assert answer["why"][0][0] == ["", ""]
     assert answer["version"] == mdr.__version__
-    assert mdr.parse_case(answer["case"]).mu_0 == 0.5
+    assert mdr.parse_case(answer["case"]).mu_0 == 0.4
 
 
 def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):

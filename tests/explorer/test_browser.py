@@ -60,11 +60,8 @@ def test_a_slider_moves_the_curve(browser):
 @pytest.mark.parametrize(
     ("path", "text", "words"),
     [
-        ("indenter.a", "-1", "a must be positive, got -1.0"),
         ("mu_0", "rough", "mu_0 must be a real number, got 'rough'"),
-        ("oscillation.u_z0", "nan", "u_z0 must be a finite number"),
         ("oscillation.u_z0", "-1", "the indenter never touches"),
-        ("material.nu", "0.7", "nu must lie in"),
     ],
 )
 def test_a_wrong_number_is_refused_with_words_and_the_picture_stays(browser, path, text, words):

@@ -125,11 +125,8 @@ def test_a_shake_follows_the_frequency_of_the_oscillation():
 @pytest.mark.parametrize(
     ("path", "value", "words"),
     [
-        ("indenter.R", -1.0, "R must be positive"),
         ("oscillation.u_z0", -1.0, "never touches"),
-        ("material.nu", 0.7, "nu must lie"),
         ("v_0", 0.0, "v_0 must be positive"),
-        ("v_0", float("nan"), "v_0 must be a finite number"),
         ("mu_0", 10**400, "mu_0 must be a finite number"),
     ],
 )

@@ -138,9 +138,17 @@ FAULTS = [
     (friction, "v [m/s], mu\n1, \n", "line 2: nothing is no number, leave the line out (column cof)"),
     (friction, "v [m/s], mu\n1, 1_000\n", "1_000 is no number"),
     (friction, "v [m/s], mu\n1, high\n", "line 2: high is no number"),
+    (friction, "v [m/s], mu\n1\n", "line 2: nothing is no number"),
+    (friction, 'v [m/s], mu\n1, "0.3\n2, 0.4\n3, high\n', "line 4: high is no number"),  # an open quote ends its line
+    (friction, f"v [m/s], mu\n1, {'3' * 140_000}\n", "line 2: field larger than field limit"),
+    (friction, "v [m/s], mu, error\n1, 0.3, 0\n", "error must be positive"),
     # headers
     (friction, "", "holds no table; a header such as v_0 [mm/s], cof, and a row a measurement"),
     (friction, "1, 0.3\n2, 0.4\n", "line 1: numbers, where a header must be: v_0 [mm/s], cof"),
+    (friction, "v [m/s], mu\n", "holds no table"),
+    (friction, "v [m/s], mu [%]\n1, 0.3\n", "cof is a pure number, got the unit '%'"),
+    (friction, "v [m/s], m\x1bu\n1, 0.3\n", "the header names no cof: v [m/s], m u"),
+    (friction, f"v [{'x' * 1000}], mu\n1, 0.3\n", "is none of m/s"),
     (friction, "v [m/s], y\n1, 0.3\n", "the header names no cof: v [m/s], y; write v_0 [mm/s], cof"),
     (friction, "v, mu\n1, 0.3\n", "v_0 needs a unit in its header, one of m/s, cm/s, mm/s, um/s"),
     (friction, "v [km/h], mu\n1, 0.3\n", "the unit 'km/h' of v_0 is none of m/s"),
@@ -167,6 +175,13 @@ def test_what_is_wrong_is_told_with_what_to_write(write, read, text, words):
     with pytest.raises(ValueError, match=r"data\.csv: ") as caught:
         read(write(text))
     assert words in str(caught.value)
+    assert str(caught.value).isprintable()
+    assert len(str(caught.value)) < 500
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(ValueError, match="cannot be read"):
+        friction(tmp_path / "none.csv")
 
 
 def test_arguments_of_a_reader_are_checked(write):

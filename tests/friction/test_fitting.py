@@ -77,32 +77,6 @@ def test_what_the_data_do_not_tell_is_said():
     assert any("hardly tell them apart" in line for line in pairs.warnings)
 
 
-@pytest.mark.parametrize(
-    ("parameters", "error", "words"),
-    [
-        ("mu_0", TypeError, "must be a list of names"),
-        ([], ValueError, "must name at least one"),
-        ([3], TypeError, "parameters must be names"),
-        (["k_x"], ValueError, "k_x is no parameter of this case"),
-        (["taw"], ValueError, "taw is no parameter of this case; did you mean tau"),
-        (["tau", "material.tau"], ValueError, "name one twice"),
-        (["mu_0", "tau", "R", "E"], ValueError, "4 parameters need more than 4 measurements"),
-    ],
-)
-def test_what_cannot_be_fitted_is_refused(parameters, error, words):
-    data = mdr.FrictionData(V[:4], np.full(4, 0.3))
-    with pytest.raises(error, match=words):
-        mdr.fit(CASE, data, parameters)
-
-
-def test_data_and_confidence_are_what_they_should_be():
-    data = mdr.FrictionData(V[:4], np.full(4, 0.3))
-    with pytest.raises(TypeError, match=r"must be FrictionData, as read_friction_data gives, got \(\(0, 0\.3\),\)"):
-        mdr.fit(CASE, ((0, 0.3),), ["mu_0"])
-    with pytest.raises(ValueError, match=r"confidence must lie between 0 and 1, got 95"):
-        mdr.fit(CASE, data, ["mu_0"], confidence=95)
-
-
 def test_ratios_of_the_body_are_fitted_as_its_fields_are():
     """k_x/k_xc is k_x in other units: the same fit, the same interval."""
     v = mdr.critical_velocity(BODY) * np.array([0.2, 0.5, 0.8])
@@ -148,23 +122,6 @@ def test_a_search_keeps_to_what_the_case_can_have():
     case = replace(CASE, indenter=mdr.Cone(theta=0.5))
     assert Parameter.of(case, "theta").high == pytest.approx(np.pi / 2, rel=1e-9)
     assert Parameter.of(case, "nu").high == pytest.approx(0.5, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("bounds", "error", "words"),
-    [
-        ({"tau": (1e-5, 1e-4)}, ValueError, "must hold the value of the case, where the search begins: 0.001 is not"),
-        ({"tau": (1e-1, 1e-5)}, ValueError, "low < high, got 0.1 and 1e-05"),
-        ({"tau": (-1.0, 1.0)}, ValueError, "bounds of tau: -1 is no value of it: tau must not be negative"),
-        ({"tau": (0.0, float("nan"))}, ValueError, "bounds of tau must be a finite number"),
-        ({"tau": 3}, TypeError, r"bounds of tau must be a pair \(low, high\), got 3"),
-        ({"k_x": (1, 2)}, ValueError, "bounds: k_x is not fitted; the parameters are tau"),
-        ([(1, 2)], TypeError, "bounds must be a dict"),
-    ],
-)
-def test_bounds_are_checked(bounds, error, words):
-    with pytest.raises(error, match=words):
-        mdr.fit(CASE, measured(0.01), ["tau"], bounds=bounds)
 
 
 SHAKEN = mdr.SlidingContact(

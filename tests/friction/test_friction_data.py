@@ -38,40 +38,6 @@ def test_what_a_curve_writes_is_read(tmp_path):
     assert_allclose(data.cof, curve.cof, rtol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", "holds no table"),
-        ("v_0 [m/s], cof\n", "holds no table"),
-        ("v_0, cof\n1, 0.3\n", "v_0 needs a unit in its header"),
-        ("v_0 [mph], cof\n1, 0.3\n", "the unit 'mph' of v_0 is none of m/s"),
-        ("v_0 [m/s], cof [%]\n1, 0.3\n", "cof is a pure number, got the unit '%'"),
-        ("v_0 [m/s], x\n1, 0.3\n", "the header names no cof"),
-        ("v_0 [m/s], cof, mu\n1, 0.3, 0.3\n", "the header names cof twice"),
-        ("v_0 [m/s], cof\n1, 0.3\n2, high\n", "line 3: high is no number"),
-        ("v_0 [m/s], cof\n1\n", "line 2: nothing is no number"),
-        ("v_0 [m/s], cof\n1, nan\n", "line 2: nan is no number, leave the line out"),
-        ('v_0 [m/s], cof\n1, "0.3\n2, 0.4\n3, high\n', "line 4: high is no number"),  # an open quote ends its line
-        (f"v_0 [m/s], cof\n1, {'3' * 140_000}\n", "line 2: field larger than field limit"),
-        ("v_0 [m/s], c\x1bof\n1, 0.3\n", "the header names no cof: v_0 [m/s], c of"),
-        (f"v_0 [{'x' * 1000}], cof\n1, 0.3\n", "is none of m/s"),
-        ("v_0 [m/s], cof, error\n1, 0.3, 0\n", "error must be positive"),
-    ],
-)
-def test_what_is_wrong_is_told(tmp_path, text, words):
-    path = table(tmp_path, text)
-    with pytest.raises(ValueError, match=r"data\.csv: ") as caught:
-        mdr.read_friction_data(path)
-    assert words in str(caught.value)
-    assert str(caught.value).isprintable()
-    assert len(str(caught.value)) < 500
-
-
-def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(ValueError, match="cannot be read"):
-        mdr.read_friction_data(tmp_path / "none.csv")
-
-
 def test_columns_are_of_one_length():
     with pytest.raises(ValueError, match="cof must be a list of as many numbers as v_0"):
         mdr.FrictionData([1.0, 2.0], [0.3])

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import SHAPES
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 
 import mdr
 from mdr.friction.cof_curve import friction_without_bound
@@ -51,14 +51,10 @@ def test_the_critical_velocity_is_that_of_depth_and_shake_together(phi, way):
 @pytest.mark.parametrize(
     "case",
     [
-        contact("cone", alpha=0.4, chi=1.5, phi=2.0),
-        contact("r4", chi=0.4),
-        contact("flat", alpha=0.6, chi=1.0, material=mdr.KelvinVoigt(3e6, 0.5, 2e-3)),
-        body(contact(alpha=0.5, chi=0.7, material=mdr.KelvinVoigt(3e6, 0.5, 1e-3))),
         body(contact("cone", alpha=0.3, chi=2.0, at="pull", phi=4.0)),
         body(contact("cone", chi=0.5, material=mdr.StandardLinearSolid(3e6, 2e6, 2e-3, 0.5), at="pull")),
     ],
-    ids=["rigid", "alone", "kelvin", "body", "pull", "arms"],
+    ids=["pull", "arms"],
 )
 def test_measured_velocities_are_those_of_full_slip(case, way):
     found = mdr.measure_critical_velocity(case, way)
@@ -97,13 +93,6 @@ def test_the_formula_of_a_kept_punch_knows_the_sign_of_the_phase(way):
     assert v_c != pytest.approx(mdr.critical_velocity(other, way), rel=1e-3)
 
 
-def test_directions_are_1_and_minus_1():
-    for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity):
-        for wrong in (0, 2, True, "forward"):
-            with pytest.raises((ValueError, TypeError), match="direction must be 1"):
-                ask(contact(), wrong)
-
-
 @pytest.mark.parametrize("ask", [mdr.critical_velocity, mdr.full_slip_critical_velocity])
 def test_without_a_shake_both_ways_are_one(ask):
     still = replace(body(contact(alpha=0.5)), shake=None)
@@ -140,13 +129,10 @@ def test_a_curve_of_both_ways_is_drawn_whole():
     assert "other way" in "".join(text.get_text() for text in ax.texts)
 
 
-def test_a_curve_of_both_ways_stands_upright_where_the_contact_holds():
+def test_a_curve_of_both_ways_knows_what_the_contact_holds_at_rest():
     case = contact(chi=0.3)
     curve, band = mdr.cof_curve(case, [-1e-3, 2e-3]), mdr.holding_band(case)
     assert_allclose([curve.static_cof_back, curve.static_cof], [band.low, band.high], rtol=0, atol=1e-9)
-    line = curve.plot(absolute=True).lines[0]
-    assert_array_equal(line.get_xdata()[1:3], 0.0)
-    assert_allclose(line.get_ydata()[1:3], [band.low, band.high], rtol=0, atol=1e-9)
     assert mdr.cof_curve(case, [1e-3]).static_cof_back is None
 
 
@@ -219,9 +205,13 @@ def creeping(case, load, e_share, n_periods):
     return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.x_dot).max()
 
 
-@pytest.mark.parametrize("side", ["low", "high"])
 @pytest.mark.parametrize(
-    "case", [contact(chi=0.5), contact("cone", alpha=0.3, chi=0.4, phi=1.2)], ids=["alone", "both"]
+    ("case", "side"),
+    [
+        (contact(chi=0.5), "high"),  # of a shake alone the other end is its mirror
+        *((contact("cone", alpha=0.3, chi=0.4, phi=1.2), side) for side in ("low", "high")),
+    ],
+    ids=["alone", "both, low", "both, high"],
 )
 def test_inside_the_band_nothing_creeps_and_outside_it_does(case, side):
     band = mdr.holding_band(case)

@@ -133,21 +133,6 @@ def test_traction_is_cattaneos_and_mindlins(share):
     assert_allclose(found.u_x[inside], share * FULL_SLIP, rtol=1e-12)  # the disc that sticks moves as one
 
 
-@pytest.mark.parametrize("shape", ALL)
-def test_tractions_add_up_for_every_shape(shape):
-    pulled = partial_slip(ALL[shape], BODY, MU_0, DEPTH, FULL_SLIP * np.array([0.4, 2.0]))
-    a = float(ALL[shape].contact_radius(DEPTH))
-    for i, c in enumerate(pulled.stick_radius):
-        r, weight = within(a, *([c] if 0 < c < a else []))
-        found = surface_fields(pulled, r, i=i)
-        assert np.sum(weight * found.pressure) == pytest.approx(pulled.F_z, rel=1e-6)
-        assert np.sum(weight * found.traction) == pytest.approx(
-            pulled.F_x[i], rel=1e-4
-        )  # a kink at c in the quadrature
-        assert np.all(found.traction <= MU_0 * found.pressure * (1 + 1e-12))
-    assert_allclose(found.traction, MU_0 * found.pressure)
-
-
 # --- from a run ---
 
 
@@ -193,16 +178,6 @@ def test_the_surface_of_a_viscoelastic_run_is_the_indenter_where_it_presses():
         assert np.all(np.abs(found.traction) <= 0.4 * found.pressure + 2e-2 * found.pressure.max())
 
 
-@pytest.mark.parametrize("length", [1e-6, 1e3])
-def test_units_do_not_matter(length):
-    one, two = (
-        surface_fields(indent(mdr.Paraboloid(R=5e-3 * k), SOFT, [0, 1e-2], [0, DEPTH * k], record=True))
-        for k in (1.0, length)
-    )
-    assert_allclose(two.pressure, one.pressure, atol=1e-9 * one.pressure.max())
-    assert_allclose(two.u_z / length, one.u_z, atol=1e-11 * DEPTH)
-
-
 def test_an_indenter_that_does_not_touch_presses_nowhere():
     """What is left then is the surface, which stands still where it was and relaxes where it has memory."""
     t, u_z = [0.0, 1e-3, 2e-3, 1.0], [0.0, DEPTH, -DEPTH, -DEPTH]
@@ -226,13 +201,6 @@ def test_a_contact_of_one_or_two_springs_carries_its_force():
 
 
 def test_what_is_refused(pulled_run):
-    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), BODY, MU_0, mdr.NormalOscillation(DEPTH, DEPTH / 2, 100.0))
-    with pytest.raises(ValueError, match=r"slide\(..., record=1\)"):
-        surface_fields(mdr.slide(case, 1e-4, n_periods=1))
-    with pytest.raises(TypeError, match="source must be of kind"):
-        surface_fields(3)
-    with pytest.raises(ValueError, match="record=True"):
-        surface_fields(indent(mdr.Cone(theta=0.02), BODY, [0, 1], [0, DEPTH]))
     with pytest.raises(ValueError, match="ascend"):
         from_line_load([1.0, 0.5], [1.0, 0.0], 0.1)
     with pytest.raises(ValueError, match="one length"):

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from catalogue import ANY, CURVED, KINKED, SHAPES, WORN, B, T, depths, end, name
+from catalogue import ANY, CURVED, KINKED, SHAPES, WORN, B, depths, end, name
 from numpy.testing import assert_allclose
 from random_records import in_units
 from scipy.integrate import quad
@@ -105,23 +105,6 @@ def test_arrays_floats_and_mirror_images(shape):
     assert isinstance(shape.contact_radius(1e-5), float)
     if shape.least_depth == 0:
         assert shape.force(1e-300, 1.0) >= 0
-
-
-def test_textbook_forces_and_pressures():
-    R, d, a = 5e-3, 2e-5, 2e-3
-    r = discs(math.sqrt(R * d))
-    assert_allclose(Paraboloid(R).force(d, E_STAR), 4 / 3 * E_STAR * math.sqrt(R) * d**1.5, rtol=EXACT)
-    hertz = 2 * E_STAR / (math.pi * R) * np.sqrt(R * d - r**2)
-    assert_allclose(Paraboloid(R).pressure(r, d, E_STAR), hertz, rtol=EXACT)
-    a_cone = 2 * d / (math.pi * T)
-    assert_allclose(Cone(0.05).force(d, E_STAR), 2 / math.pi * E_STAR * d**2 / T, rtol=EXACT)
-    assert_allclose(
-        Cone(0.05).pressure(discs(a_cone), d, E_STAR), E_STAR * T / 2 * np.arccosh(a_cone / discs(a_cone)), rtol=EXACT
-    )
-    assert_allclose(FlatPunch(a).force(d, E_STAR), 2 * E_STAR * a * d, rtol=EXACT)
-    assert_allclose(
-        FlatPunch(a).pressure(discs(a), d, E_STAR), E_STAR * d / math.pi / np.sqrt(a**2 - discs(a) ** 2), rtol=EXACT
-    )
 
 
 @pytest.mark.parametrize("shape", CURVED, ids=name)

@@ -80,24 +80,6 @@ def test_the_scheme_is_of_third_order_in_the_step(shape, T):
     assert errors[-1] < 3e-7
 
 
-@pytest.mark.parametrize("T", [0.0, 1.0])
-@pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
-def test_springs_converge_with_their_square_at_least(shape, T):
-    case = contact(shape, 1 / 0.9, T)
-    springs, v_hats = 24 * 2 ** np.arange(5), (0.21, 0.37, 0.63)
-    errors = np.zeros(springs.size)
-    for v_hat in v_hats:
-        # beside a run with very many springs and the same steps, so that only the springs differ
-        runs = [
-            mdr.slide(case, v_hat * unit_of_velocity(case), n_springs=int(m), steps_per_period=1024, n_periods=12)
-            for m in (*springs, 4096)
-        ]
-        errors += [abs(run.cof - runs[-1].cof) / case.mu_0 for run in runs[:-1]]
-    slope = np.polyfit(np.log(springs), np.log(errors), 1)[0]
-    assert slope < -1.7, errors
-    assert errors[-1] < 3 * BUDGET
-
-
 def test_a_wrong_case_is_seen():
     """The comparison can fail: a relaxation time wrong by one per cent is fifty budgets away."""
     truth = reference.rigid_kelvin_cof(2, 3.0, 0.4, 1.01)

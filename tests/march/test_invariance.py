@@ -6,7 +6,6 @@ The groups are shape, u_z0/du_z, omega tau, v_0/(mu_0 kappa omega du_z), k_x/k_x
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from conftest import contact, unit_of_velocity
 from numpy.testing import assert_allclose
@@ -63,41 +62,6 @@ def test_units_and_sizes_drop_out(shape, pull):
     assert_allclose(list(values.values()), values["rubber ball"], rtol=0, atol=TOLERANCE)
 
 
-@pytest.mark.parametrize("pull", PULLS)
-def test_mu_0_E_and_nu_drop_out(pull):
-    T, body = PULLS[pull]
-    rng = np.random.default_rng(15)
-    expected = cof(contact("paraboloid", 2.5, T, **body), 0.5)
-    for _ in range(6):
-        changes = {"mu_0": 10 ** rng.uniform(-3, 1), "E": 10 ** rng.uniform(0, 12), "nu": rng.uniform(-0.9, 0.5)}
-        got = cof(contact("paraboloid", 2.5, T, **body, **changes), 0.5)
-        assert_allclose(got, expected, rtol=0, atol=TOLERANCE, err_msg=str(changes))
-
-
-@pytest.mark.parametrize("T", [0.0, 0.6])
-@pytest.mark.parametrize("shape", ["cone", "paraboloid", "r4"])
-def test_slenderness_drops_out(shape, T):
-    """A tip blunter at the same depth holds more springs, but not other ones."""
-    sharp, blunt = (contact(shape_of(shape, a_0, 3 * 2e-6), 3.0, T, **BODY) for a_0 in (1e-5, 1e-1))
-    assert_allclose(cof(sharp, 0.5), cof(blunt, 0.5), rtol=0, atol=TOLERANCE)
-
-
-@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
-@pytest.mark.parametrize("T", [0.0, 0.6])
-def test_E_scales_the_forces_of_a_rigid_pull(shape, T):
-    soft, hard = contact(shape, 2.5, T, E=3e6), contact(shape, 2.5, T, E=3e9)
-    one, other = (mdr.slide(case, 0.5 * unit_of_velocity(case), record=1, **KNOBS) for case in (soft, hard))
-    assert_allclose(other.cof, one.cof, rtol=0, atol=TOLERANCE)
-    for name in ("mean_F_x", "mean_F_z", "F_x", "F_z"):
-        # E enters as one factor in the end: rounding of a product, and 1e-9 of the largest for the stick forces
-        a, b = getattr(one, name), getattr(other, name)
-        assert_allclose(b, 1000 * a, rtol=1e-12, atol=1e-9 * 1000 * np.max(np.abs(a)), err_msg=name)
-    for name in ("pull_work", "normal_work", "friction_loss", "viscous_loss"):
-        assert_allclose(
-            getattr(other.energy_balance, name), 1000 * getattr(one.energy_balance, name), rtol=1e-9, err_msg=name
-        )
-
-
 def test_E_does_not_drop_out_of_a_given_spring():
     """With k_x and m in SI the groups change with E: the invariance above is no triviality."""
     soft = contact("paraboloid", 2.5, **BODY)
@@ -134,14 +98,3 @@ def test_a_motion_as_harmonic_of_a_lower_frequency_is_the_same(n):
     one, other = (mdr.slide(each, 0.4 * unit_of_velocity(case)) for each in (case, replace(case, oscillation=motion)))
     assert other.steps_per_period == n * one.steps_per_period
     assert_allclose(other.cof, one.cof, rtol=TOLERANCE)
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_closed_forms_scale(size):
-    omega, du_z, E, a_0 = SIZES[size]
-    case = contact(shape_of("paraboloid", a_0, 3 * du_z), 3.0, 0.3, **BODY, omega=omega, du_z=du_z, E=E)
-    reference = contact("paraboloid", 3.0, 0.3, **BODY)
-    for closed in (mdr.critical_velocity, mdr.full_slip_critical_velocity):
-        got, expected = (closed(c) / unit_of_velocity(c) for c in (case, reference))
-        assert_allclose(got, expected, rtol=TOLERANCE)
-    assert_allclose(mdr.static_cof(case), mdr.static_cof(reference), rtol=TOLERANCE)

@@ -122,7 +122,6 @@ BODIES = {
     "punch, elastic": ("flat", 6.5, 0.0, 0.34, 1.61, 0.028, 0.37),
     "punch, Kelvin, no damper": ("flat", 4.0, 0.5, 0.35, 1.36, 0.0, 0.55),
     "cone, slow beat": ("cone", 3.7, 0.0, 0.25, 0.42, 0.0025, 0.94),
-    "paraboloid, near resonance": ("paraboloid", 2.77, 0.0, 0.99, 0.995, 0.0, 0.68),
     "paraboloid, contact lost": ("paraboloid", 0.35, 2.0, 0.55, 1.23, 0.017, 0.17),
     "r4, no mass": ("r4", 3.0, 0.3, 0.7, math.inf, 0.0, 0.5),
 }

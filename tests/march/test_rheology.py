@@ -61,16 +61,6 @@ def test_cof_is_that_of_the_twin(T, arms, shape, depth_ratio, v):
     assert run.cof < 0.99 * contact.mu_0
 
 
-@pytest.mark.parametrize("T", [0.0, 0.6])
-@pytest.mark.parametrize("v", [0.2, 0.7])
-def test_arms_without_modulus_are_kelvin(T, v):
-    one, two = case(T, [], []), case(T, [1e-12], [0.5])
-    runs = [mdr.slide(each, v * each.unit_velocity) for each in (one, two)]
-    # the two loops find the end of slip within a step in their own ways
-    assert_allclose(runs[1].cof, runs[0].cof, rtol=0, atol=runs[0].cof_error if T == 0 else 1e-10)
-    assert material(T, [0.0], [0.5]).contact_arms == ()
-
-
 def test_one_arm_is_the_standard_solid():
     prony, solid = mdr.Prony(3e6, [(6e6, 2e-3)], 0.4), mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.4)
     motion = mdr.NormalOscillation(6e-6, 2e-6, OMEGA)
@@ -87,14 +77,6 @@ def test_a_fast_arm_is_a_dashpot(v):
     assert_allclose(one, two, rtol=1e-4)
 
 
-def test_a_slow_arm_is_a_spring():
-    # beside a mean load it has relaxed; to the oscillation the body is stiffer by 1 + rho
-    soft = case(0.0, [1.5], [1e5], "flat", 3.0)
-    for v in (0.3, 0.8):
-        deficit = 2.5 * (1 / 3) * mdr.closed_forms.paper.deficit(v)
-        assert_allclose(1 - mdr.slide(soft, v * soft.unit_velocity).cof / 0.4, deficit, rtol=2e-4)
-
-
 @pytest.mark.parametrize("arms", [ARMS["one"], ARMS["two"]], ids=["one", "two"])
 @pytest.mark.parametrize("T", [0.0, 0.5])
 def test_energy_is_kept(T, arms):
@@ -102,27 +84,6 @@ def test_energy_is_kept(T, arms):
     for steps in (64, 256):  # the loss in the damper is a sum over nodes, of second order
         run = mdr.slide(contact, 0.4 * contact.unit_velocity, steps_per_period=steps, n_springs=64)
         assert abs(run.energy_balance.relative) < 3e-5 * (64 / steps) ** 2
-
-
-@pytest.mark.parametrize("start", ["full_slip", "rest"])
-def test_both_starts_end_alike(start):
-    contact = case(0.2, *ARMS["one"], pull=mdr.SpringPull(2e3, 0.02, 1.0))
-    run = mdr.slide(contact, 0.5 * contact.unit_velocity, start=start, n_springs=96, steps_per_period=256)
-    other = mdr.slide(contact, 0.5 * contact.unit_velocity, n_springs=96, steps_per_period=256)
-    assert run.settled
-    assert abs(run.cof - other.cof) <= run.cof_error + other.cof_error
-
-
-def test_forces_of_springs_add_up():
-    contact = case(0.2, *ARMS["two"], pull=mdr.SpringPull(2e3, 0.02, 1.0))
-    for lump in (True, False):
-        run = mdr.slide(contact, 0.5 * contact.unit_velocity, n_springs=96, steps_per_period=256, record=1, lump=lump)
-        assert_allclose(run.f_x.sum(axis=1), run.F_x, rtol=1e-10, atol=1e-12 * run.F_z.max())
-        assert_allclose(run.f_z.sum(axis=1), run.F_z, rtol=1e-10)
-        assert np.all(np.abs(run.f_x) <= contact.mu_0 * run.f_z * (1 + 1e-9) + 1e-12 * run.F_z.max())
-        sticks = run.state == mdr.State.STICK
-        assert np.all(run.f_z[run.state == mdr.State.FREE] == 0)
-        assert sticks.any()
 
 
 @pytest.mark.parametrize(("v", "least"), [(3.0, 1.0), (0.3, 0.5)])
@@ -146,13 +107,6 @@ def test_springs_on_a_material_of_fast_arms_find_their_periodic_motion_in_coarse
     coarse, fine = (mdr.slide(contact, 0.3 * contact.unit_velocity, steps_per_period=n) for n in (64, 1024))
     assert coarse.settled
     assert abs(coarse.cof - fine.cof) <= coarse.cof_error + fine.cof_error
-
-
-def test_a_material_that_flows_is_refused():
-    with pytest.raises(ValueError, match="E_inf = 0: a mean load relaxes"):
-        mdr.SlidingContact(
-            SHAPES["cone"][0], mdr.Prony(0.0, [(1e6, 1.0)], 0.3), 0.5, mdr.NormalOscillation(1e-6, 1e-7, 1.0)
-        )
 
 
 @pytest.mark.filterwarnings("error", "ignore::mdr.PlausibilityWarning")

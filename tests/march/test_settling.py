@@ -15,22 +15,8 @@ from mdr.spring.step import FRICTION_LOSS
 
 TOLERANCE = 1e-6
 LIMIT = 0.3
-LENGTHS = [
-    8,
-    12,
-    18,
-    27,
-    40,
-    60,
-    90,
-    135,
-    202,
-    303,
-    681,
-    1531,
-    3444,
-    7749,
-]  # about those at which a run looks at itself
+#: about those at which a run looks at itself
+LENGTHS = [8, 12, 18, 27, 40, 60, 90, 135, 202, 303, 681, 1531, 3444, 7749]
 SIZE = 1e-3
 
 

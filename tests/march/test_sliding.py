@@ -1,6 +1,7 @@
 """slide(): what a run says of itself agrees with its own records, with its limits, and with what it says otherwise."""
 
 import math
+import tracemalloc
 from dataclasses import fields, replace
 
 import numpy as np
@@ -11,11 +12,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import State
-from mdr.closed_forms import paper, rigid_pull
+from mdr.closed_forms import rigid_pull
 from mdr.march import dimensionless, march
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
-UNDAMPED = {"k_ratio": 0.7, "omega_0_ratio": 1.6}
 MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
 #: light body on a soft damped spring: it swings so widely that it comes back over the surface
 BACKWARD = {"shape": "paraboloid", "depth_ratio": 10 / 3, "k_ratio": 0.02, "omega_0_ratio": 2.0, "c_ratio": 0.001}
@@ -42,7 +42,6 @@ CONTACTS = {
     "massless Kelvin": contact("r4", 2.5, 0.6, **MASSLESS),
 }
 on_all = pytest.mark.parametrize("case", CONTACTS.values(), ids=CONTACTS.keys())
-v_hat_of = {"tapping": 0.3}
 
 
 # --- looking does not disturb -------------------------------------------------------------------------------
@@ -71,16 +70,16 @@ def test_recording_changes_no_bit_of_a_run_that_waits_and_refines(name, lump):
     assert seeing.n_periods == blind.n_periods + 1  # marched on to keep a second period, after all was decided
 
 
-@pytest.mark.parametrize("name", ["body elastic"])
-def test_recording_changes_no_bit_of_the_error(name):
-    blind, seeing = (run_at(CONTACTS[name], 0.43, record=record) for record in (0, 2))
-    assert blind.cof_error == seeing.cof_error
-
-
-def test_runs_repeat_to_the_bit():
-    one, other = (coarse(CONTACTS["body Kelvin"], 0.43, record=2) for _ in range(2))
-    assert_array_equal(one.e, other.e)
-    assert one.cof == other.cof
+def test_a_period_costs_two_numbers_of_memory():
+    """Its COF and its swing, whatever the number of steps and springs."""
+    peaks, numbers = [], (10_000, 40_000)
+    for n_periods in numbers:
+        coarse(CONTACTS["rigid elastic"], 0.43, n_periods, n_springs=32, steps_per_period=32)
+        tracemalloc.start()
+        coarse(CONTACTS["rigid elastic"], 0.43, n_periods, n_springs=32, steps_per_period=32)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] - peaks[0] < 5 * 8 * (numbers[1] - numbers[0])  # the two, and what judges them
 
 
 @on_all
@@ -171,17 +170,6 @@ def test_cof_is_the_mean_force_over_the_mean_load(case):
     assert_allclose(np.mean(run.F_z), run.mean_F_z, rtol=tolerance)
 
 
-@on_all
-@pytest.mark.parametrize("v_hat", [0.05, 0.43, 0.9])
-def test_cof_lies_between_static_and_mu_0(case, v_hat):
-    run = run_at(case, v_hat)
-    assert run.settled, run.why
-    assert mdr.static_cof(case) < run.cof <= case.mu_0 * (1 + 1e-12) or isinstance(case.pull, mdr.SpringPull)
-    assert 0 < run.cof <= case.mu_0 * (1 + 1e-12)
-    assert 0 < run.stick_share < 1
-    assert run.least_slip < 1e-9 * run.v_0
-
-
 @pytest.mark.parametrize("name", CONTACTS)
 def test_above_v_c_nothing_sticks_and_friction_is_full(name):
     case = CONTACTS[name]
@@ -200,24 +188,7 @@ def test_above_v_c_nothing_sticks_and_friction_is_full(name):
     assert case.mu_0 - below.cof > 10 * below.cof_error
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_slow_sliding_tends_to_the_static_limit(shape):
-    case = contact(shape, 2.5)
-    static = mdr.static_cof(case)
-    rise = [run_at(case, v_hat, steps_per_period=4096).cof - static for v_hat in (0.02, 0.01)]
-    assert 0 < rise[1] < 0.05 * case.mu_0
-    # elastic: linear in v_0, with corrections of relative order v_hat**(1/2) or so
-    assert_allclose(rise[0] / rise[1], 2, rtol=0.1)
-
-
 # --- forces and modes ---------------------------------------------------------------------------------------
-
-
-@on_all
-def test_friction_never_exceeds_mu_0_times_the_load(case):
-    run = coarse(case, 0.43, record=1)
-    assert np.all(np.abs(run.F_x) <= case.mu_0 * run.F_z * (1 + 1e-12) + 1e-12 * np.max(run.F_x))
-    assert np.all(run.F_z >= 0)
 
 
 @pytest.mark.parametrize(
@@ -233,41 +204,6 @@ def test_modes_and_forces_of_elastic_springs(case, v_hat):
     s = np.maximum(run.u_z[:, None] - case.oscillation.u_z0 - springs.gap, 0)
     normal, shear = springs.dk_z * s, springs.dk_x * run.e
     check_forces(case, run, normal, shear)
-
-
-@pytest.mark.parametrize("name", ["rigid Kelvin", "flat, contact lost", "tapping", "body Kelvin", "massless Kelvin"])
-def test_modes_and_forces_of_kelvin_springs(name):
-    """With dashpots: rates by the motion where a spring sticks, by the law where it slips."""
-    case = CONTACTS[name]
-    run, springs = coarse(case, 0.43, 24, record=2), mdr.SpringArray.of(case, 96)
-    tau, omega = case.material.tau, case.oscillation.omega
-    s = run.u_z[:, None] - case.oscillation.u_z0 - springs.gap
-    rate = case.oscillation.u_z_dot(run.t)[:, None]
-    normal = springs.dk_z * (s + tau * rate)
-    free = run.state == State.FREE
-    touching = ~free
-    assert np.all(normal[touching] > 0)
-    assert np.all(s[touching] > -1e-12 * case.oscillation.du_z)
-    # free springs relax: over a step from free to free e decays by exp(-dt/tau)
-    decay = math.exp(-2 * math.pi / 256 / (omega * tau))
-    both = free[1:] & free[:-1]
-    if both.any():
-        # a spring that was touched for a part of the step between has more; none has less
-        relaxed = np.isclose(run.e[1:], decay * run.e[:-1], rtol=1e-9, atol=1e-13 * case.oscillation.du_z)
-        assert np.mean(relaxed[both]) > 0.95
-    sticks = run.state == State.STICK
-    both = sticks[1:] & sticks[:-1]
-    assert both.any()
-    du = np.diff(run.u_x)[:, None]
-    moved = np.isclose(np.diff(run.e, axis=0), du, rtol=0, atol=1e-6 * case.mu_0 * case.oscillation.du_z)
-    assert np.mean(moved[both]) > 0.98  # but for a short slip within a step
-    total = np.where(sticks, 0, np.where(run.state == State.SLIP_BACK, -1, 1)) * np.where(free, 0, normal)
-    slipping = np.sum(total, axis=1) * case.mu_0
-    n_stick = np.sum(sticks, axis=1)
-    all_slip = n_stick == 0
-    if all_slip.any():
-        assert_allclose(run.F_x[all_slip], slipping[all_slip], rtol=1e-9, atol=1e-12 * np.max(run.F_z))
-    assert_allclose(run.F_z, np.sum(np.where(free, 0, normal), axis=1), rtol=1e-9, atol=1e-12 * np.max(run.F_z))
 
 
 def check_forces(case, run, normal, shear):
@@ -316,15 +252,6 @@ def test_energy_is_conserved(case):
         assert (balance.damper_loss > 0) == damped
 
 
-@pytest.mark.parametrize("name", ["rigid elastic", "body Kelvin"])
-def test_friction_takes_what_the_pull_gives_in_full_slip(name):
-    """Above v_c every foot slips at the pace of the pull on average: friction loss = mu_0 F_z v_0 less what z takes."""
-    case = CONTACTS[name]
-    run = mdr.slide(case, 1.5 * mdr.full_slip_critical_velocity(case))
-    expected = run.mean_F_x * run.v_0 * case.oscillation.period
-    assert_allclose(run.energy_balance.pull_work, expected, rtol=1e-5)
-
-
 # --- settling -----------------------------------------------------------------------------------------------
 
 
@@ -346,7 +273,7 @@ def test_an_unsettled_run_says_why():
     periods = float(run.why.split(" takes ")[1].split(" periods to stretch the springs")[0])
     assert periods == pytest.approx(21 / (2 * math.pi * 0.05), rel=0.05)  # u_z0 + du_z = 21 du_z; first of 96 springs
     assert run.cof_error > 1e-6 * run.mu_0
-    undamped = coarse(contact("paraboloid", 3.0, **UNDAMPED), 0.3, 9, start="rest")
+    undamped = coarse(contact("paraboloid", 3.0, k_ratio=0.7, omega_0_ratio=1.6), 0.3, 9, start="rest")
     assert "still changes by" in undamped.why
     assert "after 9 periods" in undamped.why
     assert "raise n_periods, or add c_x" in undamped.why
@@ -354,46 +281,6 @@ def test_an_unsettled_run_says_why():
 
 def test_a_run_of_given_length_says_what_its_error_leaves_out():
     assert "no companion run" in coarse(CONTACTS["rigid elastic"], 0.43, 12).why
-
-
-@pytest.mark.parametrize("v_hat", [0.05, 0.5])
-def test_what_settled_claims_is_true(v_hat):
-    """A settled run, marched four times as long, stays within its own bound."""
-    case = contact("paraboloid", 3.0, 0.3, **BODY)
-    run = run_at(case, v_hat)
-    assert run.settled
-    longer = run_at(
-        case, v_hat, n_springs=run.n_springs, steps_per_period=run.steps_per_period, n_periods=4 * run.n_periods
-    )
-    assert_allclose(longer.cof, run.cof, rtol=0, atol=run.cof_error)
-
-
-def test_default_knobs_refine_until_the_budget_is_met():
-    run = run_at(contact("cone", 0.7), 0.05)
-    assert run.cof_error <= 1e-5 * run.mu_0
-    given = run_at(contact("cone", 0.7), 0.05, n_springs=32, steps_per_period=64)
-    assert (given.n_springs, given.steps_per_period) == (32, 64)
-    assert abs(given.cof - run.cof) <= given.cof_error + run.cof_error
-
-
-# --- Eq. (10) -----------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("T", [0.0, 0.5])
-@pytest.mark.parametrize("v", [1.1, 3.0])
-def test_the_body_moves_as_eq_10_above_v_c(T, v):
-    case = contact("flat", 3.0, T, **UNDAMPED)
-    run = mdr.slide(case, v * mdr.critical_velocity(case), steps_per_period=1024, record=2)
-    oscillation, pull = case.oscillation, case.pull
-    groups = (oscillation.du_z, oscillation.omega, case.k_zc, case.gamma_zc)
-    expected = paper.eq_10(run.t, run.v_0, case.mu_0, oscillation.u_z0, *groups, pull.k_x, pull.m)
-    swing = np.ptp(expected - run.v_0 * run.t)
-    # the force is linear within a step of 2 pi/1024: h²/12 = 3e-6 of the swing, times the gain of the body
-    assert_allclose(run.u_x, expected, rtol=0, atol=2e-5 * swing)
-    assert_allclose(run.F_x, case.mu_0 * run.F_z, rtol=1e-9)
-    assert_allclose(
-        run.F_z, paper.eq_4(run.t, oscillation.u_z0, *groups), rtol=1e-9, err_msg="Eq. (4) is the load of a flat punch"
-    )
 
 
 # --- found by trying to break it --------------------------------------------------------------------------------
@@ -449,12 +336,6 @@ def test_an_unsettled_body_without_mass_is_not_told_to_damp_its_oscillation():
     run = mdr.slide(case, 0.5 * unit_of_velocity(case), start="rest", n_periods=40)
     assert not run.settled
     assert "add c_x" not in run.why
-
-
-@pytest.mark.parametrize("v_0", [1e25, 1e308])
-def test_a_velocity_that_drowns_all_others_is_refused(v_0):
-    with pytest.raises(ValueError, match="full slip but for rounding; lower it"):
-        mdr.slide(contact("flat", 3.0, 1.0), v_0)
 
 
 # --- runs that need no companions ---

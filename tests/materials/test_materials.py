@@ -128,6 +128,7 @@ def test_moduli_in_time_and_frequency_are_those_of_the_arms():
     assert body.instantaneous_modulus == math.inf
     assert_allclose(body.G_star * body.mindlin_ratio, body.E_star, rtol=1e-14)
     assert body.mindlin_ratio == mdr.Elastic(1e6, 0.3).mindlin_ratio
+    assert mdr.Prony(1e6, [(0.0, 1.0)], 0.3).contact_arms == ()  # an arm without modulus is none
 
 
 def test_arms_are_found_in_dynamic_data():

@@ -136,7 +136,7 @@ def beside_resonance(detuning, share, shape=None, tau=0.0):
 
 @pytest.mark.parametrize("detuning", [0.95, 1.05, 1.3, 2.0])
 @pytest.mark.parametrize("share", [0.005, 0.02])
-@pytest.mark.parametrize("shape", [mdr.Paraboloid(5e-3), mdr.Cone(0.02), mdr.FlatPunch(1e-3)])
+@pytest.mark.parametrize("shape", [mdr.Cone(0.02), mdr.FlatPunch(1e-3)])
 @pytest.mark.parametrize("tau", [0.0, 1e-4])
 def test_near_the_resonance_of_a_load_the_closed_form_is_doubted_where_it_is_wrong(detuning, share, shape, tau):
     case = beside_resonance(detuning, share, shape, tau)

@@ -1,7 +1,5 @@
 """Figures draw what the records say; small made-up records stand in for runs and curves."""
 
-import subprocess
-import sys
 from types import SimpleNamespace
 
 import matplotlib
@@ -247,11 +245,6 @@ def test_prefix(largest, expected):
     factor, unit = plots.prefix([0.0, -largest, np.nan], "m")
     assert unit == expected
     assert factor == pytest.approx(10.0 ** {"µm": 6, "mm": 3, "m": 0, "km": -3, "pm": 12}[expected])
-
-
-def test_importing_plots_leaves_matplotlib_alone():
-    code = "import sys, mdr.plots; assert 'matplotlib' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_a_force_that_turns_is_drawn_between_both_limits():

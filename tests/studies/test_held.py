@@ -20,7 +20,7 @@ TABLES = {
     "oscillation": {"frequency": 20e3, "load": 5.0, "du_z": 3e-6},
 }
 CONSTANTS = ("mean_F_N", "v_c", "k_zc", "T", "static_cof")
-N_STUDIES, N_RUN = 30, 4
+N_STUDIES, N_RUN = 15, 2
 
 
 def file(tables, axes, quantities=CONSTANTS):

@@ -4,28 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from grids import BODY
 from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.studies.study_files import parse_study, read_study_file
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "study.toml"
-CASE = """
-[indenter]
-shape = "Paraboloid"
-R = 5e-3
-[material]
-model = "KelvinVoigt"
-E = 3e6
-nu = 0.5
-tau = 1e-3
-[oscillation]
-u_z0 = 6e-6
-du_z = 2e-6
-omega = 300.0
-[pull]
-k_x = 2e4
-"""
+CASE = mdr.write_case(BODY).removeprefix("mu_0 = 0.5\n")
 
 
 def text(axes='"v_0/v_c" = [0.5]', top="", case=CASE):
@@ -67,7 +53,7 @@ def test_every_way_to_write_values():
     assert file.axes["indenter"] == [mdr.Cone(theta=0.05), mdr.FlatPunch(a=1e-3)]
     assert file.axes["pull"] == [mdr.RigidPull(), mdr.SpringPull(k_x=1e4, m=0.2)]
     assert file.axes["oscillation"] == [mdr.NormalOscillation(1e-6, 2e-6, 3.0)]
-    assert file.case.pull == mdr.SpringPull(k_x=2e4)
+    assert file.case.pull == BODY.pull
     assert (file.quantities, file.n_springs, file.steps_per_period) == (("cof", "v_c"), 64, 128)
 
 
@@ -118,14 +104,14 @@ def test_faults_are_named(axes, top, told):
 
 
 def test_faults_of_case_and_study_are_told_at_once():
-    found = faults('"v_0" = 3', "n_springs = 1", case=CASE.replace("E = 3e6", "E = -1").replace("R = ", "r = "))
+    found = faults('"v_0" = 3', "n_springs = 1", case=CASE.replace("E = 3000000.0", "E = -1").replace("R = ", "r = "))
     assert len(found) == 5
     assert any(line.startswith("[material] E must be positive") for line in found)
     assert any(line.startswith("[axes] v_0 must be a list") for line in found)
 
 
 def test_axes_are_judged_behind_a_case_that_is_refused():
-    unsound = CASE.replace("E = 3e6", "E = -1")
+    unsound = CASE.replace("E = 3000000.0", "E = -1")
     axes = '"oscillation.u_z" = [1e-6]\n"pull.m" = [0.1, 0.1]\n"material.tua" = [1]\n"alfa" = [1]'
     found = faults(axes, case=unsound)
     assert [line.split(";")[0] for line in found] == [

@@ -11,9 +11,8 @@ from validation.half_space import rings
 from validation.half_space.rings import bonded_force, goodman
 
 BETAS = {nu: (1 - 2 * nu) / (2 * (1 - nu)) for nu in (0.0, 0.15, 0.3, 0.45)}
-FRICTION = (0.1, 0.3, 0.6)
 stick_radius = cache(rings.stick_radius)  # many tests ask for the same
-EVERY = [(beta, mu_0) for beta in BETAS.values() for mu_0 in FRICTION]
+EVERY = [(BETAS[nu], mu_0) for nu in (0.0, 0.45) for mu_0 in (0.1, 0.6)]
 
 
 @pytest.mark.parametrize(("beta", "mu_0"), EVERY)
@@ -61,7 +60,7 @@ def test_the_ring_slips_inward_and_the_disc_has_strength_left():
 
 def test_the_disc_grows_with_friction_and_shrinks_with_beta():
     for coupled in (True, False):
-        c = np.array([[stick_radius(beta, mu_0, coupled) for mu_0 in (0.03, *FRICTION, 2)] for beta in BETAS.values()])
+        c = np.array([[stick_radius(beta, mu_0, coupled) for mu_0 in (0.03, 0.3, 2)] for beta in BETAS.values()])
         assert np.all(np.diff(c, axis=1) > 0)
         assert np.all(np.diff(c, axis=0) > 0)  # beta falls as nu rises
 
