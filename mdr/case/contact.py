@@ -24,12 +24,12 @@ from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import FieldError, instance
 from mdr.tools.fields import check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
 
-SAME = 1e-9  #: of a dynamic modulus: rounding of a sum over arms
 #: abstract base class of each part
 KINDS: dict[str, type[Any]] = {
     "indenter": Indenter,

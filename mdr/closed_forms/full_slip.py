@@ -39,7 +39,7 @@ from mdr.materials.operator import Rheology
 from mdr.normal.contact_edge import ContactEdge
 from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import count
 from mdr.tools.memoise import remembered
 from mdr.tools.records import ArrayRecord
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
 N_INSTANTS = 8192  #: of the period; harmonics up to half of it
-NONE = 1e-9  #: of Eq. (1): a critical velocity that no pull is slower than
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -258,7 +257,7 @@ def _slips_at_any_pull(case: SlidingContact) -> bool:
     if not np.isfinite(H).all():
         return False
     left = np.abs(n * (case.material.mindlin_ratio * u_n + H * F_n))
-    return bool(left.sum() <= NONE * case.material.mindlin_ratio * case.cycle.unit)
+    return bool(left.sum() <= SAME * case.material.mindlin_ratio * case.cycle.unit)
 
 
 def _least(values: Array) -> float:

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import ROUNDING, Indenter
+from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
@@ -146,7 +146,7 @@ class FromForce(Indenter):
     @property
     def kinks(self) -> tuple[float, ...]:
         """The edge of a flat face [m]."""
-        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - ROUNDING) else ()
+        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - SAME) else ()
 
     @property
     def joints(self) -> tuple[float, ...]:
@@ -223,7 +223,7 @@ class FromForce(Indenter):
     @cached_property
     def _least_radius(self) -> float:
         """a at d → 0 [m]: of a flat tip that of its face, else 0."""
-        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < ROUNDING else 0.0
+        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < SAME else 0.0
 
     def _log_force(self, d: Array) -> tuple[Array, Array]:
         """ln(F/F_1) and its slope over ln d, at depths d > 0."""
@@ -249,9 +249,9 @@ class FromForce(Indenter):
     def _depth(self, x: Array) -> Array:
         """d with a(d) = x; 0 up to the least radius."""
         d = np.zeros_like(x)
-        todo = x > self._least_radius * (1 + ROUNDING)
+        todo = x > self._least_radius * (1 + SAME)
         a_1, rise = float(self._radius(np.array([self.d[1]]))[0]), self._power - 1
-        if self.tip == "any" and rise > ROUNDING:
+        if self.tip == "any" and rise > SAME:
             power = todo & (x <= a_1)
             with np.errstate(under="ignore"):
                 d[power] = self.d[1] * (x[power] / a_1) ** (1 / rise)
@@ -275,7 +275,7 @@ class FromForce(Indenter):
         d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
         a = self._radius(d)
         falls = np.maximum.accumulate(a) - a > FALL * np.max(a)
-        falls[0] |= self.tip == "any" and self._spline[1](0.0) < 1 - ROUNDING
+        falls[0] |= self.tip == "any" and self._spline[1](0.0) < 1 - SAME
         if falls.any():
             raise ValueError(
                 f"F must rise more and more steeply, but its slope falls at d = {d[falls][0]:.6g} m: the contact "

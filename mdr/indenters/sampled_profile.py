@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr.indenters.base import ROUNDING, Indenter, refuse_falling
+from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
@@ -169,7 +169,7 @@ class SampledProfile(Indenter):
 
         r, f = profile_points(path, units, columns, finite("apex", apex), side, flip)
         nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}
-        named = tuple(to if abs(to - b) <= ROUNDING * r[-1] else b for b, to in nearest.items())
+        named = tuple(to if abs(to - b) <= SAME * r[-1] else b for b, to in nearest.items())
         try:
             return cls(r, f, tip=tip, kinks=named, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:
@@ -227,7 +227,7 @@ class SampledProfile(Indenter):
         """What to name, and where, if a change of slope stands out among those at the inner points."""
         r, slopes = np.array(self.r), np.diff(self.f) / np.diff(self.r)
         turns = np.where(np.isin(r[1:-1], self.kinks), 0.0, np.abs(np.diff(slopes)))
-        if turns.max() <= max(STANDS_OUT * np.median(turns), ROUNDING * np.abs(slopes).max()):
+        if turns.max() <= max(STANDS_OUT * np.median(turns), SAME * np.abs(slopes).max()):
             return "if its slope jumps at one of the r, name that in kinks="
         b = float(r[1 + turns.argmax()])
         named = tuple(sorted({*self.kinks, b}))
