@@ -20,7 +20,6 @@ from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
 DENSE = 64  #: instants per period of the highest harmonic, between which an extreme is found
-MOST_PEAKS = 24  #: of the highest maxima at these instants one is the highest of all
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -123,9 +122,9 @@ def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
     return total
 
 
-def turns(harmonics: NDArray[np.complex128], highest: int = 0) -> Array:
-    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending; or so many of its highest
-    maxima alone.
+def turns(harmonics: NDArray[np.complex128], highest: bool = False) -> Array:
+    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending; or those alone of which one
+    is the highest of all.
     """
     used = np.flatnonzero(harmonics)
     n, C = used + 1, harmonics[used]
@@ -137,9 +136,10 @@ def turns(harmonics: NDArray[np.complex128], highest: int = 0) -> Array:
     values, slopes = np.fft.irfft(spectrum, count)
     falls = slopes < 0
     low = np.flatnonzero(falls != np.roll(falls, -1))
-    if highest:
+    if highest:  # half an instant away a maximum is higher by no more than step² max |z''|/8
         tops = low[~falls[low]]
-        low = tops[np.argsort(values[tops])[-highest:]]
+        near = np.maximum(values[tops], values[(tops + 1) % count])
+        low = tops[near >= near.max() - (np.pi / count) ** 2 / 2 * (n**2 @ np.abs(C))]
     side = np.where(falls[low], 1, -1)
 
     def slope(phase: Array) -> tuple[Array, Array]:
@@ -181,7 +181,7 @@ def peak(harmonics: NDArray[np.complex128]) -> float:
 @lru_cache(maxsize=256)
 def _peak(numbers: bytes) -> float:
     harmonics = np.frombuffer(numbers, dtype=complex)
-    return float(harmonic_sum(harmonics, turns(harmonics, highest=MOST_PEAKS)).max()) if harmonics.any() else 0.0
+    return float(harmonic_sum(harmonics, turns(harmonics, highest=True)).max()) if harmonics.any() else 0.0
 
 
 def stick_limit(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:

@@ -47,17 +47,14 @@ from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
 from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
 
-TOLERANCE = 2e-10  #: of the sum over an interval of springs, relative to that of the compression of all; the finest
-SAFETY = 0.3  #: error of the rule over its last two coefficients, mostly much less
-FLOOR = 1e-10  #: of the error: changes that are found to NEAR or overlooked
-HALVINGS = 16  #: of an interval of the array, at most
+TOLERANCE = (
+    2e-10  #: finest, of an interval of springs over all; changes that are found to CLOSE, or missed, leave as much
+)
 MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
-FARTHEST = 1e6  #: amplitude of the way over that of the springs' deflection
 MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
-_ORDER = 16  #: of the rule through springs of an interval
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,7 +108,7 @@ def has_closed_form(case: SlidingContact) -> bool:
     if not known or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
         return False
     reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
-    return bool(np.abs(case.way).max(initial=0.0) <= FARTHEST * reach)  # else its digits hide the springs'
+    return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'
 
 
 def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> tuple[Array, Array, Array]:
@@ -130,20 +127,18 @@ def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> 
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
     allowed = max(tolerance, TOLERANCE) * _compression(pull)
-    for halving in range(HALVINGS + 1):
+    while owner.size:
         sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
         done = missed <= allowed
-        done |= halving == HALVINGS or np.sum(~done) > MOST_INTERVALS + 20 * v.size
+        done |= np.sum(~done) > MOST_INTERVALS + 20 * v.size
         for row, found in zip(total, sums, strict=True):
             row += np.bincount(owner[done], found[done], v.size)
         error += np.bincount(owner[done], missed[done], v.size)
-        if done.all():
-            break
         owner, low, high = owner[~done], low[~done], high[~done]
         middle = 0.5 * (low + high)
         owner = np.repeat(owner, 2)
         low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
-    return total[0] / total[1], error / total[1] + FLOOR, np.clip(total[2] / total[1], 0, 1)
+    return total[0] / total[1], error / total[1] + TOLERANCE, np.clip(total[2] / total[1], 0, 1)
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------
@@ -209,7 +204,7 @@ def _integrals(
         means = np.concatenate([means, more.reshape(3, *x.shape)], axis=2)
         found[:, left] = (means @ rule.weight) * width
         last = np.abs(means[:2] @ rule.tail).max(axis=2).sum(axis=0)
-        missed[left] = SAFETY * width * last
+        missed[left] = width * last
         again = missed[left] > allowed
         left, means = left[again], means[:, again]
         if not left.size:
@@ -238,7 +233,7 @@ class _Rule(NamedTuple):
         return cls(share[1::2] if nested else share, (moments @ coefficients)[nodes], tail)
 
 
-_RULES = (_Rule.of(_ORDER // 2, False), _Rule.of(_ORDER, True))
+_RULES = (_Rule.of(8, nested=False), _Rule.of(16, nested=True))
 _SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 16)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
 
 

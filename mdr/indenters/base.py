@@ -460,9 +460,7 @@ class Survey(NamedTuple):
     def is_good(self) -> bool:
         """Whether g is finite, rises and is mapped well."""
         return bool(
-            np.isfinite(self.g[-1])
-            and np.all(np.diff(self.g) >= -SAME * np.abs(self.g[-1]))
-            and self.error <= SAME
+            np.isfinite(self.g[-1]) and np.all(np.diff(self.g) >= -SAME * np.abs(self.g[-1])) and self.error <= SAME
         )
 
 

@@ -26,8 +26,6 @@ from mdr.tools.fields import facts
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
-DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
-FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
@@ -59,8 +57,20 @@ class FromForce(Indenter):
     1.5e-05 m
     """
 
-    d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m", example=DEPTHS))
-    F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N", example=FORCES))
+    d: tuple[float, ...] = field(
+        metadata=facts(
+            "m", "depths, from 0", column, note="m", example=(0.0, 4e-6, 8e-6, 1.2e-5, 1.6e-5, 2e-5, 2.4e-5, 2.8e-5)
+        )
+    )
+    F: tuple[float, ...] = field(
+        metadata=facts(
+            "N",
+            "normal forces at them",
+            column,
+            note="N",
+            example=(0.0, 0.009541, 0.026985, 0.049574, 0.076324, 0.106667, 0.140217, 0.176694),
+        )
+    )
     E_star: float = field(
         metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa", example=4e6)
     )

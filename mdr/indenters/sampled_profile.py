@@ -22,10 +22,6 @@ from mdr.tools.fields import facts
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 STANDS_OUT = 10.0  #: times the median change of slope: at a kink; noise of 200 points stays below 8
 NOISE = "standard deviation of the noise of the data"
-EXAMPLE = (
-    (0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3, 1.4e-3),
-    (0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5, 1.44e-5, 1.96e-5),
-)
 
 
 def column(name: str, values: Any, unit: str) -> tuple[float, ...]:
@@ -72,9 +68,11 @@ class SampledProfile(Indenter):
     """
 
     r: tuple[float, ...] = field(
-        metadata=facts("m", "radii of the points, from 0", column, note="m", example=EXAMPLE[0])
+        metadata=facts("m", "radii of the points", column, note="m", example=(0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3))
     )
-    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m", example=EXAMPLE[1]))
+    f: tuple[float, ...] = field(
+        metadata=facts("m", "heights at them", column, note="m", example=(0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5))
+    )
     tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
     kinks: tuple[float, ...] = field(
         default=(), kw_only=True, metadata=facts("m", "radii of points at which the slope jumps", radii)

@@ -125,7 +125,7 @@ def static_depths(shape: Indenter, E_star: float, F_z: Array) -> Array:
         step = (np.asarray(shape.force(d, E_star)) - F_z) / np.asarray(shape.stiffness(d, E_star))
         d = np.maximum(d - step, 1e-3 * d)
         last, left = left, float(np.max(np.abs(step) / d))
-        if left <= 4e-16 or last <= left < np.sqrt(EPS):  # of a shape that has its own rounding, steps do not get smaller
+        if left <= 4e-16 or last <= left < np.sqrt(EPS):  # a shape may have a rounding of its own
             break
     return d
 

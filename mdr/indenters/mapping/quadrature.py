@@ -6,6 +6,8 @@ Derivatives: interpolation in Chebyshev points of a window that is a fixed share
 reaches across a kink; where the window is too wide for the function, it is halved.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
@@ -20,7 +22,7 @@ Function = Callable[[Array], Array]
 
 N_FIT = 16  #: Chebyshev points of a window: a singularity four half-widths away leaves 7.9**-16 = 4e-15
 WINDOW = 0.25  #: half-width of a window over the radius; the apex, where f ~ r**n, is then four away
-N_HALVINGS = 12
+N_HALVINGS = 12  #: of a window, or a panel, for a function whose derivatives have no bound
 CHUNK = 256  #: points mapped at once: keeps the work in cache
 
 
@@ -30,6 +32,11 @@ class Rule(NamedTuple):
     from_low: Array
     to_high: Array
     weight: Array
+
+    @property
+    def coarser(self) -> Rule:
+        """The rule of twice the step, to compare with."""
+        return Rule(self.from_low[::2], self.to_high[::2], 2 * self.weight[::2])
 
     def between(self, low: Array, high: Array) -> Array:
         """Nodes between ends (...), shape (..., n), each measured from the end that it is nearer to."""

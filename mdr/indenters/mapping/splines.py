@@ -17,14 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.indenters.mapping.quadrature import chebyshev_fit
-from mdr.indenters.mapping.stable_functions import leg
+from mdr.indenters.mapping.stable_functions import GAUSS, leg
 from mdr.tools.arrays import Array
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
 DEGREE = 5
 N_NODES = 16  #: of the polynomials in √(x − r_i)
-MANY = np.polynomial.legendre.leggauss(14)
 RULES = tuple(  #: for arcs between these widths [rad]
     (low, high, *np.polynomial.legendre.leggauss(n))
     for low, high, n in ((0.0, 0.02, 3), (0.02, 0.5, 6), (0.5, 2.0, 14))
@@ -122,7 +121,7 @@ class SplineImage:
         tip = self.tip / (np.arange(self.tip.size) + 1)
         share = np.where(piece == 0, a / self.width[0], 0)
         first = self.width[0] * share * _horner(tip[None], np.zeros_like(piece), share)
-        nodes, weights = MANY
+        nodes, weights = GAUSS
         t = (nodes + 1) / 2 * np.sqrt(a - low)[:, None]
         g = self.image((low[:, None] + t * t).ravel()).reshape(t.shape)
         rest = np.sqrt(a - low) * ((g * t) @ weights)
