@@ -59,7 +59,11 @@ class FromForce(Indenter):
 
     d: tuple[float, ...] = field(
         metadata=facts(
-            "m", "depths, from 0", column, note="m", example=(0.0, 4e-6, 8e-6, 1.2e-5, 1.6e-5, 2e-5, 2.4e-5, 2.8e-5)
+            "m",
+            "depths, from 0",
+            column,
+            note="m",
+            example=(0.0, 4e-6, 8e-6, 1.2e-5, 1.6e-5, 2e-5, 2.4e-5, 2.8e-5, 3.2e-5),
         )
     )
     F: tuple[float, ...] = field(
@@ -68,7 +72,7 @@ class FromForce(Indenter):
             "normal forces at them",
             column,
             note="N",
-            example=(0.0, 0.009541, 0.026985, 0.049574, 0.076324, 0.106667, 0.140217, 0.176694),
+            example=(0.0, 0.009541, 0.026985, 0.049574, 0.076324, 0.106667, 0.140217, 0.176694, 0.215878),
         )
     )
     E_star: float = field(

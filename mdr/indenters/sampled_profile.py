@@ -68,10 +68,18 @@ class SampledProfile(Indenter):
     """
 
     r: tuple[float, ...] = field(
-        metadata=facts("m", "radii of the points", column, note="m", example=(0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3))
+        metadata=facts(
+            "m", "radii of the points", column, note="m", example=(0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3, 1.4e-3)
+        )
     )
     f: tuple[float, ...] = field(
-        metadata=facts("m", "heights at them", column, note="m", example=(0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5))
+        metadata=facts(
+            "m",
+            "heights at them",
+            column,
+            note="m",
+            example=(0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5, 1.44e-5, 1.96e-5),
+        )
     )
     tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
     kinks: tuple[float, ...] = field(
