@@ -47,8 +47,6 @@ from mdr.tools.records import ArrayRecord
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
-N_INSTANTS = 8192  #: of the period; harmonics up to half of it
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FullSlip(ArrayRecord):
@@ -61,7 +59,7 @@ class FullSlip(ArrayRecord):
     in_contact: NDArray[np.bool_]  #: whether any spring touches
 
 
-def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
+def full_slip(case: SlidingContact, n_t: int = N_STEPS) -> FullSlip:
     """The normal force and the contact of a case over one period, at n_t instants."""
     case = resolved(case)
     cycle = case.cycle
@@ -268,6 +266,6 @@ def _least(values: Array) -> float:
     return float(least - (after - before) ** 2 / (8 * bend) if bend > 0 else least)
 
 
-def normal_force_harmonics(case: SlidingContact, n_t: int = N_INSTANTS) -> NDArray[np.complex128]:
+def normal_force_harmonics(case: SlidingContact, n_t: int = N_STEPS) -> NDArray[np.complex128]:
     """F_n [N] for n = 0 ... n_t/2 of F_N(t) = sum over all n of F_n exp(i n omega t), in full slip."""
     return np.asarray(np.fft.rfft(full_slip(case, n_t).F_N) / n_t)

@@ -45,7 +45,6 @@ N_NODES = 20
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there
 MISSED = SHRINK**N_NODES  #: of the whole: no panel beside a cut need be smaller, and no smaller harmonic counts
 MOST_PANELS = 4000  #: to follow the free oscillation of a light body
-PER_HARMONIC = 2.0  #: phase of the highest harmonic in a panel, at most
 
 
 def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> float:
@@ -179,15 +178,16 @@ def _time_panels(case: SlidingContact, rates: NDArray[np.complex128], cuts: Arra
     """Panels between the corners of the force and other cuts, short enough for harmonics, arms and free oscillation."""
     pull, load = case.pull, case.oscillation.load
     smallest = MISSED if any(pull.coefficients[:2]) else np.sqrt(MISSED)  # a derivative costs half the digits
-    most = PER_HARMONIC / _highest(rates)
+    fastest = float(_highest(rates))
     if np.isfinite(pull.omega_0):
-        most = min(most, np.pi * case.omega / pull.omega_0)
-    if case.material.contact_arms and load is None:
-        most = min(most, N_NODES * 2 * np.pi / N_STEPS)
+        fastest = max(fastest, pull.omega_0 / case.omega)
     if load is None:
         cuts = np.append(cuts, corners(case))
     else:
-        most = min(most, PER_HARMONIC / _highest(load_harmonics(case)[1]))
+        fastest = max(fastest, _highest(load_harmonics(case)[1]))
+    most = np.pi / fastest  # half a period of what is fastest in a panel, at most; of arms, as many steps as nodes
+    if case.material.contact_arms and load is None:
+        most = min(most, N_NODES * 2 * np.pi / N_STEPS)
     cuts = np.unique(np.mod(cuts, 2 * np.pi))
     cuts = cuts[np.diff(cuts, append=np.inf) > smallest] if cuts.size else np.zeros(1)
     stretches = pairwise([*cuts, cuts[0] + 2 * np.pi])

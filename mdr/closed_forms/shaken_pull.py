@@ -50,9 +50,7 @@ from mdr.indenters.base import Indenter
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
 
-TOLERANCE = (
-    2e-10  #: finest, of an interval of springs over all; changes that are found to CLOSE, or missed, leave as much
-)
+TOLERANCE = 2e-10  #: of the sum over an interval of springs, over that of the compression of all
 MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
 MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
 
@@ -97,9 +95,10 @@ class ShakenPull(ArrayRecord):
         A, B = Z - X, Z + X
         T, rate = float(self.T), 1j * n
         lag = 1 + T * rate
-        rows = np.array([Z, X, lag * Z, lag * A, lag * B, T * rate * A, T * rate * B])
-        rates = np.array([rate * lag * A, rate * lag * B])
-        return Harmonics(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
+        sides = np.array([A, B])
+        rates = rate * lag * sides
+        turns = _turns(rates[0]), _turns(rates[1])
+        return Harmonics(T, Z, X, lag * Z, lag * sides, T * rate * sides, rates, turns, _turns(lag * Z))
 
 
 def has_closed_form(case: SlidingContact) -> bool:
@@ -111,11 +110,10 @@ def has_closed_form(case: SlidingContact) -> bool:
     return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'
 
 
-def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> tuple[Array, Array, Array]:
+def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Array]:
     """Mean friction over mu_0 times mean force, bound of its error, and share of stick, at velocities v >= 0 (n_v,).
 
-    tolerance: of the error of every interval of springs, no less than TOLERANCE; the bound is some times as large. The
-    share of stick is that of the contact time, weighted by force. v = 0 is the limit of a pull ever slower forward.
+    The share of stick is that of the contact time, weighted by force. v = 0 is the limit of a pull ever slower forward.
     """
     v = np.asarray(v, dtype=float)
     if np.any(v < 0):
@@ -126,11 +124,10 @@ def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> 
     changes = all_changes(harmonics, v, gaps.min(), gaps.max(), _SCAN)
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
-    allowed = max(tolerance, TOLERANCE) * _compression(pull)
+    allowed = TOLERANCE * _compression(pull)
     while owner.size:
         sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
-        done = missed <= allowed
-        done |= np.sum(~done) > MOST_INTERVALS + 20 * v.size
+        done = (missed <= allowed) | (np.sum(missed > allowed) > MOST_INTERVALS + 20 * v.size)
         for row, found in zip(total, sums, strict=True):
             row += np.bincount(owner[done], found[done], v.size)
         error += np.bincount(owner[done], missed[done], v.size)

@@ -20,6 +20,7 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
+from mdr.friction.measured_velocity import LOOK
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import still_held
 from mdr.tools.arrays import EPS, Array
@@ -32,7 +33,6 @@ STEP = 1e-3  #: on the scale of the search, for derivatives: well above the nois
 VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the parameter is poorly determined
 ALIKE = 0.99  #: correlation from which on two parameters are hardly told apart
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
-N_SPRINGS, STEPS = 64, 256  #: of a model that is marched
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,7 +56,7 @@ class Fit(Printed, ArrayRecord):
     def curve(self) -> CofCurve:
         """The curve of the fitted contact a little beyond the velocities measured, from rest; computed anew."""
         least, most = 1.05 * min(float(self.data.v_0.min()), 0.0), 1.05 * max(float(self.data.v_0.max()), 0.0)
-        return cof_curve(self.case, np.linspace(least, most, 60), n_springs=N_SPRINGS, steps_per_period=STEPS)
+        return cof_curve(self.case, np.linspace(least, most, 60), n_springs=LOOK[0], steps_per_period=LOOK[1])
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the data with their errors, the fitted curve, and what is left below.
@@ -246,7 +246,7 @@ class _Model:
     def _deviations(self, x: tuple[float, ...]) -> Array:
         self._ticker.tick()
         try:
-            cof = friction_without_bound(self.case_at(np.array(x)), self.data.v_0, N_SPRINGS, STEPS)
+            cof = friction_without_bound(self.case_at(np.array(x)), self.data.v_0, *LOOK)
         except ValueError as refusal:
             where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(np.array(x)).items())
             raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None

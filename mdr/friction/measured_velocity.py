@@ -41,7 +41,7 @@ from mdr.tools.summary import Summarised, Summary, number
 MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
 NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
-LOOK = 96, 256  #: springs, and steps at least, of a run that tells reduced friction from full
+LOOK = 96, 256  #: springs and steps of a quick run: to tell reduced friction from full, or to fit
 SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step loses or gains on the drive in a period
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 FINER = 8  #: times the steps of a run: the rate of a parabola is off by h²/12 where stick ends

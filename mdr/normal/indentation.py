@@ -48,6 +48,7 @@ from mdr.tools.summary import Summarised, Summary, number, span
 N_SPRINGS = 512
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
 CLOSE = 1e-12  #: error of a force, over its peak, with which a depth is found
+FLUID = 1e-30  #: long-time modulus over the instantaneous one of a body that flows
 LONG = 0.3  #: an interval longer than this share of the time since the last jump is cut finer towards its start
 
 
@@ -296,7 +297,7 @@ class _Springs:
     @classmethod
     def of(cls, indenter: Indenter, material: Material, deepest: float, finest: float, n: int) -> _Springs:
         """Springs up to the depth `deepest` [m]. A body that flows has next to no long-time modulus."""
-        modulus, arms = material.E_star or EPS * EPS * material.instantaneous_modulus, material.contact_arms
+        modulus, arms = material.E_star or FLUID * material.instantaneous_modulus, material.contact_arms
         law = law_of(material.tau, tuple(E_j / modulus for E_j, _ in arms), tuple(tau_j for _, tau_j in arms))
         return cls(_row(indenter, deepest, finest, n), law, deepest, modulus * deepest)
 

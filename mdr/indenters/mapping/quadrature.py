@@ -20,7 +20,7 @@ from mdr.tools.checks import plain
 
 Function = Callable[[Array], Array]
 
-N_FIT = 16  #: Chebyshev points of a window: a singularity four half-widths away leaves 7.9**-16 = 4e-15
+N_FIT = 16  #: Chebyshev points where a function is smooth: a singularity four half-widths away leaves 7.9**-16 = 4e-15
 WINDOW = 0.25  #: half-width of a window over the radius; the apex, where f ~ r**n, is then four away
 N_HALVINGS = 12  #: of a window, or a panel, for a function whose derivatives have no bound
 CHUNK = 256  #: points mapped at once: keeps the work in cache
