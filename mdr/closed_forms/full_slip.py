@@ -178,10 +178,9 @@ def mean_normal_force(case: SlidingContact) -> float:
     case = resolved(case)
     if case.oscillation.load is not None:
         return load_harmonics(case)[0]
-    instants, rule = corners(case, joints=True), double_exponential()
+    instants = corners(case, joints=True)
     instants = np.append(instants, instants[0] + 2 * np.pi)
-    phase = rule.between(instants[:-1], instants[1:])
-    mean = float(np.diff(instants) @ (_without_arms(case, phase)[0] @ rule.weight)) / (2 * np.pi)
+    mean = double_exponential().integral(lambda phase: _without_arms(case, phase)[0], instants) / (2 * np.pi)
     return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
 
 

@@ -160,12 +160,8 @@ def small_velocity(case: SlidingContact) -> Asymptote:
         return Asymptote(2 / 3, 0.5 * np.cbrt(R) * (3 * np.pi * T) ** (2 / 3) * core)
     if T > 0:
         raise ValueError("the leading term of a Kelvin contact that is lost entirely is not known in closed form")
-    rule = double_exponential()
-    marks = [0.0, *(float(np.arccos(c)) for c in sorted(edge_marks(case, joints=True), reverse=True)), np.pi]
-    total = 0.0
-    for low, high in pairwise(marks):
-        phi = rule.between(np.array(low), np.array(high))
-        total += (high - low) * float(np.sum(rule.weight * phi * _stiffness(case, np.cos(phi))))
+    marks = np.array([0.0, *np.arccos(edge_marks(case, joints=True))[::-1], np.pi])
+    total = double_exponential().integral(lambda phi: phi * _stiffness(case, np.cos(phi)), marks)
     return Asymptote(1.0, 2 / np.pi * cycle.unit / F_N * total)
 
 
@@ -187,16 +183,11 @@ def _stiffness(case: SlidingContact, gap: Array) -> Array:
 
 
 def _integrals(case: SlidingContact, v: Array, rule: Rule) -> Array:
-    """1 - mu/mu_0 and the share of stick, shape (2, n_v), by the double-exponential rule between the marks."""
-    out = np.zeros((2, v.size))
-    slow = v < 1
-    if slow.any():
-        out[:, slow] = _sum_over_sticks(case, v[slow], rule)
-    return out
-
-
-def _sum_over_sticks(case: SlidingContact, v: Array, rule: Rule) -> Array:
-    T, cycle = case.T, case.cycle
+    """1 - mu/mu_0 and the share of stick, shape (2, n_v), by the rule between the marks; for v >= 1 nothing sticks."""
+    out, slow = np.zeros((2, v.size)), v < 1
+    if not slow.any():
+        return out
+    v, T, cycle = v[slow], case.T, case.cycle
     longest = _longest_stick(v, T)
     # the greater the gap, the later the touch and the shorter the stick
     marks = sorted(edge_marks(case, joints=True), reverse=True)
@@ -213,7 +204,8 @@ def _sum_over_sticks(case: SlidingContact, v: Array, rule: Rule) -> Array:
     depth = cycle.u_z0 + cycle.unit * contact_edge(core.begin, T)
     core_force = np.asarray(case.indenter.force(depth, case.material.E_star))
     F_N = mean_normal_force(case)
-    return np.array([lag, sticks + longest * core_force / cycle.unit]) * cycle.unit / (2 * np.pi * F_N)
+    out[:, slow] = np.array([lag, sticks + longest * core_force / cycle.unit]) * cycle.unit / (2 * np.pi * F_N)
+    return out
 
 
 def _stick(sigma: Array, v: Array, T: float) -> _Stick:

@@ -47,6 +47,7 @@ from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
 from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
+from mdr.indenters.mapping.inversion import invert
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
 
@@ -166,23 +167,20 @@ def _intervals(pull: ShakenPull, marks: Array, gaps: Array, changes: Array) -> t
     changes = changes[:, : max(int(np.isfinite(changes).sum(axis=1).max(initial=0)), 1)]
     x = np.full(changes.shape, marks[-1])
     inside = (changes > gaps.min()) & (changes < gaps.max())
-    x[inside] = _radius(pull, marks, gaps, changes[inside])
+    x[inside] = _radius(pull, changes[inside], marks[-1])
     ends = np.sort(np.concatenate([x, np.broadcast_to(marks, (len(x), marks.size))], axis=1), axis=1)
     low, high = ends[:, :-1], ends[:, 1:]
     real = high - low > 1e-14 * marks[-1]
     return np.nonzero(real)[0], low[real], high[real]
 
 
-def _radius(pull: ShakenPull, marks: Array, gaps: Array, c: Array) -> Array:
-    """Where the gap is c."""
+def _radius(pull: ShakenPull, c: Array, end: float) -> Array:
+    """Where the gap is c, up to the end of the row [m]."""
+    g = pull.u_z0 + pull.unit * c
     if pull.shape.least_depth == 0:
-        return np.asarray(pull.shape.contact_radius(np.maximum(pull.u_z0 + pull.unit * c, 0)))
-    low, high = np.zeros_like(c), np.full_like(c, marks[-1])  # a hollow face: g falls
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        before = _gaps(pull, middle) > c
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return low
+        return np.asarray(pull.shape.contact_radius(np.maximum(g, 0)))
+    x, _ = invert(lambda x: -np.asarray(pull.shape.profile_1d(x)), -g, np.full_like(c, end), end)  # g of a hollow falls
+    return x
 
 
 def _integrals(

@@ -479,7 +479,7 @@ def survey(shape: Indenter, radius: float) -> Survey:
     return Survey(x, g, float(np.nan_to_num(more[0], posinf=0.0)), float(np.nan_to_num(error, nan=np.inf)))
 
 
-def rim_pressure(r: Array, a: Array, step: Array) -> Array:
+def rim_pressure(r: Array, a: Array | float, step: Array | float) -> Array:
     """p/E* of a rim that stands ``step`` = d − g(a) below the profile: step / (π √(a² − r²))."""
     share = r / a
     answer: Array = step / (np.pi * a * np.sqrt((1 - share) * (1 + share)))
