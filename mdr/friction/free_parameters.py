@@ -150,7 +150,7 @@ def _allowed(case: SlidingContact, path: str, start: float, end: float) -> float
     if not _refusal(case, path, end):
         return end
     good, bad = start, end
-    while abs(bad - good) > SAME * abs(end - start):
+    while abs(bad - good) > SAME * abs(good or end):
         middle = (good + bad) / 2
         good, bad = (good, middle) if _refusal(case, path, middle) else (middle, bad)
     return good
