@@ -49,7 +49,7 @@ class Cycle(ArrayRecord):
     @classmethod
     def series(cls, u_z0: float, omega: float, cos: Array, sin: Array) -> Cycle:
         """A Fourier series with coefficients in m."""
-        amplitude = complex_harmonics(cos, sin)
+        amplitude = cos - 1j * sin
         low, high = -peak(-amplitude), peak(amplitude)
         du_z = 0.5 * (high - low)
         if du_z == 0:
@@ -77,7 +77,7 @@ class Cycle(ArrayRecord):
     @property
     def harmonics(self) -> NDArray[np.complex128]:
         """C_n with z = Re of sum C_n exp(i n phase), n = 1 ... N."""
-        return complex_harmonics(self.cos, self.sin)
+        return np.asarray(self.cos - 1j * self.sin)
 
     def z(self, phase: Array) -> Array:
         """Depth less its mean, over the unit, at phases of any shape."""
@@ -89,15 +89,9 @@ class Cycle(ArrayRecord):
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:
         """z and its rate at equidistant phases, both ends included: (steps + 1,), not to be written to."""
-        phase = 2 * np.pi * np.arange(steps + 1) / steps
-        if 2 * self.cos.size >= steps or self.cos.size < 32:
-            return self.z(phase), self.rate(phase)
-        spectrum = np.zeros((2, steps // 2 + 1), dtype=complex)
         n = np.arange(1, self.cos.size + 1)
-        spectrum[0, n] = self.harmonics * steps / 2
-        spectrum[1, n] = 1j * n * self.harmonics * steps / 2
-        values = np.fft.irfft(spectrum, steps)
-        return tuple(np.concatenate([row, row[:1]]) for row in values)  # type: ignore[return-value]
+        z, rate = (at_instants(C_n, steps) for C_n in (self.harmonics, 1j * n * self.harmonics))
+        return np.append(z, z[0]), np.append(rate, rate[0])
 
     def kept_gap(self, response: Callable[[Array], NDArray[np.complex128]]) -> float:
         """Gap, in units from the mean depth, of the shallowest spring that never leaves: its least force is zero.
@@ -105,11 +99,6 @@ class Cycle(ArrayRecord):
         response: of the material to harmonics n (N,), over its long-time modulus.
         """
         return -peak(-self.harmonics * response(np.arange(1.0, self.cos.size + 1)))
-
-
-def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
-    """C_n = c_n - i s_n."""
-    return np.asarray(cos - 1j * np.asarray(sin))
 
 
 def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
@@ -120,6 +109,15 @@ def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
         turn = (n + 1) * phase
         total += harmonics[n].real * np.cos(turn) - harmonics[n].imag * np.sin(turn)
     return total
+
+
+def at_instants(harmonics: NDArray[np.complex128], n_t: int) -> Array:
+    """The same at n_t equidistant phases of a period, from 0."""
+    if harmonics.size < 32:
+        return harmonic_sum(harmonics, 2 * np.pi * np.arange(n_t) / n_t)
+    spectrum = np.zeros(n_t, dtype=complex)
+    np.add.at(spectrum, np.arange(1, harmonics.size + 1) % n_t, harmonics)  # of orders that agree at all instants
+    return np.asarray(n_t * np.fft.ifft(spectrum).real)
 
 
 def turns(harmonics: NDArray[np.complex128], highest: bool = False) -> Array:

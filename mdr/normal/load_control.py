@@ -35,6 +35,7 @@ from mdr.normal.followed_force import normal_cycle
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import instance, positive
+from mdr.tools.memoise import remembered
 
 N_HARMONICS = 256  #: of the depth, an eighth of the instants at which the force is known
 ENOUGH = 1e-4  #: error of the balance of forces, of the mean load, with which a search that gets no further may end
@@ -153,6 +154,7 @@ def _deeper(shape: Indenter, d: float, F_z: float) -> float:
     )
 
 
+@remembered(maxsize=64)
 def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
     """The cycle of depth under an oscillating load.
 

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact, common_frequency
+from mdr.case.contact import KINDS, SlidingContact
 from mdr.materials import KelvinVoigt
 from mdr.normal.load_control import static_depth
 from mdr.normal.resolved import at_rest, resolved
@@ -100,7 +100,7 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         tan_delta = not_negative("tan_delta", settings["tan_delta"], "loss tangent")
         contact = _with(contact, "T", tan_delta / _one_omega("tan_delta", contact.oscillation, contact.shake))
     if "T" in settings:
-        contact = _with(contact, "T", settings["T"] / common_frequency(contact.oscillation, contact.shake))
+        contact = _with(contact, "T", settings["T"] / contact.omega)
     if "chi" in settings:
         contact = _with(contact, "chi", 1.0)  # until the depth is known that it refers to
         if not np.isfinite(unit := at_rest(contact).chi):
