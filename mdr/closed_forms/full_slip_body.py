@@ -41,7 +41,7 @@ from mdr.normal.followed_force import N_STEPS
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME, Array
 
-N_NODES = 20
+N_NODES = 20  #: Gauss points of a panel: half a wave on it is exact to rounding
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there
 MISSED = SHRINK**N_NODES  #: of the whole: no panel beside a cut need be smaller, and no smaller harmonic counts
 MOST_PANELS = 4000  #: to follow the free oscillation of a light body

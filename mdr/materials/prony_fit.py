@@ -19,7 +19,7 @@ from mdr.tools.checks import between, count, finite_array, positive, positive_ar
 Pairs = tuple[tuple[float, float], ...]
 
 A_DECADE = 3.0  #: arms per decade of frequency, where none were asked for
-MOST_ARMS = 60
+MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
 MARGINS = (3.0, 10.0, 100.0, 1000.0)  #: reach of the arms beyond the range, for the rest of a power law
 
 

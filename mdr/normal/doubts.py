@@ -24,7 +24,7 @@ from mdr.tools.memoise import remembered
 
 STEEPEST = 1.0  #: slope of the shape at the edge of contact, or depth over radius of a face without slope
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
-GREATEST_MU_0 = 2.0
+GREATEST_MU_0 = 2.0  #: rubber on glass comes near it; more is a percentage, or a force
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
 STIFFEST = 1e4  #: stiffness of the pulling spring over that of the contact, or over m omega², which it makes negligible
 SOFTEST = 1e-6  #: its stiffness over that of the contact; metals, or a tip on its cantilever, are at 1e-4 to 1e-5

@@ -22,7 +22,7 @@ from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-N_EDGE = 128  #: springs
+N_EDGE = 128  #: springs that touch and leave
 N_STEPS = 2048  #: of the period
 
 

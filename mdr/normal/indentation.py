@@ -45,7 +45,7 @@ from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-N_SPRINGS = 512
+N_SPRINGS = 512  #: unless asked otherwise; an elastic force is exact with any number
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
 CLOSE = 1e-12  #: error of a force, over its peak, with which a depth is found
 FLUID = 1e-30  #: long-time modulus over the instantaneous one of a body that flows

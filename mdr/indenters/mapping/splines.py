@@ -22,7 +22,7 @@ from mdr.tools.arrays import Array
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
-DEGREE = 5
+DEGREE = 5  #: of a spline, four times continuously differentiable
 RULES = tuple(  #: for arcs between these widths [rad]
     (low, high, *np.polynomial.legendre.leggauss(n))
     for low, high, n in ((0.0, 0.02, 3), (0.02, 0.5, 6), (0.5, 2.0, 14))
