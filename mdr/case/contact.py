@@ -24,12 +24,12 @@ from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import FieldError, instance
 from mdr.tools.fields import check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
 
-SAME = 1e-9  #: of a dynamic modulus: rounding of a sum over arms
 #: abstract base class of each part
 KINDS: dict[str, type[Any]] = {
     "indenter": Indenter,
@@ -153,12 +153,17 @@ class SlidingContact(Summarised):
     @property
     def repeats(self) -> tuple[int, int]:
         """Periods of the oscillation, and of the shake, in the period of the case; 0 of what does not move."""
-        return repeats(self.oscillation, self.shake)
+        if self.shake is None or self.shake.is_still:
+            return 1, 0
+        return whole_ratio(self.oscillation.omega, self.shake.omega) if self.oscillation.omega else (0, 1)
 
     @property
     def omega(self) -> float:
         """Angular frequency [rad/s] of the period after which oscillation and shake both repeat."""
-        return common_frequency(self.oscillation, self.shake)
+        if self.shake is None:
+            return self.oscillation.omega
+        n_z, n_x = self.repeats
+        return self.oscillation.omega / n_z if n_z else self.shake.omega / n_x
 
     @property
     def period(self) -> float:
@@ -369,21 +374,6 @@ def _written(name: str, value: Any, unit: str) -> str:
         return f"{name} = {short(repr(value), 40)}"
     hertz = f" ({value / (2 * np.pi):.6g} Hz)" if unit == "rad/s" else ""
     return f"{name} = {number(value, unit)}{hertz}"
-
-
-def repeats(oscillation: Motion, shake: Shake | None) -> tuple[int, int]:
-    """Periods of each in the period after which both repeat; 0 of what does not move."""
-    if shake is None or shake.is_still:
-        return 1, 0
-    return whole_ratio(oscillation.omega, shake.omega) if oscillation.omega else (0, 1)
-
-
-def common_frequency(oscillation: Motion, shake: Shake | None) -> float:
-    """Angular frequency [rad/s] of that period."""
-    if shake is None:
-        return oscillation.omega
-    n_z, n_x = repeats(oscillation, shake)
-    return oscillation.omega / n_z if n_z else shake.omega / n_x
 
 
 def require_case(case: object) -> SlidingContact:

@@ -20,7 +20,6 @@ from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
 DENSE = 64  #: instants per period of the highest harmonic, between which an extreme is found
-MOST_PEAKS = 24  #: of the highest maxima at these instants one is the highest of all
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -50,7 +49,7 @@ class Cycle(ArrayRecord):
     @classmethod
     def series(cls, u_z0: float, omega: float, cos: Array, sin: Array) -> Cycle:
         """A Fourier series with coefficients in m."""
-        amplitude = complex_harmonics(cos, sin)
+        amplitude = cos - 1j * sin
         low, high = -peak(-amplitude), peak(amplitude)
         du_z = 0.5 * (high - low)
         if du_z == 0:
@@ -78,7 +77,7 @@ class Cycle(ArrayRecord):
     @property
     def harmonics(self) -> NDArray[np.complex128]:
         """C_n with z = Re of sum C_n exp(i n phase), n = 1 ... N."""
-        return complex_harmonics(self.cos, self.sin)
+        return np.asarray(self.cos - 1j * self.sin)
 
     def z(self, phase: Array) -> Array:
         """Depth less its mean, over the unit, at phases of any shape."""
@@ -90,15 +89,9 @@ class Cycle(ArrayRecord):
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:
         """z and its rate at equidistant phases, both ends included: (steps + 1,), not to be written to."""
-        phase = 2 * np.pi * np.arange(steps + 1) / steps
-        if 2 * self.cos.size >= steps or self.cos.size < 32:
-            return self.z(phase), self.rate(phase)
-        spectrum = np.zeros((2, steps // 2 + 1), dtype=complex)
         n = np.arange(1, self.cos.size + 1)
-        spectrum[0, n] = self.harmonics * steps / 2
-        spectrum[1, n] = 1j * n * self.harmonics * steps / 2
-        values = np.fft.irfft(spectrum, steps)
-        return tuple(np.concatenate([row, row[:1]]) for row in values)  # type: ignore[return-value]
+        z, rate = (at_instants(C_n, steps) for C_n in (self.harmonics, 1j * n * self.harmonics))
+        return np.append(z, z[0]), np.append(rate, rate[0])
 
     def kept_gap(self, response: Callable[[Array], NDArray[np.complex128]]) -> float:
         """Gap, in units from the mean depth, of the shallowest spring that never leaves: its least force is zero.
@@ -106,11 +99,6 @@ class Cycle(ArrayRecord):
         response: of the material to harmonics n (N,), over its long-time modulus.
         """
         return -peak(-self.harmonics * response(np.arange(1.0, self.cos.size + 1)))
-
-
-def complex_harmonics(cos: Array, sin: Array) -> NDArray[np.complex128]:
-    """C_n = c_n - i s_n."""
-    return np.asarray(cos - 1j * np.asarray(sin))
 
 
 def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
@@ -123,9 +111,18 @@ def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:
     return total
 
 
-def turns(harmonics: NDArray[np.complex128], highest: int = 0) -> Array:
-    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending; or so many of its highest
-    maxima alone.
+def at_instants(harmonics: NDArray[np.complex128], n_t: int) -> Array:
+    """The same at n_t equidistant phases of a period, from 0."""
+    if harmonics.size < 32:
+        return harmonic_sum(harmonics, 2 * np.pi * np.arange(n_t) / n_t)
+    spectrum = np.zeros(n_t, dtype=complex)
+    np.add.at(spectrum, np.arange(1, harmonics.size + 1) % n_t, harmonics)  # of orders that agree at all instants
+    return np.asarray(n_t * np.fft.ifft(spectrum).real)
+
+
+def turns(harmonics: NDArray[np.complex128], highest: bool = False) -> Array:
+    """Phases in [0, 2 pi) at which it is greatest or least among its neighbours, ascending; or those alone of which one
+    is the highest of all.
     """
     used = np.flatnonzero(harmonics)
     n, C = used + 1, harmonics[used]
@@ -137,9 +134,10 @@ def turns(harmonics: NDArray[np.complex128], highest: int = 0) -> Array:
     values, slopes = np.fft.irfft(spectrum, count)
     falls = slopes < 0
     low = np.flatnonzero(falls != np.roll(falls, -1))
-    if highest:
+    if highest:  # half an instant away a maximum is higher by no more than step² max |z''|/8
         tops = low[~falls[low]]
-        low = tops[np.argsort(values[tops])[-highest:]]
+        near = np.maximum(values[tops], values[(tops + 1) % count])
+        low = tops[near >= near.max() - (np.pi / count) ** 2 / 2 * (n**2 @ np.abs(C))]
     side = np.where(falls[low], 1, -1)
 
     def slope(phase: Array) -> tuple[Array, Array]:
@@ -181,7 +179,7 @@ def peak(harmonics: NDArray[np.complex128]) -> float:
 @lru_cache(maxsize=256)
 def _peak(numbers: bytes) -> float:
     harmonics = np.frombuffer(numbers, dtype=complex)
-    return float(harmonic_sum(harmonics, turns(harmonics, highest=MOST_PEAKS)).max()) if harmonics.any() else 0.0
+    return float(harmonic_sum(harmonics, turns(harmonics, highest=True)).max()) if harmonics.any() else 0.0
 
 
 def stick_limit(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:

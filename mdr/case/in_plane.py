@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.motion import amplitudes, fill_up
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import FieldError, FieldTypeError, finite, not_negative
 from mdr.tools.fields import Record, facts
 
@@ -25,7 +26,6 @@ __all__ = ["InPlaneMotion", "InPlaneOscillation"]
 
 PLACES = ("tool", "pull")  #: where the motion may act
 MOST = 16  #: p and q, at most, of the ratio p/q of two frequencies
-SAME_RATIO = 1e-9  #: off a ratio of whole numbers by less, of it, two frequencies have this ratio
 
 
 def _place(name: str, value: Any, note: str = "") -> str:
@@ -56,7 +56,6 @@ def _no_amplitudes(name: str, value: Any, note: str = "") -> tuple[float, ...]:
 FREQUENCY = facts(
     "rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$", example=314.159
 )
-SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  #: of the example [m]
 PLACE = facts("", "where the motion acts", _place)
 
 
@@ -127,7 +126,7 @@ class InPlaneMotion(Shake):
     omega: float = field(metadata=FREQUENCY)
     x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
     x_sin: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=SAWTOOTH)
+        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=(2.5e-6, 1.3e-6, 8e-7))
     )
     y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
     y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
@@ -153,7 +152,7 @@ def whole_ratio(one: float, other: float) -> tuple[int, int]:
     """p, q of one/other = p/q, two frequencies whose sum is periodic. FieldError where p or q exceeds `MOST`."""
     ratio = Fraction(one / other).limit_denominator(MOST)
     p, q = ratio.numerator, ratio.denominator
-    if not (1 <= p <= MOST and abs(p / q * other / one - 1) <= SAME_RATIO):
+    if not (1 <= p <= MOST and abs(p / q * other / one - 1) <= SAME):
         raise FieldError(
             f"omega of the shake, {other:.9g} rad/s, and of the oscillation, {one:.9g} rad/s, must be in the ratio of "
             f"whole numbers up to {MOST}: else the motion is not periodic, and has no average over a period",

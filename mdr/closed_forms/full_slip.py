@@ -39,16 +39,13 @@ from mdr.materials.operator import Rheology
 from mdr.normal.contact_edge import ContactEdge
 from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import count
 from mdr.tools.memoise import remembered
 from mdr.tools.records import ArrayRecord
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
-
-N_INSTANTS = 8192  #: of the period; harmonics up to half of it
-NONE = 1e-9  #: of Eq. (1): a critical velocity that no pull is slower than
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,7 +59,7 @@ class FullSlip(ArrayRecord):
     in_contact: NDArray[np.bool_]  #: whether any spring touches
 
 
-def full_slip(case: SlidingContact, n_t: int = N_INSTANTS) -> FullSlip:
+def full_slip(case: SlidingContact, n_t: int = N_STEPS) -> FullSlip:
     """The normal force and the contact of a case over one period, at n_t instants."""
     case = resolved(case)
     cycle = case.cycle
@@ -181,10 +178,9 @@ def mean_normal_force(case: SlidingContact) -> float:
     case = resolved(case)
     if case.oscillation.load is not None:
         return load_harmonics(case)[0]
-    instants, rule = corners(case, joints=True), double_exponential()
+    instants = corners(case, joints=True)
     instants = np.append(instants, instants[0] + 2 * np.pi)
-    phase = rule.between(instants[:-1], instants[1:])
-    mean = float(np.diff(instants) @ (_without_arms(case, phase)[0] @ rule.weight)) / (2 * np.pi)
+    mean = double_exponential().integral(lambda phase: _without_arms(case, phase)[0], instants) / (2 * np.pi)
     return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
 
 
@@ -258,7 +254,7 @@ def _slips_at_any_pull(case: SlidingContact) -> bool:
     if not np.isfinite(H).all():
         return False
     left = np.abs(n * (case.material.mindlin_ratio * u_n + H * F_n))
-    return bool(left.sum() <= NONE * case.material.mindlin_ratio * case.cycle.unit)
+    return bool(left.sum() <= SAME * case.material.mindlin_ratio * case.cycle.unit)
 
 
 def _least(values: Array) -> float:
@@ -269,6 +265,6 @@ def _least(values: Array) -> float:
     return float(least - (after - before) ** 2 / (8 * bend) if bend > 0 else least)
 
 
-def normal_force_harmonics(case: SlidingContact, n_t: int = N_INSTANTS) -> NDArray[np.complex128]:
+def normal_force_harmonics(case: SlidingContact, n_t: int = N_STEPS) -> NDArray[np.complex128]:
     """F_n [N] for n = 0 ... n_t/2 of F_N(t) = sum over all n of F_n exp(i n omega t), in full slip."""
     return np.asarray(np.fft.rfft(full_slip(case, n_t).F_N) / n_t)

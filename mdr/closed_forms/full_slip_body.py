@@ -39,18 +39,12 @@ from mdr.closed_forms.full_slip import (
 )
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 
-N_NODES = 20
+N_NODES = 20  #: Gauss points of a panel: half a wave on it is exact to rounding
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there
-SMALLEST = 1e-11  #: panel beside a cut, of the stretch between cuts
-SMALLEST_RATE = 1e-5  #: the same where the contact radius is differentiated
+MISSED = SHRINK**N_NODES  #: of the whole: no panel beside a cut need be smaller, and no smaller harmonic counts
 MOST_PANELS = 4000  #: to follow the free oscillation of a light body
-PER_HARMONIC = 2.0  #: phase of the highest harmonic in a panel, at most
-PER_STEPS = 32  #: steps of springs with arms in a panel, at most
-SMALL = 1e-11  #: of the largest, harmonics that do not count for the length of panels
-RESONANT = 1e-10  #: share of F_N that a harmonic on an undamped resonance may have and count as none
-RESONANT_FOUND = 1e-8  #: the same of a force that is followed spring by spring, or under a load
 
 
 def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> float:
@@ -117,11 +111,8 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         return float(harmonic_sum(rates, phase).max())
     panels = _time_panels(case, rates, np.concatenate([touches, leaves]))
     resonant = _resonant_harmonic(case.pull, case.omega)
-    exact = case.oscillation.load is None and not case.material.contact_arms
-    if _velocity_unbounded_at_touch(case) or (
-        resonant
-        and abs(panels.harmonic(panels.force, resonant)) > (RESONANT if exact else RESONANT_FOUND) * panels.mean
-    ):
+    none = (SAME + case.cycle.missing) * panels.mean
+    if _velocity_unbounded_at_touch(case) or (resonant and abs(panels.harmonic(panels.force, resonant)) > none):
         return np.inf
     y_dot = _velocity(case, panels)
     if resonant:  # the force does not contain it, so neither does the periodic motion
@@ -186,16 +177,17 @@ class _TimePanels:
 def _time_panels(case: SlidingContact, rates: NDArray[np.complex128], cuts: Array) -> _TimePanels:
     """Panels between the corners of the force and other cuts, short enough for harmonics, arms and free oscillation."""
     pull, load = case.pull, case.oscillation.load
-    smallest = SMALLEST_RATE if pull.coefficients[:2] == (0, 0) else SMALLEST
-    most = PER_HARMONIC / _highest(rates)
+    smallest = MISSED if any(pull.coefficients[:2]) else np.sqrt(MISSED)  # a derivative costs half the digits
+    fastest = float(_highest(rates))
     if np.isfinite(pull.omega_0):
-        most = min(most, np.pi * case.omega / pull.omega_0)
-    if case.material.contact_arms and load is None:
-        most = min(most, PER_STEPS * 2 * np.pi / N_STEPS)
+        fastest = max(fastest, pull.omega_0 / case.omega)
     if load is None:
         cuts = np.append(cuts, corners(case))
     else:
-        most = min(most, PER_HARMONIC / _highest(load_harmonics(case)[1]))
+        fastest = max(fastest, _highest(load_harmonics(case)[1]))
+    most = np.pi / fastest  # half a period of what is fastest in a panel, at most; of arms, as many steps as nodes
+    if case.material.contact_arms and load is None:
+        most = min(most, N_NODES * 2 * np.pi / N_STEPS)
     cuts = np.unique(np.mod(cuts, 2 * np.pi))
     cuts = cuts[np.diff(cuts, append=np.inf) > smallest] if cuts.size else np.zeros(1)
     stretches = pairwise([*cuts, cuts[0] + 2 * np.pi])
@@ -218,7 +210,7 @@ def _graded(low: float, high: float, smallest: float) -> Array:
 def _highest(harmonics: NDArray[np.complex128]) -> int:
     """Highest order that counts, 1 at least."""
     size = np.abs(harmonics)
-    return int(np.flatnonzero(size > SMALL * size.max(initial=0.0)).max(initial=0)) + 1
+    return int(np.flatnonzero(size > MISSED * size.max(initial=0.0)).max(initial=0)) + 1
 
 
 @lru_cache

@@ -50,13 +50,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.closed_forms.full_slip import edge_marks, mean_normal_force
-from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.indenters.mapping.quadrature import Rule, double_exponential
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord
-
-STEPS = (0.11, 0.22)  #: of the double-exponential rule, and of the one that it is compared with
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -107,7 +105,7 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
     v = v_0.ravel() / case.unit_velocity
-    fine, coarse = (_integrals(case, v, step) for step in STEPS)
+    fine, coarse = (_integrals(case, v, rule) for rule in (double_exponential(), double_exponential().coarser))
     # halving the step would square the error of the rule; 1e-13 is rounding
     error = np.abs(fine[0] - coarse[0]) ** 1.5 + 1e-13
     shape = v_0.shape
@@ -162,12 +160,8 @@ def small_velocity(case: SlidingContact) -> Asymptote:
         return Asymptote(2 / 3, 0.5 * np.cbrt(R) * (3 * np.pi * T) ** (2 / 3) * core)
     if T > 0:
         raise ValueError("the leading term of a Kelvin contact that is lost entirely is not known in closed form")
-    rule = double_exponential(STEPS[0])
-    marks = [0.0, *(float(np.arccos(c)) for c in sorted(edge_marks(case, joints=True), reverse=True)), np.pi]
-    total = 0.0
-    for low, high in pairwise(marks):
-        phi = rule.between(np.array(low), np.array(high))
-        total += (high - low) * float(np.sum(rule.weight * phi * _stiffness(case, np.cos(phi))))
+    marks = np.array([0.0, *np.arccos(edge_marks(case, joints=True))[::-1], np.pi])
+    total = double_exponential().integral(lambda phi: phi * _stiffness(case, np.cos(phi)), marks)
     return Asymptote(1.0, 2 / np.pi * cycle.unit / F_N * total)
 
 
@@ -188,17 +182,12 @@ def _stiffness(case: SlidingContact, gap: Array) -> Array:
     return np.asarray(case.indenter.stiffness(depth, case.material.E_star))
 
 
-def _integrals(case: SlidingContact, v: Array, step: float) -> Array:
-    """1 - mu/mu_0 and the share of stick, shape (2, n_v), by the double-exponential rule between the marks."""
-    out = np.zeros((2, v.size))
-    slow = v < 1
-    if slow.any():
-        out[:, slow] = _sum_over_sticks(case, v[slow], step)
-    return out
-
-
-def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
-    T, cycle, rule = case.T, case.cycle, double_exponential(step)
+def _integrals(case: SlidingContact, v: Array, rule: Rule) -> Array:
+    """1 - mu/mu_0 and the share of stick, shape (2, n_v), by the rule between the marks; for v >= 1 nothing sticks."""
+    out, slow = np.zeros((2, v.size)), v < 1
+    if not slow.any():
+        return out
+    v, T, cycle = v[slow], case.T, case.cycle
     longest = _longest_stick(v, T)
     # the greater the gap, the later the touch and the shorter the stick
     marks = sorted(edge_marks(case, joints=True), reverse=True)
@@ -215,7 +204,8 @@ def _sum_over_sticks(case: SlidingContact, v: Array, step: float) -> Array:
     depth = cycle.u_z0 + cycle.unit * contact_edge(core.begin, T)
     core_force = np.asarray(case.indenter.force(depth, case.material.E_star))
     F_N = mean_normal_force(case)
-    return np.array([lag, sticks + longest * core_force / cycle.unit]) * cycle.unit / (2 * np.pi * F_N)
+    out[:, slow] = np.array([lag, sticks + longest * core_force / cycle.unit]) * cycle.unit / (2 * np.pi * F_N)
+    return out
 
 
 def _stick(sigma: Array, v: Array, T: float) -> _Stick:

@@ -47,17 +47,13 @@ from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
 from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
-from mdr.tools.arrays import Array
+from mdr.indenters.mapping.inversion import invert
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
 
-TOLERANCE = 2e-10  #: of the sum over an interval of springs, relative to that of the compression of all; the finest
-SAFETY = 0.3  #: error of the rule over its last two coefficients, mostly much less
-FLOOR = 1e-10  #: of the error: changes that are found to NEAR or overlooked
-HALVINGS = 16  #: of an interval of the array, at most
+TOLERANCE = 2e-10  #: of the sum over an interval of springs, over that of the compression of all
 MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
-FARTHEST = 1e6  #: amplitude of the way over that of the springs' deflection
 MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
-_ORDER = 16  #: of the rule through springs of an interval
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -100,9 +96,10 @@ class ShakenPull(ArrayRecord):
         A, B = Z - X, Z + X
         T, rate = float(self.T), 1j * n
         lag = 1 + T * rate
-        rows = np.array([Z, X, lag * Z, lag * A, lag * B, T * rate * A, T * rate * B])
-        rates = np.array([rate * lag * A, rate * lag * B])
-        return Harmonics(T, rows, rates, (_turns(rates[0]), _turns(rates[1])), _turns(lag * Z))
+        sides = np.array([A, B])
+        rates = rate * lag * sides
+        turns = _turns(rates[0]), _turns(rates[1])
+        return Harmonics(T, Z, X, lag * Z, lag * sides, T * rate * sides, rates, turns, _turns(lag * Z))
 
 
 def has_closed_form(case: SlidingContact) -> bool:
@@ -111,14 +108,13 @@ def has_closed_form(case: SlidingContact) -> bool:
     if not known or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
         return False
     reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
-    return bool(np.abs(case.way).max(initial=0.0) <= FARTHEST * reach)  # else its digits hide the springs'
+    return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'
 
 
-def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> tuple[Array, Array, Array]:
+def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Array]:
     """Mean friction over mu_0 times mean force, bound of its error, and share of stick, at velocities v >= 0 (n_v,).
 
-    tolerance: of the error of every interval of springs, no less than TOLERANCE; the bound is some times as large. The
-    share of stick is that of the contact time, weighted by force. v = 0 is the limit of a pull ever slower forward.
+    The share of stick is that of the contact time, weighted by force. v = 0 is the limit of a pull ever slower forward.
     """
     v = np.asarray(v, dtype=float)
     if np.any(v < 0):
@@ -129,21 +125,18 @@ def average_friction(pull: ShakenPull, v: ArrayLike, tolerance: float = 0.0) -> 
     changes = all_changes(harmonics, v, gaps.min(), gaps.max(), _SCAN)
     owner, low, high = _intervals(pull, marks, gaps, changes)
     total, error = np.zeros((3, v.size)), np.zeros(v.size)
-    allowed = max(tolerance, TOLERANCE) * _compression(pull)
-    for halving in range(HALVINGS + 1):
+    allowed = TOLERANCE * _compression(pull)
+    while owner.size:
         sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
-        done = missed <= allowed
-        done |= halving == HALVINGS or np.sum(~done) > MOST_INTERVALS + 20 * v.size
+        done = (missed <= allowed) | (np.sum(missed > allowed) > MOST_INTERVALS + 20 * v.size)
         for row, found in zip(total, sums, strict=True):
             row += np.bincount(owner[done], found[done], v.size)
         error += np.bincount(owner[done], missed[done], v.size)
-        if done.all():
-            break
         owner, low, high = owner[~done], low[~done], high[~done]
         middle = 0.5 * (low + high)
         owner = np.repeat(owner, 2)
         low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
-    return total[0] / total[1], error / total[1] + FLOOR, np.clip(total[2] / total[1], 0, 1)
+    return total[0] / total[1], error / total[1] + TOLERANCE, np.clip(total[2] / total[1], 0, 1)
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------
@@ -174,23 +167,20 @@ def _intervals(pull: ShakenPull, marks: Array, gaps: Array, changes: Array) -> t
     changes = changes[:, : max(int(np.isfinite(changes).sum(axis=1).max(initial=0)), 1)]
     x = np.full(changes.shape, marks[-1])
     inside = (changes > gaps.min()) & (changes < gaps.max())
-    x[inside] = _radius(pull, marks, gaps, changes[inside])
+    x[inside] = _radius(pull, changes[inside], marks[-1])
     ends = np.sort(np.concatenate([x, np.broadcast_to(marks, (len(x), marks.size))], axis=1), axis=1)
     low, high = ends[:, :-1], ends[:, 1:]
     real = high - low > 1e-14 * marks[-1]
     return np.nonzero(real)[0], low[real], high[real]
 
 
-def _radius(pull: ShakenPull, marks: Array, gaps: Array, c: Array) -> Array:
-    """Where the gap is c."""
+def _radius(pull: ShakenPull, c: Array, end: float) -> Array:
+    """Where the gap is c, up to the end of the row [m]."""
+    g = pull.u_z0 + pull.unit * c
     if pull.shape.least_depth == 0:
-        return np.asarray(pull.shape.contact_radius(np.maximum(pull.u_z0 + pull.unit * c, 0)))
-    low, high = np.zeros_like(c), np.full_like(c, marks[-1])  # a hollow face: g falls
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        before = _gaps(pull, middle) > c
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return low
+        return np.asarray(pull.shape.contact_radius(np.maximum(g, 0)))
+    x, _ = invert(lambda x: -np.asarray(pull.shape.profile_1d(x)), -g, np.full_like(c, end), end)  # g of a hollow falls
+    return x
 
 
 def _integrals(
@@ -209,7 +199,7 @@ def _integrals(
         means = np.concatenate([means, more.reshape(3, *x.shape)], axis=2)
         found[:, left] = (means @ rule.weight) * width
         last = np.abs(means[:2] @ rule.tail).max(axis=2).sum(axis=0)
-        missed[left] = SAFETY * width * last
+        missed[left] = width * last
         again = missed[left] > allowed
         left, means = left[again], means[:, again]
         if not left.size:
@@ -238,7 +228,7 @@ class _Rule(NamedTuple):
         return cls(share[1::2] if nested else share, (moments @ coefficients)[nodes], tail)
 
 
-_RULES = (_Rule.of(_ORDER // 2, False), _Rule.of(_ORDER, True))
+_RULES = (_Rule.of(8, nested=False), _Rule.of(16, nested=True))
 _SCAN = np.unique(np.r_[1e-9, 1e-5, np.sin(np.linspace(0, np.pi / 2, 16)[1:-1]) ** 2, 1 - 1e-5, 1 - 1e-9])
 
 

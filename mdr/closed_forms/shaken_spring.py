@@ -17,34 +17,26 @@ from mdr.tools.jit import compiled
 Complex = NDArray[np.complex128]
 
 MOST_CHANGES = 96  #: of the sequence of modes along the array; further ones are left to the halving
-NEAR = 1e-7  #: of the range of gaps, to which a change is found
-PERIODS = 100  #: at most, of Newton's method for the periodic state
-CLOSE = 1e-7  #: its last step, over the compression and (1 - P')²: the error after it is a rounding
-CLOSEST = 1e-14  #: over the compression, a step that is always the last: for v = 0 the slope P' is 1
-_PRIME = 9007199254740881  #: of a sequence of modes as a number
+MOST_TURNS = 100  #: of Newton's method, for an instant and for the periodic state
+#: half of the digits: last step of Newton's method, over the compression and (1 - P')², whose square is a rounding; and
+#: share of the range of gaps to which a change is found
+CLOSE = 1e-7
 
 _jit = compiled(nogil=True, error_model="numpy")
 
 
 class Harmonics(NamedTuple):
-    """The motion without the drift."""
+    """The motion without the drift; of two rows the first is of slip forward, the second of slip backward."""
 
     T: float
-    rows: Complex  # of z, x, z^T, A^T, B^T, T A', T B' (7, N)
-    rates: Complex  # of the rates of A^T and B^T (2, N)
+    z: Complex  # (N,)
+    x: Complex
+    z_T: Complex
+    barriers: Complex  # A^T and B^T (2, N)
+    leads: Complex  # T A' and T B' (2, N)
+    rates: Complex  # of the barriers (2, N)
     turns: tuple[Array, Array]  # phases and values (n, 2) of the extremes of these rates
     tops: Array  # and of those of z^T
-
-
-class Motion(NamedTuple):
-    """The motion at one velocity."""
-
-    rows: Complex
-    T: float
-    v: float
-
-
-_Z, _X, _Z_T, _BARRIER, _LEAD = 0, 1, 2, 3, 5  # in rows
 
 
 class Instant(NamedTuple):
@@ -74,7 +66,7 @@ def root(
     if (f_low > 0) == (f_high > 0):
         return low if abs(f_low) < abs(f_high) else high
     t = low + (high - low) * math.acos(1 - 2 * f_low / (f_low - f_high)) / math.pi
-    for _ in range(100):
+    for _ in range(MOST_TURNS):
         w = complex(math.cos(t), math.sin(t))
         power, f, slope = w, drift * t + level, drift
         for n in range(C.size):
@@ -102,13 +94,13 @@ def root(
 
 
 @_jit
-def instant_at(m: Motion, t: float) -> Instant:
-    """The motion at phase t."""
+def instant_at(m: Harmonics, v: float, t: float) -> Instant:
+    """The motion at phase t, at the velocity v."""
     w = complex(math.cos(t), math.sin(t))
     power = w
-    z, x, z_rate, x_rate, sum_z, sum_x = 0.0, 0.0, 0.0, m.v, 0.0, 0.0
-    for n in range(m.rows.shape[1]):
-        in_z, in_x = m.rows[_Z, n] * power, m.rows[_X, n] * power
+    z, x, z_rate, x_rate, sum_z, sum_x = 0.0, 0.0, 0.0, v, 0.0, 0.0
+    for n in range(m.z.size):
+        in_z, in_x = m.z[n] * power, m.x[n] * power
         z += in_z.real
         x += in_x.real
         z_rate -= (n + 1) * in_z.imag
@@ -116,9 +108,9 @@ def instant_at(m: Motion, t: float) -> Instant:
         sum_z += in_z.imag / (n + 1)
         sum_x += in_x.imag / (n + 1)
         power *= w
-    x += m.v * t
+    x += v * t
     A_T, B_T = z - x + m.T * (z_rate - x_rate), z + x + m.T * (z_rate + x_rate)
-    return Instant(t, z, x, A_T, B_T, sum_z, sum_x + 0.5 * m.v * t * t)
+    return Instant(t, z, x, A_T, B_T, sum_z, sum_x + 0.5 * v * t * t)
 
 
 @_jit
@@ -135,13 +127,11 @@ def _put(points: Array, k: int, now: Instant) -> None:
 
 
 @_jit
-def _cuts(given: Harmonics, v: float) -> tuple[Motion, Array, Array]:
-    """The motion; instants (n, 8) of the extremes of A^T, B^T and z^T and of the ends of a period; room for those of a
-    spring.
+def _cuts(given: Harmonics, v: float) -> tuple[Array, Array]:
+    """Instants (n, 8) of the extremes of A^T, B^T and z^T and of the ends of a period; room for those of a spring.
 
     A row has the fields of an Instant and whether the spring is free from there to the next.
     """
-    m = Motion(given.rows, given.T, v)
     t = np.empty(len(given.turns[0]) + len(given.turns[1]) + len(given.tops) + 2)
     t[0], t[1], count = 0.0, 2 * math.pi, 2
     for row in range(2):
@@ -159,16 +149,16 @@ def _cuts(given: Harmonics, v: float) -> tuple[Motion, Array, Array]:
     cuts, count = np.empty((t.size, _FREE + 1)), 0
     for i in range(t.size):
         if i == 0 or t[i] > t[i - 1] + 1e-14:
-            _put(cuts, count, instant_at(m, t[i]))
+            _put(cuts, count, instant_at(given, v, t[i]))
             count += 1
-    return m, cuts[:count], np.empty((3 * count, _FREE + 1))
+    return cuts[:count], np.empty((3 * count, _FREE + 1))
 
 
 # --- one spring -------------------------------------------------------------------------------------------
 
 
 @_jit
-def _follow(m: Motion, c: float, cuts: Array, points: Array) -> tuple[int, float, int]:
+def _follow(m: Harmonics, v: float, c: float, cuts: Array, points: Array) -> tuple[int, float, int]:
     """Normal motion: puts the instants of contact, with those of touch and leave, into points.
 
     Returns their number, the integral of s, and the sequence of touches and leaves as a number.
@@ -183,7 +173,7 @@ def _follow(m: Motion, c: float, cuts: Array, points: Array) -> tuple[int, float
         if z_b < 0:
             end = a
             if z_a > 0:
-                end = instant_at(m, root(m.rows[_Z_T], 0.0, -c, 0.0, 0.0, T, a.t, b.t, z_a, z_b))
+                end = instant_at(m, v, root(m.z_T, 0.0, -c, 0.0, 0.0, T, a.t, b.t, z_a, z_b))
         if flies and end.t > a.t:
             h_a, h_end = a.z - c, end.z - c
             if T > 0:
@@ -192,8 +182,8 @@ def _follow(m: Motion, c: float, cuts: Array, points: Array) -> tuple[int, float
             if h_end > 0:
                 flies, code = False, 1
                 if h_a < 0:
-                    t = root(m.rows[_Z], 0.0, -c, -s_left, left_at, T, a.t, end.t, h_a, h_end)
-                    begin = instant_at(m, t)
+                    t = root(m.z, 0.0, -c, -s_left, left_at, T, a.t, end.t, h_a, h_end)
+                    begin = instant_at(m, v, t)
                 if T > 0:
                     s_sum -= s_left * T * math.expm1(-(begin.t - left_at) / T)
                 _put(points, n, begin)
@@ -208,7 +198,7 @@ def _follow(m: Motion, c: float, cuts: Array, points: Array) -> tuple[int, float
                 flies, left_at, s_left = True, end.t, max(end.z - c, 0.0) if T > 0 else 0.0
                 points[n - 1, _FREE] = 1.0
                 code += 4
-        sequence = (sequence * 11 + code) % _PRIME
+        sequence = sequence * 11 + code
         a = b
     if flies:  # for a moment at the top, by rounding alone
         _put(points, n, a)
@@ -227,7 +217,9 @@ def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> 
 
 
 @_jit
-def _slide(m: Motion, c: float, y: float, a: Instant, b: Instant) -> tuple[float, float, float, float, float, int]:
+def _slide(
+    m: Harmonics, v: float, c: float, y: float, a: Instant, b: Instant
+) -> tuple[float, float, float, float, float, int]:
     """Contact from a to b, no extreme between: y at b, integrals of e and of the force in stick; of more y at a, the
     share that is lost at b, and how much more the integral of e is; modes.
     """
@@ -247,8 +239,8 @@ def _slide(m: Motion, c: float, y: float, a: Instant, b: Instant) -> tuple[float
             if f_b <= 0:
                 y, e, lost = _slip(T, c, side, y, a, b)
                 return y, e, 0.0, lost, T * lost, 3 + row
-            t = root(m.rows[_LEAD + row], 0.0, -side * m.v * T, lag, a.t, T, a.t, b.t, -over, f_b)
-            stick = instant_at(m, t)
+            t = root(m.leads[row], 0.0, -side * v * T, lag, a.t, T, a.t, b.t, -over, f_b)
+            stick = instant_at(m, v, t)
             y, e, lost = _slip(T, c, side, y, a, stick)
             more_e, modes = T * lost, 5 + row
             break
@@ -260,10 +252,10 @@ def _slide(m: Motion, c: float, y: float, a: Instant, b: Instant) -> tuple[float
             # an elastic spring that touches while its barrier comes nearer slips at once, but for rounding
             modes = 8 * modes + 6 + row if T > 0 else 1 + row
             t = root(
-                m.rows[_BARRIER + row], -side * m.v, level - side * m.v * T, 0.0, 0.0, T,
+                m.barriers[row], -side * v, level - side * v * T, 0.0, 0.0, T,
                 stick.t, b.t, W_a + level, W_b + level,
             )  # fmt: skip
-            end, again = instant_at(m, t), side
+            end, again = instant_at(m, v, t), side
             break
     length = end.t - stick.t
     e += end.sum_X - stick.sum_X + y * length
@@ -278,7 +270,9 @@ def _slide(m: Motion, c: float, y: float, a: Instant, b: Instant) -> tuple[float
 
 
 @_jit
-def _period(m: Motion, c: float, points: Array, n: int, e: float) -> tuple[float, float, float, float, float, int]:
+def _period(
+    m: Harmonics, v: float, c: float, points: Array, n: int, e: float
+) -> tuple[float, float, float, float, float, int]:
     """A period from extension e on: e at its end; integrals of e and of the force in stick; of more e at the beginning,
     the share that is lost at the end, 1 - P', and how much more the integral of e is; modes.
     """
@@ -288,12 +282,12 @@ def _period(m: Motion, c: float, points: Array, n: int, e: float) -> tuple[float
     for k in range(n - 1):
         a, b = b, _get(points, k + 1)
         if points[k, _FREE] == 0:
-            y, more, stuck, share, of_y, code = _slide(m, c, y, a, b)
+            y, more, stuck, share, of_y, code = _slide(m, v, c, y, a, b)
             e_sum += more
             pressed += stuck
             more_e += (1 - lost) * of_y
             lost += (1 - lost) * share
-            modes = (modes * 71 + code) % _PRIME
+            modes = modes * 71 + code
         elif T > 0:
             e, share = y + a.X, -math.expm1(-(b.t - a.t) / T)
             e_sum += e * T * share
@@ -306,19 +300,21 @@ def _period(m: Motion, c: float, points: Array, n: int, e: float) -> tuple[float
 
 
 @_jit
-def _spring(m: Motion, c: float, cuts: Array, points: Array, share: float) -> tuple[float, float, float, int, float]:
+def _spring(
+    m: Harmonics, v: float, c: float, cuts: Array, points: Array, share: float
+) -> tuple[float, float, float, int, float]:
     """The periodic state of a spring: integrals of e, s and force in stick over a period, its modes as a number, and
     its extension at the beginning over its compression there; sought from that of another spring, `share`.
     """
-    T, v, top = m.T, m.v, cuts[0, 1] - c
+    T, top = m.T, cuts[0, 1] - c
     if not top > 0:
         return 0.0, 0.0, 0.0, 0, share
-    n, s_sum, sequence = _follow(m, c, cuts, points)
+    n, s_sum, sequence = _follow(m, v, c, cuts, points)
     # for v = 0 there may be many fixed points, of which v -> +0 leads to the highest
     low, high, e, before = -top, top, top * share if T > 0 and v > 0 and share < 1 - 1e-9 else top, 0
     e_sum, pressed, modes = 0.0, 0.0, 0
-    for k in range(PERIODS):
-        after, e_sum, pressed, lost, more_e, modes = _period(m, c, points, n, e)
+    for k in range(MOST_TURNS):
+        after, e_sum, pressed, lost, more_e, modes = _period(m, v, c, points, n, e)
         if T == 0:
             if k == 1:
                 break
@@ -329,13 +325,13 @@ def _spring(m: Motion, c: float, cuts: Array, points: Array, share: float) -> tu
         else:
             high = e
         step = (after - e) / lost if lost > 0 else 2 * top
-        if abs(step) <= max(CLOSE * lost * lost, CLOSEST) * top:
+        if abs(step) <= CLOSE * max(lost * lost, CLOSE) * top:
             e, e_sum = e + step, e_sum + more_e * step
             break
         if abs(after - e) <= 1e-15 * top or high - low <= 1e-15 * top:
             break
         e = e + step if low < e + step < high else 0.5 * (low + high)
-    return e_sum, s_sum, pressed, (sequence + 7 * modes + 31 * before) % _PRIME, e / top
+    return e_sum, s_sum, pressed, sequence + 7 * modes + 31 * before, e / top
 
 
 @_jit
@@ -343,17 +339,17 @@ def all_springs(given: Harmonics, v: Array, owner: NDArray[np.intp], c: Array) -
     """Means of e, s and force in stick (3, n) of springs of gaps c, ordered by the velocity v[owner]."""
     found = np.empty((3, c.size))
     last, share, before = owner[0], 1.0, 1.0
-    m, cuts, points = _cuts(given, v[last])
+    cuts, points = _cuts(given, v[last])
     for i in range(c.size):
         if owner[i] != last:
             last = owner[i]
-            m, cuts, points = _cuts(given, v[last])
+            cuts, points = _cuts(given, v[last])
         guess = share
         if i > 1 and abs(c[i] - c[i - 1]) < 4 * abs(c[i - 1] - c[i - 2]):  # as it changed between the two before
             guess += (share - before) * (c[i] - c[i - 1]) / (c[i - 1] - c[i - 2])
         before = share
         guess = min(max(guess, -1.0), 1.0)
-        e, s, pressed, _, share = _spring(m, c[i], cuts, points, guess)
+        e, s, pressed, _, share = _spring(given, v[last], c[i], cuts, points, guess)
         found[0, i], found[1, i], found[2, i] = e / (2 * math.pi), s / (2 * math.pi), pressed / (2 * math.pi)
     return found
 
@@ -363,24 +359,24 @@ def all_changes(given: Harmonics, v: Array, c_low: float, c_high: float, scan: A
     """Gaps between c_low and c_high at which the sequence of modes changes (n_v, MOST_CHANGES), NaN where no more."""
     found = np.full((v.size, MOST_CHANGES), np.nan)
     for i in range(v.size):
-        m, cuts, points = _cuts(given, v[i])
+        cuts, points = _cuts(given, v[i])
         # deeper springs never meet the lower barrier, as long as they are kept
         A, B, z = cuts[:, 3].min(), cuts[:, 4].min(), (cuts[:, 3] + cuts[:, 4]).min()
         start = max(c_low, min(0.5 * (A + B) - math.pi * v[i], 0.5 * z) - 1e-3)
         span, count, low, modes, share = c_high - start, 0, start, 0, 1.0
         for k in range(scan.size):
             high = start + scan[k] * span
-            _, _, _, target, share_high = _spring(m, high, cuts, points, share)
+            _, _, _, target, share_high = _spring(given, v[i], high, cuts, points, share)
             while k > 0 and modes != target and count < MOST_CHANGES:
                 near, far, beyond = low, high, target
-                while far - near > NEAR * span:
+                while far - near > CLOSE * span:
                     middle = 0.5 * (near + far)
-                    _, _, _, there, share = _spring(m, middle, cuts, points, share)
+                    _, _, _, there, share = _spring(given, v[i], middle, cuts, points, share)
                     if there == modes:
                         near = middle
                     else:
                         far, beyond = middle, there
-                if count == 0 or near > found[i, count - 1] + 4 * NEAR * span:
+                if count == 0 or near > found[i, count - 1] + 4 * CLOSE * span:
                     found[i, count] = 0.5 * (near + far)
                     count += 1
                 low, modes = far, beyond

@@ -35,7 +35,6 @@ STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadratur
 FOLLOWED_ERROR = 5e-6  #: the same of a force that is followed spring by spring
 SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
 MOST_REASONS = 3  #: why runs did not settle, told in print
-CLOSED_SHARE = 1e-3  #: of the accuracy asked for, to which a closed form sums each interval of springs
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
@@ -189,9 +188,8 @@ def cof_curve(
     asked = np.where(at_rest, 0.0, velocities)
     asked = asked if np.any(asked == 0) else np.append(asked, 0.0)
     is_closed = method is None and has_closed_form(case)
-    friction: Friction = partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
-    if is_closed:
-        friction = partial(_closed_form, accuracy=accuracy)
+    runs = partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
+    friction: Friction = _closed_form if is_closed else runs
     cof, error, settled, sticks, why = _both_ways(case, asked, friction)
     if not is_closed:  # a static limit in closed form judges no run
         wrong = disordered(asked, cof, error, settled & ((asked != 0) | case.is_shaken))
@@ -276,12 +274,12 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     return cof, error, settled, sticks, "" if settled else why  # a start at one end of the band ends there
 
 
-def _closed_form(case: SlidingContact, v_0: Array, accuracy: float) -> Columns:
+def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     """Friction of a case that has a closed form."""
     if case.is_of_the_paper and not case.is_shaken:
         known = average_friction(case, v_0)
         return Columns.exact(known.cof, known.cof_error, known.stick_share)
-    cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity, CLOSED_SHARE * accuracy)
+    cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)
     return Columns.exact(case.mu_0 * cof, case.mu_0 * (error + case.cycle.missing), sticks)
 
 
@@ -312,4 +310,4 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
         return Columns.exact(cof, 0 * cof, 0 * cof)
 
     case = resolved(case)
-    return _both_ways(case, v_0, partial(_closed_form, accuracy=BUDGET) if has_closed_form(case) else quick).cof
+    return _both_ways(case, v_0, _closed_form if has_closed_form(case) else quick).cof

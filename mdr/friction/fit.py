@@ -18,12 +18,12 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
-from mdr.friction.free_parameters import DECADES, Parameter, case_of, path_of
+from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
 from mdr.march.refinement import default_springs, default_steps
 from mdr.normal.resolved import at_rest, resolved
 from mdr.normal.vary import still_held
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
@@ -32,10 +32,7 @@ from mdr.tools.summary import Printed
 STEP = 1e-3  #: on the scale of the search, for derivatives: well above the noise of a run, well below any curvature
 VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the parameter is poorly determined
 ALIKE = 0.99  #: correlation from which on two parameters are hardly told apart
-UNLIKELY = 1e-3  #: probability of deviations as large as these, below which the curve misses the data
-NEAR_END = 1e-4  #: of the range: a best fit so near to an end is at it
-IDLE = 1e-8  #: of the data: a parameter that changes the curve by less on its scale has nothing to do with them
-ERRORS = 3.0  #: times its error that a coefficient of friction may lie outside its range
+ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -171,7 +168,7 @@ def fit(
     first = np.array([one.first for one in free])
     found = least_squares(model.left, first, model.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-10)
     size = float(np.linalg.norm(data.cof / model.error))
-    idle = np.linalg.norm(found.jac, axis=0) < IDLE * size  # where these have drifted to means nothing
+    idle = np.linalg.norm(found.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
     x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
     return _with_intervals(model, x, found.jac, found.fun, confidence)
 
@@ -324,6 +321,6 @@ def _missed(left: Array, model: _Model) -> list[str]:
     """Whether the deviations (n,), in units of the errors, are larger than these explain: chi squared."""
     from scipy.stats import chi2
 
-    if model.data.error is None or chi2.sf(float(left @ left), left.size - len(model.free)) > UNLIKELY:
+    if model.data.error is None or chi2.sf(float(left @ left), left.size - len(model.free)) > chi2.sf(ERRORS**2, 1):
         return []
     return ["the curve misses the data by more than their errors explain: free another parameter, or doubt the errors"]

@@ -18,14 +18,13 @@ from mdr.case.units import facts_at
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import resolved
 from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
 from mdr.tools.messages import offer, short
 
 DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
 UNITS_AWAY = 10.0  #: of the search to either side, on a linear scale
-KAPPA = (0.76, 1.5)  #: of the Mindlin ratio, all that Poisson's ratio allows but for a percent at nu = -1
-INSIDE = 1e-3  #: of the range: so far from its ends a search begins
-HALVINGS = 40  #: of a range whose end the case refuses
+NEAR_END = 1e-3  #: of the range: a best fit nearer to an end is at it, and no search begins nearer
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,7 @@ class Parameter:
         ends = None if given is None else _bounds(case, name, path, start, given)
         if signed or start == 0 or path == "mindlin_ratio" or (ends and ends[0] <= 0):
             away = unit * (np.pi if facts_at(path).unit == "rad" else UNITS_AWAY)
-            reach = KAPPA if path == "mindlin_ratio" else (start - away, start + away)
+            reach = start - away, start + away
         else:
             unit, reach = 0.0, (start / 10**DECADES, start * 10**DECADES)
         low, high = ends or (_allowed(case, path, start, end) for end in reach)
@@ -75,7 +74,7 @@ class Parameter:
     def first(self) -> float:
         """Coordinate at which the search begins: that of the case, a little inside the range."""
         low, high = self.ends
-        margin = INSIDE * (high - low)
+        margin = NEAR_END * (high - low)
         return min(max(self.coordinate(self.start), low + margin), high - margin)
 
     @property
@@ -95,7 +94,7 @@ def case_of(case: SlidingContact, values: Mapping[str, float]) -> SlidingContact
     """The case with these values at these paths; mindlin_ratio sets Poisson's ratio."""
     settings: dict[str, Any] = dict(values)
     if "mindlin_ratio" in settings:
-        settings["material.nu"] = min(poisson_ratio_of(settings.pop("mindlin_ratio")), 0.5)
+        settings["material.nu"] = poisson_ratio_of(settings.pop("mindlin_ratio"))
     return case_at(case, settings)
 
 
@@ -151,7 +150,7 @@ def _allowed(case: SlidingContact, path: str, start: float, end: float) -> float
     if not _refusal(case, path, end):
         return end
     good, bad = start, end
-    for _ in range(HALVINGS):
+    while abs(bad - good) > SAME * abs(good or end):
         middle = (good + bad) / 2
         good, bad = (good, middle) if _refusal(case, path, middle) else (middle, bad)
     return good

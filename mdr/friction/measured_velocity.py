@@ -45,7 +45,7 @@ SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step lo
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
-HIGHEST = 1e2  #: times Eq. (1): if that run is not free, nor any below this, there is no v_c
+HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
 
 @dataclass(frozen=True)

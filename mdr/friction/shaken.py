@@ -19,11 +19,10 @@ from mdr.friction.cof_curve import cof_curve
 from mdr.march.march import MOST_ACCURATE
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
-ONE = 1e-8  #: of the load, up to which two ends of a band are one
-ROOT = 1e-10  #: of the velocity scale of a case, to which the velocity without load is found
 SLOW = 1e-3  #: of that scale: velocities beyond which a contact that drives is looked for first
 
 
@@ -38,7 +37,7 @@ class HoldingBand:
     @property
     def is_one_number(self) -> bool:
         """Whether the two ends are the same within their error: at rest nothing is held but this one force."""
-        return self.high - self.low <= 2 * self.error + ONE
+        return self.high - self.low <= 2 * self.error + SAME
 
     def contains(self, load: float) -> bool:
         """Whether a load is held for ever.
@@ -195,7 +194,7 @@ def _free(case: SlidingContact) -> float:
         low, high = high, 2 * high
     from scipy.optimize import brentq
 
-    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=ROOT * case.pace, rtol=ROOT))
+    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=SAME * case.pace, rtol=SAME))
 
 
 def _cof(case: SlidingContact, v_0: float) -> float:

@@ -23,7 +23,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mdr.indenters.base import rim_pressure
 from mdr.indenters.mapping.quadrature import in_chunks
+from mdr.indenters.mapping.stable_functions import arcosh, leg
 from mdr.march.run import SlidingRun, State
 from mdr.normal.indentation import Indentation
 from mdr.normal.partial_slip import PartialSlip
@@ -127,11 +129,10 @@ def from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
 
     def pressure(r: Array) -> Array:
         near = np.maximum(r, EPS * x[-1])[:, None]
-        reach = _arcosh(np.maximum(x, near) / near)
+        reach = arcosh(x, near)
         p = -(np.diff(reach, axis=1) @ (np.diff(q) / np.diff(x))) / np.pi
         inside = r < x[-1]
-        share = r[inside] / x[-1]
-        p[inside] += q[-1] / (np.pi * x[-1] * np.sqrt((1 - share) * (1 + share)))
+        p[inside] += rim_pressure(r[inside], x[-1], q[-1])
         return np.asarray(np.where(inside, p, 0.0))
 
     return np.asarray(in_chunks(pressure, r))
@@ -151,7 +152,7 @@ def from_displacement(x: ArrayLike, w: ArrayLike, r: ArrayLike) -> Array:
     def displacement(r: Array) -> Array:
         with np.errstate(invalid="ignore", divide="ignore"):
             share = np.where(r[:, None] > 0, np.minimum(x / r[:, None], 1), 1.0)
-        chord = np.sqrt((1 - share) * (1 + share)) * r[:, None]
+        chord = leg(1.0, share) * r[:, None]
         u = 2 / np.pi * (np.diff(np.arcsin(share), axis=1) @ start - np.diff(chord, axis=1) @ slope)
         return np.asarray(np.where(r > 0, u, w[0]))
 
@@ -291,8 +292,3 @@ def _distinct(x: Array, values: Array) -> tuple[Array, Array]:
     """Knots without those that are closer to the one before than a rounding."""
     kept = np.concatenate([[True], np.diff(x) > 4 * EPS * x[-1]])
     return x[kept], values[kept]
-
-
-def _arcosh(x: Array) -> Array:
-    over = x - 1
-    return np.asarray(np.log1p(over + np.sqrt(over) * np.sqrt(over + 2)))

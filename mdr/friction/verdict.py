@@ -15,15 +15,15 @@ from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlik
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
-from mdr.friction.shaken import ONE, band_of_pull, no_load_velocity
+from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.march.march import BUDGET
 from mdr.normal.resolved import resolved
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import between, positive
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed
 
 WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
-SAME = 1e-8  #: of Eq. (1): full-slip values closer to it are called equal
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
 
 
@@ -160,7 +160,7 @@ def _at_rest(case: SlidingContact) -> str:
         held = f"up to {band.high:.3g} of the load pulled forward and {-band.low:.3g} the other way"
         return f"At rest it holds {held}, of mu_0 = {case.mu_0:.6g}"
     push = abs(band.low + band.high) / 2
-    if band.is_one_number and push <= 2 * band.error + ONE:
+    if band.is_one_number and push <= 2 * band.error + SAME:
         return "At rest it holds nothing, as every spring slips in every period, and drives nothing"
     held = f"held, it pushes with {push:.3g} of the load"
     if not band.is_one_number:

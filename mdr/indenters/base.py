@@ -26,13 +26,11 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.chebyshev_panels import Chart
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, plain, positive_array
 from mdr.tools.fields import Record
 from mdr.tools.memoise import remembered
 
-MAPPING_ERROR = 1e-9  #: relative error of a mapped profile that is worth a warning
-ROUNDING = 1e-9  #: of a height, a slope or a radius: what differs by less is the same
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 HOOKS = {"profile_3d": "_f", "profile_1d": "_g", "profile_area": "_area"}  #: what computes each, unchecked
 
@@ -430,7 +428,7 @@ class Indenter(Record, ABC):
             raise ValueError(
                 f"{type(self).__name__} has no finite slope within r = {radius:.6g} m: name its end (r_max)"
             )
-        if error > MAPPING_ERROR:
+        if error > SAME:
             warnings.warn(
                 f"{type(self).__name__} is mapped to g(x) with an error of about {error:.1e} of its height: "
                 "name every radius where f or its slope is not smooth in kinks=",
@@ -462,9 +460,7 @@ class Survey(NamedTuple):
     def is_good(self) -> bool:
         """Whether g is finite, rises and is mapped well."""
         return bool(
-            np.isfinite(self.g[-1])
-            and np.all(np.diff(self.g) >= -ROUNDING * np.abs(self.g[-1]))
-            and self.error <= MAPPING_ERROR
+            np.isfinite(self.g[-1]) and np.all(np.diff(self.g) >= -SAME * np.abs(self.g[-1])) and self.error <= SAME
         )
 
 
@@ -483,7 +479,7 @@ def survey(shape: Indenter, radius: float) -> Survey:
     return Survey(x, g, float(np.nan_to_num(more[0], posinf=0.0)), float(np.nan_to_num(error, nan=np.inf)))
 
 
-def rim_pressure(r: Array, a: Array, step: Array) -> Array:
+def rim_pressure(r: Array, a: Array | float, step: Array | float) -> Array:
     """p/E* of a rim that stands ``step`` = d − g(a) below the profile: step / (π √(a² − r²))."""
     share = r / a
     answer: Array = step / (np.pi * a * np.sqrt((1 - share) * (1 + share)))
@@ -493,7 +489,7 @@ def rim_pressure(r: Array, a: Array, step: Array) -> Array:
 def refuse_falling(shape: Indenter, x: Array, g: Array, further: float = 0.0) -> None:
     """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
     highest = np.maximum.accumulate(np.maximum(g, 0))
-    fall = highest - g > ROUNDING * np.max(np.abs(g), initial=further)
+    fall = highest - g > SAME * np.max(np.abs(g), initial=further)
     if np.any(fall):
         raise ValueError(
             f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "

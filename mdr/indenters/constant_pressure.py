@@ -15,8 +15,6 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts
 
-N_MEAN = 24  #: points of the mean over a quarter turn; its error is below 0.06**24 for r² < a_0²/2
-
 
 @dataclass(frozen=True)
 class ConstantPressure(Indenter):
@@ -29,15 +27,6 @@ class ConstantPressure(Indenter):
     def max_radius(self) -> float:
         """The radius of the face [m]."""
         return self.a_0
-
-    def _f(self, r: Array) -> Array:
-        from scipy.special import ellipe
-
-        u = r / self.a_0
-        m = np.minimum(u, 0.75)[..., None] ** 2
-        sine = np.sin(np.pi / 2 * (np.arange(N_MEAN) + 0.5) / N_MEAN) ** 2  # the integral as a mean of positive terms
-        near_tip = u * u * np.mean(sine / (1 + np.sqrt(1 - m * sine)), axis=-1)
-        return np.asarray(self.d_0 * np.where(u < 0.7, near_tip, 1 - 2 / np.pi * ellipe(u * u)))
 
     def _g(self, x: Array) -> Array:
         u = x / self.a_0

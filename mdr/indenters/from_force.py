@@ -14,20 +14,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import ROUNDING, Indenter
+from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
-DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
-FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
@@ -59,8 +57,24 @@ class FromForce(Indenter):
     1.5e-05 m
     """
 
-    d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m", example=DEPTHS))
-    F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N", example=FORCES))
+    d: tuple[float, ...] = field(
+        metadata=facts(
+            "m",
+            "depths, from 0",
+            column,
+            note="m",
+            example=(0.0, 4e-6, 8e-6, 1.2e-5, 1.6e-5, 2e-5, 2.4e-5, 2.8e-5, 3.2e-5),
+        )
+    )
+    F: tuple[float, ...] = field(
+        metadata=facts(
+            "N",
+            "normal forces at them",
+            column,
+            note="N",
+            example=(0.0, 0.009541, 0.026985, 0.049574, 0.076324, 0.106667, 0.140217, 0.176694, 0.215878),
+        )
+    )
     E_star: float = field(
         metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa", example=4e6)
     )
@@ -146,7 +160,7 @@ class FromForce(Indenter):
     @property
     def kinks(self) -> tuple[float, ...]:
         """The edge of a flat face [m]."""
-        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - ROUNDING) else ()
+        return (self._least_radius,) if 0 < self._least_radius < self.max_radius * (1 - SAME) else ()
 
     @property
     def joints(self) -> tuple[float, ...]:
@@ -223,7 +237,7 @@ class FromForce(Indenter):
     @cached_property
     def _least_radius(self) -> float:
         """a at d → 0 [m]: of a flat tip that of its face, else 0."""
-        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < ROUNDING else 0.0
+        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < SAME else 0.0
 
     def _log_force(self, d: Array) -> tuple[Array, Array]:
         """ln(F/F_1) and its slope over ln d, at depths d > 0."""
@@ -249,9 +263,9 @@ class FromForce(Indenter):
     def _depth(self, x: Array) -> Array:
         """d with a(d) = x; 0 up to the least radius."""
         d = np.zeros_like(x)
-        todo = x > self._least_radius * (1 + ROUNDING)
+        todo = x > self._least_radius * (1 + SAME)
         a_1, rise = float(self._radius(np.array([self.d[1]]))[0]), self._power - 1
-        if self.tip == "any" and rise > ROUNDING:
+        if self.tip == "any" and rise > SAME:
             power = todo & (x <= a_1)
             with np.errstate(under="ignore"):
                 d[power] = self.d[1] * (x[power] / a_1) ** (1 / rise)
@@ -275,7 +289,7 @@ class FromForce(Indenter):
         d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
         a = self._radius(d)
         falls = np.maximum.accumulate(a) - a > FALL * np.max(a)
-        falls[0] |= self.tip == "any" and self._spline[1](0.0) < 1 - ROUNDING
+        falls[0] |= self.tip == "any" and self._spline[1](0.0) < 1 - SAME
         if falls.any():
             raise ValueError(
                 f"F must rise more and more steeply, but its slope falls at d = {d[falls][0]:.6g} m: the contact "

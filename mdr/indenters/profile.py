@@ -14,7 +14,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite_array, plain, positive
 from mdr.tools.fields import facts
 
-SAMPLES, HALVINGS = 2048, 24  #: heights among which a step stands out, and halvings after which no slope does
+SAMPLES = 2048  #: heights among which a step stands out
 
 
 def _function(name: str, value: Any, note: str = "") -> Any:
@@ -138,14 +138,14 @@ def _wall(r: float, step: float) -> str:
 def step_within(heights: Callable[[Array], Array], a: float) -> tuple[float, float] | None:
     """Radius [m] and height [m] of a step of f within the radius a [m], of those that stand out of SAMPLES heights.
 
-    heights: of the shape, an array for an array. The interval of the greatest rise is halved: that of a step stays.
+    heights: of the shape, an array for an array. The interval of the greatest rise is halved until it has no
+    middle: the rise of a step stays.
     """
     r = np.linspace(0, a, SAMPLES + 1)
     rises = np.abs(np.diff(heights(r)))
     i = int(np.argmax(rises))
     low, high = r[i], r[i + 1]
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
+    while low < (middle := 0.5 * (low + high)) < high:
         left, right = np.abs(np.diff(heights(np.array([low, middle, high]))))
         low, high = (low, middle) if left > right else (middle, high)
     (rise,) = np.diff(heights(np.array([low, high])))

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr.indenters.base import ROUNDING, Indenter, refuse_falling
+from mdr.indenters.base import Indenter, refuse_falling
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
@@ -22,10 +22,6 @@ from mdr.tools.fields import facts
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 STANDS_OUT = 10.0  #: times the median change of slope: at a kink; noise of 200 points stays below 8
 NOISE = "standard deviation of the noise of the data"
-EXAMPLE = (
-    (0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3, 1.4e-3),
-    (0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5, 1.44e-5, 1.96e-5),
-)
 
 
 def column(name: str, values: Any, unit: str) -> tuple[float, ...]:
@@ -72,9 +68,19 @@ class SampledProfile(Indenter):
     """
 
     r: tuple[float, ...] = field(
-        metadata=facts("m", "radii of the points, from 0", column, note="m", example=EXAMPLE[0])
+        metadata=facts(
+            "m", "radii of the points", column, note="m", example=(0.0, 2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3, 1.4e-3)
+        )
     )
-    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m", example=EXAMPLE[1]))
+    f: tuple[float, ...] = field(
+        metadata=facts(
+            "m",
+            "heights at them",
+            column,
+            note="m",
+            example=(0.0, 4e-7, 1.6e-6, 3.6e-6, 6.4e-6, 1e-5, 1.44e-5, 1.96e-5),
+        )
+    )
     tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
     kinks: tuple[float, ...] = field(
         default=(), kw_only=True, metadata=facts("m", "radii of points at which the slope jumps", radii)
@@ -169,7 +175,7 @@ class SampledProfile(Indenter):
 
         r, f = profile_points(path, units, columns, finite("apex", apex), side, flip)
         nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}
-        named = tuple(to if abs(to - b) <= ROUNDING * r[-1] else b for b, to in nearest.items())
+        named = tuple(to if abs(to - b) <= SAME * r[-1] else b for b, to in nearest.items())
         try:
             return cls(r, f, tip=tip, kinks=named, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:
@@ -227,7 +233,7 @@ class SampledProfile(Indenter):
         """What to name, and where, if a change of slope stands out among those at the inner points."""
         r, slopes = np.array(self.r), np.diff(self.f) / np.diff(self.r)
         turns = np.where(np.isin(r[1:-1], self.kinks), 0.0, np.abs(np.diff(slopes)))
-        if turns.max() <= max(STANDS_OUT * np.median(turns), ROUNDING * np.abs(slopes).max()):
+        if turns.max() <= max(STANDS_OUT * np.median(turns), SAME * np.abs(slopes).max()):
             return "if its slope jumps at one of the r, name that in kinks="
         b = float(r[1 + turns.argmax()])
         named = tuple(sorted({*self.kinks, b}))

@@ -13,14 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.materials.base import OneBody, arm
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import between, count, finite_array, positive, positive_array
 
 Pairs = tuple[tuple[float, float], ...]
 
-USELESS = 1e-9  #: of the greatest modulus, below which one is rounding
 A_DECADE = 3.0  #: arms per decade of frequency, where none were asked for
-MOST_ARMS = 60
+MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
 MARGINS = (3.0, 10.0, 100.0, 1000.0)  #: reach of the arms beyond the range, for the rest of a power law
 
 
@@ -81,7 +80,7 @@ def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:
         np.concatenate([target.real, target.imag]),
         maxiter=100 * times.size,
     )
-    found[found < USELESS * found.max()] = 0.0
+    found[found < SAME * found.max()] = 0.0
     return float(found[0]), found[1:]
 
 

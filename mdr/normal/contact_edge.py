@@ -30,9 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.depth_cycle import Cycle, harmonic_sum, roots, turns
-from mdr.tools.arrays import Array
-
-NEAR = 1e-9  #: of a phase `off`, in which a chord is stationary
+from mdr.tools.arrays import SAME, Array
 
 
 @dataclass(frozen=True)
@@ -133,7 +131,7 @@ class ContactEdge:
             R, rate = self._R(off)
             return chord - R, (chord - R) * left - rate
 
-        off = roots(beyond, np.full(phase.shape, low), np.full(phase.shape, high), guess, NEAR)
+        off = roots(beyond, np.full(phase.shape, low), np.full(phase.shape, high), guess, SAME)
         return self._chord(off, phase)[0], off
 
     def _in_pieces(self) -> list[Piece]:

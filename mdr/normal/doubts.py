@@ -17,22 +17,21 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
+from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.stability import floquet_multiplier
+from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
 
-STEEPEST = 1.0  #: slope of the shape at the edge of contact; the theory is that of small slopes
-DEEPEST = 1.0  #: depth over contact radius, of a face without slope
+STEEPEST = 1.0  #: slope of the shape at the edge of contact, or depth over radius of a face without slope
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
-GREATEST_MU_0 = 2.0
+GREATEST_MU_0 = 2.0  #: rubber on glass comes near it; more is a percentage, or a force
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
-STIFFEST = 1e4  #: stiffness of the spring over that of the contact
-SOFTEST = 1e-6  #: the same; metals on a soft spring, or a tip on its cantilever, are at 1e-4 to 1e-5
-N_PHASES, MOST_STEPS = 32, 8  #: of half a period of depth, and Newton's for its mean
+STIFFEST = 1e4  #: stiffness of the pulling spring over that of the contact, or over m omega², which it makes negligible
+SOFTEST = 1e-6  #: its stiffness over that of the contact; metals, or a tip on its cantilever, are at 1e-4 to 1e-5
 GRAVITY = 9.80665  #: standard gravity [m/s²]
 HEAVIEST = 10.0  #: weight of a mass that the load moves over the mean load; springs may carry some of it
 SOFTENED = 0.03  #: change of stiffness with amplitude over the dynamic stiffness less m_z omega², of a small amplitude
 UNSTABLE = 1.001  #: Floquet multiplier; without damping it is 1 of a stable depth
-LIGHTEST = 100.0  #: natural frequency of the body over that of the oscillation
 
 
 class PlausibilityWarning(UserWarning):
@@ -90,10 +89,10 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
             f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below {STEEPEST:g}: "
             "is an angle given in degrees, the depth too great, or the modulus too small?"
         )
-    elif d > DEEPEST * a:
+    elif d > STEEPEST * a:
         yield (
             f"the depth {d:.4g} m is {d / a:.3g} times the radius of the contact, {a:.4g} m, and the theory is that of "
-            f"small strains, well below {DEEPEST:g}: is the depth too great, or the modulus too small for the load?"
+            f"small strains, well below {STEEPEST:g}: is the depth too great, or the modulus too small for the load?"
         )
 
 
@@ -160,16 +159,18 @@ def _softened(known: SlidingContact, load: LoadOscillation) -> float:
     left = abs(K_z - load.m_z * load.omega**2)
     if load.dF_z >= d * left:
         return np.inf
-    swing = load.dF_z / left * np.cos(np.pi * (np.arange(N_PHASES) + 0.5) / N_PHASES)
-    mean = d
+    rule, mean, step = double_exponential(), d, np.inf
+    swing = load.dF_z / left * np.cos(np.pi * rule.from_low)
     try:
-        for _ in range(MOST_STEPS):
+        while step > SAME * mean:  # Newton's method, from above on: the mean force is convex in the mean depth
             u_z = np.maximum(mean + swing, 0)
             F_z = np.asarray(shape.force(u_z, E_star))
-            mean += (load.F_z0 - F_z.mean()) / np.asarray(shape.stiffness(u_z, E_star)).mean()
+            step = float((rule.weight @ F_z - load.F_z0) / (rule.weight @ np.asarray(shape.stiffness(u_z, E_star))))
+            mean -= step
     except ValueError:
         return np.inf
-    return float(abs(F_z @ swing / (swing @ swing) / k_z - 1) * abs(K_z) / left)
+    weight = rule.weight * swing
+    return float(abs(weight @ F_z / (weight @ swing) / k_z - 1) * abs(K_z) / left)
 
 
 def _of_material(known: SlidingContact) -> Iterator[str]:
@@ -197,7 +198,7 @@ def _of_pull(known: SlidingContact) -> Iterator[str]:
             "in a wrong unit?"
         )
     light = known.pull.omega_0 / max(frequencies(known))
-    if m > 0 and light > LIGHTEST:
+    if m > 0 and light**2 > STIFFEST:
         yield (
             f"the natural frequency of the body is {light:.3g} times that of the vibration, so that its mass, "
             f"{m:.4g} kg, has no effect: is it in the right unit?"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.depth_cycle import Cycle
+from mdr.case.depth_cycle import Cycle, at_instants
 from mdr.indenters.base import Indenter
 from mdr.materials.operator import Rheology
 from mdr.normal.spring_grid import nodes
@@ -22,7 +22,7 @@ from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-N_EDGE = 128  #: springs
+N_EDGE = 128  #: springs that touch and leave
 N_STEPS = 2048  #: of the period
 
 
@@ -56,8 +56,8 @@ def normal_cycle(
     F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
     if n_core:
         response, depth = rheology.response(np.arange(1.0, cycle.cos.size + 1)), float(width[:n_core] @ gap[:n_core])
-        F += 2 * radius[0] * of_harmonics(cycle.harmonics * response, n_t) - depth
-        S += 2 * radius[0] * of_harmonics(cycle.harmonics, n_t) - depth
+        F += 2 * radius[0] * at_instants(cycle.harmonics * response, n_t) - depth
+        S += 2 * radius[0] * at_instants(cycle.harmonics, n_t) - depth
     in_contact, touches, leaves = np.ones(n_t, dtype=bool), np.empty(0), np.empty(0)
     if n_core < gap.size:
         F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, S, radius, rheology, cycle)
@@ -155,11 +155,3 @@ def followed_springs(rheology: Rheology, gap: Array, w: Array, cycle: Cycle, n_t
 def _at_instants(known: NormalPeriod) -> tuple[Array, Array]:
     """At the instants, from phase 0, force and share of the step before for which a spring has pressed, (n_t, n)."""
     return np.roll(known.force, 1, axis=0), np.roll(known.since, 1, axis=0)
-
-
-def of_harmonics(harmonics: NDArray[np.complex128], n_t: int) -> Array:
-    """Re of sum C_n exp(i n phase), n = 1 ... N, at n_t equidistant phases; N < n_t/2."""
-    spectrum = np.zeros(n_t // 2 + 1, dtype=complex)
-    n = min(harmonics.size, n_t // 2 - 1)
-    spectrum[1 : n + 1] = harmonics[:n] * n_t / 2
-    return np.fft.irfft(spectrum, n_t)

@@ -39,13 +39,13 @@ from mdr.normal.load_control import static_depths
 from mdr.spring.law import N_PHI, Law, fill_phi, law_of
 from mdr.spring.settle import tools_for
 from mdr.spring.step import Path, Tools, press
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import count, finite_array, instance
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-N_SPRINGS = 512
+N_SPRINGS = 512  #: unless asked otherwise; an elastic force is exact with any number
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
 CLOSE = 1e-12  #: error of a force, over its peak, with which a depth is found
 FLUID = 1e-30  #: long-time modulus over the instantaneous one of a body that flows
@@ -371,7 +371,7 @@ def _row(indenter: Indenter, deepest: float, finest: float, n_springs: int) -> R
     if core >= indenter.max_radius:
         return Row(np.zeros(1), np.array([core]), none, none, none)
     top = min(1.0, depths[-1]) if np.isfinite(indenter.max_radius) else 1.0
-    marks = [0.0, *(g for g in depths if 1e-9 * top < g < top * (1 - 1e-9)), top]
+    marks = [0.0, *(g for g in depths if SAME * top < g < top * (1 - SAME)), top]
     heights = np.log1p(np.array(marks) / finest)
     parts = [np.zeros(1)]
     for low, high in pairwise(heights):

@@ -33,16 +33,14 @@ from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import normal_cycle
 from mdr.tools.anderson import shares
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import instance, positive
+from mdr.tools.memoise import remembered
 
-N_HARMONICS = 256  #: of the depth; its instants are eight times as many
-N_BAND = 128  #: springs that touch and leave, while the depth is searched for
-CLOSE = 1e-9  #: error of the balance of forces, of the mean load, at which the search has arrived
-ENOUGH = 1e-4  #: the same with which it may end when it gets no further
-NOISE = 1e-6  #: of a depth, from which on a search may end at the rounding of the shape
+N_HARMONICS = 256  #: of the depth, an eighth of the instants at which the force is known
+ENOUGH = 1e-4  #: error of the balance of forces, of the mean load, with which a search that gets no further may end
 PATIENCE = 40  #: iterations without half the error, after which the search ends
-MOST, MEMORY = 150, 10  #: iterations, and how many of them are combined
+MEMORY = 10  #: iterations that are combined
 
 
 def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
@@ -128,7 +126,7 @@ def static_depths(shape: Indenter, E_star: float, F_z: Array) -> Array:
         step = (np.asarray(shape.force(d, E_star)) - F_z) / np.asarray(shape.stiffness(d, E_star))
         d = np.maximum(d - step, 1e-3 * d)
         last, left = left, float(np.max(np.abs(step) / d))
-        if left <= 4e-16 or last <= left < NOISE:  # of a shape that has its own rounding, steps do not get smaller
+        if left <= 4e-16 or last <= left < np.sqrt(EPS):  # a shape may have a rounding of its own
             break
     return d
 
@@ -156,6 +154,7 @@ def _deeper(shape: Indenter, d: float, F_z: float) -> float:
     )
 
 
+@remembered(maxsize=64)
 def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
     """The cycle of depth under an oscillating load.
 
@@ -204,7 +203,7 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
         cycle = _cycle_of(u, omega)
         if cycle.u_z0 + cycle.unit * cycle.greatest <= 0:
             return load
-        known = normal_cycle(shape, rheology, cycle, 8 * N_HARMONICS, N_BAND)
+        known = normal_cycle(shape, rheology, cycle)
         if known.in_contact.all():
             F_n = np.fft.rfft(known.F_N)[: N_HARMONICS + 1]
         else:  # F_N jumps
@@ -236,7 +235,7 @@ def _anderson(
     tried: list[NDArray[np.complex128]] = []
     moves: list[NDArray[np.complex128]] = []
     best, least, known, since = u, np.inf, np.inf, 0
-    for _ in range(MOST):
+    while least > SAME and since <= PATIENCE:
         rest = missing(u)
         off = float(np.abs(rest).max()) / F_z0
         if off < least:
@@ -244,8 +243,6 @@ def _anderson(
         since += 1
         if least < 0.5 * known:
             known, since = least, 0
-        if least <= CLOSE or since > PATIENCE:
-            break
         if off > 1e3 * least or not np.isfinite(off):
             tried, moves, u = [], [], best
             continue

@@ -17,7 +17,6 @@ kappa = E*/G* [-], F_x, F_z forces [N], W loss [J].
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -197,12 +196,9 @@ def _pulled(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_
 
 def _force_integral(indenter: Indenter, E_star: float, low: float, high: float) -> float:
     """∫ F_N dδ [J] between two depths, cut at the kinks of the shape."""
-    rule, total = double_exponential(), 0.0
     kinks = [float(indenter.profile_1d(x)) for x in indenter.kinks if x < indenter.contact_radius(high)]
-    for start, stop in pairwise([low, *sorted(d for d in kinks if low < d < high), high]):
-        nodes = rule.between(np.array(start), np.array(stop))
-        total += (stop - start) * float(np.sum(rule.weight * np.asarray(indenter.force(nodes, E_star))))
-    return total
+    ends = np.array([low, *sorted(d for d in kinks if low < d < high), high])
+    return double_exponential().integral(lambda d: indenter.force(d, E_star), ends)
 
 
 def _checked(indenter: Indenter, material: Material, mu_0: float, u_z0: float) -> tuple[float, float]:

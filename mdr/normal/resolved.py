@@ -96,7 +96,7 @@ def with_depth(case: SlidingContact, moving: bool = True) -> SlidingContact:
         return case
     rest = _rests_at(case.indenter, case.material, load.F_z0)
     if moving and isinstance(load, LoadOscillation):
-        depth = _under_load(case.indenter, case.material, load)
+        depth = depth_under_load(case.indenter, case.material, load)
     elif moving:
         depth = Cycle.constant(rest, load.omega)
     return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, depth))
@@ -171,8 +171,3 @@ def _load_of(case: SlidingContact) -> LoadOscillation | ConstantLoad | None:
 @remembered(maxsize=256)
 def _rests_at(indenter: Indenter, material: Material, F_z0: float) -> float:
     return static_depth(indenter, material, F_z0)
-
-
-@remembered(maxsize=64)
-def _under_load(indenter: Indenter, material: Material, load: LoadOscillation) -> Cycle:
-    return depth_under_load(indenter, material, load)

@@ -25,6 +25,7 @@ from mdr.materials.base import poisson_ratio_of
 from mdr.normal.doubts import GRAVITY, edge, warn_outside
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import RIG, angular, contact_of, fields_of
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance, not_negative, positive
 
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
@@ -164,7 +165,7 @@ def rig(
         raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
     pull = _pull(k_x, m, c_x)
     m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
-    if not amplitudes and (shake is None or not math.isclose(shake.omega, omega, rel_tol=1e-9)):
+    if not amplitudes and (shake is None or not math.isclose(shake.omega, omega, rel_tol=SAME)):
         raise ValueError(
             f"nothing vibrates at the frequency of {frequency:.6g} Hz: give one of {', '.join(given)}, or a shake in "
             f"the plane with omega = 2 pi frequency = {omega:.9g} rad/s"

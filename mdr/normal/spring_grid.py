@@ -21,10 +21,9 @@ import numpy as np
 
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS, SAME, Array
 
 LEAST = 2  #: springs of a stretch
-LEVEL = 1e-9  #: of the unit of the depth, over which a stretch rises whose springs stand alike
 AS_ONE = 1 / 8  #: of the springs of another stretch, that one gets whose springs move alike
 
 
@@ -85,7 +84,7 @@ def _share_out(stretches: list[_Stretch], n_springs: int, unit: float, alike: bo
     least = LEAST * len(stretches)
     if n_springs < least:
         raise ValueError(f"n_springs must be at least {least} for this shape with its kinks, got {n_springs}")
-    level = np.array([stretch.gap_hi - stretch.gap_lo <= LEVEL * unit for stretch in stretches])
+    level = np.array([stretch.gap_hi - stretch.gap_lo <= SAME * unit for stretch in stretches])
     as_one = [alike and stretch.permanent for stretch in stretches]
     shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(as_one, AS_ONE, 1.0)))
     more = np.rint((n_springs - least) * shares / shares[-1])
@@ -115,7 +114,7 @@ def _rise(shape: Indenter, stretch: _Stretch, share: Array, u_z0: float) -> Arra
     """How far g has risen through the stretch, 0 to 1; linear where the stretch is too thin to resolve in x."""
     span = stretch.x_hi - stretch.x_lo
     height = stretch.gap_hi - stretch.gap_lo
-    if height <= 0 or span < 1e-9 * stretch.x_hi or height < 1e-9 * (u_z0 + stretch.gap_hi):
+    if height <= 0 or span < SAME * stretch.x_hi or height < SAME * (u_z0 + stretch.gap_hi):
         return share
     g_lo, g_hi = u_z0 + stretch.gap_lo, u_z0 + stretch.gap_hi
     rise: Array = np.clip((shape.profile_1d(stretch.x_lo + span * share) - g_lo) / (g_hi - g_lo), 0, 1)

@@ -18,13 +18,12 @@ from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
-from mdr.normal.followed_force import followed_springs
+from mdr.normal.followed_force import N_STEPS, followed_springs
 from mdr.normal.spring_grid import nodes
 from mdr.spring.law import law_of
 from mdr.tools.memoise import remembered
 
 N_BAND = 32  #: springs that touch and leave
-N_STEPS = 2048  #: of the period
 
 
 @remembered(maxsize=64)

@@ -18,10 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact, common_frequency
+from mdr.case.contact import KINDS, SlidingContact
 from mdr.materials import KelvinVoigt
 from mdr.normal.load_control import static_depth
 from mdr.normal.resolved import at_rest, resolved
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import not_negative, positive
 
 GROUPS = {
@@ -99,7 +100,7 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         tan_delta = not_negative("tan_delta", settings["tan_delta"], "loss tangent")
         contact = _with(contact, "T", tan_delta / _one_omega("tan_delta", contact.oscillation, contact.shake))
     if "T" in settings:
-        contact = _with(contact, "T", settings["T"] / common_frequency(contact.oscillation, contact.shake))
+        contact = _with(contact, "T", settings["T"] / contact.omega)
     if "chi" in settings:
         contact = _with(contact, "chi", 1.0)  # until the depth is known that it refers to
         if not np.isfinite(unit := at_rest(contact).chi):
@@ -150,7 +151,7 @@ def _one_omega(path: str, *moving: Any) -> float:
     found = [one.omega for one in moving if one is not None and one.omega]
     if not found:
         raise ValueError(f"{path} needs something that moves at a frequency: an oscillation or a shake")
-    if max(found) > (1 + 1e-9) * min(found):
+    if max(found) > (1 + SAME) * min(found):
         way_out = "give tau" if path == "tan_delta" else "give omega of each"
         raise ValueError(f"{path} belongs to one frequency, and oscillation and shake have two: {way_out}")
     return float(found[0])

@@ -7,3 +7,4 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 EPS = float(np.finfo(float).eps)  #: rounding of a number, relative to it
+SAME = 1e-9  #: of two numbers, up to which they differ by rounding alone: theirs, or that of sums they come from

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.closed_forms import rigid_pull
 from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
+from mdr.indenters.mapping.quadrature import double_exponential
 
 KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
 
@@ -155,6 +156,6 @@ def test_a_shape_in_pieces_is_as_exact_as_any(shape, T):
     )
     v_0 = case.unit_velocity * np.array([1e-9, 1e-3, 0.1, 0.5])
     found = average_friction(case, v_0)
-    exact = 0.5 * (1 - rigid_pull._integrals(case, v_0 / case.unit_velocity, 0.03)[0])
+    exact = 0.5 * (1 - rigid_pull._integrals(case, v_0 / case.unit_velocity, double_exponential(0.03))[0])
     assert np.all(np.abs(found.cof - exact) <= found.cof_error)
     assert np.all(found.cof_error <= 1e-10)

@@ -114,8 +114,8 @@ def test_a_period_tells_what_more_extension_makes_of_it():
     """Newton's method rests on the one derivative, and its last step on the other."""
     for pull, v in some_springs(24, (0.05, 0.3, 0.8)):
         given, gap = (pull if v > 0 else pull.mirrored)._harmonics, -pull.u_z0 / pull.unit
-        motion, cuts, points = shaken_spring._cuts(given, abs(v))
-        law = motion, gap
+        cuts, points = shaken_spring._cuts(given, abs(v))
+        law = given, abs(v), gap
         n, _, _ = shaken_spring._follow(*law, cuts, points)
         top = cuts[0, 1] - gap
         low, at, high = (shaken_spring._period(*law, points, n, top * (0.3 + off)) for off in (-1e-6, 0.0, 1e-6))

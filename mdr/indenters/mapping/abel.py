@@ -15,7 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mdr.indenters.mapping.quadrature import WINDOW, Function, Rule, derivatives, double_exponential
+from mdr.indenters.mapping.quadrature import WINDOW, Function, Rule, derivative, double_exponential
 from mdr.indenters.mapping.stable_functions import arcosh, leg
 from mdr.tools.arrays import EPS, Array
 
@@ -24,36 +24,17 @@ Slope = Callable[[Array, float, float], Array]  #: dg/ds from s and the kinks be
 
 def profile_1d(f: Function, edges: tuple[float, ...], x: Array, rule: Rule | None = None) -> Array:
     """g(x) from f."""
-
-    def slope(r: Array, low: float, high: float) -> Array:
-        return derivatives(f, r, WINDOW * r, low, high)[0]
-
-    total = np.zeros_like(x)
-    for low, high in pairwise(edges):
-        on = x > low
-        r, _, weight = _arc(x[on], low, high, rule or double_exponential())
-        total[on] += np.sum(weight * slope(r, low, high), axis=1)
-    return x * total
+    return x * _along_arcs(lambda r, _, *piece: derivative(f, r, WINDOW * r, *piece), edges, x, rule)
 
 
 def profile_3d(g: Function, edges: tuple[float, ...], r: Array) -> Array:
     """f(r) from g."""
-    total = np.zeros_like(r)
-    for low, high in pairwise(edges):
-        on = r > low
-        x, _, weight = _arc(r[on], low, high, double_exponential())
-        total[on] += np.sum(weight * g(x), axis=1)
-    return 2 / np.pi * total
+    return 2 / np.pi * _along_arcs(lambda x, *_: g(x), edges, r)
 
 
 def area_from_f(f: Function, edges: tuple[float, ...], a: Array, rule: Rule | None = None) -> Array:
     """∫₀^a g dx from f, without any derivative."""
-    total = np.zeros_like(a)
-    for low, high in pairwise(edges):
-        on = a > low
-        r, sine, weight = _arc(a[on], low, high, rule or double_exponential())
-        total[on] += np.sum(weight * sine * f(r), axis=1)
-    return a * total
+    return a * _along_arcs(lambda r, sine, *_: sine * f(r), edges, a, rule)
 
 
 def area_from_g(g: Function, edges: tuple[float, ...], a: Array) -> Array:
@@ -94,18 +75,19 @@ def pressure_from_slope(slope: Slope, edges: tuple[float, ...], r: Array, a: Arr
 
 def slope_behind(g: Function, s: Array, low: float, high: float) -> Array:
     """dg/ds behind the kink ``low``, at x² = low² + s², from values of g."""
-
-    def image(s: Array) -> Array:
-        return g(np.hypot(s, low))
-
-    return derivatives(image, s, WINDOW * np.hypot(s, low), 0.0, float(leg(high, low)))[0]
+    reach = WINDOW * np.hypot(s, low)
+    return derivative(lambda s: g(np.hypot(s, low)), s, reach, 0.0, float(leg(high, low)))
 
 
-def _arc(x: Array, low: float, high: float, rule: Rule) -> tuple[Array, Array, Array]:
-    """Nodes r = x sin t over the part of [0, x] within [low, high]: r, sin t, dt, each (n_x, n_nodes)."""
-    start = np.arctan2(low, leg(x, np.minimum(low, x)))
-    stop = np.arctan2(np.minimum(high, x), leg(x, np.minimum(high, x)))
-    width = (stop - start)[:, None]
-    sine = np.sin(start[:, None] + width * rule.from_low)
-    r = np.clip(x[:, None] * sine, low, np.minimum(high, x)[:, None])
-    return r, sine, width * rule.weight
+def _along_arcs(integrand: Callable[..., Array], edges: tuple[float, ...], x: Array, rule: Rule | None = None) -> Array:
+    """∫₀^{π/2} integrand(r, sin t, low, high) dt along r = x sin t, (n_x,), on each piece from low to high."""
+    total, rule = np.zeros_like(x), rule or double_exponential()
+    for low, high in pairwise(edges):
+        on = x > low
+        far = x[on, None]
+        stop = np.minimum(high, far)
+        begin, end = np.arctan2(low, leg(far, low)), np.arctan2(stop, leg(far, stop))
+        sine = np.sin(begin + (end - begin) * rule.from_low)
+        values = integrand(np.clip(far * sine, low, stop), sine, low, high)
+        total[on] += np.sum((end - begin) * rule.weight * values, axis=1)
+    return total

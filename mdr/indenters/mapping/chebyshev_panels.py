@@ -20,12 +20,11 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from mdr.indenters.mapping import abel, inversion
-from mdr.indenters.mapping.quadrature import Function, Rule, chebyshev_fit, double_exponential, in_chunks
+from mdr.indenters.mapping.quadrature import N_HALVINGS, Function, Rule, chebyshev_fit, double_exponential, in_chunks
 from mdr.tools.arrays import Array
 
 N_NODES = 24  #: the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
 TAIL = 1e-12  #: last coefficients of G, relative to G, that count as vanished
-N_HALVINGS = 10
 
 Edges = tuple[float, ...]
 Integral = Callable[[Function, Edges, Array, Rule | None], Array]  #: one that leads from f to a height over x

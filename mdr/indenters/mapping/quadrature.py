@@ -6,6 +6,8 @@ Derivatives: interpolation in Chebyshev points of a window that is a fixed share
 reaches across a kink; where the window is too wide for the function, it is halved.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
@@ -18,9 +20,9 @@ from mdr.tools.checks import plain
 
 Function = Callable[[Array], Array]
 
-N_FIT = 16  #: Chebyshev points of a window: a singularity four half-widths away leaves 7.9**-16 = 4e-15
+N_FIT = 16  #: Chebyshev points where a function is smooth: a singularity four half-widths away leaves 7.9**-16 = 4e-15
 WINDOW = 0.25  #: half-width of a window over the radius; the apex, where f ~ r**n, is then four away
-N_HALVINGS = 12
+N_HALVINGS = 12  #: of a window, or a panel, for a function whose derivatives have no bound
 CHUNK = 256  #: points mapped at once: keeps the work in cache
 
 
@@ -31,11 +33,20 @@ class Rule(NamedTuple):
     to_high: Array
     weight: Array
 
+    @property
+    def coarser(self) -> Rule:
+        """The rule of twice the step, to compare with."""
+        return Rule(self.from_low[::2], self.to_high[::2], 2 * self.weight[::2])
+
     def between(self, low: Array, high: Array) -> Array:
         """Nodes between ends (...), shape (..., n), each measured from the end that it is nearer to."""
         low, high = np.asarray(low)[..., None], np.asarray(high)[..., None]
         near_low = low + (high - low) * self.from_low
         return np.asarray(np.where(self.from_low < 0.5, near_low, high - (high - low) * self.to_high))
+
+    def integral(self, function: Function, ends: Array) -> float:
+        """∫ of a function between the first and the last of the ends (n,), cut at the others."""
+        return float(np.diff(ends) @ (function(self.between(ends[:-1], ends[1:])) @ self.weight))
 
 
 @lru_cache
@@ -68,38 +79,36 @@ def chebyshev_fit(n: int) -> tuple[Array, Array]:
 
 @lru_cache
 def _fit_matrices() -> tuple[Array, ...]:
-    """Chebyshev points; matrices from values there to coefficients of the function and of two derivatives."""
+    """Chebyshev points; matrices from values there to coefficients of the function and of its derivative."""
     nodes, to_coefficients = chebyshev_fit(N_FIT)
-    first = np.zeros((N_FIT, N_FIT))
-    second = np.zeros((N_FIT, N_FIT))
-    first[:-1] = chebyshev.chebder(to_coefficients)
-    second[:-2] = chebyshev.chebder(to_coefficients, 2)
-    return nodes, to_coefficients, first, second
+    to_slope = np.zeros((N_FIT, N_FIT))
+    to_slope[:-1] = chebyshev.chebder(to_coefficients)
+    return nodes, to_coefficients, to_slope
 
 
-def derivatives(function: Function, s: Array, reach: Array, low: float, high: float) -> tuple[Array, Array]:
-    """First and second derivative at ``s`` from values in [low, high] no further than ``reach`` from ``s``.
+def derivative(function: Function, s: Array, reach: Array, low: float, high: float) -> Array:
+    """Derivative at ``s`` from values in [low, high] no further than ``reach`` from ``s``.
 
     NaN where the function is not finite around ``s``.
     """
     shape, s, reach = s.shape, s.ravel(), reach.flatten()
-    best = np.full((3, s.size), np.nan)  # first and second derivative, and the error of the first
-    best[2] = np.inf
+    best = np.full((2, s.size), np.nan)  # the derivative and its error
+    best[1] = np.inf
     todo = np.arange(s.size)
     for _ in range(N_HALVINGS):
         fit, resolved = _fit(function, s[todo], reach[todo], low, high)
-        better = fit[2] < best[2, todo]
+        better = fit[1] < best[1, todo]
         best[:, todo[better]] = fit[:, better]
         todo = todo[np.logical_not(resolved)]
         if todo.size == 0:
             break
         reach[todo] /= 2
-    return best[0].reshape(shape), best[1].reshape(shape)
+    return np.asarray(best[0].reshape(shape))
 
 
 def _fit(function: Function, s: Array, reach: Array, low: float, high: float) -> tuple[Array, Array]:
-    """Both derivatives from one window, the error its last coefficients leave, whether that is rounding."""
-    nodes, to_coefficients, to_first, to_second = _fit_matrices()
+    """The derivative from one window, the error its last coefficients leave, whether that is rounding."""
+    nodes, to_coefficients, to_slope = _fit_matrices()
     left, right = np.maximum(s - reach, low), np.minimum(s + reach, high)
     half = (right - left) / 2
     values = function((left + half)[:, None] + half[:, None] * nodes)
@@ -107,7 +116,6 @@ def _fit(function: Function, s: Array, reach: Array, low: float, high: float) ->
     scale = np.where(half > 0, half, 1.0)
     place = np.clip((s - left - half) / scale, -1, 1)
     basis = np.cos(np.arccos(place)[:, None] * np.arange(N_FIT))
-    first = np.sum(basis * (values @ to_first.T), axis=1) / scale
-    second = np.sum(basis * (values @ to_second.T), axis=1) / scale / scale
+    slope = np.sum(basis * (values @ to_slope.T), axis=1) / scale
     resolved = last <= 32 * EPS * np.abs(values).max(axis=1)
-    return np.array([first, second, last / scale]), resolved
+    return np.array([slope, last / scale]), resolved

@@ -16,15 +16,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.indenters.mapping.quadrature import chebyshev_fit
-from mdr.indenters.mapping.stable_functions import leg
+from mdr.indenters.mapping.quadrature import N_FIT, chebyshev_fit
+from mdr.indenters.mapping.stable_functions import GAUSS, leg
 from mdr.tools.arrays import Array
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
-DEGREE = 5
-N_NODES = 16  #: of the polynomials in √(x − r_i)
-MANY = np.polynomial.legendre.leggauss(14)
+DEGREE = 5  #: of a spline, four times continuously differentiable
 RULES = tuple(  #: for arcs between these widths [rad]
     (low, high, *np.polynomial.legendre.leggauss(n))
     for low, high, n in ((0.0, 0.02, 3), (0.02, 0.5, 6), (0.5, 2.0, 14))
@@ -94,7 +92,7 @@ class SplineImage:
         self.tip = pieces[0] * kappa  # of g, in u
         self.tip_slopes = (self.tip * powers)[1:] / self.width[0]
         self.made = np.zeros(self.width.size, dtype=bool)
-        self.chebyshev = np.zeros((2, self.width.size, N_NODES))  # of g/x and of the smooth part of dg/dx
+        self.chebyshev = np.zeros((2, self.width.size, N_FIT))  # of g/x and of the smooth part of dg/dx
         at = np.searchsorted(ends, kinks)
         self.kinks = ends[at]
         self.jumps = self.slopes[at, 0] - self.slopes[at - 1].sum(axis=1)
@@ -122,7 +120,7 @@ class SplineImage:
         tip = self.tip / (np.arange(self.tip.size) + 1)
         share = np.where(piece == 0, a / self.width[0], 0)
         first = self.width[0] * share * _horner(tip[None], np.zeros_like(piece), share)
-        nodes, weights = MANY
+        nodes, weights = GAUSS
         t = (nodes + 1) / 2 * np.sqrt(a - low)[:, None]
         g = self.image((low[:, None] + t * t).ravel()).reshape(t.shape)
         rest = np.sqrt(a - low) * ((g * t) @ weights)
@@ -156,12 +154,12 @@ class SplineImage:
         t = 2 * np.sqrt(np.clip((x - self.ends[piece]) / self.width[piece], 0, 1)) - 1
         c = self.chebyshev[which]
         one, two = np.zeros_like(t), np.zeros_like(t)
-        for j in range(N_NODES - 1, 0, -1):  # Clenshaw
+        for j in range(N_FIT - 1, 0, -1):  # Clenshaw
             one, two = c[piece, j] + 2 * t * one - two, one
         return np.asarray(c[piece, 0] + t * one - two)
 
     def _make(self, i: int) -> None:
-        nodes, to_coefficients = chebyshev_fit(N_NODES)
+        nodes, to_coefficients = chebyshev_fit(N_FIT)
         values = self._arcs(self.ends[i] + self.width[i] * ((nodes + 1) / 2) ** 2)
         self.chebyshev[:, i] = values[:2] @ to_coefficients.T
         self.made[i] = True

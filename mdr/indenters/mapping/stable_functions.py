@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from mdr.tools.arrays import Array
 
-N_GAUSS = 14  #: nodes over at most a quarter turn of waves no shorter than a third of a turn
+GAUSS = np.polynomial.legendre.leggauss(14)  #: for a quarter turn of waves no shorter than a third of a turn
 N_TERMS = 30  #: of a power series in w, |w| <= 1/4: 0.25**30 = 9e-19
 
 
@@ -63,7 +63,7 @@ def sine_less_arc_and_cube(y: ArrayLike) -> Array:
     The integrand is positive and Gauss's rule exact to rounding; for small y it is (2/5) y⁵.
     """
     y = np.asarray(y, dtype=np.float64)[..., None]
-    nodes, weights = np.polynomial.legendre.leggauss(N_GAUSS)
+    nodes, weights = GAUSS
     t = y * (nodes + 1) / 2
     rise = 2 * np.sin((y + t) / 2) * np.sin((y - t) / 2)
     return np.asarray(3 / 2 * y[..., 0] * (rise * rise * np.cos(t) @ weights))
