@@ -302,7 +302,7 @@ def glassy(arms):
 @_jit
 def tools_of(h, law, tools):
     """The tools of another step."""
-    one = Tools(h, np.empty_like(tools.phi), np.empty_like(tools.decay), *tools[3:])
+    one = Tools(h, np.empty_like(tools.held), np.empty_like(tools.decay), *tools[3:])
     fill(h, law.modes, law.arms, one, 0)
     return one
 

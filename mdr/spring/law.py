@@ -17,6 +17,7 @@ An elastic material has neither arms nor modes, a Kelvin material one mode.
 from __future__ import annotations
 
 from functools import lru_cache
+from math import factorial
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +27,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.secular import secular_zeros
 
 N_PHI = 5
+OF_SERIES = np.array([1 / factorial(k) for k in range(21, 3, -1)])  #: of phi_4, backwards; what follows is below EPS
 
 
 class Modes(NamedTuple):
@@ -69,12 +71,9 @@ def fill_phi(r, values):  # type: ignore[no-untyped-def]
         values[3] = (0.5 - values[2]) / r
         values[4] = (1.0 / 6.0 - values[3]) / r
         return
-    total, term = 0.0, 1.0 / 24.0
-    for k in range(5, 23):
-        total += term
-        term *= -r / k
-        if abs(term) < 1e-19:
-            break
+    total = 0.0
+    for k in range(OF_SERIES.size):
+        total = OF_SERIES[k] - r * total
     values[4] = total
     values[3] = 1.0 / 6.0 - r * total
     values[2] = 0.5 - r * values[3]

@@ -81,7 +81,7 @@ class Tools(NamedTuple):
     """What times make of arms and modes, and room to work in."""
 
     h: float  #: length of the step
-    phi: Array  #: (2, N_PHI, J) phi_n of t/theta_j: of the step, of a part of it
+    held: Array  #: (2, 9, J) what arms, that are held on p t + q t² for the step or a part of it, come to, see `fill`
     decay: Array  #: (2, K) exp(-mu_k t) likewise
     modes: Array  #: (K,)
     work: Array  #: (J + K,)
@@ -184,12 +184,18 @@ def force(x, p, q, T, t):
 
 @_inline
 def fill(t, modes, arms, tools, k):
-    """What a time t makes of arms and modes."""
+    """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts held[k, 0:3], the area of
+    its force over the time held[k, 3:6], and its moment held[k, 6:9].
+    """
     if arms is not None:
         for j in range(arms.rho.size):
             fill_phi(t * arms.rate[j], tools.one)
-            for n in range(N_PHI):
-                tools.phi[k, n, j] = tools.one[n]
+            one, of, rho = tools.one, tools.held[k], arms.rho[j]
+            of[0, j], of[1, j], of[2, j] = one[0], t * one[1], 2.0 * t * t * one[2]
+            of[3, j], of[4, j], of[5, j] = rho * of[1, j], rho * 0.5 * of[2, j], 2.0 * rho * t * t * t * one[3]
+            of[6, j] = rho * t * t * (one[1] - one[2])
+            of[7, j] = rho * t * t * t * (one[2] - one[3])
+            of[8, j] = 2.0 * rho * t * t * t * t * (one[3] - one[4])
     if modes is not None:
         for j in range(modes.mu.size):
             tools.decay[k, j] = np.exp(-modes.mu[j] * t)
@@ -377,34 +383,33 @@ def slip_velocity(mode, s, e, i, zd, xd, modes):
 @_inline
 def arms_ends(x, i, p, q, t, k, tools, arms):
     """What the arms of x[:, i], held on p t + q t², add to L."""
-    phi, rho, rate = tools.phi, arms.rho, arms.rate
+    of, rho, rate = tools.held[k], arms.rho, arms.rate
     v_0 = d_0 = v_1 = d_1 = low = high = 0.0
+    p_1 = p + 2.0 * q * t
     for j in range(rho.size):
         before = x[1 + j, i]
-        after = before * phi[k, 0, j] + t * (p * phi[k, 1, j] + 2.0 * q * t * phi[k, 2, j])
+        after = before * of[0, j] + p * of[1, j] + q * of[2, j]
         slope = p - before * rate[j]
         bend = rho[j] * (2.0 * q - slope * rate[j])  # falls towards zero
         v_0 += rho[j] * before
         d_0 += rho[j] * slope
         v_1 += rho[j] * after
-        d_1 += rho[j] * (p + 2.0 * q * t - after * rate[j])
+        d_1 += rho[j] * (p_1 - after * rate[j])
         low += min(bend, 0.0)
         high += max(bend, 0.0)
     return Ends(v_0, d_0, v_1, d_1, low, high)
 
 
 @_inline
-def hold_arms(x, i, p, q, t, k, tools, arms):
+def hold_arms(x, i, p, q, k, tools, arms):
     """Hold the arms of x[:, i] on p t + q t² for a time: their state after; area and moment of their force."""
-    phi, rho = tools.phi, arms.rho
+    of = tools.held[k]
     area = moment = 0.0
-    b, c = p * t, 2.0 * q * t * t
-    for j in range(rho.size):
-        a = x[1 + j, i]
-        x[1 + j, i] = a * phi[k, 0, j] + b * phi[k, 1, j] + c * phi[k, 2, j]
-        one = rho[j] * t * (a * phi[k, 1, j] + b * phi[k, 2, j] + c * phi[k, 3, j])
-        area += one
-        moment += t * (one - rho[j] * t * (a * phi[k, 2, j] + b * phi[k, 3, j] + c * phi[k, 4, j]))
+    for j in range(arms.rho.size):
+        before = x[1 + j, i]
+        x[1 + j, i] = before * of[0, j] + p * of[1, j] + q * of[2, j]
+        area += before * of[3, j] + p * of[4, j] + q * of[5, j]
+        moment += before * of[6, j] + p * of[7, j] + q * of[8, j]
     return area, moment
 
 
@@ -552,9 +557,9 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 s[0, i] = x + t * (z_1 + z_2 * t)
                 e[0, i] = y + t * (x_1 + x_2 * t) if mode == STICK else sign * (s[0, i] - (x - sign * y) * fallen)
                 if arms is not None:
-                    C, D = hold_arms(s, i, z_1, z_2, t, k, tools, arms)
+                    C, D = hold_arms(s, i, z_1, z_2, k, tools, arms)
                     if mode == STICK:
-                        C, D = hold_arms(e, i, x_1, x_2, t, k, tools, arms)
+                        C, D = hold_arms(e, i, x_1, x_2, k, tools, arms)
                     else:
                         for j in range(n_x):
                             e[j, i] = sign * (s[j, i] - of_modes(j, k, tools, modes))
@@ -647,7 +652,7 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
                 A, B = force(x, z_1, z_2, T, t)
                 s[0, i] = x + t * (z_1 + z_2 * t)
                 if arms is not None:
-                    C, D = hold_arms(s, i, z_1, z_2, t, k, tools, arms)
+                    C, D = hold_arms(s, i, z_1, z_2, k, tools, arms)
                     A, B = A + C, B + D
                 area, moment, pressed = area + A, moment + done * A + B, pressed + t
             else:
