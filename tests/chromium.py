@@ -10,6 +10,7 @@ import time
 from contextlib import contextmanager
 
 PATIENCE = 30.0  #: s, for a machine that is busy
+COMPILES = 180.0  #: s, the same where the server may have to compile first
 FLAGS = (
     "headless=new", "no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
     "disable-component-update", "disable-sync", "disable-dev-shm-usage", "window-size=1400,1300",
@@ -70,16 +71,16 @@ class Browser:
 
     def open(self, query=""):
         self.driver.get(f"{self.address}{query}")
-        self.until(lambda: self.shown().startswith("error of friction"))
+        self.until(lambda: self.shown().startswith("error of friction"), COMPILES)
 
-    def until(self, true):
+    def until(self, true, patience=PATIENCE):
         """Wait until something is so, and return it."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + patience
         while time.monotonic() < end:
             if answer := true():
                 return answer
             time.sleep(0.02)
-        raise AssertionError(f"not so after {PATIENCE:g} s: {self.shown()}")
+        raise AssertionError(f"not so after {patience:g} s: {self.shown()}")
 
     def find(self, selector):
         return self.driver.execute_script(FIND + "return found", selector)

@@ -60,12 +60,12 @@ def slides():
 
 
 def shaken_pulls():
-    """Friction under a shake in closed form, to a loose tolerance."""
+    """Friction under a shake in closed form."""
     like = replace(contact("paraboloid"), shake=SHAKE)
     for name, motion in product(("elastic", "Kelvin"), ("pressed", "taps")):
         oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
         case = replace(like, material=MATERIALS[name], oscillation=oscillation)
-        found = average_friction(ShakenPull.of(case), [0.0, 0.4, 0.7], 1e-5)
+        found = average_friction(ShakenPull.of(case), [0.0, 0.4])
         yield f"shaken pull, {name}, {motion}", np.concatenate([found[0], found[2]]).tolist()
 
 
