@@ -94,7 +94,7 @@ class System:
         """A march about to begin in full slip, at rest or anywhere."""
         case = self.case
         scaled = ScaledContact.of(case, mdr.SpringArray.of(case, SPRINGS), STEPS, lump=False)
-        stepper = Stepper(scaled, self.v_0 / scaled.speed)
+        stepper = Stepper(scaled, self.v_0 / scaled.units.speed)
         if start == "rest":
             return Waiting(stepper, stepper.rest(), way_from_rest(scaled, stepper.v))
         march = Waiting(stepper, stepper.full_slip())
@@ -113,7 +113,7 @@ def scatter(march: Waiting, rng: np.random.Generator) -> None:
 def distance(one: Waiting, two: Waiting) -> float:
     """D of the module, in scaled form."""
     scaled, e, (y, y_dot) = one.scaled, one.state.e[0] - two.state.e[0], one.state.body - two.state.body
-    return float(0.5 * (scaled.M * y_dot**2 + scaled.K * y**2 + scaled.w @ e**2))
+    return float(0.5 * (scaled.body.M * y_dot**2 + scaled.body.K * y**2 + scaled.springs.w @ e**2))
 
 
 @cache

@@ -37,19 +37,25 @@ class Body(NamedTuple):
     C: float
     K: float
     h: float
+    ringing: float  #: omega_1/omega on springs that stick; infinite without mass, zero under a rigid pull
     free: Square  #: motion without force, of (y, y')
     area: Pair  #: what the area of the force takes off
     moment: Pair  #: what its moment takes off
     stuck: Square  #: derivative of what the force takes off by (y, y') at the end, if all springs stick
 
+    @property
+    def pull_time(self) -> float:
+        """Relaxation time c_x/k_x of the pull, in periods; 0 under a rigid pull."""
+        return self.C / (2 * np.pi * self.K)
 
-def body_of(M: float, C: float, K: float, law: Law, h: float, light: bool) -> Body:
+
+def body_of(M: float, C: float, K: float, law: Law, h: float, ringing: float) -> Body:
     """The body of these groups over steps of h; K is infinite under a rigid pull."""
     none, square = (0.0, 0.0), ((0.0, 0.0), (0.0, 0.0))
     if np.isinf(K):
-        return Body(True, False, 0.0, 0.0, 0.0, h, square, none, none, square)
-    if light:
-        return Body(False, True, M, C, K, h, square, none, none, square)
+        return Body(True, False, 0.0, 0.0, K, h, 0.0, square, none, none, square)
+    if ringing * h > 2 * np.pi / RESOLVED:
+        return Body(False, True, M, C, K, h, ringing, square, none, none, square)
     from scipy.linalg import expm
 
     # the response to a force f + g t, beside the free motion: y'' = (-K y - C y' - f - g t)/M
@@ -62,7 +68,7 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, light: bool) -> Bo
     area = -(4 / h * constant - 6 / h**2 * linear)
     moment = -(12 / h**3 * linear - 6 / h**2 * constant)
     stuck = _stuck(law, h, area, moment)
-    return Body(False, False, M, C, K, h, _square(free), _pair(area), _pair(moment), _square(stuck))
+    return Body(False, False, M, C, K, h, ringing, _square(free), _pair(area), _pair(moment), _square(stuck))
 
 
 def _pair(of: Array) -> Pair:

@@ -57,10 +57,10 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
     former. Arms and dashpots that are far stiffer than the spring add to it, by a small share of what is lost.
     """
     scaled = stepper.scaled
-    unit = scaled.stiffness_x * scaled.length_x**2
-    of_friction = 2 * np.pi * unit * stepper.mean_F_z * scaled.pace(stepper.v)
-    fastest = 1.0 if scaled.light else max(1.0, scaled.ringing)
-    of_steps = OF_STEPS * (scaled.h * fastest) ** 2 * (balance.lost + of_friction)
+    unit = scaled.units.energy_x
+    of_friction = 2 * np.pi * unit * stepper.mean_F_z * scaled.drive.pace(stepper.v)
+    fastest = 1.0 if scaled.body.light else max(1.0, scaled.body.ringing)
+    of_steps = OF_STEPS * (scaled.drive.h * fastest) ** 2 * (balance.lost + of_friction)
     missing = abs(balance.residual)
     rounding = ROUNDING * unit * max(account.stored)
     if missing <= max(of_steps, OF_MEMORY * balance.lost) + error * of_friction + rounding:
@@ -71,22 +71,25 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
 def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     """The account of a period that was looked at closely."""
     scaled, v = stepper.scaled, stepper.v
-    sums, h = account.seen.sums, scaled.h
-    unit_x = scaled.stiffness_x * scaled.length_x**2
-    unit_z = scaled.stiffness_z * scaled.length_z**2
+    sums, h = account.seen.sums, scaled.drive.h
+    unit_x = scaled.units.energy_x
+    unit_z = scaled.units.energy_z
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
-    if not scaled.rigid:
+    if not scaled.body.rigid:
         stretch, rate = account.y, account.rate  # of the system spring, backward
-        if at_pull := bool(scaled.far_end.any()):
-            stretch, rate = stretch + scaled.x - scaled.far_end, rate + scaled.x_dot - scaled.far_end_dot
+        if at_pull := bool(scaled.drive.far_end.any()):
+            stretch, rate = (
+                stretch + scaled.drive.x - scaled.drive.far_end,
+                rate + scaled.drive.x_dot - scaled.drive.far_end_dot,
+            )
         pull, of_shake = 0.0, 0.0
         for u, w in OF_CUBICS:
-            y, y_dot = _between(stretch, rate, h, u, scaled.light)
-            force = -scaled.K * y - scaled.C * y_dot  # of the pull, forward
+            y, y_dot = _between(stretch, rate, h, u, scaled.body.light)
+            force = -scaled.body.K * y - scaled.body.C * y_dot  # of the pull, forward
             pull += v * h * w * float(force.sum())
-            damper += scaled.C * h * w * float(y_dot @ y_dot)
-            of_shake += h * w * float(force @ _between(scaled.far_end, scaled.far_end_dot, h, u, False)[1])
+            damper += scaled.body.C * h * w * float(y_dot @ y_dot)
+            of_shake += h * w * float(force @ _between(scaled.drive.far_end, scaled.drive.far_end_dot, h, u, False)[1])
         shake = of_shake if at_pull else shake
     viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(

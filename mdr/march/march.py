@@ -106,7 +106,11 @@ class Converged:
     def off_load(self) -> float:
         """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
         load, scaled = self.case.oscillation.load, self.scaled
-        return 0.0 if load is None else abs(scaled.normal.mean * scaled.stiffness_z * scaled.length_z / load.F_z0 - 1)
+        return (
+            0.0
+            if load is None
+            else abs(scaled.normal.mean * scaled.units.stiffness_z * scaled.units.length_z / load.F_z0 - 1)
+        )
 
     @property
     def missing_load(self) -> float:
@@ -155,9 +159,9 @@ class Observed:
         scaled = self.end.scaled
         if self.end.v_0 != 0:
             return False
-        x, z = self.account.y[1:] + scaled.x[1:], scaled.z[1:]
-        both = np.fft.rfft([z - x, z + x]) * scaled.rheology.response(np.arange(scaled.steps // 2 + 1))
-        return float(np.fft.irfft(both, scaled.steps).min(axis=1).sum()) > 2 * float(scaled.gap.min())
+        x, z = self.account.y[1:] + scaled.drive.x[1:], scaled.drive.z[1:]
+        both = np.fft.rfft([z - x, z + x]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
+        return float(np.fft.irfft(both, scaled.drive.steps).min(axis=1).sum()) > 2 * float(scaled.springs.gap.min())
 
     @property
     def sees_contact(self) -> bool:
@@ -177,7 +181,7 @@ class Observed:
         sums = self.account.seen.sums
         full = self.stick_share == 0 and abs(1 - self.cof) < FULL
         stepper = self.end.stepper
-        return float(sums[LEAST_SLIP]) / stepper.scaled.pace(stepper.v) if full else 0.0
+        return float(sums[LEAST_SLIP]) / stepper.scaled.drive.pace(stepper.v) if full else 0.0
 
 
 def steady(
@@ -198,7 +202,7 @@ def steady(
     springs, scaled = at_hand(case, resolution)
     if not scaled.normal.mean > 0:
         raise too_coarse(resolution.steps)
-    stepper = Stepper(scaled, v_0 / scaled.speed, min(TOLERANCE, resolution.accuracy / 10), n_periods)
+    stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), n_periods)
     from_full_slip = resolution.start == "full_slip"
     orbit = waiting = None
     if n_periods is None:
@@ -207,7 +211,7 @@ def steady(
         start = stepper.full_slip() if from_full_slip else stepper.rest()
         waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
         if n_periods is None:
-            orbit = waiting.wait(most or MAX_PERIODS["rigid" if scaled.rigid else "spring"])
+            orbit = waiting.wait(most or MAX_PERIODS["rigid" if scaled.body.rigid else "spring"])
         else:
             waiting.advance(n_periods)
     if orbit is not None:
@@ -274,7 +278,7 @@ def check(case: SlidingContact, v_0: float) -> None:
 def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, gain: float | None) -> Orbit | None:
     """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
-    if scaled.rigid and not scaled.remembers and from_full_slip and stepper.v > 0:
+    if scaled.body.rigid and not scaled.rheology.remembers and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
@@ -302,9 +306,9 @@ def _after_a_period(stepper: Stepper) -> Orbit:
 
 def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
     """Why the COF that a march has settled at cannot be one; nothing if it can."""
-    least = -1.0 if stepper.scaled.is_shaken else float(account.seen.F[:, 1].min()) / stepper.mean_F_z
+    least = -1.0 if stepper.scaled.drive.is_shaken else float(account.seen.F[:, 1].min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
-    return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.h**2)
+    return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)
 
 
 def out_of_range(v_0: float) -> ValueError:

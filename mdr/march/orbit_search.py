@@ -60,11 +60,13 @@ def search(
     """
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
-    if slow and scaled.C:
-        slow += (scaled.M / (np.pi * scaled.C) / periodic.CREEP,)
-    if scaled.pull_time > SLOW_PULL:
-        slow += (2 * scaled.pull_time / periodic.CREEP,)  # a material may be slower than is seen; this is known
-    how = periodic.Options(slow, bool(slow) and (scaled.rigid or scaled.C > 0), plain=0 if near else periodic.PLAIN)
+    if slow and scaled.body.C:
+        slow += (scaled.body.M / (np.pi * scaled.body.C) / periodic.CREEP,)
+    if scaled.body.pull_time > SLOW_PULL:
+        slow += (2 * scaled.body.pull_time / periodic.CREEP,)  # a material may be slower than is seen; this is known
+    how = periodic.Options(
+        slow, bool(slow) and (scaled.body.rigid or scaled.body.C > 0), plain=0 if near else periodic.PLAIN
+    )
     first = stepper.tolerance / (SHARE * (gain or max((1.0, *slow))))
     for start in starts:
         x, orbit, period, close = start.x, None, _Period(stepper, start), first
@@ -115,7 +117,7 @@ def _by_anderson(
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     at, left, ended = how.by_anderson(start.x, norm.of, slow), how.most, False
-    at_once = max(1, UNWATCHED // (start.e.size * stepper.scaled.steps))
+    at_once = max(1, UNWATCHED // (start.e.size * stepper.scaled.drive.steps))
     while left > 0 and not ended:
         if time_is_over():
             raise _OutOfTime
@@ -155,16 +157,16 @@ def motions_at_other_resolution(
 
 def _on_other_springs(x: Array, of: ScaledContact, on: ScaledContact) -> Array:
     """A state vector of other springs on the springs of this march."""
-    if np.array_equal(on.gap, of.gap):
+    if np.array_equal(on.springs.gap, of.springs.gap):
         return x.copy()
-    order = np.argsort(of.gap, kind="stable")
-    e = x[:-N_BODY].reshape(-1, of.gap.size)
-    return np.concatenate([*(np.interp(on.gap, of.gap[order], row[order]) for row in e), x[-N_BODY:]])
+    order = np.argsort(of.springs.gap, kind="stable")
+    e = x[:-N_BODY].reshape(-1, of.springs.gap.size)
+    return np.concatenate([*(np.interp(on.springs.gap, of.springs.gap[order], row[order]) for row in e), x[-N_BODY:]])
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
     """The gain of a march with other springs or steps, where these move it by little; None where they may not."""
-    return gain if gain is not None and gain * max(one.h, other.h) ** 2 < SAME_GAIN else None
+    return gain if gain is not None and gain * max(one.drive.h, other.drive.h) ** 2 < SAME_GAIN else None
 
 
 def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm: EnergyNorm) -> Orbit | None:
@@ -180,7 +182,9 @@ def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm:
     state, record = stepper.observe(stepper.within_friction(like.with_vector(near.x)), keep=False)
     sums = record.seen.sums
     change = near.change * float(np.linalg.norm(norm.of(near.x)))
-    drift = change / np.sqrt(scaled.M or (1.0 if scaled.rigid else scaled.K))  # under a rigid pull that of the springs
+    drift = change / np.sqrt(
+        scaled.body.M or (1.0 if scaled.body.rigid else scaled.body.K)
+    )  # under a rigid pull that of the springs
     if sums[STICK_TIME] > 0 or not AGES * drift < sums[LEAST_SLIP] < np.inf:
         return None
     cof = float(record.period.cof[-1])
@@ -206,12 +210,14 @@ class EnergyNorm:
 
     def __init__(self, scaled: ScaledContact) -> None:
         self.scaled = scaled
-        self.n_e = (1 + scaled.n_arms) * scaled.gap.size
+        self.n_e = (1 + len(scaled.rheology.rho)) * scaled.springs.gap.size
         self.n_x = self.n_e + N_BODY
         self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
-        self.roots[: self.n_e] = np.sqrt(np.outer(np.concatenate([[1.0], scaled.rheology.rho]), scaled.w)).ravel()
-        if not scaled.rigid:
-            self.roots[self.n_e + Y], self.roots[self.n_e + RATE] = np.sqrt(scaled.K), np.sqrt(scaled.M)
+        self.roots[: self.n_e] = np.sqrt(
+            np.outer(np.concatenate([[1.0], scaled.rheology.rho]), scaled.springs.w)
+        ).ravel()
+        if not scaled.body.rigid:
+            self.roots[self.n_e + Y], self.roots[self.n_e + RATE] = np.sqrt(scaled.body.K), np.sqrt(scaled.body.M)
 
     def of(self, x: Array) -> Array:
         """State vectors (n_x,) or (k, n_x), measured: vectors of the same shape whose squares are energies."""
@@ -225,15 +231,15 @@ class EnergyNorm:
         pushes = []
         for j, rho in enumerate(scaled.rheology.rho, start=1):
             arm = np.zeros(self.n_x)
-            arm[j * scaled.gap.size : (j + 1) * scaled.gap.size] = 1 / np.sqrt(rho)
+            arm[j * scaled.springs.gap.size : (j + 1) * scaled.springs.gap.size] = 1 / np.sqrt(rho)
             pushes.append(arm)
-        if not scaled.rigid:
-            for part in (Y, RATE) if scaled.M else (Y,):
+        if not scaled.body.rigid:
+            for part in (Y, RATE) if scaled.body.M else (Y,):
                 push = np.zeros(self.n_x)
                 push[n + part] = 1 / self.roots[n + part]
                 pushes.append(push)
         elif not pushes:
             springs = np.zeros(self.n_x)
-            springs[: scaled.gap.size] = 1.0
+            springs[: scaled.springs.gap.size] = 1.0
             pushes.append(springs)
         return tuple(pushes)

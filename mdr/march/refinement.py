@@ -196,7 +196,7 @@ def within(
             return best.finished(record), best.main
         best = Bounded(main, error)
         met = error + main.settling.spread + main.missing_load <= resolution.accuracy
-        awaited = not main.scaled.rigid and not main.settling.solved
+        awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed, free)
         if finer == resolution:
@@ -244,7 +244,7 @@ def _missed_by(runs: _Runs, main: Converged) -> Missed:
     *finer, last = companions(main.resolution)
     steps, half, more = (runs.beside(main, resolution) for resolution in finer)
     least = BY_CHANCE * _missed(main, more)
-    if at_hand(runs.case, last)[1].light == half.scaled.light:  # else a body moves by another scheme there
+    if at_hand(runs.case, last)[1].body.light == half.scaled.body.light:  # else a body moves by another scheme there
         least = max(least, BY_CHANCE * _missed(half, runs.beside(half, last)) / MOST_GAINED)
     return Missed(_missed(main, steps), _missed(steps, half), least)
 
@@ -253,7 +253,7 @@ def _of_unresolved(runs: _Runs, main: Converged) -> float:
     """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
     companions do: found beside steps that do. Those that are chosen do, as far as that can be afforded.
     """
-    steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.light and main.scaled.M else 0
+    steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.body.light and main.scaled.body.M else 0
     if main.resolution.steps >= steps or steps > MOST_STEPS:
         return 0.0
     resolved = runs.beside(main, main.resolution.coarser(steps))
@@ -270,7 +270,7 @@ def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
     on dashpots, has no bound at all.
     """
     scaled = main.scaled
-    if scaled.T and not scaled.rigid and not scaled.M and not scaled.C:
+    if scaled.law.T and not scaled.body.rigid and not scaled.body.M and not scaled.body.C:
         return None
     march, half = looked_at(main), looked_at(runs.half(main))
     least, moved = min(march.least_slip, half.least_slip), abs(march.least_slip - half.least_slip)

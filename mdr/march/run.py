@@ -169,9 +169,9 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         march = march.contradicted(open_account)
     case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
     mu_0, sums = case.mu_0, seen.sums
-    force_z = scaled.stiffness_z * scaled.length_z
+    force_z = scaled.units.stiffness_z * scaled.units.length_z
     if not march.sees_contact:
-        raise too_coarse(scaled.steps)
+        raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
     error += march.end.missing_load
     cof = settling.mean
@@ -186,15 +186,15 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         kind=kind,
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
-        least_slip=float(sums[step.LEAST_SLIP]) * scaled.speed,
+        least_slip=float(sums[step.LEAST_SLIP]) * scaled.units.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
         v_0=march.end.v_0,
         mu_0=mu_0,
-        omega=scaled.omega,
+        omega=scaled.units.omega,
         n_springs=march.end.resolution.n_springs,
-        steps_per_period=scaled.steps,
+        steps_per_period=scaled.drive.steps,
         n_periods=march.n_periods,
         **(_recorded(march) if march.end.resolution.record else {}),
     )
@@ -213,7 +213,7 @@ def _why_not(march: Observed) -> str:
             f"a start from rest takes {march.end.on_the_way:.3g} periods to stretch the springs: start from full slip"
         )
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
-    if march.end.scaled.M and march.end.scaled.C == 0:
+    if march.end.scaled.body.M and march.end.scaled.body.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
     from_rest = march.end.resolution.start != "full_slip"
     return f"{change}: raise n_periods" + (" or start from full slip" if from_rest else "")
@@ -228,24 +228,24 @@ def _recorded(march: Observed) -> dict[str, Any]:
     n_steps = F_x.size
     t = (march.n_periods - march.end.resolution.record) * march.end.case.period + np.arange(
         1, n_steps + 1
-    ) * scaled.h / scaled.omega
-    n = scaled.n_lumped
+    ) * scaled.drive.h / scaled.units.omega
+    n = scaled.n_alike
     if n > 1:
         e, s, f_x, f_z, mode = (np.repeat(one, n, axis=1) for one in (e, s, f_x, f_z, mode))
-    phase = np.arange(1, n_steps + 1) % scaled.steps
+    phase = np.arange(1, n_steps + 1) % scaled.drive.steps
     share = springs.width / springs.width.sum()
     return {
         "t": t,
-        "u_x": march.end.v_0 * t + (y + scaled.x[phase]) * scaled.length_x,
-        "u_z": march.end.case.cycle.u_z0 + scaled.length_z * scaled.z[phase],
-        "F_x": F_x * scaled.stiffness_x * scaled.length_x,
-        "F_z": F_z * scaled.stiffness_z * scaled.length_z,
+        "u_x": march.end.v_0 * t + (y + scaled.drive.x[phase]) * scaled.units.length_x,
+        "u_z": march.end.case.cycle.u_z0 + scaled.units.length_z * scaled.drive.z[phase],
+        "F_x": F_x * scaled.units.stiffness_x * scaled.units.length_x,
+        "F_z": F_z * scaled.units.stiffness_z * scaled.units.length_z,
         "x": springs.x,
         "width": springs.width,
-        "e": e * scaled.length_x,
-        "s": s * scaled.length_z,
-        "f_x": f_x * share * scaled.stiffness_x * scaled.length_x,
-        "f_z": f_z * share * scaled.stiffness_z * scaled.length_z,
+        "e": e * scaled.units.length_x,
+        "s": s * scaled.units.length_z,
+        "f_x": f_x * share * scaled.units.stiffness_x * scaled.units.length_x,
+        "f_z": f_z * share * scaled.units.stiffness_z * scaled.units.length_z,
         "state": mode,
     }
 

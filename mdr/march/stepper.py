@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.march import loop
-from mdr.march.body import RATE, Y
+from mdr.march.body import N_BODY, RATE, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import TOLERANCE
 from mdr.spring.settle import tools_for
@@ -77,7 +77,13 @@ class Stepper:
 
     def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
-        self._parts = scaled.body, scaled.springs, scaled.motion(v), scaled.law, tools_for(scaled.law, scaled.h)
+        self._parts = (
+            scaled.body,
+            scaled.springs,
+            scaled.drive.with_pull(v),
+            scaled.law,
+            tools_for(scaled.law, scaled.drive.h),
+        )
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
@@ -85,17 +91,18 @@ class Stepper:
     def full_slip(self) -> MarchState:
         """The state of full slip at phase 0; of a body without its free oscillation."""
         s = self.scaled.normal.s
-        return MarchState.of(s, s, self.scaled.full_slip_state(self.v))
+        return MarchState.of(s, s, self.scaled.full_slip.state(self.v))
 
     def resonant(self) -> MarchState | None:
         """The state of a body that a resonance drives as far as stick lets it; None where none does."""
-        s, body = self.scaled.normal.s, self.scaled.resonant_state(self.v)
+        s, body = self.scaled.normal.s, self.scaled.full_slip.resonant(self.v)
         return None if body is None else MarchState.of(s, s, body)
 
     def rest(self) -> MarchState:
-        """The state in which nothing is stretched and the body at rest."""
-        s = self.scaled.normal.s
-        return MarchState.of(np.zeros_like(s), s, self.scaled.rest_state(self.v))
+        """The state in which nothing is stretched and the body at rest, from which the pull sets off."""
+        s, body = self.scaled.normal.s, np.zeros(N_BODY)
+        body[RATE] = 0.0 if self.scaled.body.rigid else -self.v
+        return MarchState.of(np.zeros_like(s), s, body)
 
     def period(self, state: MarchState) -> MarchState:
         """The state a period later; the one given is marched on in place."""
@@ -104,7 +111,7 @@ class Stepper:
 
     def advance(self, state: MarchState, n_periods: int) -> tuple[MarchState, Periods]:
         """The state some periods later, with their COFs; fewer periods where the time limit of the caller is over."""
-        parts, most = [Periods(np.empty(0), np.empty(0))], max(1, AT_ONCE // self.scaled.steps)
+        parts, most = [Periods(np.empty(0), np.empty(0))], max(1, AT_ONCE // self.scaled.drive.steps)
         state = state.copy()
         for start in range(0, n_periods, most):
             parts.append(self._periods_of(self._marched(state, min(most, n_periods - start))))
@@ -115,7 +122,7 @@ class Stepper:
     def _marched(self, state: MarchState, n_periods: int, seen: loop.Seen | None = None) -> loop.Trace:
         """A whole number of periods in place, counted."""
         trace = self.scaled.trace(n_periods)
-        n_steps = n_periods * self.scaled.steps
+        n_steps = n_periods * self.scaled.drive.steps
         loop.march(state.e, state.s, state.body, *self._parts, 0, n_steps, trace, seen)
         self._count(n_periods)
         return trace
@@ -126,20 +133,20 @@ class Stepper:
 
     def _periods_of(self, trace: loop.Trace) -> Periods:
         """COF and swing of each whole period."""
-        area, y = (one.reshape(-1, self.scaled.steps) for one in (trace.area, trace.y))
+        area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
         return Periods(area.sum(axis=1) / (2 * np.pi * self.mean_F_z), np.ptp(y, axis=1))
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
-        scaled, n, n_steps = self.scaled, self.scaled.gap.size, self.scaled.steps
+        scaled, n, n_steps = self.scaled, self.scaled.springs.gap.size, self.scaled.drive.steps
         before, state = state, state.copy()
         kept = n_steps if keep else 0
-        nodes = nodes_of(scaled.h, scaled.law.modes, scaled.law.arms)
+        nodes = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms)
         seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 3)), *np.zeros((5, kept, n)))
         seen.sums[LEAST_SLIP] = np.inf
         trace = self._marched(state, 1, seen)
-        x_2 = np.diff(scaled.x_dot) / (2 * scaled.h)  # the shake goes on parabolas
-        x_1 = np.diff(scaled.x) / scaled.h - x_2 * scaled.h
+        x_2 = np.diff(scaled.drive.x_dot) / (2 * scaled.drive.h)  # the shake goes on parabolas
+        x_1 = np.diff(scaled.drive.x) / scaled.drive.h - x_2 * scaled.drive.h
         seen.sums[SHAKE_WORK] = x_1 @ trace.area + 2 * x_2 @ trace.moment
         seen.sums[LEAST_SLIP] = min(seen.sums[LEAST_SLIP], least_between(seen.F[:, 2]))
         y, rate = (np.concatenate([before.body[k : k + 1], of]) for k, of in ((Y, trace.y), (RATE, trace.rate)))
@@ -171,12 +178,12 @@ class Stepper:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
         scaled, y, rate = self.scaled, float(state.body[Y]), float(state.body[RATE])
         u_dot = self.v + rate
-        if scaled.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
-            u_dot, y = u_dot + float(scaled.x_dot[0]), y + float(scaled.x[0] - scaled.far_end[0])
+        if scaled.drive.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
+            u_dot, y = u_dot + float(scaled.drive.x_dot[0]), y + float(scaled.drive.x[0] - scaled.drive.far_end[0])
         ratios = np.concatenate([[1.0], scaled.rheology.rho])
-        springs, normal = (0.5 * float(ratios @ (one**2 @ scaled.w)) for one in (state.e, state.s))
-        ratio = scaled.stiffness_z * scaled.length_z**2 / (scaled.stiffness_x * scaled.length_x**2)
-        system = 0.0 if scaled.rigid else 0.5 * scaled.K * y**2 + 0.5 * scaled.M * u_dot**2
+        springs, normal = (0.5 * float(ratios @ (one**2 @ scaled.springs.w)) for one in (state.e, state.s))
+        ratio = scaled.units.energy_z / (scaled.units.energy_x)
+        system = 0.0 if scaled.body.rigid else 0.5 * scaled.body.K * y**2 + 0.5 * scaled.body.M * u_dot**2
         return float(springs + normal * ratio + system)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from mdr.march.body import Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.orbit_search import Orbit, search
-from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
+from mdr.march.steady_state import MIN_PERIODS, TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
 from mdr.march.stepper import MarchState, Periods, Stepper, joined
 from mdr.tools.progress import time_is_over
 
@@ -39,6 +39,11 @@ class Waiting:
         """Periods so far."""
         return self.periods.cof.size
 
+    @property
+    def first_look(self) -> int:
+        """Periods after which it makes sense to ask whether a run has settled."""
+        return 4 * MIN_PERIODS if self.scaled.body.M else MIN_PERIODS
+
     def advance(self, n_periods: int) -> None:
         """March on, period by period."""
         self.state, periods = self.stepper.advance(self.state, n_periods)
@@ -51,12 +56,12 @@ class Waiting:
     def wait(self, most: int) -> Orbit:
         """March until the windows agree, but not before every spring has been pulled as far as it has to go."""
         if self.on_the_way > most:
-            self.advance(self.scaled.first_look)
+            self.advance(self.first_look)
             return self._ended(replace(self.assess(), settled=False, kind="unsettled"))
-        self.advance(max(self.scaled.first_look, int(self.on_the_way)))
+        self.advance(max(self.first_look, int(self.on_the_way)))
         solve_at = self.n
         while not (settling := self.assess()).settled:
-            if not self.scaled.rigid and self.n >= solve_at:
+            if not self.scaled.body.rigid and self.n >= solve_at:
                 solve_at = SOLVE_AGAIN * self.n
                 if (orbit := search(self.stepper, (self.state,))) is not None:
                     return orbit
@@ -73,9 +78,9 @@ class Waiting:
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""
         # under a rigid pull a change shrinks at a constant rate, so that any tolerance is met in time
-        settling = assess(self.periods.cof, self.stepper.tolerance if self.scaled.rigid else TOLERANCE)
-        if self.n < E_FOLDS * self.scaled.pull_time and abs(1 - settling.mean) > TOLERANCE:
-            takes = f"spring and damper of the pull take {self.scaled.pull_time:.3g}"
+        settling = assess(self.periods.cof, self.stepper.tolerance if self.scaled.body.rigid else TOLERANCE)
+        if self.n < E_FOLDS * self.scaled.body.pull_time and abs(1 - settling.mean) > TOLERANCE:
+            takes = f"spring and damper of the pull take {self.scaled.body.pull_time:.3g}"
             why = f"after {self.n} periods the body still creeps: {takes}"
             return replace(settling, spread=UNKNOWN, settled=False, kind="unsettled", why=why)
         if settling.settled and (why := self._still_moves(settling.mean)):
@@ -85,30 +90,30 @@ class Waiting:
     def _still_moves(self, cof: float) -> str:
         """Why a COF that has settled is not the end of the motion; nothing if it is."""
         scaled, n = self.scaled, self.n
-        if not scaled.M:
+        if not scaled.body.M:
             return ""
-        changes = (abs(self.growth) if scaled.C == 0 else self.growth) * n > SWING_TOLERANCE
+        changes = (abs(self.growth) if scaled.body.C == 0 else self.growth) * n > SWING_TOLERANCE
         if changes or self._dies_away(cof):
             return f"the swing of the body still grows or dies away after {n} periods"
         if n < self.beat:
             return f"after {n} periods the body may still be in a beat, which lasts {self.beat:.3g} of them"
         full = abs(1 - cof) <= TOLERANCE
-        if full and not self._locks_in and self.stepper.v < (1 - NEARLY) * scaled.end_of_full_slip:
+        if full and not self._locks_in and self.stepper.v < (1 - NEARLY) * scaled.full_slip.end:
             return f"full slip cannot last at this velocity: after {n} periods the body has not yet come to stick"
         return ""
 
     @cached_property
     def _off_multiple(self) -> float:
         """How far omega_0/omega is from a whole number; zero where it is one."""
-        ratio = float(np.sqrt(self.scaled.K / self.scaled.M))
+        ratio = float(np.sqrt(self.scaled.body.K / self.scaled.body.M))
         off = abs(ratio - round(ratio))
         return off if off > 1e-12 * ratio else 0.0
 
     @cached_property
     def _locks_in(self) -> bool:
         """Whether a free oscillation of the body stays in step with a drive that does not feed it."""
-        driven = bool(np.isinf(self.scaled.end_of_full_slip))
-        return self.scaled.C == 0 and self._off_multiple == 0 and not driven
+        driven = bool(np.isinf(self.scaled.full_slip.end))
+        return self.scaled.body.C == 0 and self._off_multiple == 0 and not driven
 
     @cached_property
     def beat(self) -> float:
@@ -116,26 +121,28 @@ class Waiting:
         the drive feeds it without end, its growth tells.
         """
         scaled = self.scaled
-        if scaled.C == 0 and self._off_multiple == 0:
+        if scaled.body.C == 0 and self._off_multiple == 0:
             return 0.0
         beats = BEATS / self._off_multiple if self._off_multiple else np.inf
-        return min(beats, E_FOLDS * scaled.M / (np.pi * scaled.C) if scaled.C else np.inf)
+        return min(beats, E_FOLDS * scaled.body.M / (np.pi * scaled.body.C) if scaled.body.C else np.inf)
 
     def _dies_away(self, cof: float) -> bool:
         """Whether a body that rings for many periods still loses a swing that friction depends on: springs that it
         carries to and fro slip as it has them, however steadily. In full slip forward a smaller swing changes nothing.
         """
         scaled = self.scaled
-        if not (scaled.M and scaled.C) or abs(1 - cof) <= TOLERANCE:
+        if not (scaled.body.M and scaled.body.C) or abs(1 - cof) <= TOLERANCE:
             return False
-        return -self.growth * scaled.M / (np.pi * scaled.C) > DYING
+        return -self.growth * scaled.body.M / (np.pi * scaled.body.C) > DYING
 
     def _may_settle_by(self, most: int) -> bool:
         """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""
         driven = self.n > 64 and self.growth * self.n > SWING_TOLERANCE
         full = abs(1 - self.periods.cof[-1]) < TOLERANCE
-        if driven and np.isinf(self.scaled.end_of_full_slip) and self.scaled.M and full:
-            at_stick = 2 * self.stepper.v * np.sqrt(self.scaled.M / self.scaled.K)  # swing of a body that reaches -v
+        if driven and np.isinf(self.scaled.full_slip.end) and self.scaled.body.M and full:
+            at_stick = (
+                2 * self.stepper.v * np.sqrt(self.scaled.body.M / self.scaled.body.K)
+            )  # swing of a body that reaches -v
             return float(at_stick / (self.growth * self.periods.swing[-1])) < most and self.n < most
         return self.n < most
 
@@ -143,7 +150,7 @@ class Waiting:
     def growth(self) -> float:
         """Growth of the swing of the body a period, over the swing, between the last two windows."""
         n, swings = self.n, self.periods.swing
-        if n < 4 or self.scaled.rigid:
+        if n < 4 or self.scaled.body.rigid:
             return 0.0
         late, early = smooth_mean(swings[n // 2 :]), smooth_mean(swings[n // 4 : n // 2])
         # a swing that is rounding of the position does not count
@@ -152,6 +159,6 @@ class Waiting:
 
 def way_from_rest(scaled: ScaledContact, v: float) -> float:
     """Periods until a run from rest can have stretched springs and system."""
-    load = float(scaled.w @ np.maximum(scaled.z.max() - scaled.gap, 0))
-    distance = float(scaled.z.max()) - float(scaled.gap.min()) + load / scaled.K
+    load = float(scaled.springs.w @ np.maximum(scaled.drive.z.max() - scaled.springs.gap, 0))
+    distance = float(scaled.drive.z.max()) - float(scaled.springs.gap.min()) + load / scaled.body.K
     return distance / (2 * np.pi * v) if v else 0.0  # at rest the start tells where it ends

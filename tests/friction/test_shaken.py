@@ -190,8 +190,10 @@ def creeping(case, load, e_share, n_periods):
     springs = mdr.SpringArray.of(case, 64)
     scaled = ScaledContact.of(case, springs, 512, lump=False)
     spring = 1e-7  # of the contact's stiffness; the load is what the spring pulls with
-    unit = scaled.stiffness_x / scaled.omega
-    held = replace(case, pull=mdr.SpringPull(spring * scaled.stiffness_x, MASS * unit / scaled.omega, DAMPING * unit))
+    unit = scaled.units.stiffness_x / scaled.units.omega
+    held = replace(
+        case, pull=mdr.SpringPull(spring * scaled.units.stiffness_x, MASS * unit / scaled.units.omega, DAMPING * unit)
+    )
     scaled = ScaledContact.of(held, springs, 512, lump=False)
     stepper = Stepper(scaled, 0.0)
     state = stepper.full_slip()
@@ -202,7 +204,7 @@ def creeping(case, load, e_share, n_periods):
     state, _ = stepper.advance(state, 5 * n_periods)  # until it rests, but for a swing within the period
     before = state.body[Y]
     state, _ = stepper.advance(state, n_periods)
-    return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.x_dot).max()
+    return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.drive.x_dot).max()
 
 
 @pytest.mark.parametrize(
@@ -224,8 +226,8 @@ def test_inside_the_band_nothing_creeps_and_outside_it_does(case, side):
     assert drift > 1e-4
     # friction at this velocity and the damper together carry the load
     scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 512, lump=False)
-    velocity = -inward * drift * np.abs(scaled.x_dot).max()
-    carried = mdr.slide(case, velocity * scaled.speed).cof + MU_0 * DAMPING * velocity / scaled.normal.mean
+    velocity = -inward * drift * np.abs(scaled.drive.x_dot).max()
+    carried = mdr.slide(case, velocity * scaled.units.speed).cof + MU_0 * DAMPING * velocity / scaled.normal.mean
     assert carried == pytest.approx(outside, abs=0.03 * width)
 
 

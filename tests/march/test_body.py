@@ -33,7 +33,7 @@ def answered(body, state, area, moment):
 
 @pytest.mark.parametrize(("M", "C", "K"), BODIES.values(), ids=BODIES)
 def test_a_force_that_is_linear_in_the_step_is_answered_exactly(M, C, K):
-    body, (f, g), start = body_of(M, C, K, law_of(0.0), H, light=False), (0.8, -3.0), [0.2, -0.5]
+    body, (f, g), start = body_of(M, C, K, law_of(0.0), H, ringing=0.0), (0.8, -3.0), [0.2, -0.5]
 
     def rate(t, x):
         return [x[1], -(f + g * t + C * x[1] + K * x[0]) / M]
@@ -47,7 +47,7 @@ def test_a_force_that_is_linear_in_the_step_is_answered_exactly(M, C, K):
 def test_an_impulse_changes_the_momentum_wherever_in_the_step_it_acts(at):
     """And the way by what is left of the step: of a free mass area and moment tell all."""
     M = 0.3
-    body = body_of(M, 0.0, 0.0, law_of(0.0), H, light=False)
+    body = body_of(M, 0.0, 0.0, law_of(0.0), H, ringing=0.0)
     assert_allclose(answered(body, [0.0, 0.0], 1.0, at * H), [-(1 - at) * H / M, -1 / M], atol=1e-14)
 
 
@@ -56,7 +56,7 @@ def test_an_impulse_changes_the_momentum_wherever_in_the_step_it_acts(at):
 def test_the_stiffness_of_springs_that_stick_is_the_derivative_of_what_they_take(T, arm):
     """Newton's method of a step rests on it: from ends (y, y') springs are held on a parabola, and answer by L."""
     law = law_of(T, arm, (0.4,) * len(arm))
-    body = body_of(0.3, 0.1, 0.7, law, H, light=False)
+    body = body_of(0.3, 0.1, 0.7, law, H, ringing=0.0)
     t, weight = np.polynomial.legendre.leggauss(24)
     t, weight = H * (t + 1) / 2, H * weight / 2
     for column, (y, rate) in enumerate(((1.0, 0.0), (0.0, 1.0))):
@@ -76,7 +76,7 @@ def test_the_stiffness_of_springs_that_stick_is_the_derivative_of_what_they_take
 def test_harmonics_repeat_themselves_under_the_steps(M, C, K):
     rng = np.random.default_rng(3)
     area, moment = H * rng.normal(size=N), H**2 / 2 * rng.normal(size=N)
-    body = body_of(M, C, K, law_of(0.0), H, light=False)
+    body = body_of(M, C, K, law_of(0.0), H, ringing=0.0)
     motion, resonant = harmonics_of(body, np.fft.rfft(area), np.fft.rfft(moment))
     assert not resonant.any()
     y = np.fft.irfft(motion, N)
@@ -86,7 +86,7 @@ def test_harmonics_repeat_themselves_under_the_steps(M, C, K):
 
 @pytest.mark.parametrize("n", [1, 3])
 def test_an_undamped_resonance_is_named(n):
-    body = body_of(0.3, 0.0, 0.3 * n**2, law_of(0.0), H, light=False)
+    body = body_of(0.3, 0.0, 0.3 * n**2, law_of(0.0), H, ringing=0.0)
     force = np.fft.rfft(H * np.cos(n * H * np.arange(N)))
     motion, resonant = harmonics_of(body, force, H / 2 * force)
     assert np.flatnonzero(resonant).tolist() == [n]
@@ -97,7 +97,7 @@ def test_an_undamped_resonance_is_named(n):
 def light_motion(M, C, K, n, harmonic=1):
     """Amplitude of a light body under cos(harmonic t), in n steps."""
     h = 2 * np.pi / n
-    body, t, i = body_of(M, C, K, law_of(0.0), h, light=True), h * np.arange(n), harmonic
+    body, t, i = body_of(M, C, K, law_of(0.0), h, ringing=math.inf), h * np.arange(n), harmonic
     areas, ends = (np.sin(i * (t + h)) - np.sin(i * t)) / i, np.cos(i * (t + h))
     motion, resonant = light_harmonics_of(body, np.fft.rfft(areas), np.fft.rfft(ends))
     assert not resonant.any()
@@ -122,7 +122,7 @@ def test_a_mass_that_is_not_resolved_goes_with_the_force():
 
 
 def test_a_rigid_pull_has_no_body():
-    body = body_of(0.0, 0.0, math.inf, law_of(0.5), H, light=False)
+    body = body_of(0.0, 0.0, math.inf, law_of(0.5), H, ringing=0.0)
     assert body.rigid
     for part in (body.free, body.area, body.moment, body.stuck):
         assert not np.any(part)
@@ -146,10 +146,16 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(64, steps, "full_slip", True))
     for v in (0.05, 0.3, 0.8):
-        parts = scaled.body, scaled.springs, scaled.motion(v), scaled.law, tools_for(scaled.law, scaled.h)
+        parts = (
+            scaled.body,
+            scaled.springs,
+            scaled.drive.with_pull(v),
+            scaled.law,
+            tools_for(scaled.law, scaled.drive.h),
+        )
         s = scaled.normal.s.copy()
-        assert scaled.light
-        assert march(s.copy(), s, scaled.full_slip_state(v), *parts, 0, 2 * steps, scaled.trace(2), None)
+        assert scaled.body.light
+        assert march(s.copy(), s, scaled.full_slip.state(v), *parts, 0, 2 * steps, scaled.trace(2), None)
 
 
 @pytest.mark.parametrize("at", [-3.0, 0.0, 1e-9, 7e2])

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import mdr
 from mdr.march import loop
 from mdr.march.body import RATE, Y
 from mdr.march.dimensionless import ScaledContact, fast_ratio
+from mdr.march.stepper import Stepper
 from mdr.spring.settle import tools_for
 
 STEPS = 256
@@ -35,31 +37,37 @@ def test_scaled_motion_and_springs():
     case = contact("paraboloid", 3.0, 0.5)
     springs = mdr.SpringArray.of(case, 40)
     scaled = ScaledContact.of(case, springs, STEPS, lump=False)
-    t = scaled.h * np.arange(STEPS + 1) / case.oscillation.omega
-    u_z = case.oscillation.u_z0 + scaled.z * scaled.length_z
+    t = scaled.drive.h * np.arange(STEPS + 1) / case.oscillation.omega
+    u_z = case.oscillation.u_z0 + scaled.drive.z * scaled.units.length_z
     assert_allclose(u_z, case.oscillation.u_z(t), rtol=1e-14)
     assert_allclose(
-        scaled.z_dot * scaled.length_z * scaled.omega, case.oscillation.u_z_dot(t), rtol=0, atol=1e-14 * 6e-4
+        scaled.drive.z_dot * scaled.units.length_z * scaled.units.omega,
+        case.oscillation.u_z_dot(t),
+        rtol=0,
+        atol=1e-14 * 6e-4,
     )
-    assert_allclose(scaled.gap * scaled.length_z, springs.gap, rtol=1e-15)
-    assert_allclose(scaled.w.sum(), 1, rtol=1e-14)
-    assert_allclose(scaled.w * scaled.stiffness_z, springs.dk_z, rtol=1e-13)
-    assert_allclose(scaled.w * scaled.stiffness_x, springs.dk_x, rtol=1e-13)
+    assert_allclose(scaled.springs.gap * scaled.units.length_z, springs.gap, rtol=1e-15)
+    assert_allclose(scaled.springs.w.sum(), 1, rtol=1e-14)
+    assert_allclose(scaled.springs.w * scaled.units.stiffness_z, springs.dk_z, rtol=1e-13)
+    assert_allclose(scaled.springs.w * scaled.units.stiffness_x, springs.dk_x, rtol=1e-13)
     nu = case.material.nu
     assert_allclose(
-        scaled.speed, case.mu_0 * (2 - nu) / (2 * (1 - nu)) * case.oscillation.omega * case.oscillation.du_z, rtol=1e-14
+        scaled.units.speed,
+        case.mu_0 * (2 - nu) / (2 * (1 - nu)) * case.oscillation.omega * case.oscillation.du_z,
+        rtol=1e-14,
     )  # Eq. (1)
-    assert scaled.steps == STEPS
+    assert scaled.drive.steps == STEPS
 
 
 def test_body_groups_are_those_of_the_oscillator():
     case = contact("paraboloid", 3.0, 0.5, 0.7, 1.6, 0.15)
     scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 32), STEPS, lump=False)
-    omega, unit = case.oscillation.omega, scaled.stiffness_x
+    omega, unit = case.oscillation.omega, scaled.units.stiffness_x
     assert_allclose(
-        [scaled.M, scaled.C, scaled.K], np.array([case.pull.m * omega**2, case.pull.c_x * omega, case.pull.k_x]) / unit
+        [scaled.body.M, scaled.body.C, scaled.body.K],
+        np.array([case.pull.m * omega**2, case.pull.c_x * omega, case.pull.k_x]) / unit,
     )
-    assert_allclose(math.sqrt(scaled.K / scaled.M), 1.6, rtol=1e-13)
+    assert_allclose(math.sqrt(scaled.body.K / scaled.body.M), 1.6, rtol=1e-13)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -68,16 +76,19 @@ def test_friction_and_moduli_drop_out(shape):
     one = scaled_of(*groups)
     for change in ({"mu_0": 0.01}, {"E": 3e11}, {"nu": 0.1}, {"omega": 1e6}):
         other = scaled_of(*groups, **change)
-        for name in ("gap", "w", "z", "z_dot", "T", "M", "C", "K"):
-            assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-11, err_msg=name)
+        groups_of = attrgetter(
+            "springs.gap", "springs.w", "drive.z", "drive.z_dot", "law.T", "body.M", "body.C", "body.K"
+        )
+        for here, there in zip(groups_of(other), groups_of(one), strict=True):
+            assert_allclose(here, there, rtol=1e-11)
         assert_allclose(other.body.free, one.body.free, rtol=1e-11)
 
 
 def test_springs_that_stand_alike_are_one():
     flat = scaled_of("flat", 3.0, 0.5, lump=True)
-    assert (flat.gap.size, flat.n_lumped, flat.n_core) == (1, 32, 1)
-    assert flat.w.sum() == 1
-    assert scaled_of("paraboloid", 3.0, 0.5, lump=True).gap.size == 32
+    assert (flat.springs.gap.size, flat.n_alike) == (1, 32)
+    assert flat.springs.w.sum() == 1
+    assert scaled_of("paraboloid", 3.0, 0.5, lump=True).springs.gap.size == 32
 
 
 def test_fast_ratio():
@@ -117,14 +128,14 @@ def test_fast_ratio_is_a_resonance_on_the_storage_modulus(time):
 @pytest.mark.parametrize("shape", ["flat", "paraboloid"])
 def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     scaled = scaled_of(shape, 4.0, T, **body)
-    s, start = scaled.normal.s, scaled.full_slip_state()
+    s, start = scaled.normal.s, scaled.full_slip.state()
     e, held, trace = s.copy(), start.copy(), scaled.trace(3)
-    parts = scaled.springs, scaled.motion(1e3), scaled.law, tools_for(scaled.law, scaled.h)
+    parts = scaled.springs, scaled.drive.with_pull(1e3), scaled.law, tools_for(scaled.law, scaled.drive.h)
     assert loop.march(e, s.copy(), held, scaled.body, *parts, 0, 3 * STEPS, trace, None)
     area, y = trace.area, trace.y
     # the rate of a light body takes a rounding of the force 1/h times
     size = np.abs(y).max() + np.abs(start).max()
-    assert_allclose(held, start, rtol=0, atol=(1e-11 if scaled.light else 1e-15 * STEPS) * size)
+    assert_allclose(held, start, rtol=0, atol=(1e-11 if scaled.body.light else 1e-15 * STEPS) * size)
     assert_allclose(e, s, rtol=0, atol=1e-12 * (1 + s.max()))
     assert_allclose(area[:STEPS], scaled.normal.area, rtol=0, atol=1e-12 * np.abs(area).max())  # as known beforehand
     assert_allclose(area[:STEPS], area[-STEPS:], rtol=0, atol=1e-11 * np.abs(area).max())
@@ -136,29 +147,30 @@ def test_the_resonant_harmonic_is_left_out(multiple):
     scaled = scaled_of("paraboloid", 3.0, 0.0, 0.7, float(multiple), 0.0)
     area = np.fft.rfft(scaled.normal.area)
     assert abs(area[multiple]) > 1e-4 * abs(area[0])  # it is driven
-    assert scaled.end_of_full_slip == math.inf
-    start = scaled.full_slip_state()
+    assert scaled.full_slip.end == math.inf
+    start = scaled.full_slip.state()
     assert np.abs(start).max() < 100
     # the other harmonics: off the resonance by a little they are the same, and this one is all the difference
     near = scaled_of("paraboloid", 3.0, 0.0, 0.7, multiple * (1 + 1e-6), 0.0)
-    y = np.fft.irfft(np.where(np.arange(area.size) == multiple, 0, near._full_slip_motion[0][0]), STEPS)
+    y = np.fft.irfft(np.where(np.arange(area.size) == multiple, 0, near.full_slip._motion[0][0]), STEPS)
     assert_allclose(start[Y], y[0], rtol=1e-4)
 
 
 def test_a_little_damping_brings_the_harmonic_back():
     """Under F_1 sin(phase + psi) y is F_1 cos(phase + psi)/C, far more than all other harmonics make."""
     scaled = scaled_of("paraboloid", 3.0, 0.0, 0.7, 1.0, 1e-6)
-    first = 2 * np.fft.rfft(scaled.normal.area)[1] / (scaled.h * STEPS)  # of the mean force of each step
-    first *= np.exp(-0.5j * scaled.h)  # which is that of its middle
-    expected = -first / (1j * scaled.C)
+    first = 2 * np.fft.rfft(scaled.normal.area)[1] / (scaled.drive.h * STEPS)  # of the mean force of each step
+    first *= np.exp(-0.5j * scaled.drive.h)  # which is that of its middle
+    expected = -first / (1j * scaled.body.C)
     # beside it, the mean force over K
-    assert_allclose(scaled.full_slip_state()[[Y, RATE]], [expected.real, (1j * expected).real], rtol=1e-3, atol=10)
+    assert_allclose(scaled.full_slip.state()[[Y, RATE]], [expected.real, (1j * expected).real], rtol=1e-3, atol=10)
 
 
 def test_rest_is_rest():
     """The body stands still: its motion relative to the pull runs backward at v."""
     v = 0.3
-    body = scaled_of("paraboloid", 3.0, 0.5, **BODIES["damped"]).rest_state(v)
-    assert body.tolist() == [0.0, -v]
-    assert not scaled_of("paraboloid").rest_state(v).any()
-    assert not scaled_of("paraboloid").full_slip_state().any()
+    start = Stepper(scaled_of("paraboloid", 3.0, 0.5, **BODIES["damped"]), v).rest()
+    assert start.body.tolist() == [0.0, -v]
+    assert not start.e.any()
+    assert not Stepper(scaled_of("paraboloid"), v).rest().body.any()
+    assert not scaled_of("paraboloid").full_slip.state().any()

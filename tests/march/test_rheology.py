@@ -53,7 +53,7 @@ def test_cof_is_that_of_the_twin(T, arms, shape, depth_ratio, v):
     n = 4096 if depth_ratio < 0 else 2048  # the jumps of dashpots that touch are first order to the twin
     scaled = ScaledContact.of(contact, springs, 16, lump=False)
     n_periods = 4 + int(12 * max(arms[1]) * (1 + sum(arms[0])) / (2 * math.pi))  # 12 times the slowest retardation
-    twin = reference_arms.cof(np.cos, scaled.gap, scaled.w, v, T, *arms, n, n_periods)
+    twin = reference_arms.cof(np.cos, scaled.springs.gap, scaled.springs.w, v, T, *arms, n, n_periods)
     # first order extrapolated, at kinks not quite; 96 springs
     assert_allclose(run.cof / contact.mu_0, twin, rtol=0, atol=1e-4)
     assert run.settled

@@ -227,7 +227,7 @@ def test_a_core_of_one_height_is_one_spring():
     for shape, lumped in (("flat", True), ("paraboloid", False)):
         case = contact(shape, chi=0.5)
         scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 64, lump=True)
-        assert (scaled.gap.size == 1) == lumped
+        assert (scaled.springs.gap.size == 1) == lumped
 
 
 # --- invariances of an elastic contact, whose springs know no time ---

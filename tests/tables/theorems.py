@@ -136,12 +136,12 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     if not run.settled:
         return []
     scaled = at_hand(mdr.resolved(case), Resolution(run.n_springs, run.steps_per_period, "full_slip", True))[1]
-    stepper = Stepper(scaled, v_0 / scaled.speed)
+    stepper = Stepper(scaled, v_0 / scaled.units.speed)
     orbit = search_from_full_slip(stepper) or Waiting(stepper, stepper.full_slip()).wait(MAX_PERIODS["spring"])
     settling = orbit.settling
     if not settling.settled:
         return []
-    n = min(max(64, LONGER * stepper.n_periods), int(MOST_STEPS / scaled.steps))
+    n = min(max(64, LONGER * stepper.n_periods), int(MOST_STEPS / scaled.drive.steps))
     mean = float(stepper.advance(orbit.state, n)[1].cof.mean())
     off = abs(mean - settling.mean)
     return [f"continued: {settling.mean:.8g} +- {settling.spread:.1g}, then {mean:.8g}"] if off > LEEWAY else []
