@@ -31,7 +31,7 @@ from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.march.theorems import outside
 from mdr.march.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
-from mdr.spring.step import CONTACT_TIME, LEAST_SLIP, STICK_TIME
+from mdr.spring.step import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import FieldError, finite
 from mdr.tools.memoise import remembered
 
@@ -39,7 +39,6 @@ DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding 
 FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
 BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
 MOST_ACCURATE, LEAST_ACCURATE = 1e-8, 1e-3  #: that can be asked for
-MOST_SHARED = 8192  #: springs of arrays that are kept for further runs
 MOST_BESIDE = 512  #: periods that a run beside another waits whose periodic state is not found from that one
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
@@ -63,7 +62,7 @@ class Resolution(NamedTuple):
     record: int = 0
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
 
-    def coarser(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
+    def of_size(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
         """The resolution of a companion with other steps or springs, that keeps nothing."""
         return self._replace(
             n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
@@ -167,13 +166,13 @@ class Observed:
     def sees_contact(self) -> bool:
         """Whether any spring presses for longer than an instant between two steps."""
         sums = self.account.seen.sums
-        return bool(sums[CONTACT_TIME] > 0 and np.isfinite(sums[LEAST_SLIP]))
+        return bool(sums[CONTACT_IMPULSE] > 0 and np.isfinite(sums[LEAST_SLIP]))
 
     @property
     def stick_share(self) -> float:
         """Force-weighted share of contact time spent sticking."""
         sums = self.account.seen.sums
-        return float(sums[STICK_TIME] / sums[CONTACT_TIME])
+        return float(sums[STICK_IMPULSE] / sums[CONTACT_IMPULSE])
 
     @property
     def least_slip(self) -> float:
@@ -327,9 +326,6 @@ def too_coarse(steps: int) -> ValueError:
 def at_hand(case: SlidingContact, resolution: Resolution) -> tuple[SpringArray, ScaledContact]:
     """Springs and their scaled form; runs of one case at other velocities share them."""
     lump = resolution.lump and resolution.start == "full_slip"
-    if resolution.n_springs > MOST_SHARED:
-        springs = SpringArray.of(case, resolution.n_springs)
-        return springs, ScaledContact.of(case, springs, resolution.steps, lump)
     return _scaled(case, resolution.n_springs, resolution.steps, lump)
 
 

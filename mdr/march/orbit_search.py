@@ -15,17 +15,15 @@ from mdr.march import periodic_orbit as periodic
 from mdr.march.body import N_BODY, RATE, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import UNKNOWN, Settling
-from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
-from mdr.spring.step import LEAST_SLIP, STICK_TIME
+from mdr.march.stepper import AT_ONCE, MarchState, PeriodRecord, Periods, Stepper
+from mdr.spring.step import LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
 SHARE = 20.0  #: times a change over a period, that adds up over its gain, is less than a tolerance; twice in the force
-NEARLY = 1e-5  #: what is missing in the COF where, within the error of a loose search, it may be that of full slip
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
-UNWATCHED = 2**22  #: extensions times steps that a search marches between two looks at the clock
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
 
@@ -117,7 +115,7 @@ def _by_anderson(
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
     at, left, ended = how.by_anderson(start.x, norm.of, slow), how.most, False
-    at_once = max(1, UNWATCHED // (start.e.size * stepper.scaled.drive.steps))
+    at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
     while left > 0 and not ended:
         if time_is_over():
             raise _OutOfTime
@@ -132,7 +130,7 @@ def _by_anderson(
 
 def _nearly_full(cof: float) -> bool:
     """Whether so little is missing in the COF that a search may have to tell it from nothing."""
-    return FULL < 1 - cof < NEARLY
+    return FULL < 1 - cof < SOLVED_TOLERANCE
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:
@@ -185,7 +183,7 @@ def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm:
     drift = change / np.sqrt(
         scaled.body.M or (1.0 if scaled.body.rigid else scaled.body.K)
     )  # under a rigid pull that of the springs
-    if sums[STICK_TIME] > 0 or not AGES * drift < sums[LEAST_SLIP] < np.inf:
+    if sums[STICK_IMPULSE] > 0 or not AGES * drift < sums[LEAST_SLIP] < np.inf:
         return None
     cof = float(record.period.cof[-1])
     return Orbit(state, record.period, Settling(cof, 0.0, True, "periodic", gain=np.inf), record)

@@ -16,6 +16,7 @@ Each run begins in the periodic state of one before it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,15 +35,14 @@ from mdr.march.march import (
     steady,
     too_coarse,
 )
+from mdr.march.orbit_search import FULL
 from mdr.march.run import SlidingRun, finish
 from mdr.march.steady_state import TOLERANCE
 from mdr.march.theorems import outside
 from mdr.tools.progress import Ticker, time_is_over
 
-ROUNDING = 1e-14  #: of cof/mu_0, up to which two runs have the same
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
-EIGHTHS = 64  #: steps are a multiple of it, as companions have eighths of them and of their half
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
 UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an error was seen to fall by a fifth only
@@ -61,7 +61,7 @@ def default_steps(case: SlidingContact) -> int:
     body on the contact, if that can be afforded.
     """
     plain, fast = N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)), fast_ratio(case)
-    resolved = 0 if np.isinf(fast) else EIGHTHS * int(np.ceil(2.02 * RESOLVED * fast / EIGHTHS))
+    resolved = 0 if np.isinf(fast) else N_STEPS * int(np.ceil(2.02 * RESOLVED * fast / N_STEPS))
     return min(max(plain, resolved), MOST_STEPS)
 
 
@@ -103,7 +103,7 @@ class _Runs:
         """
         known = self.near is not None and self.near.v_0 == self.v_0
         if not known and self.searched and resolution.start == "full_slip":
-            half = companions(resolution)[1]
+            half = companions(resolution).half
             first = steady(self.case, self.v_0, half, None, self.near, 1)
             if first.settling.solved and first.settling.settled:
                 self.ends[half] = self.near = first
@@ -115,7 +115,7 @@ class _Runs:
 
     def half(self, main: Converged) -> Converged:
         """The companion with half of the steps and springs."""
-        return self.beside(main, companions(main.resolution)[1])
+        return self.beside(main, companions(main.resolution).half)
 
     def _at(self, resolution: Resolution, n_periods: int | None, most: int | None) -> Converged:
         if resolution not in self.ends:
@@ -130,13 +130,20 @@ class _Runs:
         return self.ends[resolution]
 
 
-def companions(resolution: Resolution) -> tuple[Resolution, Resolution, Resolution, Resolution]:
-    """Beside a run: half of its steps, half of the springs too, three quarters of both, and three quarters of half."""
+class Companions(NamedTuple):
+    """The resolutions of the runs beside a run, (1) to (4) above."""
+
+    steps: Resolution  #: half of its steps
+    half: Resolution  #: half of its springs too
+    more: Resolution  #: three quarters of both
+    less: Resolution  #: three quarters of half of both
+
+
+def companions(resolution: Resolution) -> Companions:
+    """Those beside a run."""
     shares = (4, 8), (4, 4), (6, 6), (3, 3)  # eighths of steps and springs
-    steps, half, more, less = (
-        resolution.coarser(k * resolution.steps // 8, m * resolution.n_springs // 8) for k, m in shares
-    )
-    return steps, half, more, less
+    n_t, n = resolution.steps, resolution.n_springs
+    return Companions(*(resolution.of_size(k * n_t // 8, m * n // 8) for k, m in shares))
 
 
 def check_size(n_springs: int, steps: int, record: int) -> None:
@@ -241,11 +248,13 @@ class Missed:
 
 def _missed_by(runs: _Runs, main: Converged) -> Missed:
     """What the companions of a run tell."""
-    *finer, last = companions(main.resolution)
-    steps, half, more = (runs.beside(main, resolution) for resolution in finer)
+    beside = companions(main.resolution)
+    steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
     least = BY_CHANCE * _missed(main, more)
-    if at_hand(runs.case, last)[1].body.light == half.scaled.body.light:  # else a body moves by another scheme there
-        least = max(least, BY_CHANCE * _missed(half, runs.beside(half, last)) / MOST_GAINED)
+    if (
+        at_hand(runs.case, beside.less)[1].body.light == half.scaled.body.light
+    ):  # else a body moves by another scheme there
+        least = max(least, BY_CHANCE * _missed(half, runs.beside(half, beside.less)) / MOST_GAINED)
     return Missed(_missed(main, steps), _missed(steps, half), least)
 
 
@@ -256,7 +265,7 @@ def _of_unresolved(runs: _Runs, main: Converged) -> float:
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.body.light and main.scaled.body.M else 0
     if main.resolution.steps >= steps or steps > MOST_STEPS:
         return 0.0
-    resolved = runs.beside(main, main.resolution.coarser(steps))
+    resolved = runs.beside(main, main.resolution.of_size(steps))
     missed = resolved.settling.spread if resolved.settling.settled else 1.0
     return missed + RINGING * abs(main.cof - resolved.cof)
 
@@ -279,7 +288,7 @@ def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
 
 def _missed(main: Converged, companion: Converged) -> float:
     """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
-    if abs(main.cof - companion.cof) <= ROUNDING:
+    if abs(main.cof - companion.cof) <= FULL:
         return 0.0
     missing = companion.settling.spread if main.settling.solved else 0.0
     if main.settling.solved and not companion.settling.settled:

@@ -20,7 +20,7 @@ from mdr.spring.step import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
-AT_ONCE = 2**17  #: steps of a march whose forces are kept until their periods are averaged
+AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
 class MarchState:

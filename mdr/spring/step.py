@@ -44,8 +44,8 @@ MOST_PARABOLAS = 200  #: to a zero; they double their digits once they are near
 # what a look adds up, in this order; of the slip velocity the least of springs that touch
 N_SUMS = 9
 (
-    STICK_TIME,
-    CONTACT_TIME,
+    STICK_IMPULSE,
+    CONTACT_IMPULSE,
     SHEAR_WORK,
     SHAKE_WORK,
     NORMAL_WORK,
@@ -359,9 +359,9 @@ def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
     sums[SHEAR_VISCOUS] += w * shear_lost
     sums[NORMAL_VISCOUS] += w * normal_lost
     if mode != FREE:
-        sums[CONTACT_TIME] += w * pressed
+        sums[CONTACT_IMPULSE] += w * pressed
         sums[NORMAL_WORK] += w * worked
-        sums[STICK_TIME] += w * pressed if mode == STICK else 0.0
+        sums[STICK_IMPULSE] += w * pressed if mode == STICK else 0.0
         sums[FRICTION_LOSS] += w * slipped if mode != STICK else 0.0
 
 
@@ -479,8 +479,8 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
         if s[0, i] <= z_0 + tol:
             s[0, i], mode = z_0, BEGINS
         for _ in range(MOST_EVENTS):
-            x, y = s[0, i], e[0, i]
-            press, shear = held(x, z_1, z_2, T, t), held(y, x_1, x_2, T, t)
+            s_0, e_0 = s[0, i], e[0, i]
+            press, shear = held(s_0, z_1, z_2, T, t), held(e_0, x_1, x_2, T, t)
             if arms is not None:
                 press = plus(press, 1.0, arms_ends(s, i, z_1, z_2, t, k, tools, arms))
                 shear = plus(shear, 1.0, arms_ends(e, i, x_1, x_2, t, k, tools, arms))
@@ -504,13 +504,13 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 after, other = SLIP, SLIP_BACK
                 if not stays(ahead, t, tol):
                     p, q = z_1 - x_1, z_2 - x_2
-                    until = until_held(ahead, x - y, s, e, i, 1.0, -1.0, p, q, t, tol, T, modes, arms, tools)
+                    until = until_held(ahead, s_0 - e_0, s, e, i, 1.0, -1.0, p, q, t, tol, T, modes, arms, tools)
                 if not stays(behind, t, tol):
                     p, q = z_1 + x_1, z_2 + x_2
-                    second = until_held(behind, x + y, s, e, i, 1.0, 1.0, p, q, t, tol, T, modes, arms, tools)
+                    second = until_held(behind, s_0 + e_0, s, e, i, 1.0, 1.0, p, q, t, tol, T, modes, arms, tools)
             else:
                 part = 0.0 if mode == FREE else sign  # left alone: s in flight, s -+ e in slip
-                lag, fallen = x - part * y, 0.0
+                lag, fallen = s_0 - part * e_0, 0.0
                 if modes is not None:
                     fallen = decay[k, 0]
                 left, left_rate = alone(lag, rate, fallen)
@@ -520,7 +520,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                     after, other = TOUCHES, FREE
                     apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
                     if not stays(apart, t, tol):
-                        until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+                        until = until_alone(apart, -z_0, -z_1, -z_2, s_0, False, t, tol, modes, arms, tools)
                 else:
                     after, other = STICK, FREE
                     p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
@@ -528,7 +528,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                     if not stays(slips, t, tol):
                         until = until_alone(slips, p, q, 0.0, lag, True, t, tol, modes, arms, tools)
                     if not stays(press, t, tol):
-                        second = until_held(press, x, s, e, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
+                        second = until_held(press, s_0, s, e, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
             if second < until:
                 until, after = second, other
             ends = until < t
@@ -544,18 +544,18 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
             if modes is not None:
                 fallen = decay[k, 0]
             if mode == FREE:
-                s[0, i], e[0, i] = x * fallen, y * fallen
+                s[0, i], e[0, i] = s_0 * fallen, e_0 * fallen
                 if arms is not None:
                     for j in range(n_x):
                         s[j, i] = of_modes(j, k, tools, modes)
-                    e[0, i] = y
+                    e[0, i] = e_0
                     into_modes(e, e, i, 0.0, k, tools, modes)
                     for j in range(n_x):
                         e[j, i] = of_modes(j, k, tools, modes)
             else:
-                A, B = force(y, x_1, x_2, T, t) if mode == STICK else force(x, z_1, z_2, T, t)
-                s[0, i] = x + t * (z_1 + z_2 * t)
-                e[0, i] = y + t * (x_1 + x_2 * t) if mode == STICK else sign * (s[0, i] - (x - sign * y) * fallen)
+                A, B = force(e_0, x_1, x_2, T, t) if mode == STICK else force(s_0, z_1, z_2, T, t)
+                s[0, i] = s_0 + t * (z_1 + z_2 * t)
+                e[0, i] = e_0 + t * (x_1 + x_2 * t) if mode == STICK else sign * (s[0, i] - lag * fallen)
                 if arms is not None:
                     C, D = hold_arms(s, i, z_1, z_2, k, tools, arms)
                     if mode == STICK:

@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr import State
 from mdr.closed_forms import rigid_pull
-from mdr.march import dimensionless, march
+from mdr.march import full_slip, march
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
 MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
@@ -377,7 +377,7 @@ def test_a_swing_that_rings_for_ages_is_not_settled_however_steady_friction_is(m
     """On a resonance of Q = 5e5 a body that set out in full slip presses only while it swings back: mu = -mu_0 until
     the swing has died away, long after the run. The periodic state is solved for from elsewhere.
     """
-    monkeypatch.setattr(dimensionless, "FASTEST_START", np.inf)
+    monkeypatch.setattr(full_slip, "FASTEST_START", np.inf)
     case = contact("cone", 0.01, k_ratio=1e4, omega_0_ratio=1.0, c_ratio=0.02)
     knobs = {"n_springs": 32, "steps_per_period": 64}
     run = run_at(case, 1.0, n_periods=12, **knobs)

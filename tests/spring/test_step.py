@@ -91,7 +91,7 @@ def test_every_energy_goes_somewhere(material):
         spent = sums[of.FRICTION_LOSS] + sums[of.SHEAR_VISCOUS] + stored[0]
         assert_allclose(spent, work, rtol=0, atol=1e-9)
         assert_allclose(sums[of.NORMAL_VISCOUS] + stored[1], sums[of.NORMAL_WORK], rtol=0, atol=1e-9)
-        for loss in (of.FRICTION_LOSS, of.SHEAR_VISCOUS, of.NORMAL_VISCOUS, of.STICK_TIME):
+        for loss in (of.FRICTION_LOSS, of.SHEAR_VISCOUS, of.NORMAL_VISCOUS, of.STICK_IMPULSE):
             assert sums[loss].min() >= 0
         # the law of friction holds at the end, where no spring in contact goes deeper than the indenter
         f_x, f_z, mode = (np.array([getattr(look, name)[0] for look in looks]) for name in ("f_x", "f_z", "mode"))
@@ -122,7 +122,7 @@ def test_the_normal_part_alone_is_that_of_the_step(material):
         s, area, _, since = one.pressed()
         (_, s_whole, *_), looks = one.looked_at()
         assert_allclose(s, s_whole, rtol=0, atol=1e-13)
-        of_look = [look.sums[of.CONTACT_TIME] for look in looks]
+        of_look = [look.sums[of.CONTACT_IMPULSE] for look in looks]
         assert_allclose(area, one.w @ of_look, rtol=0, atol=1e-9)  # of the other by Gauss's rule
         assert_array_equal(since > 0, [look.mode[0] != of.FREE for look in looks])
 
