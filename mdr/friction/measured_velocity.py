@@ -132,7 +132,7 @@ def measure_critical_velocity(
     Notes
     -----
     The bracket is 4e-5 to 8e-5 of v_c wide, four to eight times the accuracy, and wider where the number of steps or
-    springs still moves it. The search takes 10 to 40 runs, a tenth of a second to some seconds.
+    springs still moves it. The search takes 10 to 40 runs, some hundredths of a second to a second.
 
     Examples
     --------

@@ -305,6 +305,8 @@ def _after_a_period(stepper: Stepper) -> Orbit:
 
 def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
     """Why the COF that a march has settled at cannot be one; nothing if it can."""
+    if not account.solved:
+        return "the motion of the body over a step, in which it and its springs agree, was not found"
     least = -1.0 if stepper.scaled.drive.is_shaken else float(account.seen.F[:, 1].min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
     return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)

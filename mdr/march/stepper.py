@@ -67,6 +67,7 @@ class PeriodRecord:
     rate: Array  #: (n_steps + 1,) its velocity there
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
     period: Periods  #: its COF and swing
+    solved: bool  #: whether every step of it was solved for
 
 
 class Stepper:
@@ -86,6 +87,7 @@ class Stepper:
         )
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
+        self.solved = True  # whether every step of the last march was solved for
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
 
     def full_slip(self) -> MarchState:
@@ -123,7 +125,7 @@ class Stepper:
         """A whole number of periods in place, counted."""
         trace = self.scaled.trace(n_periods)
         n_steps = n_periods * self.scaled.drive.steps
-        loop.march(state.e, state.s, state.body, *self._parts, 0, n_steps, trace, seen)
+        self.solved = loop.march(state.e, state.s, state.body, *self._parts, 0, n_steps, trace, seen)
         self._count(n_periods)
         return trace
 
@@ -151,7 +153,7 @@ class Stepper:
         seen.sums[LEAST_SLIP] = min(seen.sums[LEAST_SLIP], least_between(seen.F[:, 2]))
         y, rate = (np.concatenate([before.body[k : k + 1], of]) for k, of in ((Y, trace.y), (RATE, trace.rate)))
         stored = self.stored_energy(before), self.stored_energy(state)
-        return state, PeriodRecord(seen, y, rate, stored, self._periods_of(trace))
+        return state, PeriodRecord(seen, y, rate, stored, self._periods_of(trace), self.solved)
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""

@@ -8,6 +8,7 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.march import loop
 from mdr.march.energy import OF_MEMORY, does_not_close, energy_balance
 from mdr.march.march import Resolution, march
 from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, assess, smooth_mean
@@ -198,3 +199,12 @@ def test_the_account_of_a_period_is_held_to_its_steps():
     end.account.seen.sums[FRICTION_LOSS] *= 0.9
     assert missing(0.0).startswith("the energies of a period do not close")
     assert missing(0.1) == ""  # within the error that is stated
+
+
+def test_a_step_that_was_not_solved_is_said(monkeypatch):
+    case = contact("cone", 3.0, 0.0, 0.7, 1.6, 0.1)
+    marched = loop.march
+    monkeypatch.setattr(loop, "march", lambda *args: marched(*args) and False)
+    run = mdr.slide(case, 0.4 * case.unit_velocity)
+    assert not run.settled
+    assert "motion of the body over a step" in run.why
