@@ -48,7 +48,7 @@ MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
 UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an error was seen to fall by a fifth only
 BY_CHANCE = 3.0  #: times the difference to a run with three quarters of steps and springs: what the bound is at least
 MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled
-RINGING = 1.2  #: of the difference to a run that resolves the oscillation of the body, whose own error is small
+UNRESOLVED = 2.0  #: times the difference to a run whose steps resolve more, as that may miss as much again
 
 
 def default_springs(case: SlidingContact) -> int:
@@ -259,15 +259,19 @@ def _missed_by(runs: _Runs, main: Converged) -> Missed:
 
 
 def _of_unresolved(runs: _Runs, main: Converged) -> float:
-    """What steps miss, over mu_0, that do not resolve the oscillation of a mass on the contact but damp it, as their
-    companions do: found beside steps that do. Those that are chosen do, as far as that can be afforded.
+    """What steps miss, over mu_0, that their companions miss as well: the oscillation of a mass on the contact, where
+    they do not resolve but damp it, and how a body without mass is thrown as springs touch. It is found beside steps
+    that resolve the oscillation, as those that are chosen do, as far as that can be afforded; or beside four times as
+    many.
     """
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.body.light and main.scaled.body.M else 0
+    if _jolts(runs.case):
+        steps = 4 * main.resolution.steps
     if main.resolution.steps >= steps or steps > MOST_STEPS:
         return 0.0
     resolved = runs.beside(main, main.resolution.of_size(steps))
     missed = resolved.settling.spread if resolved.settling.settled else 1.0
-    return missed + RINGING * abs(main.cof - resolved.cof)
+    return missed + UNRESOLVED * abs(main.cof - resolved.cof)
 
 
 def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
