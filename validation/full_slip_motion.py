@@ -128,10 +128,13 @@ def _motion_checks(name: str, refined: list[Motion], steps: tuple[int, ...]) -> 
         yield Check.at_most(f"{what}, {steps[-1]} steps: {name}", error, max(bound, ROUNDING), why)
     places = np.array([m.errors[:2] for m in refined])
     if places.max() > ROUNDING:
-        order, why = min(-power(steps, errors) for errors in places.T), "least-squares slope"
+        above = [(np.array(steps)[errors > ROUNDING], errors[errors > ROUNDING]) for errors in places.T]
+        order, why = min(-power(*one) for one in above), "least-squares slope of errors above rounding"
         yield Check(f"least order in the step of u_x and u_xc: {name}", order, 4.0, 0.1, why)
-    why = "a sum over the step misses the least value by h²/6"
-    yield Check(f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, finest.bounds[2], why)
+    why = "h⁴: rates of the body, and the least value of a polynomial through five of them"
+    yield Check(
+        f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, max(finest.h**4, ROUNDING), why
+    )
 
 
 def _from_rest() -> Check:

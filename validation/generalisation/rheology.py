@@ -114,7 +114,8 @@ def _side_checks(sides: list[list[mdr.SlidingRun]]) -> Checks:
     full = max(abs(1 - above.cof / above.mu_0) for _, above in sides)
     yield Check("random materials whose runs settle", settled, len(sides), 0, "all of them")
     yield Check.at_least(f"least stick share at 0.98 v_c, {len(sides)} random materials", least, 0.005, why)
-    yield Check(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 0.0, 0.0, why)
+    why += ", but for an instant by rounding"
+    yield Check.at_most(f"greatest stick share at 1.02 v_c, {len(sides)} random materials", most, 1e-12, why)
     yield Check.at_least("least slip velocity at 1.02 v_c, over v_0", slip, 0.01, "v_0 − v_c is 0.0196 v_0")
     yield Check("greatest 1 − COF/μ_0 at 1.02 v_c", full, 0.0, 1e-11, "full slip but for rounding")
 
