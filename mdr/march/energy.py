@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mdr.march.stepper import PeriodRecord, Stepper
-from mdr.spring.step import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
+from mdr.spring.energies import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
 from mdr.tools.arrays import Array
 
 OF_CUBICS = gauss(3)

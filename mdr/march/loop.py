@@ -14,7 +14,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
-from mdr.spring.step import ROUNDING, SHEAR_WORK, Look, Nodes, Path, Tools, fill, nodes_of, press, row
+from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
+from mdr.spring.step import ROUNDING, Look, Path, Tools, fill, press, row
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled

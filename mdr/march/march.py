@@ -31,7 +31,7 @@ from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.march.theorems import outside
 from mdr.march.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
-from mdr.spring.step import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
+from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import FieldError, finite
 from mdr.tools.memoise import remembered
 

@@ -16,7 +16,7 @@ from mdr.march.body import N_BODY, RATE, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import UNKNOWN, Settling
 from mdr.march.stepper import AT_ONCE, MarchState, PeriodRecord, Periods, Stepper
-from mdr.spring.step import LEAST_SLIP, STICK_IMPULSE
+from mdr.spring.energies import LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 

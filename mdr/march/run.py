@@ -18,7 +18,8 @@ from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.march import Observed, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
-from mdr.spring import step
+from mdr.spring import modes
+from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import Array
 from mdr.tools.csv_table import csv_text
 from mdr.tools.records import ArrayRecord
@@ -33,10 +34,10 @@ HOLDS = (
 class State(IntEnum):
     """Mode of a spring."""
 
-    FREE = step.FREE  #: out of contact
-    STICK = step.STICK  #: its foot rests on the plane
-    SLIP = step.SLIP  #: slides forward, friction holds the indenter back
-    SLIP_BACK = step.SLIP_BACK  #: slides backward, friction drives the indenter on
+    FREE = modes.FREE  #: out of contact
+    STICK = modes.STICK  #: its foot rests on the plane
+    SLIP = modes.SLIP  #: slides forward, friction holds the indenter back
+    SLIP_BACK = modes.SLIP_BACK  #: slides backward, friction drives the indenter on
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -186,7 +187,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         kind=kind,
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
-        least_slip=float(sums[step.LEAST_SLIP]) * scaled.units.speed,
+        least_slip=float(sums[LEAST_SLIP]) * scaled.units.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,

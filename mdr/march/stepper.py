@@ -15,8 +15,8 @@ from mdr.march import loop
 from mdr.march.body import N_BODY, RATE, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import TOLERANCE
+from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.settle import tools_for
-from mdr.spring.step import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 

@@ -11,7 +11,7 @@ import mdr
 from mdr.march.energy import OF_MEMORY, does_not_close, energy_balance
 from mdr.march.march import Resolution, march
 from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, assess, smooth_mean
-from mdr.spring.step import FRICTION_LOSS
+from mdr.spring.energies import FRICTION_LOSS
 
 TOLERANCE = 1e-6
 LIMIT = 0.3

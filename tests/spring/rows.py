@@ -4,9 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mdr.spring.energies import LEAST_SLIP, N_SUMS, nodes_of
 from mdr.spring.law import law_of
 from mdr.spring.settle import tools_for
-from mdr.spring.step import LEAST_SLIP, N_SUMS, Look, Path, nodes_of, press, row
+from mdr.spring.step import Look, Path, press, row
 
 MATERIALS = {
     "elastic": (0.0, (), ()),

@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from rows import MATERIALS, Row
 
+from mdr.spring import energies
 from mdr.spring import step as of
 
 TINY = 4000
@@ -88,10 +89,10 @@ def test_every_energy_goes_somewhere(material):
         sums = np.array([look.sums for look in looks]).T
         stored = [0.5 * one.roots @ (after**2 - before**2) for after, before in ((e, one.e), (s, one.s))]
         work = one.path.x_1 * area + 2 * one.path.x_2 * moment
-        spent = sums[of.FRICTION_LOSS] + sums[of.SHEAR_VISCOUS] + stored[0]
+        spent = sums[energies.FRICTION_LOSS] + sums[energies.SHEAR_VISCOUS] + stored[0]
         assert_allclose(spent, work, rtol=0, atol=1e-9)
-        assert_allclose(sums[of.NORMAL_VISCOUS] + stored[1], sums[of.NORMAL_WORK], rtol=0, atol=1e-9)
-        for loss in (of.FRICTION_LOSS, of.SHEAR_VISCOUS, of.NORMAL_VISCOUS, of.STICK_IMPULSE):
+        assert_allclose(sums[energies.NORMAL_VISCOUS] + stored[1], sums[energies.NORMAL_WORK], rtol=0, atol=1e-9)
+        for loss in (energies.FRICTION_LOSS, energies.SHEAR_VISCOUS, energies.NORMAL_VISCOUS, energies.STICK_IMPULSE):
             assert sums[loss].min() >= 0
         # the law of friction holds at the end, where no spring in contact goes deeper than the indenter
         f_x, f_z, mode = (np.array([getattr(look, name)[0] for look in looks]) for name in ("f_x", "f_z", "mode"))
@@ -122,7 +123,7 @@ def test_the_normal_part_alone_is_that_of_the_step(material):
         s, area, _, since = one.pressed()
         (_, s_whole, *_), looks = one.looked_at()
         assert_allclose(s, s_whole, rtol=0, atol=1e-13)
-        of_look = [look.sums[of.CONTACT_IMPULSE] for look in looks]
+        of_look = [look.sums[energies.CONTACT_IMPULSE] for look in looks]
         assert_allclose(area, one.w @ of_look, rtol=0, atol=1e-9)  # of the other by Gauss's rule
         assert_array_equal(since > 0, [look.mode[0] != of.FREE for look in looks])
 
