@@ -127,14 +127,15 @@ def _motion_checks(name: str, refined: list[Motion], steps: tuple[int, ...]) -> 
     for (what, why), error, bound in zip(reasons.items(), finest.errors, finest.bounds, strict=True):
         yield Check.at_most(f"{what}, {steps[-1]} steps: {name}", error, max(bound, ROUNDING), why)
     places = np.array([m.errors[:2] for m in refined])
+    bound, why = finest.bounds[2], "h²/6: a body without mass has the rate of the parabolas"
     if places.max() > ROUNDING:
         above = [(np.array(steps)[errors > ROUNDING], errors[errors > ROUNDING]) for errors in places.T]
-        order, why = min(-power(*one) for one in above), "least-squares slope of errors above rounding"
-        yield Check(f"least order in the step of u_x and u_xc: {name}", order, 4.0, 0.1, why)
-    why = "h⁴: rates of the body, and the least value of a polynomial through five of them"
-    yield Check(
-        f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, max(finest.h**4, ROUNDING), why
-    )
+        order = min(-power(*one) for one in above)
+        yield Check(
+            f"least order in the step of u_x and u_xc: {name}", order, 4.0, 0.1, "slope of errors above rounding"
+        )
+        bound, why = max(finest.h**4, ROUNDING), "h⁴: the least value of a polynomial through rates at five instants"
+    yield Check(f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, bound, why)
 
 
 def _from_rest() -> Check:

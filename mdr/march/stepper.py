@@ -190,16 +190,20 @@ class Stepper:
 
 
 def least_between(values: Array) -> float:
-    """Least value over a period of a function that is known at equidistant phases (n,): where it is positive there, of
-    the polynomial through the five nearest to its least value.
+    """Least value over a period of a function that is known at equidistant phases (n,), or infinite there: where it is
+    positive, of the polynomial through as many as five that are nearest to its least value.
     """
     k = int(np.argmin(values))
-    near = np.take(values, np.arange(k - 2, k + 3), mode="wrap")
-    if values[k] <= 0 or not np.isfinite(near).all():
+    near, at = np.take(values, np.arange(k - 2, k + 3), mode="wrap"), np.arange(-2.0, 3.0)
+    known = np.isfinite(near)
+    known[[0, 4]] &= known[[1, 3]]
+    if values[k] <= 0 or known.sum() < 3:
         return float(values[k])
-    through = np.polynomial.Polynomial.fit(np.arange(-2, 3), near, 4, domain=[-1, 1])
+    through = np.polynomial.Polynomial.fit(at[known], near[known], int(known.sum()) - 1, domain=[-1, 1])
     flat = through.deriv().roots()
-    return float(min(values[k], *through(flat[np.isreal(flat) & (np.abs(flat) <= 1)].real)))
+    flat = flat[np.isreal(flat)].real
+    within = (flat >= max(-1.0, at[known][0])) & (flat <= min(1.0, at[known][-1]))
+    return float(np.append(through(flat[within]), values[k]).min())
 
 
 def joined(parts: list[Periods]) -> Periods:

@@ -13,7 +13,7 @@ from mdr.tools.jit import compiled
 
 _call = compiled(error_model="numpy", nogil=True, fastmath={"reassoc", "contract"})
 
-# the sums, in this order; of the slip velocity the least of springs that touch
+# the sums, in this order; of the slip velocity the least of springs that touch or leave
 N_SUMS = 9
 (
     STICK_IMPULSE,

@@ -247,6 +247,15 @@ def slip_velocity(mode, s, e, i, zd, xd, modes):
 
 
 @_inline
+def slip_within(mode, s, e, i, share, z_1, x_1, off_z, off_x, modes):
+    """The same at a share of the step, by rates of the cubic that has the true ones at both ends of the step: off by
+    off_z and off_x there from those of the parabolas, which are z_1 and x_1 at that share.
+    """
+    bend = 1.0 - 6.0 * share * (1.0 - share)
+    return slip_velocity(mode, s, e, i, z_1 + bend * off_z, x_1 + bend * off_x, modes)
+
+
+@_inline
 def arms_ends(x, i, p, q, t, k, tools, arms):
     """What the arms of x[:, i], held on p t + q t², add to L."""
     of, rho, rate = tools.held[k], arms.rho, arms.rate
@@ -359,9 +368,8 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 mode = SLIP_BACK if backward else STICK
                 if forward and (ahead.v_0 <= behind.v_0 or not backward):
                     mode = SLIP
-            if look is not None and touches:  # rates of the cubic that has the true ones at both ends of the step
-                bend = 1.0 - 6.0 * (done / h) * (1.0 - done / h)
-                slip = slip_velocity(mode, s, e, i, z_1 + bend * off_z, x_1 + bend * off_x, modes)
+            if look is not None and touches:
+                slip = slip_within(mode, s, e, i, done / h, z_1, x_1, off_z, off_x, modes)
                 look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], slip)
             sign = -1.0 if mode == SLIP_BACK else 1.0
             # when the mode ends, and what follows
@@ -438,6 +446,9 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 break
             done += t
             z_0, z_1, x_1 = z_0 + t * (z_1 + t * z_2), z_1 + 2.0 * z_2 * t, x_1 + 2.0 * x_2 * t
+            if look is not None and after == FREE:
+                slip = slip_within(mode, s, e, i, done / h, z_1, x_1, off_z, off_x, modes)
+                look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], slip)
             if after == TOUCHES:  # the rounding of the touch is that of both, so that full slip stays what it is
                 e[0, i] += np.sign(e[0, i]) * (z_0 - s[0, i])
                 s[0, i] = z_0
