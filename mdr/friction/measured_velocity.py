@@ -271,15 +271,15 @@ class _Search:
         first of them is as good as they are alike.
         """
         while True:
-            steps, n_springs, slips = self.steps, self.n_springs, [free.least_slip]
+            steps, n_springs, ends = self.steps, self.n_springs, [free.v_0 - free.least_slip]
             for halves in (3, 4):
                 self.steps, self.n_springs = halves * steps // 2, halves * n_springs // 2
                 free = self._decided(free.v_0)
                 if not _is_free(free):  # free in coarse steps only: begin anew, further up
                     further = self._first_free_run()
                     return None if further is None else self._resolve(further)
-                slips.append(free.least_slip)
-            self.doubt = max(slips) - min(slips)
+                ends.append(free.v_0 - free.least_slip)
+            self.doubt = max(ends) - min(ends)
             enough = self.margin * max(free.v_0 - free.least_slip, LEAST * self.scale)
             if self.doubt <= enough or 2 * self.steps > MOST_STEPS or 2 * self.n_springs > MOST_SPRINGS:
                 self.steps, self.n_springs = steps, n_springs
@@ -289,7 +289,8 @@ class _Search:
         """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
         low, high, guess = 0.0, free.v_0, free.v_0 - free.least_slip
         # the rate of a parabola is off by h²/12 where stick ends: that of these steps by half of the margin
-        self.steps = max(self.steps, int(oscillations(self.case) * np.pi * np.sqrt(2 / (3 * self.margin))))
+        steps = int(oscillations(self.case) * np.pi * np.sqrt(2 / (3 * self.margin)))
+        self.steps = max(self.steps, min(steps, MOST_STEPS))
         if guess <= LEAST * self.scale and _is_free(slow := self.quick_run(LEAST * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
         guess = max(guess, LEAST * self.scale)
@@ -301,7 +302,7 @@ class _Search:
             high, guess = min(
                 [(high, guess), *((run.v_0, run.v_0 - run.least_slip) for run in (above, below) if _is_free(run))]
             )
-            self.steps = min(2 * self.steps, MOST_STEPS)
+            self.steps = max(self.steps, min(2 * self.steps, MOST_STEPS))
         while high - low > 2 * self.margin * high:
             run = self._decided(0.5 * (low + high))
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)

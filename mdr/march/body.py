@@ -101,8 +101,7 @@ def harmonics_of(
     """Periodic motion (2, N) of y and y' at the begin of steps, over harmonics (N,) of areas and moments of the force
     (as of rfft), and which of them are undamped resonances, where it is zero.
     """
-    n = areas.size
-    turn = np.exp(2j * np.pi * np.arange(n) / (2 * (n - 1)))
+    turn = np.exp(1j * body.h * np.arange(areas.size))
     matrix = turn[:, None, None] * np.eye(2) - body.free
     resonant = np.abs(np.linalg.det(matrix)) < max(1e-9 * body.h**2, 2e-15)
     matrix[resonant] = np.eye(2)
@@ -116,7 +115,7 @@ def light_harmonics_of(
 ) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
     """The same of a light body, by harmonics of areas and of the force at the end of each step."""
     n, h, (M, C, K) = areas.size, body.h, (body.M, body.C, body.K)
-    turn = np.exp(2j * np.pi * np.arange(n) / (2 * (n - 1)))
+    turn = np.exp(1j * h * np.arange(n))
     # y' at the end is (y_1 - y_0)/h + q h, of y_0 and the curvature q
     rate_y, rate_q = (turn - 1) / h, h
     momentum = M * (1 - 1 / turn)

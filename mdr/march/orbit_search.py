@@ -21,7 +21,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
 FULL = 1e-12  #: what is missing in the COF in full slip: rounding
-SHARE = 20.0  #: times a change over a period, that adds up over its gain, is less than a tolerance; twice in the force
+SHARE = 20.0  #: safety: a search begins with a change of tolerance/(SHARE gain); the force is off by twice the distance
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
@@ -52,6 +52,9 @@ def search(
 ) -> Orbit | None:
     """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
 
+    A search ends at a change over a period with which the COF is good to the tolerance, if the gain is what was known
+    of it before. Where it is more, the search goes on to a smaller change.
+
     gain: how far a state may be from the periodic one, over its change over a period, where that is known. near:
     whether the starts are periodic states themselves, at other steps, springs or velocity; motions: the slow ones about
     them.
@@ -69,16 +72,19 @@ def search(
     for start in starts:
         x, orbit, period, close = start.x, None, _Period(stepper, start), first
         while True:
-            how = replace(how, close=max(close, periodic.CLOSEST))
+            how, arrived = replace(how, close=max(close, periodic.CLOSEST)), None
             try:
                 arrived = _by_anderson(stepper, start.with_vector(x), norm, how, motions)
                 if arrived is not None and (full := _full_slip(stepper, start, arrived, norm)) is not None:
                     return full
                 found = periodic.find(period, arrived, norm.of, norm.pushes, how, gain)
             except _OutOfTime:
-                found = None
+                arrived = found = None
             if found is None:
-                break
+                if arrived is None or close <= periodic.CLOSE:
+                    break
+                x, close = arrived.x, periodic.CLOSE
+                continue
             motions = found.slow or motions
             orbit = replace(_repeated(stepper, start.with_vector(found.x), found, norm), slow=motions)
             spread, x = orbit.settling.spread, found.x

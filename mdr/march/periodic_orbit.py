@@ -42,7 +42,7 @@ GROWTH = 4.0  #: of the change over the least seen, at which combinations start 
 PUSH = 1e-4  #: displacement of the body, over the size of the state
 FARTHEST = 0.1  #: the same, where the motion has kinks
 AFTER = 2  #: periods between a push and the measurement, in which springs fall in with the body
-FORGOTTEN = 1e-5  #: of a push: what is left of it is not told from the change over a period
+FORGOTTEN = 1e-5  #: of a push: what is left of it is not told from what a step of the march leaves unsolved
 CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
 EXPANDS = 1.01  #: multiplier from which on a map is not one of friction
 STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms make hard to tell apart
@@ -156,7 +156,8 @@ def find(
     of either.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: gives displacements of
-    unit length along the slow motions. gain: that of the same motion at another resolution, where it is known.
+    unit length along the slow motions. gain: that of the same motion at another resolution, or at
+    a velocity close by where no bound is asked for, where it is known.
     """
     if near is None:
         return None
@@ -166,7 +167,7 @@ def find(
         return None
     if gain is not None:
         return FixedPoint(near, gain)
-    slow = Slow(*_displaced(step, near.x, (near.x, near.x), measure, pushes(), PUSH))
+    slow = Slow(*_displaced(step, near.x, measure, pushes(), PUSH)[1:])
     gain = _gain(near, slow, measure, how.slow, how.stable)
     return FixedPoint(near, gain, slow) if gain is not None else None
 
@@ -181,9 +182,8 @@ def _newton_picard(
     """
     best, push, lost, ways = start, PUSH, 0, np.ones(len(pushes))
     for _ in range(TURNS):
-        x, image = _settled_in(step, best.x)
         tried_ways = tuple(way * one for way, one in zip(ways, pushes, strict=True))
-        before, after = _displaced(step, best.x, (x, image), measure, tried_ways, push)
+        (x, image), before, after = _displaced(step, best.x, measure, tried_ways, push)
         size = float(np.linalg.norm(measure(image))) + 1e-300
         best = Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
         turn = measure(after - before).T
@@ -220,14 +220,14 @@ def _settled_in(step: PeriodMap, x: Array) -> tuple[Array, Array]:
 
 
 def _displaced(
-    step: PeriodMap, x: Array, here: tuple[Array, Array], measure: Measure, pushes: tuple[Array, ...], push: float
-) -> tuple[Array, Array]:
-    """What pushes of the state x have become after some periods, and a period later: displacements (k, n) from `here`,
-    the two states that x itself comes to.
+    step: PeriodMap, x: Array, measure: Measure, pushes: tuple[Array, ...], push: float
+) -> tuple[tuple[Array, Array], Array, Array]:
+    """What the state x comes to after some periods, and a period later; and what pushes of it have become then, as
+    displacements (k, n) from there.
     """
     size = push * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
-    before, after = step.settled_in(x + size * np.array(pushes))
-    return before - here[0], after - here[1]
+    before, after = step.settled_in(np.array([x, *(x + size * np.array(pushes))]))
+    return (before[0], after[0]), before[1:] - before[0], after[1:] - after[0]
 
 
 def _gain(

@@ -266,7 +266,7 @@ def _of_unresolved(runs: _Runs, main: Converged) -> float:
     """
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.body.light and main.scaled.body.M else 0
     if _jolts(runs.case):
-        steps = 4 * main.resolution.steps
+        steps = min(4 * main.resolution.steps, MOST_STEPS)
     if main.resolution.steps >= steps or steps > MOST_STEPS:
         return 0.0
     resolved = runs.beside(main, main.resolution.of_size(steps))

@@ -20,6 +20,7 @@ from mdr.spring.settle import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
+ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -184,25 +185,27 @@ class Stepper:
             u_dot, y = u_dot + float(scaled.drive.x_dot[0]), y + float(scaled.drive.x[0] - scaled.drive.far_end[0])
         ratios = np.concatenate([[1.0], scaled.rheology.rho])
         springs, normal = (0.5 * float(ratios @ (one**2 @ scaled.springs.w)) for one in (state.e, state.s))
-        ratio = scaled.units.energy_z / (scaled.units.energy_x)
+        ratio = scaled.units.energy_z / scaled.units.energy_x
         system = 0.0 if scaled.body.rigid else 0.5 * scaled.body.K * y**2 + 0.5 * scaled.body.M * u_dot**2
         return float(springs + normal * ratio + system)
 
 
 def least_between(values: Array) -> float:
     """Least value over a period of a function that is known at equidistant phases (n,), or infinite there: where it is
-    positive, of the polynomial through as many as five that are nearest to its least value.
+    positive, and bends alike about its least value, that of the polynomial through as many as five nodes there.
     """
     k = int(np.argmin(values))
     near, at = np.take(values, np.arange(k - 2, k + 3), mode="wrap"), np.arange(-2.0, 3.0)
     known = np.isfinite(near)
     known[[0, 4]] &= known[[1, 3]]
-    if values[k] <= 0 or known.sum() < 3:
+    near, at = near[known], at[known]
+    bends = np.diff(near, 2)
+    if values[k] <= 0 or not bends.size or not 0 < bends.max() < ALIKE * bends.min():
         return float(values[k])
-    through = np.polynomial.Polynomial.fit(at[known], near[known], int(known.sum()) - 1, domain=[-1, 1])
+    through = np.polynomial.Polynomial.fit(at, near, at.size - 1, domain=[-1, 1])
     flat = through.deriv().roots()
     flat = flat[np.isreal(flat)].real
-    within = (flat >= max(-1.0, at[known][0])) & (flat <= min(1.0, at[known][-1]))
+    within = (flat >= max(-1.0, at[0])) & (flat <= min(1.0, at[-1]))
     return float(np.append(through(flat[within]), values[k]).min())
 
 

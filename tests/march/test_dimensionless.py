@@ -144,6 +144,8 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
 @pytest.mark.parametrize("multiple", [1, 2])
 def test_the_resonant_harmonic_is_left_out(multiple):
     """omega_0 = multiple * omega without damper: no periodic motion answers that harmonic."""
+    odd = scaled_of("paraboloid", 3.0, 0.0, 0.7, float(multiple), 0.0, steps=STEPS - 1)
+    assert odd.full_slip.end == math.inf
     scaled = scaled_of("paraboloid", 3.0, 0.0, 0.7, float(multiple), 0.0)
     area = np.fft.rfft(scaled.normal.area)
     assert abs(area[multiple]) > 1e-4 * abs(area[0])  # it is driven
@@ -164,6 +166,14 @@ def test_a_little_damping_brings_the_harmonic_back():
     expected = -first / (1j * scaled.body.C)
     # beside it, the mean force over K
     assert_allclose(scaled.full_slip.state()[[Y, RATE]], [expected.real, (1j * expected).real], rtol=1e-3, atol=10)
+
+
+def test_full_slip_repeats_itself_in_an_odd_number_of_steps():
+    scaled = scaled_of("paraboloid", 4.0, 0.5, **BODIES["damped"], steps=63)
+    stepper = Stepper(scaled, 1e3)
+    start = stepper.full_slip()
+    after = stepper.period(start.copy())
+    assert_allclose(after.body, start.body, rtol=0, atol=1e-12 * np.abs(start.body).max())
 
 
 def test_rest_is_rest():

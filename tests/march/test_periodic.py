@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.march import loop, periodic_orbit
-from mdr.march.march import Resolution, march
+from mdr.march.march import MOST_ACCURATE, Resolution, march
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -177,7 +177,7 @@ def test_a_start_from_rest_goes_its_way_before_the_periodic_state_is_looked_for(
 
 
 def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
-    """Lightly damped bodies, the median; waiting is stopped as soon as it has the same spread."""
+    """Lightly damped bodies, all digits, the median; waiting is stopped as soon as it has the same spread."""
     rng = np.random.default_rng(4)
     shares = []
     for _ in range(12):
@@ -190,7 +190,7 @@ def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
             rng.choice([0.0, 0.001, 0.005]),
             rng.uniform(0.1, 0.9),
         )
-        knobs = Resolution(n_springs=64, steps=256, start="full_slip", lump=True)
+        knobs = Resolution(n_springs=64, steps=256, start="full_slip", lump=True, accuracy=MOST_ACCURATE)
         solved = march(case, v_0, knobs)
         with monkeypatch.context() as patch:
             without_search(patch)
@@ -217,3 +217,22 @@ def test_a_pull_that_creeps_is_not_taken_for_settled(k_x):
     soft = [mdr.slide(replace(case, pull=mdr.SpringPull(k, 0.1, 4.0)), v_0, **knobs) for k in (10.0, k_x)]
     assert soft[0].settled
     assert not soft[1].settled or abs(soft[1].cof - soft[0].cof) <= 1e-4 * case.mu_0
+
+
+@pytest.mark.parametrize(
+    ("material", "pull"),
+    [
+        (mdr.KelvinVoigt(3e6, 0.5, 0.1), mdr.SpringPull(k_x=8e3, m=0.05, c_x=200.0)),
+        (mdr.Prony(3e6, ((2e6, 1 / 300), (1e6, 1 / 30)), 0.5), mdr.SpringPull(k_x=8e3, m=0.0, c_x=5.0)),
+        (mdr.Prony(3e6, ((2e6, 1.0),), 0.5), mdr.RigidPull()),
+    ],
+    ids=["slow dashpots, heavy damper", "arms, no mass", "a slow arm"],
+)
+@pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
+def test_what_remembers_long_is_solved_for_and_not_awaited(material, pull):
+    """A push is measured from where the state itself goes, so that what the state still changes is not taken for it."""
+    case = mdr.SlidingContact(mdr.Cone(0.0127), material, 0.4, mdr.NormalOscillation(20e-6, 6e-6, 300.0), pull)
+    run = mdr.slide(case, 0.5 * case.unit_velocity)
+    assert run.settled
+    assert run.cof_error < 1e-5 * case.mu_0
+    assert run.n_periods < 40
