@@ -303,6 +303,7 @@ class _Search:
                 [(high, guess), *((run.v_0, run.v_0 - run.least_slip) for run in (above, below) if _is_free(run))]
             )
             self.steps = max(self.steps, min(2 * self.steps, MOST_STEPS))
+        low, high = min(low, high), max(low, high)  # stick that only grazes may be seen above a run without any
         while high - low > 2 * self.margin * high:
             run = self._decided(0.5 * (low + high))
             low, high = (low, run.v_0) if _is_free(run) else (run.v_0, high)

@@ -23,8 +23,7 @@ RESOLVED = 16  #: steps per oscillation of the body on the contact, from which o
 Y, RATE = range(2)  #: parts of a state of the body
 N_BODY = 2
 
-
-Pair = tuple[float, float]
+Pair = tuple[float, float]  # plain numbers: arrays would be counted by reference in every step
 Square = tuple[Pair, Pair]
 
 

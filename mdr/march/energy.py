@@ -10,7 +10,7 @@ from mdr.march.stepper import PeriodRecord, Stepper
 from mdr.spring.energies import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
 from mdr.tools.arrays import Array
 
-OF_CUBICS = gauss(3)
+OF_QUARTICS = gauss(3)  #: exact for squares of the rate of a cubic
 OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
 OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
 
@@ -71,25 +71,21 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
 def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     """The account of a period that was looked at closely."""
     scaled, v = stepper.scaled, stepper.v
-    sums, h = account.seen.sums, scaled.drive.h
-    unit_x = scaled.units.energy_x
-    unit_z = scaled.units.energy_z
+    sums, drive, body = account.seen.sums, scaled.drive, scaled.body
+    h, unit_x, unit_z = drive.h, scaled.units.energy_x, scaled.units.energy_z
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
-    if not scaled.body.rigid:
+    if not body.rigid:
         stretch, rate = account.y, account.rate  # of the system spring, backward
-        if at_pull := bool(scaled.drive.far_end.any()):
-            stretch, rate = (
-                stretch + scaled.drive.x - scaled.drive.far_end,
-                rate + scaled.drive.x_dot - scaled.drive.far_end_dot,
-            )
+        if at_pull := bool(drive.far_end.any()):
+            stretch, rate = stretch + drive.x - drive.far_end, rate + drive.x_dot - drive.far_end_dot
         pull, of_shake = 0.0, 0.0
-        for u, w in OF_CUBICS:
-            y, y_dot = _between(stretch, rate, h, u, scaled.body.light)
-            force = -scaled.body.K * y - scaled.body.C * y_dot  # of the pull, forward
+        for u, w in OF_QUARTICS:
+            y, y_dot = _between(stretch, rate, h, u, body.light)
+            force = -body.K * y - body.C * y_dot  # of the pull, forward
             pull += v * h * w * float(force.sum())
-            damper += scaled.body.C * h * w * float(y_dot @ y_dot)
-            of_shake += h * w * float(force @ _between(scaled.drive.far_end, scaled.drive.far_end_dot, h, u, False)[1])
+            damper += body.C * h * w * float(y_dot @ y_dot)
+            of_shake += h * w * float(force @ _between(drive.far_end, drive.far_end_dot, h, u, False)[1])
         shake = of_shake if at_pull else shake
     viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(

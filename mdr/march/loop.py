@@ -26,9 +26,7 @@ _inline = njit(forceinline=True, error_model="numpy", fastmath={"reassoc", "cont
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
 MOST_PLACES = 99  #: in the search for a zero of one unknown
-CLOSE = (
-    1e-11  #: force that may be left in a step, over that of the springs: less than what any periodic state may change
-)
+CLOSE = 1e-11  #: force that may be left in a step, over that of the springs; a periodic state may change by more
 
 
 class Motion(NamedTuple):

@@ -25,7 +25,7 @@ from mdr.march.orbit_search import (
     search,
     search_from_full_slip,
 )
-from mdr.march.periodic_orbit import Slow
+from mdr.march.periodic_orbit import SlowMotions
 from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
 from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
 from mdr.march.theorems import outside
@@ -84,7 +84,7 @@ class Converged:
     on_the_way: float  # periods that a run from rest takes to stretch springs and system
     waited: Waiting | None  # of a march of so many periods
     seen: PeriodRecord | None  # a close look at the last period, where one was taken
-    slow: Slow | None  # slow motions about a periodic state
+    motions: SlowMotions | None  # slow ones about a periodic state
 
     @property
     def scaled(self) -> ScaledContact:
@@ -104,12 +104,8 @@ class Converged:
     @property
     def off_load(self) -> float:
         """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
-        load, scaled = self.case.oscillation.load, self.scaled
-        return (
-            0.0
-            if load is None
-            else abs(scaled.normal.mean * scaled.units.stiffness_z * scaled.units.length_z / load.F_z0 - 1)
-        )
+        load, units = self.case.oscillation.load, self.scaled.units
+        return 0.0 if load is None else abs(self.mean_F_z * units.stiffness_z * units.length_z / load.F_z0 - 1)
 
     @property
     def missing_load(self) -> float:
@@ -222,9 +218,11 @@ def steady(
     if not np.isfinite(periods.cof).all():
         raise out_of_range(v_0)
     on_the_way = 0.0 if waiting is None else waiting.on_the_way
-    waited, seen, slow = (waiting, None, None) if orbit is None else (None, orbit.seen, orbit.slow)
+    waited, seen, motions = (waiting, None, None) if orbit is None else (None, orbit.seen, orbit.motions)
     before = stepper.n_periods - (seen is not None)
-    return Converged(case, v_0, resolution, springs, stepper, settling, state, before, on_the_way, waited, seen, slow)
+    return Converged(
+        case, v_0, resolution, springs, stepper, settling, state, before, on_the_way, waited, seen, motions
+    )
 
 
 def looked_at(end: Converged) -> Observed:
@@ -283,8 +281,8 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, ga
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start = at_other_resolution(near.state, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else gain
-        gain, slow = gain_at_other_resolution(gain, near.scaled, scaled), near.slow
-        motions = motions_at_other_resolution(slow, near.scaled, scaled)
+        gain = gain_at_other_resolution(gain, near.scaled, scaled)
+        motions = motions_at_other_resolution(near.motions, near.scaled, scaled)
         orbit = search(stepper, (start,), gain, near=True, motions=motions)
     if from_full_slip and (orbit is None or not orbit.settling.settled):
         again = search_from_full_slip(stepper)

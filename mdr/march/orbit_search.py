@@ -36,7 +36,7 @@ class Orbit:
     period: Periods
     settling: Settling
     seen: PeriodRecord | None = None  #: a close look at that period, where one was taken
-    slow: periodic.Slow | None = None  #: the slow motions about it, where they are known
+    motions: periodic.SlowMotions | None = None  #: the slow ones about it, where they are known
 
 
 class _OutOfTime(Exception):
@@ -48,7 +48,7 @@ def search(
     starts: tuple[MarchState, ...],
     gain: float | None = None,
     near: bool = False,
-    motions: periodic.Slow | None = None,
+    motions: periodic.SlowMotions | None = None,
 ) -> Orbit | None:
     """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
 
@@ -85,8 +85,8 @@ def search(
                     break
                 x, close = arrived.x, periodic.CLOSE
                 continue
-            motions = found.slow or motions
-            orbit = replace(_repeated(stepper, start.with_vector(found.x), found, norm), slow=motions)
+            motions = found.motions or motions
+            orbit = replace(_repeated(stepper, start.with_vector(found.x), found, norm), motions=motions)
             spread, x = orbit.settling.spread, found.x
             if spread <= stepper.tolerance and (close <= periodic.CLOSE or not _nearly_full(orbit.settling.mean)):
                 return orbit
@@ -117,10 +117,10 @@ class _Period(periodic.PeriodMap):
 
 
 def _by_anderson(
-    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options, slow: periodic.Slow | None
+    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options, motions: periodic.SlowMotions | None
 ) -> periodic.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
-    at, left, ended = how.by_anderson(start.x, norm.of, slow), how.most, False
+    at, left, ended = how.by_anderson(start.x, norm.of, motions), how.most, False
     at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
     while left > 0 and not ended:
         if time_is_over():
@@ -151,12 +151,13 @@ def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact)
 
 
 def motions_at_other_resolution(
-    slow: periodic.Slow | None, of: ScaledContact, on: ScaledContact
-) -> periodic.Slow | None:
+    motions: periodic.SlowMotions | None, of: ScaledContact, on: ScaledContact
+) -> periodic.SlowMotions | None:
     """Slow motions of a march with other springs or steps, on the springs of this one."""
-    if slow is None:
+    if motions is None:
         return None
-    return periodic.Slow(*(np.array([_on_other_springs(x, of, on) for x in xs]) for xs in (slow.before, slow.after)))
+    before, after = (np.array([_on_other_springs(x, of, on) for x in xs]) for xs in (motions.before, motions.after))
+    return periodic.SlowMotions(before, after)
 
 
 def _on_other_springs(x: Array, of: ScaledContact, on: ScaledContact) -> Array:
@@ -186,9 +187,8 @@ def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm:
     state, record = stepper.observe(stepper.within_friction(like.with_vector(near.x)), keep=False)
     sums = record.seen.sums
     change = near.change * float(np.linalg.norm(norm.of(near.x)))
-    drift = change / np.sqrt(
-        scaled.body.M or (1.0 if scaled.body.rigid else scaled.body.K)
-    )  # under a rigid pull that of the springs
+    body = scaled.body
+    drift = change / np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
     if sums[STICK_IMPULSE] > 0 or not AGES * drift < sums[LEAST_SLIP] < np.inf:
         return None
     cof = float(record.period.cof[-1])
@@ -217,9 +217,8 @@ class EnergyNorm:
         self.n_e = (1 + len(scaled.rheology.rho)) * scaled.springs.gap.size
         self.n_x = self.n_e + N_BODY
         self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
-        self.roots[: self.n_e] = np.sqrt(
-            np.outer(np.concatenate([[1.0], scaled.rheology.rho]), scaled.springs.w)
-        ).ravel()
+        moduli = np.concatenate([[1.0], scaled.rheology.rho])
+        self.roots[: self.n_e] = np.sqrt(np.outer(moduli, scaled.springs.w)).ravel()
         if not scaled.body.rigid:
             self.roots[self.n_e + Y], self.roots[self.n_e + RATE] = np.sqrt(scaled.body.K), np.sqrt(scaled.body.M)
 

@@ -77,7 +77,7 @@ class Iterate:
 
 
 @dataclass(frozen=True, eq=False)
-class Slow:
+class SlowMotions:
     """What is known of the slow motions about a periodic state: k displacements of length PUSH that outlive a few
     periods, in all parts (k, n) of the state, and what they are a period later.
     """
@@ -92,7 +92,7 @@ class FixedPoint:
 
     end: Iterate  #: the state
     gain: float  #: bound on its distance to the exact fixed point, over its change over a period
-    slow: Slow | None = None  #: where they were looked at
+    motions: SlowMotions | None = None  #: the slow ones about it, where they were looked at
 
     @property
     def x(self) -> Array:
@@ -119,14 +119,14 @@ class Options:
         """Periods after which Anderson's method gives up."""
         return MOST + A_TIME[1] * len(self.slow)
 
-    def by_anderson(self, x: Array, measure: Measure = np.asarray, slow: Slow | None = None) -> loop.Search:
-        """Anderson's method at its beginning, from a state (n,); slow: motions that it may begin to combine."""
+    def by_anderson(self, x: Array, measure: Measure = np.asarray, motions: SlowMotions | None = None) -> loop.Search:
+        """Anderson's method at its beginning, from a state (n,); motions: slow ones that it may begin to combine."""
         memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # differences between so many images
         (start, image, moved, best), (d_image, d_moved) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
         counts = np.zeros(3, dtype=np.int64)
-        if slow is not None:
-            counts[loop.KEPT] = k = min(len(slow.after), memory)
-            d_image[:k], d_moved[:k] = slow.after[:k], measure(slow.after[:k] - slow.before[:k])
+        if motions is not None:
+            counts[loop.KEPT] = k = min(len(motions.after), memory)
+            d_image[:k], d_moved[:k] = motions.after[:k], measure(motions.after[:k] - motions.before[:k])
         return loop.Search(
             x=x.copy(),
             start=start,
@@ -156,8 +156,8 @@ def find(
     of either.
 
     measure: makes states (..., n) vectors (..., k) whose length measures them, linearly. pushes: gives displacements of
-    unit length along the slow motions. gain: that of the same motion at another resolution, or at
-    a velocity close by where no bound is asked for, where it is known.
+    unit length along the slow motions. gain: that of the same motion at another resolution, or at a velocity close by
+    where no bound is asked for; None where it is not known.
     """
     if near is None:
         return None
@@ -167,9 +167,10 @@ def find(
         return None
     if gain is not None:
         return FixedPoint(near, gain)
-    slow = Slow(*_displaced(step, near.x, measure, pushes(), PUSH)[1:])
-    gain = _gain(near, slow, measure, how.slow, how.stable)
-    return FixedPoint(near, gain, slow) if gain is not None else None
+    _, before, after = _displaced(step, near.x, measure, pushes(), PUSH)
+    motions = SlowMotions(before, after)
+    gain = _gain(near, motions, measure, how.slow, how.stable)
+    return FixedPoint(near, gain, motions) if gain is not None else None
 
 
 def _newton_picard(
@@ -231,13 +232,13 @@ def _displaced(
 
 
 def _gain(
-    found: Iterate, slow_motions: Slow, measure: Measure, slow: tuple[float, ...], guaranteed_stable: bool
+    found: Iterate, motions: SlowMotions, measure: Measure, slow: tuple[float, ...], guaranteed_stable: bool
 ) -> float | None:
     """Bound on the distance to the fixed point over the change over a period; None for a map that expands.
 
     found: a state that returns, so closely that its own change is small beside a push, and blurs what is seen of it.
     """
-    x, before, after = found.x, slow_motions.before, slow_motions.after
+    x, before, after = found.x, motions.before, motions.after
     if not (np.isfinite(before).all() and np.isfinite(after).all()):
         return None
     size = PUSH * (float(np.linalg.norm(measure(x))) or 1.0)

@@ -251,9 +251,8 @@ def _missed_by(runs: _Runs, main: Converged) -> Missed:
     beside = companions(main.resolution)
     steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
     least = BY_CHANCE * _missed(main, more)
-    if (
-        at_hand(runs.case, beside.less)[1].body.light == half.scaled.body.light
-    ):  # else a body moves by another scheme there
+    _, less = at_hand(runs.case, beside.less)
+    if less.body.light == half.scaled.body.light:  # else a body moves by another scheme there
         least = max(least, BY_CHANCE * _missed(half, runs.beside(half, beside.less)) / MOST_GAINED)
     return Missed(_missed(main, steps), _missed(steps, half), least)
 

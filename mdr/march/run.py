@@ -18,7 +18,7 @@ from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.march import Observed, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
-from mdr.spring import modes
+from mdr.spring import contact_modes
 from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import Array
 from mdr.tools.csv_table import csv_text
@@ -34,10 +34,10 @@ HOLDS = (
 class State(IntEnum):
     """Mode of a spring."""
 
-    FREE = modes.FREE  #: out of contact
-    STICK = modes.STICK  #: its foot rests on the plane
-    SLIP = modes.SLIP  #: slides forward, friction holds the indenter back
-    SLIP_BACK = modes.SLIP_BACK  #: slides backward, friction drives the indenter on
+    FREE = contact_modes.FREE  #: out of contact
+    STICK = contact_modes.STICK  #: its foot rests on the plane
+    SLIP = contact_modes.SLIP  #: slides forward, friction holds the indenter back
+    SLIP_BACK = contact_modes.SLIP_BACK  #: slides backward, friction drives the indenter on
 
 
 @dataclass(frozen=True, eq=False, repr=False)

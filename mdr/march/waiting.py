@@ -140,9 +140,8 @@ class Waiting:
         driven = self.n > 64 and self.growth * self.n > SWING_TOLERANCE
         full = abs(1 - self.periods.cof[-1]) < TOLERANCE
         if driven and np.isinf(self.scaled.full_slip.end) and self.scaled.body.M and full:
-            at_stick = (
-                2 * self.stepper.v * np.sqrt(self.scaled.body.M / self.scaled.body.K)
-            )  # swing of a body that reaches -v
+            body = self.scaled.body
+            at_stick = 2 * self.stepper.v * np.sqrt(body.M / body.K)  # swing of a body that reaches -v
             return float(at_stick / (self.growth * self.periods.swing[-1])) < most and self.n < most
         return self.n < most
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
 from mdr.spring.law import N_PHI, fill_phi
-from mdr.spring.modes import FREE, SLIP_BACK, STICK
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 

@@ -26,9 +26,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from mdr.spring.contact_modes import FREE, SLIP, SLIP_BACK, STICK
 from mdr.spring.energies import LEAST_SLIP, Nodes, account, nodes_of
 from mdr.spring.law import fill_phi
-from mdr.spring.modes import FREE, SLIP, SLIP_BACK, STICK
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 

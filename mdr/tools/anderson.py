@@ -12,27 +12,45 @@ from mdr.tools.jit import compiled
 def shares(steps: Array, last: Array, rcond: float) -> Array:
     """Shares (n,) of the steps from change to change, to be taken off the last change so that least is left of it.
 
-    steps: (n, k), at least one, oldest first, real vectors whose length measures a change; last: (k,). Taken off the
-    last iterate alike, the shares make the next one. They are found by orthogonal directions, the newest step first; a
-    step of which the newer ones leave less than rcond of the greatest is left out.
+    steps: (n, k), oldest first, real vectors whose length measures a change; last: (k,). Taken off the last iterate
+    alike, the shares make the next one. They are found by orthogonal directions, the newest step first; a step of
+    which the newer ones leave less than rcond of the greatest is left out.
     """
     n, k = steps.shape
-    greatest = np.sqrt(np.max(np.sum(steps**2, axis=1)))
+    greatest = 0.0
+    for j in range(n):
+        size = 0.0
+        for m in range(k):
+            size += steps[j, m] * steps[j, m]
+        greatest = max(greatest, size)
     ways, weights = np.zeros((n, k)), np.zeros((n, n))  # direction i is the sum of weights[i] times the steps
     shared, rest = np.zeros(n), last.copy()
-    for i in range(n - 1, -1, -1):
+    for j in range(n):
+        i = n - 1 - j
         way, weight = steps[i].copy(), np.zeros(n)
         weight[i] = 1.0
         for _ in range(2):  # once more for what rounding leaves
             for other in range(i + 1, n):
-                along = np.sum(ways[other] * way)
-                way -= along * ways[other]
-                weight -= along * weights[other]
-        left = np.sqrt(np.sum(way**2))
-        if left <= rcond * greatest:
+                along = 0.0
+                for m in range(k):
+                    along += ways[other, m] * way[m]
+                for m in range(k):
+                    way[m] -= along * ways[other, m]
+                for m in range(n):
+                    weight[m] -= along * weights[other, m]
+        left = 0.0
+        for m in range(k):
+            left += way[m] * way[m]
+        if left <= rcond * rcond * greatest or left == 0.0:
             continue
-        ways[i], weights[i] = way / left, weight / left
-        along = np.sum(ways[i] * rest)
-        shared += along * weights[i]
-        rest -= along * ways[i]
+        left = np.sqrt(left)
+        along = 0.0
+        for m in range(k):
+            ways[i, m] = way[m] / left
+            along += ways[i, m] * rest[m]
+        for m in range(n):
+            weights[i, m] = weight[m] / left
+            shared[m] += along * weights[i, m]
+        for m in range(k):
+            rest[m] -= along * ways[i, m]
     return shared
