@@ -138,6 +138,11 @@ class ScaledContact:
             )
         return found
 
+    @property
+    def slip(self) -> loop.FullSlipForce:
+        """Its force, if all springs slip forward."""
+        return loop.FullSlipForce(self.normal.area, self.normal.moment, self.normal.end)
+
     @cached_property
     def full_slip(self) -> FullSlip:
         """The body in full slip."""

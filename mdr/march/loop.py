@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import ROUNDING, Look, Path, Tools, fill, press, row
+from mdr.spring.step import ROUNDING, Look, Path, Tools, as_they_are, fill, press, row
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -39,12 +39,29 @@ class Motion(NamedTuple):
     x_dot: Array  #: (n_t + 1,) its rate
 
 
+class FullSlipForce(NamedTuple):
+    """The force of the springs over each of the n_t steps of a period, if they all slip forward."""
+
+    area: Array  #: (n_t,)
+    moment: Array  #: (n_t,) about the start of the step
+    end: Array  #: (n_t,) force at its end
+
+
 class Here(NamedTuple):
-    """The motion of the indenter in a step, without the body."""
+    """The motion of the indenter in a step, without the body, and the force of full slip."""
 
     path: Path
     z_dot: float  #: its rates at the end, of which those of the parabolas are off by h²/12 of a third derivative
     x_dot: float
+    area: float  #: of full slip
+    end: float
+
+
+class Last(NamedTuple):
+    """What springs did at the end of the step before."""
+
+    sticking: float  #: share of them that stuck
+    back: float  #: share that slipped back
 
 
 class Springs(NamedTuple):
@@ -102,119 +119,136 @@ def later(path, t):
 
 
 @_jit
-def march(e, s, held, body, springs, motion, law, tools, first, n_steps, trace, seen):
+def march(e, s, held, body, springs, slip, motion, law, tools, first, n_steps, trace, seen):
     """March n_steps from step `first` of the period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
-    seen: None, or what a close look at a whole period fills. Returns whether every step was solved for.
+    slip: the FullSlipForce; seen: None, or what a close look at a whole period fills. Returns whether every step was
+    solved for.
     """
-    h, n_t, solved = tools.h, motion.z.size - 1, True
+    h, n_t, solved, last = tools.h, motion.z.size - 1, True, Last(0.0, 0.0)
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
     (areas, moments, ys, rates), (gap, w), (T, modes, arms) = trace, springs, law
-    gained = 0.0  # change of the rate in the step before, as a guess
     for j in range(n_steps):
         k = (first + j) % n_t
-        if k == 0:  # the same guess however many periods are marched at once
-            gained = 0.0
-        rate_0, zd, xd = held[RATE], motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
+        if k == 0 or j == 0:  # the same guess, full slip, however many periods are marched at once
+            last = Last(0.0, 0.0)
+            tools.excess[:] = 0.0
+        zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
         path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
         if body.light:
-            area, moment, found = follow(e, s, e_0, s_0, held, gained, body, springs, path, zd, xd, law, tools, k, seen)
+            here = Here(path, zd, xd, slip.area[k], slip.end[k])
+            area, moment, last, found = follow(e, s, e_0, s_0, held, last, body, springs, here, law, tools, k, seen)
         else:
             put(e, e_0)
             put(s, s_0)
             if body.rigid:
                 found = True
-                area, moment, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
+                area, moment, _, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
             else:
-                path, area, moment, found = answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools)
+                force = slip.area[k], slip.moment[k]
+                path, area, moment, last, found = answer(
+                    e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools
+                )
             if seen is not None:
                 look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, tools, h, k, seen)
         solved = solved and found
-        gained = held[RATE] - rate_0
         areas[j], moments[j], ys[j], rates[j] = area, moment, held[Y], held[RATE]
     return solved
 
 
 @_inline
-def answer(e, s, e_0, s_0, held, gained, body, springs, motion, k, law, tools):
+def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools):
     """A step of a body with mass: it moves as area and moment of the force make it, and the springs move with it.
 
-    Newton's method on its motion at the end, by the stiffness of what sticks. gained: change of its velocity in the
-    step before. Returns path, area, moment and whether this was solved; e, s, held are updated.
+    Newton's method on its motion at the end, by the stiffness of what sticks, from where it would be if no spring
+    changed its mode (`last`). force: area and moment of full slip. Returns path, area, moment, what springs do at the
+    end and whether this was solved; e, s, held are updated.
     """
     (gap, w), (T, modes, arms) = springs, law
     h, free, y_0, rate_0 = tools.h, body.free, held[Y], held[RATE]
     y_free, rate_free = free[0][0] * y_0 + free[0][1] * rate_0, free[1][0] * y_0 + free[1][1] * rate_0
-    y, rate, found = y_0 + h * (rate_0 + 0.5 * gained), rate_0 + gained, False
+    y, rate, found = y_0 + h * rate_0, rate_0, False
     for turn in range(MOST_TURNS):
-        if turn > 0:
-            put(e_0, e)
-            put(s_0, s)
         path = path_of(motion, k, h, y_0, rate_0, y, rate)
-        area, moment, stuck, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
+        if turn == 0:
+            area, moment, _ = as_they_are(path, last.sticking, last.back, T, arms, tools, 0.0, 0.0)
+            area, moment, share = force[0] + area, force[1] + moment, last.sticking
+        else:
+            if turn > 1:
+                put(e_0, e)
+                put(s_0, s)
+            area, moment, stuck, _, _, sticking, back = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
+            last, share = Last(sticking, back), stuck / h
         push = body.area[0] * area + body.moment[0] * moment
         push_rate = body.area[1] * area + body.moment[1] * moment
         off, off_rate = y - y_free + push, rate - rate_free + push_rate
         least = ROUNDING * (abs(y) + h * (abs(rate) + motion.v))
-        found = abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
+        found = turn > 0 and abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
         if found:
             break
-        share = stuck / h
         a, b = 1.0 + share * body.stuck[0][0], share * body.stuck[0][1]
         c, d = share * body.stuck[1][0], 1.0 + share * body.stuck[1][1]
         det = a * d - b * c
         y, rate = y - (d * off - b * off_rate) / det, rate - (a * off_rate - c * off) / det
     held[Y], held[RATE] = y, rate
-    return path, area, moment, found
+    return path, area, moment, last, found
 
 
 @_jit
-def follow(e, s, e_0, s_0, held, gained, body, springs, path, zd, xd, law, tools, k, seen):
+def follow(e, s, e_0, s_0, held, last, body, springs, here, law, tools, k, seen):
     """A step of a light body, in two parts where the first spring touches within it, as that throws the body.
 
-    path, zd, xd: motion of the indenter and its rates at the end; others as of `march`. Returns area and moment of the
-    force and whether all was solved.
+    here: motion of the indenter over the step; others as of `march`. Returns area and moment of the force, what springs
+    do at the end and whether all was solved.
     """
     h, now, solved = tools.h, tools, True
-    flown = flight_of(s, springs.gap, path, law, tools)
+    flown = flight_of(s, springs.gap, here.path, law, tools)
     if flown > 0.0:
-        now, gained = tools_of(flown, law, tools), 0.0
+        now = tools_of(flown, law, tools)
         put(e, e_0)
         put(s, s_0)
-        rest = later(path, flown)
-        path, _, _, solved = balance(
-            e, s, e_0, s_0, held, gained, body, springs, Here(path, rest.z_1, rest.x_1), law, now
-        )
+        rest = later(here.path, flown)
+        flight = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0)
+        path, _, _, last, solved = balance(e, s, e_0, s_0, held, last, body, springs, flight, law, now)
         if seen is not None:
             look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, h, k, seen)
-        path, now = rest, tools_of(h - flown, law, tools)
+        here, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools_of(h - flown, law, tools)
     put(e, e_0)
     put(s, s_0)
-    path, area, moment, found = balance(e, s, e_0, s_0, held, gained, body, springs, Here(path, zd, xd), law, now)
+    path, area, moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, here, law, now)
     if seen is not None:
-        look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, now, h, k, seen)
-    return area, moment + flown * area, solved and found
+        look_at(s_0, e_0, s, e, springs, path, here.z_dot, here.x_dot + held[RATE], law, now, h, k, seen)
+    return area, moment + flown * area, last, solved and found
 
 
 @_jit
-def balance(e, s, e_0, s_0, held, gained, body, springs, here, law, tools):
+def balance(e, s, e_0, s_0, held, last, body, springs, here, law, tools):
     """A step of a light body: no impulse of all forces is left over it, and no force at its end.
 
-    here: motion of the indenter; gained: as in `answer`. Newton's method on y at the end and u = y'' h²/2, by the
-    stiffness of what sticks; where other springs stick at every turn, `enclosed` finds them. Returns path, area, moment
-    and whether this was solved; e, s, held are updated.
+    Newton's method on y at the end and u = y'' h²/2, as in `answer`; where other springs stick at every turn,
+    `enclosed` finds them. Returns path, area, moment, what springs do at the end and whether this was solved; e, s,
+    held are updated.
     """
     h, T, M, C, K = tools.h, law.T, body.M, body.C, body.K
     stiff = 1.0 + glassy(law.arms)
-    y, u, found = held[Y] + h * (held[RATE] + 0.5 * gained), 0.5 * h * gained, False
+    y, u, found = held[Y] + h * held[RATE], 0.0, False
     for turn in range(MOST_TURNS + 1):
         if turn == MOST_TURNS:
             y, u = enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools)
-        path, rate, of, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
-        found = abs(impulse) + abs(force) <= close
+        if turn == 0:
+            path, rate = with_body(y, u, held, here.path, h)
+            area, moment, end = as_they_are(
+                path, last.sticking, last.back, T, law.arms, tools, here.z_dot, here.x_dot + rate
+            )
+            area, end, sticking = here.area + area, here.end + end, last.sticking
+            stuck, when = sticking * h, 0.5 * sticking * h * h
+            impulse, force, _ = not_balanced(y, u, rate, area, end, held, body, law, h)
+        else:
+            path, rate, of, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
+            area, moment, stuck, when, _, sticking, back = of
+            last, found = Last(sticking, back), abs(impulse) + abs(force) <= close
         if found:
             break
-        _, _, stuck, when, _, sticking = of
         share, inertia = stuck / h, M / (h * h) + C / h
         a = inertia + 0.5 * (K + share * stiff) + T * share / h
         b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * when / h - stuck) / (h * h)
@@ -222,7 +256,26 @@ def balance(e, s, e_0, s_0, held, gained, body, springs, here, law, tools):
         det = a * d - b * c
         y, u = y - (d * impulse - b * force) / det, u - (a * force - c * impulse) / det
     held[Y], held[RATE] = y, rate
-    return path, of[0], of[1], found
+    return path, area, moment, last, found
+
+
+@_inline
+def with_body(y, u, held, path, h):
+    """The motion of the indenter with a light body that moves to y with u; and the rate of the body at the end."""
+    dy = y - held[Y]
+    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + (dy - u) / h, path.x_2 + u / (h * h)), (dy + u) / h
+
+
+@_inline
+def not_balanced(y, u, rate, area, end, held, body, law, h):
+    """What is left of impulse (over h) and force if a light body moves to y with u, under the area of a force and the
+    force at the end; and how little of them is none.
+    """
+    M, C, K, y_0 = body.M, body.C, body.K, held[Y]
+    impulse = M * (rate - held[RATE]) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
+    force = 2.0 * M * u / (h * h) + C * rate + K * y + end
+    size, slope = abs(K * y) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
+    return impulse, force, CLOSE * (size + slope * (abs(y - y_0) + abs(u))) + ROUNDING * slope * abs(y)
 
 
 @_jit
@@ -233,15 +286,9 @@ def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
     """
     put(e_0, e)
     put(s_0, s)
-    h, M, C, K, y_0 = tools.h, body.M, body.C, body.K, held[Y]
-    still, rate = here.path, (y - y_0 + u) / h
-    path = Path(still.z_0, still.z_1, still.z_2, still.x_1 + (y - y_0 - u) / h, still.x_2 + u / (h * h))
+    path, rate = with_body(y, u, held, here.path, tools.h)
     of = row(s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, here.z_dot, here.x_dot + rate, None)
-    area, end = of[0], of[4]
-    impulse = M * (rate - held[RATE]) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
-    force = 2.0 * M * u / (h * h) + C * rate + K * y + end
-    size, slope = abs(K * y) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
-    close = CLOSE * (size + slope * (abs(y - y_0) + abs(u))) + ROUNDING * slope * abs(y)
+    impulse, force, close = not_balanced(y, u, rate, of[0], of[4], held, body, law, tools.h)
     return path, rate, of, impulse, force, close
 
 
@@ -330,7 +377,7 @@ def look_at(s_0, e_0, s, e, springs, path, zd, xd, law, tools, whole, k, seen):
     mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.zeros(3)
     nodes = seen.nodes if tools.h == whole else nodes_of(tools.h, law.modes, law.arms)
     look = Look(nodes, seen.sums, F, mode, f_x, f_z)
-    area, moment, _, _, _, _ = row(
+    area, moment, _, _, _, _, _ = row(
         s_0, e_0, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd, look
     )
     seen.sums[SHEAR_WORK] += path.x_1 * area + 2.0 * path.x_2 * moment
@@ -421,7 +468,7 @@ def within_friction(x, s):
 
 
 @_jit
-def settle_in(states, s, body, springs, motion, law, tools, n_periods, trace, before, after):
+def settle_in(states, s, body, springs, slip, motion, law, tools, n_periods, trace, before, after):
     """March states (k, n_x) for some periods and one more, each on its own: fills before and after, of that shape."""
     now, n_e, n_t = np.empty_like(s), s.size, motion.z.size - 1
     for j in range(states.shape[0]):
@@ -432,11 +479,11 @@ def settle_in(states, s, body, springs, motion, law, tools, n_periods, trace, be
                 before[j] = x
             put(s, now)
             within_friction(x, s)
-            march(x[:n_e].reshape(s.shape), now, x[n_e:], body, springs, motion, law, tools, 0, n_t, trace, None)
+            march(x[:n_e].reshape(s.shape), now, x[n_e:], body, springs, slip, motion, law, tools, 0, n_t, trace, None)
 
 
 @_jit
-def search(at, s, roots, body, springs, motion, law, tools, n_periods, trace):
+def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, trace):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
 
     s: (1 + J, n) compressions at the start of a period. trace: of the last period.
@@ -448,6 +495,6 @@ def search(at, s, roots, body, springs, motion, law, tools, n_periods, trace):
         put(s, now)
         within_friction(image, s)
         at.start[:] = image
-        march(image[:n_e].reshape(s.shape), now, image[n_e:], body, springs, motion, law, tools, 0, n_t, trace, None)
+        march(image[:n_e].reshape(s.shape), now, image[n_e:], body, springs, slip, motion, law, tools, 0, n_t, trace, None)
         ended = combine(at, image, roots)
     return ended

@@ -82,6 +82,7 @@ class Stepper:
         self._parts = (
             scaled.body,
             scaled.springs,
+            scaled.slip,
             scaled.drive.with_pull(v),
             scaled.law,
             tools_for(scaled.law, scaled.drive.h),

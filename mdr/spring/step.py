@@ -27,7 +27,7 @@ import numpy as np
 from numba import njit
 
 from mdr.spring.contact_modes import FREE, SLIP, SLIP_BACK, STICK
-from mdr.spring.energies import LEAST_SLIP, Nodes, account, nodes_of
+from mdr.spring.energies import LEAST_SLIP, Nodes, account, account_of_part
 from mdr.spring.law import fill_phi
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -63,6 +63,7 @@ class Tools(NamedTuple):
     work: Array  #: (J + K,)
     one: Array  #: (N_PHI,)
     more: Array  #: (4, K)
+    excess: Array  #: (1 + J, 1) what the springs bear at the end of a step more than in full slip, see `as_they_are`
 
 
 class Ends(NamedTuple):
@@ -337,13 +338,16 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
 
     gap, w (n,): depth of each foot, share in the stiffness. s, e (1 + J, n), updated: row 0 is compression and
     extension, row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: filled for the step.
-    look: None or Look. Returns six sums weighted by w: area of the tangential force over the time, its moment about the
-    begin of the step, time in stick, its moment, tangential force at the end, share that sticks there.
+    look: None or Look. Returns seven sums weighted by w: area of the tangential force over the time, its moment about
+    the begin of the step, time in stick, its moment, tangential force at the end, share that sticks there, share that
+    slips back.
     """
-    h, n_x, rate, decay = tools.h, s.shape[0], 0.0, tools.decay
+    h, n_x, rate, decay, excess = tools.h, s.shape[0], 0.0, tools.decay, tools.excess
     if modes is not None:
         rate = modes.mu[0]
-    area, moment, stuck, when, end, sticking, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf
+    area, moment, stuck, when, end, sticking, back, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf
+    for j in range(n_x):
+        excess[j, 0] = 0.0
     off_z, off_x = zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h
     for i in range(gap.size):
         tol = ROUNDING * (1.0 + abs(gap[i]))
@@ -411,8 +415,10 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 fill(t, modes, arms, tools, 1)
             if look is not None:
                 here = Path(z_0, z_1, z_2, x_1, x_2)
-                nodes = look.nodes if t == h else nodes_of(t, modes, arms)
-                account(look.sums, mode, s, e, i, w[i], here, nodes, T, modes, arms, tools)
+                if t == h:
+                    account(look.sums, mode, s, e, i, w[i], here, look.nodes, T, modes, arms, tools)
+                else:
+                    account_of_part(look.sums, mode, s, e, i, w[i], here, t, T, modes, arms, tools)
             # the state after that time
             fallen = 0.0
             if modes is not None:
@@ -467,7 +473,14 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                     tangential += arms.rho[j] * e[1 + j, i]
             normal = max(normal, 0.0)
             tangential = max(min(tangential, normal), -normal) if mode == STICK else sign * normal
-            sticking += w[i] if mode == STICK else 0.0
+        if mode == STICK:
+            sticking += w[i]
+            for j in range(n_x):
+                excess[j, 0] += w[i] * (e[j, i] - s[j, i])
+        elif mode == SLIP_BACK:
+            back += w[i]
+            for j in range(n_x):
+                excess[j, 0] -= 2.0 * w[i] * s[j, i]
         end += w[i] * tangential
         if look is not None:
             if mode != FREE:
@@ -477,7 +490,27 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
             look.F[1] += w[i] * normal
     if look is not None:
         look.F[2] = least
-    return area, moment, stuck, when, end, sticking
+    return area, moment, stuck, when, end, sticking, back
+
+
+@_inline
+def as_they_are(path, sticking, back, T, arms, tools, zd, xd):
+    """What the springs bear over a step more than in full slip forward, if none changes its mode from what it was at
+    the end of the step before: those that stick L[e - s], those that slip back -2 L[s], which all are one spring, with
+    its state in tools.excess. sticking, back: shares of the springs; others as of `row`.
+
+    Returns area, moment and force at the end; tools.excess is used up.
+    """
+    h, excess, part = tools.h, tools.excess, sticking + 2.0 * back
+    p, q = sticking * path.x_1 - part * path.z_1, sticking * path.x_2 - part * path.z_2
+    area, moment = force(excess[0, 0], p, q, T, h)
+    end = excess[0, 0] + h * (p + q * h) + T * (sticking * xd - part * zd)
+    if arms is not None:
+        A, B = hold_arms(excess, 0, p, q, 0, tools, arms)
+        area, moment = area + A, moment + B
+        for j in range(arms.rho.size):
+            end += arms.rho[j] * excess[1 + j, 0]
+    return area, moment, end
 
 
 @_call

@@ -149,6 +149,7 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
         parts = (
             scaled.body,
             scaled.springs,
+            scaled.slip,
             scaled.drive.with_pull(v),
             scaled.law,
             tools_for(scaled.law, scaled.drive.h),

@@ -1,5 +1,6 @@
 """What must be true of one step of a spring, of any material, state and parabola."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -9,6 +10,7 @@ from rows import MATERIALS, Row
 
 from mdr.spring import energies
 from mdr.spring import step as of
+from mdr.spring.settle import tools_for
 
 TINY = 4000
 every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
@@ -126,6 +128,34 @@ def test_the_normal_part_alone_is_that_of_the_step(material):
         of_look = [look.sums[energies.CONTACT_IMPULSE] for look in looks]
         assert_allclose(area, one.w @ of_look, rtol=0, atol=1e-9)  # of the other by Gauss's rule
         assert_array_equal(since > 0, [look.mode[0] != of.FREE for look in looks])
+
+
+@every_material
+def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
+    """The second half of a step, of the springs that stick, slip or slip back all through it."""
+    for one in rows(material):
+        half = one.h / 2
+        (e, s, *_), looks = replace(one, h=half).looked_at()
+        then = replace(one, path=one.from_then(half), h=half, e=e, s=s)
+        (_, _, _, _, stuck), after = then.looked_at()
+        before, mode = (np.array([look.mode[0] for look in which]) for which in (looks, after))
+        last_slip = np.array([look.sums[energies.FRICTION_LOSS] for look in after])
+        keeps = (mode == before) & np.where(mode == of.STICK, last_slip == 0, stuck == 0) & (mode != of.FREE)
+        first, then = (
+            replace(which, gap=one.gap[keeps], s=which.s[:, keeps], e=which.e[:, keeps], w=one.w[keeps])
+            for which in (replace(one, h=half), then)
+        )
+        tools, end = tools_for(one.law, half), then.from_then(half)
+        shares = of.row(first.s.copy(), first.e.copy(), first.gap, first.w, first.path, *one.law, tools, 0, 0, None)[5:]
+        T, modes, arms = one.law
+        area, moment, force = of.as_they_are(then.path, *shares, T, arms, tools, end.z_1, end.x_1)
+        s_end, of_slip, moment_of_slip, _ = then.pressed()
+        normal = one.roots @ (s_end @ then.w) + T * end.z_1 * then.w.sum()
+        known = of.row(
+            then.s.copy(), then.e.copy(), then.gap, then.w, then.path, T, modes, arms, tools, end.z_1, end.x_1, None
+        )
+        assert keeps.any()
+        assert_allclose((of_slip + area, moment_of_slip + moment, normal + force), (*known[:2], known[4]), atol=1e-12)
 
 
 @every_material
