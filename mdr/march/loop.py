@@ -479,7 +479,8 @@ def settle_in(states, s, body, springs, slip, motion, law, tools, n_periods, tra
                 before[j] = x
             put(s, now)
             within_friction(x, s)
-            march(x[:n_e].reshape(s.shape), now, x[n_e:], body, springs, slip, motion, law, tools, 0, n_t, trace, None)
+            e, held = x[:n_e].reshape(s.shape), x[n_e:]
+            march(e, now, held, body, springs, slip, motion, law, tools, 0, n_t, trace, None)
 
 
 @_jit
@@ -495,6 +496,7 @@ def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, tra
         put(s, now)
         within_friction(image, s)
         at.start[:] = image
-        march(image[:n_e].reshape(s.shape), now, image[n_e:], body, springs, slip, motion, law, tools, 0, n_t, trace, None)
+        e, held = image[:n_e].reshape(s.shape), image[n_e:]
+        march(e, now, held, body, springs, slip, motion, law, tools, 0, n_t, trace, None)
         ended = combine(at, image, roots)
     return ended

@@ -92,7 +92,8 @@ class Row:
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
                 args = path, *self.law, tools, last.z_1, last.x_1
-                area, moment, stuck, _, _, _, _ = row(two, one, self.gap[i : i + 1], np.ones(1), *args, look and look[i])
+                args = self.gap[i : i + 1], np.ones(1), *args, look and look[i]
+                area, moment, stuck, *_ = row(two, one, *args)
                 sums[:, i] += area, moment + part * h * area, stuck
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
