@@ -45,7 +45,6 @@ from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-N_SPRINGS = 512  #: unless asked otherwise; an elastic force is exact with any number
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
 CLOSE = 1e-12  #: error of a force, over its peak, with which a depth is found
 FLUID = 1e-30  #: long-time modulus over the instantaneous one of a body that flows
@@ -88,7 +87,7 @@ def indent(
     u_z: ArrayLike | None = None,
     *,
     F_z: ArrayLike | None = None,
-    n_springs: int | None = None,
+    n_springs: int = 512,
     record: bool = False,
 ) -> Indentation:
     """Normal force [N], or depth [m], of an indenter pressed on a half-space by any history of the other.
@@ -108,8 +107,8 @@ def indent(
         History of depth [m]; below zero the indenter is above the surface. Give either u_z or F_z.
     F_z : array_like of float, shape (n_t,), optional
         History of normal force [N], zero or above: there is no adhesion.
-    n_springs : int, optional
-        Nodes at x >= 0. None: 512.
+    n_springs : int
+        Nodes at x >= 0; an elastic force is exact with any number.
     record : bool
         Keep the compressions and loads of the springs at every sample.
 
@@ -149,7 +148,7 @@ def indent(
             f"annular contact: pressed from rest, {indenter!r} touches by its rim first, and only from the depth "
             f"{indenter.least_depth:.6g} m on by its whole face; indent() takes shapes whose contact is always a disc"
         )
-    n_springs = N_SPRINGS if n_springs is None else count("n_springs", n_springs, 16)
+    n_springs = count("n_springs", n_springs, 16)
     if not isinstance(record, bool):
         raise TypeError(f"record must be True or False, got {record!r}")
     if (u_z is None) == (F_z is None):
