@@ -12,7 +12,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,23 +53,17 @@ def _no_amplitudes(name: str, value: Any, note: str = "") -> tuple[float, ...]:
     return ()
 
 
+FREQUENCY = facts(
+    "rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$", example=314.159
+)
 PLACE = facts("", "where the motion acts", _place)
 
 
-@dataclass(frozen=True)
 class Shake(Record, ABC):
-    """A periodic motion in the plane: what each must answer is `at` and `along`."""
+    """A periodic motion in the plane: what each must answer is `omega`, `at` and `along`."""
 
-    omega: float = field(
-        metadata=facts(
-            "rad/s",
-            "angular frequency of the motion in the plane",
-            label=r"angular frequency $\omega_x$",
-            example=314.159,
-        )
-    )
-    if TYPE_CHECKING:
-        at: str
+    omega: float
+    at: str
 
     @property
     @abstractmethod
@@ -95,6 +89,7 @@ class InPlaneOscillation(Shake):
     two.
     """
 
+    omega: float = field(metadata=FREQUENCY)
     du_x: float = field(
         default=0.0,
         metadata=facts(
@@ -128,6 +123,7 @@ class InPlaneMotion(Shake):
     Amplitudes in m; a list left out, or shorter than the other, is filled with zeros.
     """
 
+    omega: float = field(metadata=FREQUENCY)
     x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
     x_sin: tuple[float, ...] = field(
         default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=(2.5e-6, 1.3e-6, 8e-7))

@@ -21,6 +21,7 @@ from mdr.case.contact import SlidingContact, as_given, require_case
 from mdr.case.motion import NormalOscillation
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.tools.arrays import EXACT
 
 
 class LossLaw(NamedTuple):
@@ -162,7 +163,7 @@ def unlike(case: SlidingContact) -> str:
         return f"u_z0 = {case.oscillation.u_z0:g} m, not above 0"
     if case.material.contact_arms:
         return "a material with arms, neither elastic nor Kelvin"
-    if not abs(case.material.dundurs_beta) <= LOSS.beta * (1 + 1e-12):
+    if not abs(case.material.dundurs_beta) <= LOSS.beta * (1 + EXACT):
         return f"Dundurs' beta = {case.material.dundurs_beta:.3g}, beyond {LOSS.beta}"
     if not radial_rub(case) <= LOSS.rub:
         return f"lambda = {radial_rub(case):.3g}, beyond {LOSS.rub}"

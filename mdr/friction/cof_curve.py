@@ -24,7 +24,7 @@ from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.slide import SLOWEST, cofs_without_bound, slides
 from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, finite_array
 from mdr.tools.csv_table import csv_text
 from mdr.tools.messages import MOST_TOLD
@@ -32,8 +32,7 @@ from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
-FOLLOWED_ERROR = 5e-6  #: the same of a force that is followed spring by spring
+FOLLOWED_ERROR = 5e-6  #: of the static limit over mu_0, of a force that is followed spring by spring
 SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
@@ -266,7 +265,7 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     slow runs tell the limit, to which friction falls like a power of the velocity between 2/3 and 1.
     """
     if not case.is_shaken:
-        error = FOLLOWED_ERROR if case.material.contact_arms else STATIC_ERROR
+        error = FOLLOWED_ERROR if case.material.contact_arms else EXACT
         return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, ""
     if case.material.contact_arms or case.pull.coefficients[0] > 0:
         return _slow_limit(friction(case, np.array(SLOW) * case.pace))
