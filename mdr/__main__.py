@@ -22,7 +22,7 @@ import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
 from mdr.commands.arguments import NEGATIVE, no_options, path_of
-from mdr.commands.output import DONE, INTERRUPTED, WRONG_INPUT, WrongInput, complain
+from mdr.commands.output import Exit, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
 from mdr.normal.doubts import PlausibilityWarning, warn_outside
@@ -61,7 +61,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     args = top.parse_args(given)
     if args.work is None:
         top.print_help(sys.stderr)
-        top.exit(WRONG_INPUT)
+        top.exit(Exit.WRONG_INPUT)
     args.command = shlex.join(["mdr", *given]).encode("utf-8", "backslashreplace").decode("utf-8")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a letter the terminal lacks must not cost the result
@@ -69,10 +69,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return _run(args)
     except KeyboardInterrupt:
-        return complain("interrupted before it was done", INTERRUPTED)
+        return complain("interrupted before it was done", Exit.INTERRUPTED)
     except BrokenPipeError:  # the reader, such as head, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        return DONE
+        return Exit.DONE
 
 
 def _run(args: argparse.Namespace) -> int:
@@ -90,7 +90,7 @@ def _run(args: argparse.Namespace) -> int:
         sys.stdout.flush()  # a full disk shows here
         return status
     except (WrongInput, CaseFileError) as fault:
-        return complain(str(fault), WRONG_INPUT)
+        return complain(str(fault), Exit.WRONG_INPUT)
     except BrokenPipeError:
         raise
     except _FAILURES as fault:

@@ -35,7 +35,7 @@ from validation.report import Check, Checks, Claim, Equation
 VELOCITIES = (3.0, 2.0, 1.5, 1.2, 1.0, 0.9, 0.8, 0.6, 0.4, 0.2)
 FITTED = (0.2, 0.4, 0.6, 0.8, 0.9, 1.0)  # v_0/v_c
 FARTHEST_FIT = 2.0  # lambda of the columns that are fitted
-ALLOWED = 0.25  # of the greatest loss, what the law may be off by up to lambda = coupling.FARTHEST
+ALLOWED = 0.25  # of the greatest loss, what the law may be off by up to lambda = coupling.LOSS.flat
 
 
 def held_out() -> list[list[Point]]:
@@ -128,8 +128,8 @@ def claim(effort: str) -> Claim:
     rest = [column for column in everything if column[0].point not in {one[0].point for one in training}]
     constants = {v: fitted(training, v) for v in (*FITTED, None)}
     trials = tried(rest, constants)
-    within = [trial for trial in trials if trial.groups.rub <= coupling.FARTHEST]
-    beyond = [trial for trial in trials if trial.groups.rub > coupling.FARTHEST]
+    within = [trial for trial in trials if trial.groups.rub <= coupling.LOSS.flat]
+    beyond = [trial for trial in trials if trial.groups.rub > coupling.LOSS.flat]
     most, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
     a, b, c = constants[None]
     errors = [row.error for column in rest for row in column]
@@ -146,9 +146,9 @@ def claim(effort: str) -> Claim:
         " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is"
         f" large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g}"
         f" λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)} with λ ≤"
-        f" {coupling.FARTHEST:g} have it to {100 * rms:.0f} % (rms; worst {100 * most:.0f} %). Beyond,"
+        f" {coupling.LOSS.flat:g} have it to {100 * rms:.0f} % (rms; worst {100 * most:.0f} %). Beyond,"
         f" {_beyond(beyond)}",
-        verdict=f"holds if λ ≤ {coupling.FARTHEST:g}",
+        verdict=f"holds if λ ≤ {coupling.LOSS.flat:g}",
         sentence=f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
         f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms).",
         checks=(*_constant_checks(constants[None]), *_trial_checks(within, beyond), *_group_checks(effort == "quick")),
@@ -184,7 +184,7 @@ def _beyond(beyond: Sequence[Trial]) -> str:
 
 
 def _constant_checks(constants: Array) -> Checks:
-    known = {"a": coupling.SHARE, "b": coupling.BEND, "c": coupling.PULL}
+    known = {"a": coupling.LOSS.a, "b": coupling.LOSS.b, "c": coupling.LOSS.c}
     for (constant, value), fit in zip(known.items(), constants, strict=True):
         name = f"constant {constant} of the library over that fitted here"
         yield Check(name, value / fit, 1, 0.01, "written with three digits")
@@ -201,7 +201,7 @@ def _trial_checks(within: Sequence[Trial], beyond: Sequence[Trial]) -> Checks:
     for kind, belongs in kinds.items():
         own = [trial for trial in within if belongs(trial.point)]
         ratio, off = worst((trial.ratio for trial in own), 1), worst((trial.off for trial in own), 0)
-        name = f"held out, {kind} ({len(own)}), λ ≤ {coupling.FARTHEST:g}"
+        name = f"held out, {kind} ({len(own)}), λ ≤ {coupling.LOSS.flat:g}"
         yield Check(f"{name}: worst law over 3D, greatest loss", ratio, 1, ALLOWED, "stated")
         yield Check(f"{name}: worst law − 3D at any velocity, over that", off, 0, 2 * ALLOWED, "stated")
     most = max(trial.ratio for trial in beyond if trial.point.shape == "flat punch")
@@ -256,17 +256,17 @@ def _trial_figure(fig, ax, training: Iterable[Trial], trials: Iterable[Trial]) -
     for trial in training:
         ax.loglog(trial.found, trial.said, "+", color="k", ms=7)
     for trial in trials:
-        known = trial.groups.rub <= coupling.FARTHEST
+        known = trial.groups.rub <= coupling.LOSS.flat
         colour = LOOKS[trial.point.shape][0]
         ax.loglog(trial.found, trial.said, "o", color=colour, mfc=colour if known else "w", ms=5)
     ax.loglog([], [], "k+", label="fitted")
     for shape, (colour, _) in LOOKS.items():
         ax.loglog([], [], "o", color=colour, label=shape_label(shape))
-    ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.FARTHEST:g}")
+    ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.LOSS.flat:g}")
     ax.set(xlabel=r"greatest loss in three dimensions, over $\mu_0$", ylabel=r"the law, over $\mu_0$")
     ax.legend(loc="upper left")
     return (
         "The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"
-        f" beyond λ = {coupling.FARTHEST:g}). Within the grey band it is good to {100 * ALLOWED:.0f} %; below it hang"
+        f" beyond λ = {coupling.LOSS.flat:g}). Within the grey band it is good to {100 * ALLOWED:.0f} %; below it hang"
         " flat punches at large λ, which lose more than it says."
     )

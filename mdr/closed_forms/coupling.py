@@ -15,15 +15,27 @@ beta²/kappa, of what the springs lose at rest, 1 - static_cof/mu_0.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from mdr.case.contact import SlidingContact, as_given, require_case
 from mdr.case.motion import NormalOscillation
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.tools.arrays import EXACT
 
-SHARE, BEND, PULL = 0.210, 0.313, 0.122  #: of the greatest loss, fitted and tried in validation/coupling_law.py
-FARTHEST = 1.1  #: lambda, up to which they hold for flat faces too
-TRIED_RUB, TRIED_BETA = 3.2, 0.5  #: greatest lambda and |beta| that were computed
+
+class LossLaw(NamedTuple):
+    """Greatest loss over that at rest, a lambda²/(b + lambda) + c beta²/kappa, and what it was fitted to."""
+
+    a: float
+    b: float
+    c: float
+    flat: float  #: greatest lambda at which it holds for flat faces too
+    rub: float  #: greatest lambda that was computed
+    beta: float  #: greatest |beta| that was computed
+
+
+LOSS = LossLaw(a=0.210, b=0.313, c=0.122, flat=1.1, rub=3.2, beta=0.5)  #: from validation/coupling_law.py
 
 
 def radial_rub(case: SlidingContact) -> float:
@@ -134,7 +146,7 @@ def coupling_loss(case: SlidingContact) -> float:
     """
     _require_known(case)
     rub, material = radial_rub(case), case.material
-    share = SHARE * rub**2 / (BEND + rub) + PULL * material.dundurs_beta**2 / material.mindlin_ratio
+    share = LOSS.a * rub**2 / (LOSS.b + rub) + LOSS.c * material.dundurs_beta**2 / material.mindlin_ratio
     return share * (1 - static_cof(case) / case.mu_0)
 
 
@@ -151,10 +163,10 @@ def unlike(case: SlidingContact) -> str:
         return f"u_z0 = {case.oscillation.u_z0:g} m, not above 0"
     if case.material.contact_arms:
         return "a material with arms, neither elastic nor Kelvin"
-    if not abs(case.material.dundurs_beta) <= TRIED_BETA * (1 + 1e-12):
-        return f"Dundurs' beta = {case.material.dundurs_beta:.3g}, beyond {TRIED_BETA}"
-    if not radial_rub(case) <= TRIED_RUB:
-        return f"lambda = {radial_rub(case):.3g}, beyond {TRIED_RUB}"
+    if not abs(case.material.dundurs_beta) <= LOSS.beta * (1 + EXACT):
+        return f"Dundurs' beta = {case.material.dundurs_beta:.3g}, beyond {LOSS.beta}"
+    if not radial_rub(case) <= LOSS.rub:
+        return f"lambda = {radial_rub(case):.3g}, beyond {LOSS.rub}"
     return ""
 
 

@@ -29,17 +29,10 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
 from mdr.case.pull import Pull
-from mdr.closed_forms.full_slip import (
-    corners,
-    edge_of,
-    followed,
-    load_harmonics,
-    normal_force,
-    normal_force_rate,
-)
+from mdr.closed_forms.full_slip import corners, edge_of, followed, load_harmonics, normal_force, normal_force_rate
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import SAME, Array
+from mdr.tools.arrays import EXACT, SAME, Array
 
 N_NODES = 20  #: Gauss points of a panel: half a wave on it is exact to rounding
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there
@@ -275,7 +268,7 @@ def _resonant_harmonic(pull: Pull, omega: float) -> int:
     if c_x > 0 or m == 0:
         return 0
     n = round(pull.omega_0 / omega)
-    return n if abs(m * (n * omega) ** 2 / k_x - 1) < 1e-12 else 0
+    return n if abs(m * (n * omega) ** 2 / k_x - 1) < EXACT else 0
 
 
 def _velocity_unbounded_at_touch(case: SlidingContact) -> bool:

@@ -15,7 +15,6 @@ from mdr.files.toml_text import StandardInput
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.tools.notation import UNITS
 
-MOST = 100_000  #: points, springs or steps of a period; more are a slip of the hand, and do not fit into memory
 OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
 _UNIT = "|".join(map(re.escape, (*UNITS["m/s"], OF_V_C)))
 _WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{_UNIT})?", re.DOTALL)
@@ -41,8 +40,8 @@ def path_of(text: str) -> str:
     return StandardInput("standard input") if text == "-" else text
 
 
-def whole_number(least: int, most: int = MOST) -> Callable[[str], int]:
-    """What argparse reads a whole number with."""
+def whole_number(least: int, most: int = 100_000) -> Callable[[str], int]:
+    """What argparse reads a whole number with; more springs, steps or points than `most` do not fit into memory."""
 
     def read(text: str) -> int:
         if not text.isascii() or not text.isdigit() or not least <= int(text[: len(str(most)) + 1]) <= most:

@@ -6,7 +6,7 @@ import argparse
 import shlex
 from collections.abc import Iterator
 
-from mdr.commands.output import DONE
+from mdr.commands.output import Exit
 
 USE = {
     "bash": 'source <(mdr completion bash)        # in ~/.bashrc: eval "$(mdr completion bash)"',
@@ -40,7 +40,7 @@ def completion(args: argparse.Namespace, _: None) -> int:
     commands = next(one.choices for one in args.top._actions if isinstance(one, argparse._SubParsersAction))
     lines = _fish(commands) if args.shell == "fish" else _bash({**commands, "": args.top}, "|".join(commands))
     print((ZSH if args.shell == "zsh" else "") + "\n".join(lines))
-    return DONE
+    return Exit.DONE
 
 
 def _bash(parsers: dict[str, argparse.ArgumentParser], names: str) -> Iterator[str]:

@@ -11,7 +11,7 @@ import numpy as np
 import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.arguments import OF_V_C, Velocity, add_accuracy, read_as, stand_in_of_v_c, velocity_in, whole_number
-from mdr.commands.output import DONE, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
+from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.explorer.state import POINTS, UP_TO
@@ -52,7 +52,7 @@ def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     loose = [why for why, settled in zip(found.why, found.settled, strict=False) if not settled]
     unsettled = found.settled.size - int(found.settled.sum())
     if not unsettled:
-        return DONE
+        return Exit.DONE
     reasons = "".join(f"\n  {why}" for why in dict.fromkeys(loose) if why)
     return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}")
 

@@ -7,10 +7,9 @@ import argparse
 import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.arguments import path_of, whole_number
-from mdr.commands.output import DONE, WrongInput, answer
+from mdr.commands.output import Exit, WrongInput, answer
 from mdr.files.examples import example
 
-PORT, HIGHEST_PORT = 5006, 65535  #: that of Bokeh's own server; ports are numbers of 16 bits
 INSTALL = (
     "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
     "python3 -m pip --python .venv install -e '.[explore]'"
@@ -21,8 +20,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """The case, the port, and whether a browser is opened."""
     file = "the case file; - is standard input (default: the example of mdr case)"
     command.add_argument("case", metavar="case.toml", nargs="?", type=path_of, help=file)
-    port = f"port, 0 for a free one (default: {PORT})"
-    command.add_argument("--port", type=whole_number(0, HIGHEST_PORT), default=PORT, help=port)
+    port = "port, 0 for a free one (default: %(default)s)"  # that of Bokeh's own server
+    command.add_argument("--port", type=whole_number(0, 2**16 - 1), default=5006, help=port)
     command.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
 
 
@@ -54,4 +53,4 @@ def explore(args: argparse.Namespace, _: None) -> int:
         server.io_loop.start()
     except KeyboardInterrupt:  # how it is meant to end
         server.stop()
-    return DONE
+    return Exit.DONE

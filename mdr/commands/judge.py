@@ -6,10 +6,10 @@ import argparse
 
 import mdr
 from mdr.commands.arguments import add_accuracy, read_as
-from mdr.commands.output import DONE, FAILED, Told, answer, text_of, values_of
+from mdr.commands.output import Exit, Told, answer, text_of, values_of
 from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
 from mdr.friction.measured_velocity import MeasuredVelocity
-from mdr.friction.verdict import WITHIN, Verdict
+from mdr.friction.verdict import Verdict
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -20,8 +20,9 @@ def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
 def add_options(command: argparse.ArgumentParser) -> None:
     """How far off a good formula may be."""
     share = read_as("a share above 0 and below 1, such as 1% or 0.01", _share)
-    meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {100 * WITHIN:g}%%)"
-    command.add_argument("--within", metavar="share", type=share, default=WITHIN, help=meaning)
+    usual = f"{100 * Verdict.within:g}%%"
+    meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {usual})"
+    command.add_argument("--within", metavar="share", type=share, default=Verdict.within, help=meaning)
     add_accuracy_of_bracket(command)
 
 
@@ -33,7 +34,7 @@ def measure(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     back = {"other_way": values_of(told[1])} if case.is_shaken else {}
     text = "\n".join(text_of(part) for part in (*told, ends) if part)
     answer(args, values_of(told[0]) | back | values_of(ends), text, case)
-    return DONE if all(one.v_c is not None for one in found.values()) else FAILED
+    return Exit.DONE if all(one.v_c is not None for one in found.values()) else Exit.FAILED
 
 
 def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
@@ -49,7 +50,7 @@ def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         values |= {"other_way": values_of(told["\nthe other way:"]), "at_rest": found.at_rest, **values_of(ends)}
     answer(args, values | {"sentence": str(found)}, text, case)
     known = [one.holds or one.measured is not None for one in ways.values()]
-    return DONE if all(known) else FAILED  # no v_c on a resonance is an answer
+    return Exit.DONE if all(known) else Exit.FAILED  # no v_c on a resonance is an answer
 
 
 def _measured(name: str, found: MeasuredVelocity) -> list[Told]:

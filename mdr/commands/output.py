@@ -7,13 +7,21 @@ import json
 import math
 import sys
 from collections.abc import Iterable
+from enum import IntEnum
 from typing import Any, NamedTuple
 
 import mdr
 from mdr.tools.provenance import versions
 from mdr.tools.summary import lines_of
 
-DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130  #: exit statuses
+
+class Exit(IntEnum):
+    """Exit status of the program."""
+
+    DONE = 0
+    FAILED = 1  #: a run failed, did not settle, or found nothing
+    WRONG_INPUT = 2  #: as argparse has it
+    INTERRUPTED = 130  #: by the signal of Ctrl-C, as shells have it
 
 
 class WrongInput(Exception):
@@ -52,10 +60,10 @@ def answer(args: argparse.Namespace, values: dict[str, Any], text: str, case: md
         head |= {"case": mdr.write_case(case)} if case is not None else {}
         text = json.dumps(_plain({**head, **values}), indent=1, allow_nan=False, ensure_ascii=False)
     print(text, flush=True)
-    return DONE
+    return Exit.DONE
 
 
-def complain(message: str, status: int = FAILED) -> int:
+def complain(message: str, status: int = Exit.FAILED) -> int:
     """A message on standard error, each line behind the program's name; returns the status."""
     for line in message.splitlines() or [""]:
         print(line if line.startswith(" ") else f"mdr: {line}", file=sys.stderr)

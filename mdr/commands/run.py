@@ -8,7 +8,7 @@ from typing import Any
 
 import mdr
 from mdr.commands.arguments import add_accuracy, velocity_in, whole_number
-from mdr.commands.output import DONE, WrongInput, answer, complain, picked, velocity_text
+from mdr.commands.output import Exit, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.friction.cof_curve import LEAST_KNOB
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     v_c = mdr.critical_velocity(case, -1 if v_0 < 0 else 1)
     text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
     answer(args, {"v_c": v_c, **_values(found)}, text, case)
-    return DONE if found.settled else complain(f"the run did not settle\n  {found.why}")
+    return Exit.DONE if found.settled else complain(f"the run did not settle\n  {found.why}")
 
 
 def _values(found: mdr.SlidingRun) -> dict[str, Any]:

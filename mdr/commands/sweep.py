@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import mdr
-from mdr.commands.output import DONE, INTERRUPTED, WrongInput, answer, complain, picked
+from mdr.commands.output import Exit, WrongInput, answer, complain, picked
 from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
 from mdr.studies import Status
 from mdr.studies.formats import packed, table
@@ -40,7 +40,7 @@ def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
             _write(args, study)
         except KeyboardInterrupt:
             kept = f"all of it is safe in {args.store}; the same call writes it" if args.store else "nothing is kept"
-            return complain(f"interrupted while the study was written; {kept}", INTERRUPTED)
+            return complain(f"interrupted while the study was written; {kept}", Exit.INTERRUPTED)
     answer(args, _told(study), str(study))
     return _end(args, study)
 
@@ -101,7 +101,7 @@ def _end(args: argparse.Namespace, study: mdr.Study) -> int:
     if failed or unsettled:
         return complain(f"{failed} of {study.status.size} points failed, {unsettled} did not settle")
     if study.complete:
-        return DONE
+        return Exit.DONE
     missing = f"{study.count(Status.MISSING)} of {study.status.size} points are left to the other shards"
     left_out = f"; {args.output} is not written" if args.output else ""
-    return complain(missing + left_out, DONE)  # this shard has done its own
+    return complain(missing + left_out, Exit.DONE)  # this shard has done its own

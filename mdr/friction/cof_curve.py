@@ -24,17 +24,16 @@ from mdr.march.march import BUDGET, accuracy_of
 from mdr.march.slide import SLOWEST, cofs_without_bound, slides
 from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, finite_array
 from mdr.tools.csv_table import csv_text
+from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-STATIC_ERROR = 1e-12  #: of the static limit over mu_0, a force over a quadrature
-FOLLOWED_ERROR = 5e-6  #: the same of a force that is followed spring by spring
+FOLLOWED_ERROR = 5e-6  #: of the static limit over mu_0, of a force that is followed spring by spring
 SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
-MOST_REASONS = 3  #: why runs did not settle, told in print
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
@@ -69,7 +68,7 @@ class CofCurve(Summarised, ArrayRecord):
                 ("COF", span(self.cof), f"of mu_0 = {self.mu_0:.6g}"),
                 ("error", span(self.cof_error), "bound on the numerical error of the COF"),
                 ("settled", f"{settled} of {n}", ""),
-                *(("why", why, "") for why in list(reasons)[:MOST_REASONS]),
+                *(("why", why, "") for why in list(reasons)[:MOST_TOLD]),
                 ("at rest", number(self.static_cof), "COF as v_0 -> +0"),
                 ("v_c", number(self.v_c, "m/s"), "critical velocity in closed form"),
                 *back,
@@ -266,7 +265,7 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     slow runs tell the limit, to which friction falls like a power of the velocity between 2/3 and 1.
     """
     if not case.is_shaken:
-        error = FOLLOWED_ERROR if case.material.contact_arms else STATIC_ERROR
+        error = FOLLOWED_ERROR if case.material.contact_arms else EXACT
         return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, ""
     if case.material.contact_arms or case.pull.coefficients[0] > 0:
         return _slow_limit(friction(case, np.array(SLOW) * case.pace))

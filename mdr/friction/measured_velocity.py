@@ -38,7 +38,6 @@ from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
 
-MARGIN = 2.0  #: half width of the bracket, of v_c, over the accuracy asked for
 NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
 GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
 SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step loses or gains on the drive in a period
@@ -146,7 +145,8 @@ def measure_critical_velocity(
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    search = _Search(resolved(case).pulled(direction), start, max(MARGIN * accuracy_of(accuracy), NARROWEST))
+    half_width = max(2 * accuracy_of(accuracy), NARROWEST)  # accuracy is a quarter of the width
+    search = _Search(resolved(case).pulled(direction), start, half_width)
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:
             return search.measure()

@@ -67,10 +67,7 @@ class SurfaceFields(Summarised, ArrayRecord):
 
 
 def surface_fields(
-    source: Indentation | PartialSlip | SlidingRun,
-    r: ArrayLike | None = None,
-    *,
-    i: int = -1,
+    source: Indentation | PartialSlip | SlidingRun, r: ArrayLike | None = None, *, i: int = -1
 ) -> SurfaceFields:
     """Pressure and traction [Pa] and displacements [m] of the surface at one instant.
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.coupling import FARTHEST, coupling_loss, radial_rub, unlike
+from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
@@ -23,7 +23,6 @@ from mdr.tools.checks import between, positive
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed
 
-WITHIN = 0.01  #: of v_c: a formula no further off is good, unless asked otherwise
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
 
 
@@ -42,7 +41,7 @@ class Verdict(Printed):
     why: str  #: in the words of the physics
     measurement: MeasuredVelocity  #: bracket and kind
     formula: str = "Eq. (15)"  #: the closed form judged
-    within: float = WITHIN  #: largest deviation, up or down, that is called good [-]
+    within: float = 0.01  #: largest deviation, up or down, that is called good [-]
     least: float = 0.0  #: 1e-4 of Eq. (1) [m/s]: a velocity below it is not told from zero
     other_way: Verdict | None = None  #: that of the pull the other way, where something shakes in the plane
     at_rest: str = ""  #: what the contact does there without a pull, in a sentence
@@ -101,7 +100,7 @@ class Verdict(Printed):
 
 
 def verdict(
-    case: SlidingContact, *, within: float = WITHIN, limit_s: float | None = None, accuracy: float = BUDGET
+    case: SlidingContact, *, within: float = Verdict.within, limit_s: float | None = None, accuracy: float = BUDGET
 ) -> Verdict:
     """How good Eq. (15) is for this contact: its v_c [m/s] beside the full-slip value and the one measured from runs.
 
@@ -245,7 +244,7 @@ def _left_out(case: SlidingContact) -> Iterator[str]:
         if abs(beta) > STRONG:
             yield f"{left_out} friction is lower than here, and part of the contact may still stick above this velocity"
     elif rub > STRONG:
-        most = "" if rub <= FARTHEST else " (more than half as much again under a flat face)"
+        most = "" if rub <= LOSS.flat else " (more than half as much again under a flat face)"
         yield (
             f"{left_out} friction is lower than here by up to about {coupling_loss(case):.1g} of mu_0{most}, and part "
             f"of the contact sticks up to about {1 + rub:.2f} times the full-slip velocity"

@@ -10,8 +10,9 @@ p = q_z > 0 presses. Displacements (3, n, n) are those of its surface. The matri
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from enum import IntEnum
 from functools import cached_property
 
 import numpy as np
@@ -20,7 +21,16 @@ from scipy import fft
 
 from mdr.tools.arrays import Array
 
-X, Y, Z = 0, 1, 2
+
+class Axis(IntEnum):
+    """A direction, and the place of its component in tractions and displacements."""
+
+    X = 0
+    Y = 1
+    Z = 2
+
+
+X, Y, Z = Axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,12 +54,12 @@ class HalfSpace:
         return int(fft.next_fast_len(2 * self.n - 1, real=True))
 
     @cached_property
-    def spectra(self) -> dict[tuple[int, int], NDArray[np.complex128]]:
+    def spectra(self) -> dict[tuple[Axis, Axis], NDArray[np.complex128]]:
         """Transforms of the coefficients that are not zero: (i, j) for u_i under q_j."""
-        kernels = {(i, j): self.coefficients(i, j) for i in (X, Y, Z) for j in (X, Y, Z)}
+        kernels = {(i, j): self.coefficients(i, j) for i in Axis for j in Axis}
         return {pair: fft.rfft2(self._wrapped(kernel)) for pair, kernel in kernels.items() if np.any(kernel)}
 
-    def coefficients(self, i: int, j: int) -> Array:
+    def coefficients(self, i: Axis, j: Axis) -> Array:
         """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
         places = np.arange(-self.n + 1, self.n, dtype=float) * self.h
         x, y = places[:, None], places[None, :]
@@ -66,7 +76,7 @@ class HalfSpace:
         return toward if i == Z else -toward
 
     def displacement(
-        self, tractions: Array, of: tuple[int, ...] = (X, Y, Z), under: tuple[int, ...] = (X, Y, Z)
+        self, tractions: Array, of: Sequence[Axis] = (X, Y, Z), under: Sequence[Axis] = (X, Y, Z)
     ) -> Array:
         """The components `of` of the displacement, (len(of), n, n), under the components `under` of the tractions."""
         pairs = [(a, b) for a, i in enumerate(of) for b, j in enumerate(under) if (i, j) in self.spectra]

@@ -17,8 +17,6 @@ from mdr.half_space.normal import NotConverged, pressure
 from mdr.half_space.tangential import traction
 from mdr.tools.arrays import Array
 
-TURNS = 60  #: of pressure and tractions in a step, at most
-
 
 @dataclass(frozen=True)
 class Step:
@@ -44,6 +42,7 @@ class Contact:
     mu_0: float
     tau: float = 0.0
     tolerance: float = 1e-6  #: to which forces change no more
+    turns: int = 60  #: of pressure and friction in a step, at most
     transverse: bool = True  #: False: tractions and slip along the pull only, as springs have them
 
     @property
@@ -60,7 +59,7 @@ class Contact:
             return np.stack([self.mu_0 * tractions[Z], np.zeros((n, n))])
 
         if self._take_turns(tractions, depth - self.shape, slipping, fine):
-            raise NotConverged(f"full slip at a depth of {depth:g} m is not found in {TURNS} turns")
+            raise NotConverged(f"full slip at a depth of {depth:g} m is not found in {self.turns} turns")
         u = self.half_space.displacement(tractions)
         return Step(tractions, u, np.zeros((2, n, n)))
 
@@ -91,7 +90,9 @@ class Contact:
             return traction(self._tangential, asked, self.mu_0 * tractions[Z], tractions[:2], fine)
 
         if change := self._take_turns(tractions, down, sticking_or_not, self.tolerance):
-            raise NotConverged(f"pressure and friction still change the forces by {change:.1e} after {TURNS} turns")
+            raise NotConverged(
+                f"pressure and friction still change the forces by {change:.1e} after {self.turns} turns"
+            )
         u = (self.half_space.displacement(tractions) + theta * before) / (1 + theta)
         slip = np.where(tractions[Z] > 0, np.array([moved, 0.0])[:, None, None] - (u - before)[:2], 0.0)
         return Step(tractions, u, slip)
@@ -103,7 +104,7 @@ class Contact:
         turns.
         """
         last = np.zeros(3)
-        for _ in range(TURNS):
+        for _ in range(self.turns):
             gap = down - self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
             tractions[Z] = pressure(self._normal, gap, tractions[Z], self.tolerance * 1e-2)
             tractions[:2] = friction(tractions)

@@ -46,10 +46,6 @@ def _tip(name: str, value: Any, note: str = "") -> str:
     return value
 
 
-RADII = tuple(round(2e-4 * i, 9) for i in range(8))  #: of the example [m]
-HEIGHTS = tuple(round(10 * r**2, 12) for r in RADII)  #: of a paraboloid [m]
-
-
 @dataclass(frozen=True, repr=False)
 class SampledProfile(Indenter):
     """A shape through measured points (r, f): a quintic spline in r, four times continuously differentiable.
@@ -71,8 +67,14 @@ class SampledProfile(Indenter):
     0.000316 m, 0.000316 m
     """
 
-    r: tuple[float, ...] = field(metadata=facts("m", "radii of the points", column, note="m", example=RADII))
-    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m", example=HEIGHTS))
+    r: tuple[float, ...] = field(
+        metadata=facts(
+            "m", "radii of the points", column, note="m", example=tuple(round(2e-4 * i, 9) for i in range(8))
+        )
+    )
+    f: tuple[float, ...] = field(
+        metadata=facts("m", "heights at them", column, note="m", example=tuple(round(4e-7 * i**2, 9) for i in range(8)))
+    )
     tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
     kinks: tuple[float, ...] = field(
         default=(), kw_only=True, metadata=facts("m", "radii of points at which the slope jumps", radii)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from os import PathLike, fsdecode
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from numpy.typing import ArrayLike
 
@@ -45,14 +45,16 @@ def _pairs(name: str, arms: Any, note: str = "") -> Arms:
     )
 
 
-LONG_TIME = facts("Pa", "long-time Young's modulus", not_negative, example=3e6)
-
-
+@dataclass(frozen=True)
 class _WithArms(OneBody):
     """A body of long-time modulus E_inf and Maxwell arms."""
 
-    E_inf: float
-    arms: Arms
+    E_inf: float = field(metadata=facts("Pa", "long-time Young's modulus", not_negative, example=3e6))
+    if TYPE_CHECKING:
+
+        @property
+        def arms(self) -> Arms:
+            """Arms (E_j [Pa], tau_j [s]): a field or a property of the subclass."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -80,7 +82,6 @@ class StandardLinearSolid(_WithArms):
     E_inf = 0 is a Maxwell body, for `mdr.indent` alone.
     """
 
-    E_inf: float = field(metadata=LONG_TIME)
     E_1: float = field(metadata=facts("Pa", "Young's modulus of the arm", not_negative, example=3e6))
     tau_1: float = field(metadata=facts("s", "relaxation time of the arm", example=1e-3))
     nu: float = field(metadata=POISSON)
@@ -89,7 +90,7 @@ class StandardLinearSolid(_WithArms):
     tau: ClassVar[float] = 0.0
 
     @property
-    def arms(self) -> Arms:  # type: ignore[override]
+    def arms(self) -> Arms:
         """The arm as (E_1 [Pa], tau_1 [s])."""
         return ((self.E_1, self.tau_1),)
 
@@ -101,7 +102,6 @@ class Prony(_WithArms):
     E_inf = 0 is a generalised Maxwell body, for `mdr.indent` alone.
     """
 
-    E_inf: float = field(metadata=LONG_TIME)
     arms: Arms = field(metadata=facts("", "arms (E_j [Pa], tau_j [s])", _pairs, example=((2e6, 1e-2), (4e6, 1e-4))))
     nu: float = field(metadata=POISSON)
     tau: float = field(

@@ -22,7 +22,6 @@ from mdr.normal.stability import floquet_multiplier
 from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
 
-STEEPEST = 1.0  #: slope of the shape at the edge of contact, or depth over radius of a face without slope
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
 GREATEST_MU_0 = 2.0  #: rubber on glass comes near it; more is a percentage, or a force
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
@@ -83,16 +82,16 @@ def edge(indenter: Indenter, d: float) -> tuple[float, float]:
 def _of_shape(known: SlidingContact) -> Iterator[str]:
     d = known.contact_depth
     a, slope = edge(known.indenter, d)
-    if slope > STEEPEST:
+    if slope > 1:
         yield (
             f"the surface of {type(known.indenter).__name__} has slope {slope:.3g} at the edge of the contact "
-            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below {STEEPEST:g}: "
+            f"(radius {a:.4g} m at depth {d:.4g} m), and the theory is that of small slopes, well below 1: "
             "is an angle given in degrees, the depth too great, or the modulus too small?"
         )
-    elif d > STEEPEST * a:
+    elif d > a:  # of a face without slope
         yield (
             f"the depth {d:.4g} m is {d / a:.3g} times the radius of the contact, {a:.4g} m, and the theory is that of "
-            f"small strains, well below {STEEPEST:g}: is the depth too great, or the modulus too small for the load?"
+            "small strains, well below 1: is the depth too great, or the modulus too small for the load?"
         )
 
 

@@ -22,7 +22,6 @@ from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-N_EDGE = 128  #: springs that touch and leave
 N_STEPS = 2048  #: of the period
 
 
@@ -43,10 +42,10 @@ def normal_cycle(
     rheology: Rheology,
     cycle: Cycle,
     n_t: int = N_STEPS,
-    n_edge: int = N_EDGE,
+    n_edge: int = 128,
     beside: Rheology | None = None,
 ) -> NormalCycle:
-    """Normal contact through a cycle of depth.
+    """Normal contact through a cycle of depth, in n_t steps, with n_edge springs that touch and leave.
 
     beside: another operator, whose springs stand at the same places, so that the two differ by the material alone.
     """

@@ -39,16 +39,13 @@ from mdr.normal.load_control import static_depths
 from mdr.spring.law import N_PHI, Law, fill_phi, law_of
 from mdr.spring.settle import tools_for
 from mdr.spring.step import Path, Tools, press
-from mdr.tools.arrays import EPS, SAME, Array
+from mdr.tools.arrays import EPS, EXACT, SAME, Array
 from mdr.tools.checks import count, finite_array, instance
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-N_SPRINGS = 512  #: unless asked otherwise; an elastic force is exact with any number
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
-CLOSE = 1e-12  #: error of a force, over its peak, with which a depth is found
-FLUID = 1e-30  #: long-time modulus over the instantaneous one of a body that flows
 LONG = 0.3  #: an interval longer than this share of the time since the last jump is cut finer towards its start
 
 
@@ -88,7 +85,7 @@ def indent(
     u_z: ArrayLike | None = None,
     *,
     F_z: ArrayLike | None = None,
-    n_springs: int | None = None,
+    n_springs: int = 512,
     record: bool = False,
 ) -> Indentation:
     """Normal force [N], or depth [m], of an indenter pressed on a half-space by any history of the other.
@@ -108,8 +105,8 @@ def indent(
         History of depth [m]; below zero the indenter is above the surface. Give either u_z or F_z.
     F_z : array_like of float, shape (n_t,), optional
         History of normal force [N], zero or above: there is no adhesion.
-    n_springs : int, optional
-        Nodes at x >= 0. None: 512.
+    n_springs : int
+        Nodes at x >= 0; an elastic force is exact with any number.
     record : bool
         Keep the compressions and loads of the springs at every sample.
 
@@ -149,7 +146,7 @@ def indent(
             f"annular contact: pressed from rest, {indenter!r} touches by its rim first, and only from the depth "
             f"{indenter.least_depth:.6g} m on by its whole face; indent() takes shapes whose contact is always a disc"
         )
-    n_springs = N_SPRINGS if n_springs is None else count("n_springs", n_springs, 16)
+    n_springs = count("n_springs", n_springs, 16)
     if not isinstance(record, bool):
         raise TypeError(f"record must be True or False, got {record!r}")
     if (u_z is None) == (F_z is None):
@@ -228,7 +225,7 @@ def _lee_radok(material: Material, t: Array, F_z: Array) -> Array:
 
 def _grown(indenter: Indenter, V: Array, most: float) -> Array:
     """Depths [m] at the first instants, while the contact grows, under loads of up to `most` [N]."""
-    shrinks = np.diff(V) < -1e-12 * V.max()
+    shrinks = np.diff(V) < -EXACT * V.max()
     V = np.maximum.accumulate(V[: int(np.argmax(shrinks)) + 1 if shrinks.any() else V.size])
     depths = np.zeros(V.size)
     if V[-1] > 0:
@@ -244,7 +241,7 @@ def _depths(
 
     known: the depths at the first instants, while the contact has only grown.
     """
-    T, off = springs.law.T, CLOSE * float(F_z.max())
+    T, off = springs.law.T, EXACT * float(F_z.max())
     depth, radius, seen = np.zeros(t.size), np.zeros(t.size), []
     s, u, a, v, before = springs.at_rest, 0.0, 0.0, 0.0, 0.0
     for k, (dt, F) in enumerate(zip(np.diff(t, prepend=t[0]).tolist(), F_z.tolist(), strict=True)):
@@ -296,8 +293,8 @@ class _Springs:
 
     @classmethod
     def of(cls, indenter: Indenter, material: Material, deepest: float, finest: float, n: int) -> _Springs:
-        """Springs up to the depth `deepest` [m]. A body that flows has next to no long-time modulus."""
-        modulus, arms = material.E_star or FLUID * material.instantaneous_modulus, material.contact_arms
+        """Springs up to the depth `deepest` [m]. A body that flows has a long-time modulus that no sum feels."""
+        modulus, arms = material.E_star or EPS**2 * material.instantaneous_modulus, material.contact_arms
         law = law_of(material.tau, tuple(E_j / modulus for E_j, _ in arms), tuple(tau_j for _, tau_j in arms))
         return cls(_row(indenter, deepest, finest, n), law, deepest, modulus * deepest)
 

@@ -31,13 +31,13 @@ from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
-from mdr.normal.followed_force import normal_cycle
+from mdr.normal.followed_force import N_STEPS, normal_cycle
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import instance, positive
 from mdr.tools.memoise import remembered
 
-N_HARMONICS = 256  #: of the depth, an eighth of the instants at which the force is known
+N_HARMONICS = N_STEPS // 8  #: of the depth, an eighth of the instants at which the force is known
 ENOUGH = 1e-4  #: error of the balance of forces, of the mean load, with which a search that gets no further may end
 PATIENCE = 40  #: iterations without half the error, after which the search ends
 MEMORY = 10  #: iterations that are combined

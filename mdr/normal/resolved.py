@@ -168,6 +168,4 @@ def _load_of(case: SlidingContact) -> LoadOscillation | ConstantLoad | None:
     return load
 
 
-@remembered(maxsize=256)
-def _rests_at(indenter: Indenter, material: Material, F_z0: float) -> float:
-    return static_depth(indenter, material, F_z0)
+_rests_at = remembered(maxsize=256)(static_depth)

@@ -18,7 +18,6 @@ from mdr.tools.progress import progress
 SECONDS = 4.0  #: that one period lasts in the picture
 MOST_DRAWN = 24  #: springs on each side
 LEAN = 0.06  #: greatest lean of a spring, over the width of the picture
-DPI = 80  #: resolution of the GIF
 
 
 @dataclass(frozen=True)
@@ -75,12 +74,11 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
     periods = max(1, round(periods_of(run)[-1]))
     at = np.unique(np.linspace(0, run.t.size, frames * periods, endpoint=False).astype(int))
     with style():
-        fig = Figure(figsize=(6.4, 5.6))
+        fig = Figure(figsize=(6.4, 5.6), dpi=80)
         canvas: Any = FigureCanvasAgg(fig)
         above, below = fig.subplots(2, 1, height_ratios=(2, 1))
         fig.suptitle(_title(run) if title is None else title)
         parts = (_Springs(above, run), _Force(below, run))
-        fig.set_dpi(DPI)
         canvas.draw()  # all but what moves
         still = canvas.copy_from_bbox(fig.bbox)
         pictures = []

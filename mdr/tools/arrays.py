@@ -7,4 +7,5 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 EPS = float(np.finfo(float).eps)  #: rounding of a number, relative to it
+EXACT = 1e-12  #: relative error that is left to what is exact but for rounding: a sum, a series, a root
 SAME = 1e-9  #: of two numbers, up to which they differ by rounding alone: theirs, or that of sums they come from

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-LONGEST = 400  #: characters of a message in one line: some five lines of a terminal
 MOST_TOLD = 4  #: differences or reasons that one message tells before it counts the rest
 
 
@@ -30,7 +29,7 @@ def short(text: str, longest: int = 60) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
-def one_line(text: str, longest: int = LONGEST) -> str:
-    """The text as one printable line, cut where it is too long."""
+def one_line(text: str, longest: int = 400) -> str:
+    """The text as one printable line, cut where it is too long: at some five lines of a terminal."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return short(" ".join(plain.split()), longest)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.messages import short
 
 
@@ -67,4 +67,4 @@ def _instead(text: str) -> str:
 def in_unit(values: Array, scale: float) -> Array:
     """Values times the scale; a division where that is exact, so that 100 um is 100e-6 m to the last digit."""
     whole = round(1 / scale) if scale < 1 else 0
-    return values / whole if whole and math.isclose(whole * scale, 1, rel_tol=1e-12) else values * scale
+    return values / whole if whole and math.isclose(whole * scale, 1, rel_tol=EXACT) else values * scale

@@ -10,7 +10,6 @@ import numpy as np
 
 Row = tuple[str, str, str]  #: name, value, meaning
 LEFT = 'style="text-align: left"'  #: notebooks set cells to the right
-UNKNOWN = 0.1  #: of a number: an error above it is no reason to show fewer digits
 MOST_DIGITS = 8  #: behind the point, of a number with an error
 
 
@@ -83,5 +82,6 @@ def with_error(value: float, error: float) -> str:
     """A number with its error, rounded to what the error leaves of it, to three digits at least."""
     if not np.isfinite(error) or error <= 0:
         return number(value)
-    digits = int(np.clip(1 - np.floor(np.log10(min(error, UNKNOWN * abs(value) or error))), 0, MOST_DIGITS))
+    first, first_of_error = (np.floor(np.log10(one)) for one in (abs(value) or 10 * error, error))
+    digits = int(np.clip(max(2 - first, 1 - first_of_error), 0, MOST_DIGITS))  # the third, or the second of the error
     return f"{value:.{digits}f} +- {error:.1e}"

@@ -57,13 +57,7 @@ from mdr.closed_forms.laws.rigid_pull import (
     slow_limit,
     touch_depth,
 )
-from mdr.closed_forms.laws.shaken import (
-    EllipticDrive,
-    elliptic_drive,
-    held_under_shake,
-    lost_under_shake,
-    rigid_shake,
-)
+from mdr.closed_forms.laws.shaken import EllipticDrive, elliptic_drive, held_under_shake, lost_under_shake, rigid_shake
 
 __all__ = [
     "EllipticDrive",

@@ -21,10 +21,9 @@ from numpy.polynomial import chebyshev
 
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.quadrature import N_HALVINGS, Function, Rule, chebyshev_fit, double_exponential, in_chunks
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 
 N_NODES = 24  #: the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
-TAIL = 1e-12  #: last coefficients of G, relative to G, that count as vanished
 
 Edges = tuple[float, ...]
 Integral = Callable[[Function, Edges, Array, Rule | None], Array]  #: one that leads from f to a height over x
@@ -160,7 +159,7 @@ class Chart:
         coefficients = to_coefficients @ G
         tail = np.max(np.abs(coefficients[-3:]))
         scale = np.min(np.abs(G)) if rises else np.fmax(np.max(np.abs(G)), g_high)
-        fits = tail <= TAIL * scale or not np.isfinite(g).any() or tail <= self._quadrature_error(x, g, factor)
+        fits = tail <= EXACT * scale or not np.isfinite(g).any() or tail <= self._quadrature_error(x, g, factor)
         return panel._replace(coefficients=coefficients, fits=bool(fits))
 
     def _quadrature_error(self, x: Array, g: Array, factor: Array) -> float:

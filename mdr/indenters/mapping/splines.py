@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mdr.indenters.mapping.quadrature import N_FIT, chebyshev_fit
 from mdr.indenters.mapping.stable_functions import GAUSS, leg
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
@@ -59,7 +59,7 @@ def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array]:
     if not even:
         return unit * ends, _moved(pieces, np.zeros(keep.size), np.diff(ends))
     both = np.unique(np.append(0, np.abs(ends)))
-    both = np.append(both[:-1][np.diff(both) > 1e-12], 1.0)  # a mirror image may be a rounding away
+    both = np.append(both[:-1][np.diff(both) > EXACT], 1.0)  # a mirror image may be a rounding away
     middle, width = (both[1:] + both[:-1]) / 2, np.diff(both)
     right = np.searchsorted(ends, middle) - 1
     left = np.searchsorted(ends, -middle) - 1
