@@ -26,6 +26,7 @@ __all__ = ["InPlaneMotion", "InPlaneOscillation"]
 
 PLACES = ("tool", "pull")  #: where the motion may act
 MOST = 16  #: p and q, at most, of the ratio p/q of two frequencies
+SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  #: of the example [m]
 
 
 def _place(name: str, value: Any, note: str = "") -> str:
@@ -126,7 +127,7 @@ class InPlaneMotion(Shake):
     omega: float = field(metadata=FREQUENCY)
     x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
     x_sin: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=(2.5e-6, 1.3e-6, 8e-7))
+        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=SAWTOOTH)
     )
     y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
     y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))

@@ -34,6 +34,10 @@ def _tip(name: str, value: Any, note: str = "") -> str:
     return value
 
 
+DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
+FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
+
+
 @dataclass(frozen=True, repr=False)
 class FromForce(Indenter):
     """The shape whose normal force is F at the depths d, measured on a body of modulus E_star.
@@ -57,18 +61,8 @@ class FromForce(Indenter):
     1.5e-05 m
     """
 
-    d: tuple[float, ...] = field(
-        metadata=facts("m", "depths, from 0", column, note="m", example=tuple(round(4e-6 * i, 9) for i in range(9)))
-    )
-    F: tuple[float, ...] = field(
-        metadata=facts(
-            "N",
-            "normal forces at them",
-            column,
-            note="N",
-            example=(0.0, 0.009541, 0.026985, 0.049574, 0.076324, 0.106667, 0.140217, 0.176694, 0.215878),
-        )
-    )
+    d: tuple[float, ...] = field(metadata=facts("m", "depths, from 0", column, note="m", example=DEPTHS))
+    F: tuple[float, ...] = field(metadata=facts("N", "normal forces at them", column, note="N", example=FORCES))
     E_star: float = field(
         metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa", example=4e6)
     )
