@@ -154,15 +154,19 @@ def motions_at_other_resolution(
     motions: periodic.SlowMotions | None, of: ScaledContact, on: ScaledContact
 ) -> periodic.SlowMotions | None:
     """Slow motions of a march with other springs or steps, on the springs of this one."""
-    if motions is None:
-        return None
+    if motions is None or _same_springs(of, on):
+        return motions
     before, after = (np.array([_on_other_springs(x, of, on) for x in xs]) for xs in (motions.before, motions.after))
     return periodic.SlowMotions(before, after)
 
 
+def _same_springs(one: ScaledContact, other: ScaledContact) -> bool:
+    return one.springs.gap is other.springs.gap or np.array_equal(one.springs.gap, other.springs.gap)
+
+
 def _on_other_springs(x: Array, of: ScaledContact, on: ScaledContact) -> Array:
     """A state vector of other springs on the springs of this march."""
-    if np.array_equal(on.springs.gap, of.springs.gap):
+    if _same_springs(of, on):
         return x.copy()
     order = np.argsort(of.springs.gap, kind="stable")
     e = x[:-N_BODY].reshape(-1, of.springs.gap.size)

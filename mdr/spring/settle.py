@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ class NormalPeriod:
     force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
     since: Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
 
-    @property
+    @cached_property
     def mean(self) -> float:
         """Mean of the normal force over the period."""
         return float(self.area.sum()) / (2 * np.pi)

@@ -42,20 +42,31 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
 
         @wraps(function)
         def call(*args: Any) -> T:
-            holding = []
-            for one in _records(args):
-                frozen, names = _kind(type(one))  # type: ignore[arg-type]
-                if not frozen:
-                    return function(*args)
-                for name in names:
-                    if callable(getattr(one, name)):
-                        holding.append(_Itself(one))
-                        break
-            return known(tuple(holding), *args)
+            holding: tuple[_Itself, ...] = ()
+            for one in args:
+                if not isinstance(one, PLAIN) and not callable(one):
+                    of_one = _holding(_Itself(one))
+                    if of_one is None:
+                        return function(*args)
+                    holding += of_one
+            return known(holding, *args)
 
         return call
 
     return wrap
+
+
+@lru_cache(256)
+def _holding(record: _Itself) -> tuple[_Itself, ...] | None:
+    """The records that hold a function among a record and its parts; None where one of them can be changed."""
+    holding = []
+    for one in _records([record.one]):
+        frozen, names = _kind(type(one))  # type: ignore[arg-type]
+        if not frozen:
+            return None
+        if any(callable(getattr(one, name)) for name in names):
+            holding.append(_Itself(one))
+    return tuple(holding)
 
 
 def _records(values: Iterable[Any]) -> Iterator[Any]:
