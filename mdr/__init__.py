@@ -26,7 +26,8 @@ from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.march.run import SlidingRun, State
+from mdr.march.run import SlidingRun
+from mdr.spring.contact_modes import State
 from mdr.march.slide import slide
 from mdr.friction.surface_fields import surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve

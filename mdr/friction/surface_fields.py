@@ -26,9 +26,10 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.indenters.base import rim_pressure
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.stable_functions import arcosh, leg
-from mdr.march.run import SlidingRun, State
+from mdr.march.run import SlidingRun
 from mdr.normal.indentation import Indentation
 from mdr.normal.partial_slip import PartialSlip
+from mdr.spring.contact_modes import State
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.records import ArrayRecord

@@ -20,8 +20,8 @@ from mdr.spring.law import Law, fill_phi
 from mdr.tools.arrays import Array
 
 RESOLVED = 16  #: steps per oscillation of the body on the contact, from which on it counts as resolved
-Y, RATE = range(2)  #: parts of a state of the body
 N_BODY = 2
+Y, RATE = range(N_BODY)  #: parts of a state of the body
 
 Pair = tuple[float, float]  # plain numbers: arrays would be counted by reference in every step
 Square = tuple[Pair, Pair]

@@ -8,13 +8,11 @@ import numpy as np
 
 from mdr.march.stepper import PeriodRecord, Stepper
 from mdr.spring.energies import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 
 OF_QUARTICS = gauss(3)  #: exact for squares of the rate of a cubic
 OF_STEPS = 20.0  #: times the square of a step that the energies of a period may miss; 0.5 without arms and dashpots
 OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots far stiffer than the spring
-
-ROUNDING = 1e-12  #: of what is stored, mostly in the motion of the body
 
 
 @dataclass(frozen=True)
@@ -62,7 +60,7 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
     fastest = 1.0 if scaled.body.light else max(1.0, scaled.body.ringing)
     of_steps = OF_STEPS * (scaled.drive.h * fastest) ** 2 * (balance.lost + of_friction)
     missing = abs(balance.residual)
-    rounding = ROUNDING * unit * max(account.stored)
+    rounding = EXACT * unit * max(account.stored)  # mostly in the motion of the body
     if missing <= max(of_steps, OF_MEMORY * balance.lost) + error * of_friction + rounding:
         return ""
     return f"the energies of a period do not close: {missing:.2g} J are missing where {balance.lost:.2g} J are lost"

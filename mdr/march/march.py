@@ -197,7 +197,8 @@ def steady(
     springs, scaled = at_hand(case, resolution)
     if not scaled.normal.mean > 0:
         raise too_coarse(resolution.steps)
-    stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), n_periods)
+    total = None if n_periods is None else n_periods + max(1, resolution.record)  # with those looked at
+    stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), total)
     from_full_slip = resolution.start == "full_slip"
     orbit = waiting = None
     if n_periods is None:

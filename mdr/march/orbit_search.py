@@ -17,10 +17,10 @@ from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import UNKNOWN, Settling
 from mdr.march.stepper import AT_ONCE, MarchState, PeriodRecord, Periods, Stepper
 from mdr.spring.energies import LEAST_SLIP, STICK_IMPULSE
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import time_is_over
 
-FULL = 1e-12  #: what is missing in the COF in full slip: rounding
+FULL = EXACT  #: what is missing in the COF in full slip
 SHARE = 20.0  #: safety: a search begins with a change of tolerance/(SHARE gain); the force is off by twice the distance
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it

@@ -7,7 +7,6 @@ Sign and symbols: F_x > 0 holds back an indenter that is pulled forward [N], F_z
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,7 @@ from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.march import Observed, too_coarse
 from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
 from mdr.march.stepper import PeriodRecord
-from mdr.spring import contact_modes
+from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import Array
 from mdr.tools.csv_table import csv_text
@@ -29,15 +28,6 @@ HOLDS = (
     "the contact holds: at rest it may stay in many states, of which this is one, and cof_error is the error of this "
     "one alone; ask holding_band(case) for all that it holds"
 )
-
-
-class State(IntEnum):
-    """Mode of a spring."""
-
-    FREE = contact_modes.FREE  #: out of contact
-    STICK = contact_modes.STICK  #: its foot rests on the plane
-    SLIP = contact_modes.SLIP  #: slides forward, friction holds the indenter back
-    SLIP_BACK = contact_modes.SLIP_BACK  #: slides backward, friction drives the indenter on
 
 
 @dataclass(frozen=True, eq=False, repr=False)

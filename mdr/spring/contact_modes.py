@@ -1,3 +1,15 @@
-"""The contact modes of a spring; step.py says what each of them is."""
+"""The contact modes of a spring; step.py says what ends each of them."""
 
-FREE, STICK, SLIP, SLIP_BACK = 0, 1, 2, 3
+from enum import IntEnum
+
+
+class State(IntEnum):
+    """Mode of a spring."""
+
+    FREE = 0  #: out of contact
+    STICK = 1  #: its foot rests on the plane
+    SLIP = 2  #: slides forward, friction holds the indenter back
+    SLIP_BACK = 3  #: slides backward, friction drives the indenter on
+
+
+FREE, STICK, SLIP, SLIP_BACK = (int(mode) for mode in State)  # plain numbers for compiled code
