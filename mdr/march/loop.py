@@ -119,8 +119,8 @@ def later(path, t):
 
 
 @_jit
-def march(e, s, held, body, springs, slip, motion, law, tools, first, n_steps, trace, seen):
-    """March n_steps from step `first` of the period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
+def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace, seen):
+    """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
     slip: the FullSlipForce; seen: None, or what a close look at a whole period fills. Returns whether every step was
     solved for.
@@ -129,8 +129,8 @@ def march(e, s, held, body, springs, slip, motion, law, tools, first, n_steps, t
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
     (areas, moments, ys, rates), (gap, w), (T, modes, arms) = trace, springs, law
     for j in range(n_steps):
-        k = (first + j) % n_t
-        if k == 0 or j == 0:  # the same guess, full slip, however many periods are marched at once
+        k = j % n_t
+        if k == 0:  # the same guess, full slip, however many periods are marched at once
             last = Last(0.0, 0.0)
             tools.excess[:] = 0.0
         zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
@@ -480,7 +480,7 @@ def settle_in(states, s, body, springs, slip, motion, law, tools, n_periods, tra
             put(s, now)
             within_friction(x, s)
             e, held = x[:n_e].reshape(s.shape), x[n_e:]
-            march(e, now, held, body, springs, slip, motion, law, tools, 0, n_t, trace, None)
+            march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace, None)
 
 
 @_jit
@@ -497,6 +497,6 @@ def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, tra
         within_friction(image, s)
         at.start[:] = image
         e, held = image[:n_e].reshape(s.shape), image[n_e:]
-        march(e, now, held, body, springs, slip, motion, law, tools, 0, n_t, trace, None)
+        march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace, None)
         ended = combine(at, image, roots)
     return ended

@@ -127,7 +127,7 @@ class Stepper:
         """A whole number of periods in place, counted."""
         trace = self.scaled.trace(n_periods)
         n_steps = n_periods * self.scaled.drive.steps
-        self.solved = loop.march(state.e, state.s, state.body, *self._parts, 0, n_steps, trace, seen)
+        self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace, seen)
         self._count(n_periods)
         return trace
 

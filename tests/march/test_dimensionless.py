@@ -131,7 +131,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     s, start = scaled.normal.s, scaled.full_slip.state()
     e, held, trace = s.copy(), start.copy(), scaled.trace(3)
     parts = scaled.springs, scaled.slip, scaled.drive.with_pull(1e3), scaled.law, tools_for(scaled.law, scaled.drive.h)
-    assert loop.march(e, s.copy(), held, scaled.body, *parts, 0, 3 * STEPS, trace, None)
+    assert loop.march(e, s.copy(), held, scaled.body, *parts, 3 * STEPS, trace, None)
     area, y = trace.area, trace.y
     # the rate of a light body takes a rounding of the force 1/h times
     size = np.abs(y).max() + np.abs(start).max()
