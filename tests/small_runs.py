@@ -52,7 +52,7 @@ def slides():
         of_pull = contact("paraboloid", **groups).pull
         case = mdr.SlidingContact(like.indenter, material, like.mu_0, oscillation, of_pull, next(shakes))
         (start, n_periods), way = next(starts), next(ways) if case.shake else 1
-        knobs = {"n_springs": 16, "steps_per_period": 17 + n_periods, "n_periods": n_periods, "start": start}
+        knobs = {"n_springs": 16, "steps_per_period": 14 + n_periods, "n_periods": n_periods, "start": start}
         run = mdr.slide(case, way * 0.4 * case.unit_velocity, record=n_periods - 2, **knobs)
         energy = run.energy_balance
         numbers = [run.cof, run.stick_share, energy.friction_loss, energy.viscous_loss, energy.shake_work]
@@ -74,7 +74,7 @@ def searches():
     for name in ("elastic", "arms"):
         of_pull = contact("paraboloid", k_ratio=0.7, omega_0_ratio=1.6, c_ratio=0.1)
         case = replace(of_pull, material=MATERIALS[name])
-        run = march(case, 0.4 * case.unit_velocity, Resolution(16, 32, "full_slip", lump=True, accuracy=1e-8))
+        run = march(case, 0.4 * case.unit_velocity, Resolution(16, 24, "full_slip", lump=True, accuracy=1e-8))
         yield f"search, {name}", [run.cof, run.settling.solved]
 
 

@@ -317,10 +317,12 @@ def test_what_is_drawn_is_of_every_kind():
     for seed in range(130):
         with contextlib.suppress(Refused):
             case = asked(random_records.contact, random_records.Dice(seed))
-            asked(mdr.resolved, case)
-            slide += 1
             assert 6 <= len(str(case).splitlines()) <= 8
-            kinds |= {type(part).__name__ for part in (case.indenter, case.material, case.oscillation, case.pull)}
-    assert slide > 80
+            own = {type(part).__name__ for part in (case.indenter, case.material, case.oscillation, case.pull)}
+            if seed < 50 or own - kinds:  # as the depth under a load is sought for long
+                asked(mdr.resolved, case)
+                slide += seed < 50
+                kinds |= own
+    assert slide > 0.6 * 50
     assert kinds >= {*SHAPES, *MATERIALS, "Profile", "NormalOscillation", "PeriodicMotion", "LoadOscillation"}
     assert kinds >= {"RigidPull", "SpringPull"}

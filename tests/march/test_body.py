@@ -146,17 +146,11 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(64, steps, "full_slip", True))
     for v in (0.05, 0.3, 0.8):
-        parts = (
-            scaled.body,
-            scaled.springs,
-            scaled.slip,
-            scaled.drive.with_pull(v),
-            scaled.law,
-            tools_for(scaled.law, scaled.drive.h),
-        )
-        s = scaled.normal.s.copy()
+        of_body = scaled.body, scaled.springs, scaled.slip, scaled.drive.with_pull(v)
+        of_springs = scaled.law, tools_for(scaled.law, scaled.drive.h)
+        s, state = scaled.normal.s.copy(), scaled.full_slip.state(v).copy()  # contiguous, as march() is compiled for
         assert scaled.body.light
-        assert march(s.copy(), s, scaled.full_slip.state(v), *parts, 2 * steps, scaled.trace(2), None)
+        assert march(s.copy(), s, state, *of_body, *of_springs, 2 * steps, scaled.trace(2), None)
 
 
 @pytest.mark.parametrize("at", [-3.0, 0.0, 1e-9, 7e2])

@@ -69,6 +69,14 @@ class Row:
             e += (share - moduli @ e) / moduli.sum()
         return cls(material, path, h, gap, s, e, rng.uniform(0.5, 1, n) / n)
 
+    @classmethod
+    def beside(cls, rows):
+        """All springs of some rows in one, for by_tiny_steps alone: each has the parabola of its row."""
+        n = [one.gap.size for one in rows]
+        path = Path(*(np.repeat(of_rows, n) for of_rows in zip(*(one.path for one in rows), strict=True)))
+        springs = (np.concatenate([getattr(one, name) for one in rows], axis=-1) for name in ("gap", "s", "e", "w"))
+        return cls(rows[0].material, path, rows[0].h, *springs)
+
     def mirrored(self):
         """The same with the pull the other way round."""
         return replace(self, path=self.path._replace(x_1=-self.path.x_1, x_2=-self.path.x_2), e=-self.e)

@@ -50,11 +50,10 @@ def test_it_does_not_know_forward_from_backward(material):
 
 def beside_tiny_steps(material, n, **fault):
     """How far the step and n tiny ones are apart: e, s, area and moment of every spring, (4, springs)."""
-    apart = []
-    for one in rows(material):
-        pairs = zip(one.by_tiny_steps(n, **fault)[:4], one.stepped()[:4], strict=True)
-        apart.append([np.abs(a - b).reshape(-1, one.gap.size).max(axis=0) for a, b in pairs])
-    return np.concatenate(apart, axis=1)
+    stepped = zip(*(one.stepped()[:4] for one in rows(material)), strict=True)
+    tiny = Row.beside(rows(material)).by_tiny_steps(n, **fault)[:4]
+    pairs = zip(tiny, (np.concatenate(each, axis=-1) for each in stepped), strict=True)
+    return np.array([np.abs(a - b).reshape(-1, a.shape[-1]).max(axis=0) for a, b in pairs])
 
 
 def allowed(material):

@@ -41,10 +41,7 @@ def made_up_claim(name="pull", verdict="holds", **changes):
         "measured": "less than 10^-5",
         "verdict": verdict,
         "sentence": "v_c is the same for all.",
-        "checks": [
-            Check("v_c", 1.0, 1.0, 1e-4, "the bracket"),
-            Check.at_least("ratio", 3.0, 2.0, "far above"),
-        ],
+        "checks": [Check("v_c", 1.0, 1.0, 1e-4, "the bracket"), Check.at_least("ratio", 3.0, 2.0, "far above")],
     }
     return Claim(**{**parts, **changes})
 
@@ -77,13 +74,7 @@ def test_when_a_check_holds(check, held):
 
 @pytest.mark.parametrize(
     ("expected", "tolerance", "side"),
-    [
-        (math.nan, 1, "within"),
-        (0, -1, "within"),
-        (0, math.nan, "within"),
-        (0, math.inf, "within"),
-        (0, 1, "up"),
-    ],
+    [(math.nan, 1, "within"), (0, -1, "within"), (0, math.nan, "within"), (0, math.inf, "within"), (0, 1, "up")],
 )
 def test_a_check_that_cannot_fail_or_cannot_hold_is_refused(expected, tolerance, side):
     with pytest.raises(ValueError, match="check 'c'"):
@@ -123,10 +114,7 @@ def test_figures_are_drawn_once_and_travel_as_bytes():
 
 
 def test_page_is_well_formed_and_needs_nothing_else():
-    claims = [
-        made_up_claim(figures=[made_up_figure()]),
-        made_up_claim("map", figures=[made_up_figure("glance")]),
-    ]
+    claims = [made_up_claim(figures=[made_up_figure()]), made_up_claim("map", figures=[made_up_figure("glance")])]
     page = html_page(claims, "quick")
     links, ids = re.findall(r'\b(?:href|src)="?([^" >]+)', page), ids_of(page)
     assert not re.search(r"https?:|//[a-z]|<script src|url\(", re.sub(r"base64,[^\"]*", "", page))
