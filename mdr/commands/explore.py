@@ -20,8 +20,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """The case, the port, and whether a browser is opened."""
     file = "the case file; - is standard input (default: the example of mdr case)"
     command.add_argument("case", metavar="case.toml", nargs="?", type=path_of, help=file)
-    port = "port, 0 for a free one (default: %(default)s)"  # that of Bokeh's own server
-    command.add_argument("--port", type=whole_number(0, 2**16 - 1), default=5006, help=port)
+    port = "port, 0 for a free one (default: %(default)s)"
+    command.add_argument("--port", type=whole_number(0, 2**16 - 1), default=5006, help=port)  # Bokeh's own
     command.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
 
 

@@ -23,7 +23,7 @@ from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
-SLOW = 1e-3  #: of the velocity scale of a case, from which on the velocity of a contact that drives is looked for first
+SLOW = 1e-3  #: of the velocity scale of a case: where the velocity of a contact that drives is looked for first
 
 
 @dataclass(frozen=True)

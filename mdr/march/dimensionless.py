@@ -140,7 +140,7 @@ class ScaledContact:
 
     @property
     def slip(self) -> loop.FullSlipForce:
-        """Its force, if all springs slip forward."""
+        """Force of the springs over each step, if all slip forward."""
         return loop.FullSlipForce(self.normal.area, self.normal.moment, self.normal.end)
 
     @cached_property

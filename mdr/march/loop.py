@@ -40,7 +40,9 @@ class Motion(NamedTuple):
 
 
 class FullSlipForce(NamedTuple):
-    """The force of the springs over each of the n_t steps of a period, if they all slip forward."""
+    """The force of the springs over each of the n_t steps of a period, if they all slip forward: bodies with mass
+    follow its moment, light ones the force at the end.
+    """
 
     area: Array  #: (n_t,)
     moment: Array  #: (n_t,) about the start of the step
@@ -53,12 +55,12 @@ class Here(NamedTuple):
     path: Path
     z_dot: float  #: its rates at the end, of which those of the parabolas are off by h²/12 of a third derivative
     x_dot: float
-    area: float  #: of full slip
-    end: float
+    area: float  #: of the force of full slip over the step
+    end: float  #: this force at its end
 
 
 class Last(NamedTuple):
-    """What springs did at the end of the step before."""
+    """What springs did at the end of the step before; `Tools.excess` holds their state."""
 
     sticking: float  #: share of them that stuck
     back: float  #: share that slipped back
@@ -130,7 +132,7 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace, s
     (areas, moments, ys, rates), (gap, w), (T, modes, arms) = trace, springs, law
     for j in range(n_steps):
         k = j % n_t
-        if k == 0:  # the same guess, full slip, however many periods are marched at once
+        if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
             tools.excess[:] = 0.0
         zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
@@ -160,9 +162,9 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace, s
 def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools):
     """A step of a body with mass: it moves as area and moment of the force make it, and the springs move with it.
 
-    Newton's method on its motion at the end, by the stiffness of what sticks, from where it would be if no spring
-    changed its mode (`last`). force: area and moment of full slip. Returns path, area, moment, what springs do at the
-    end and whether this was solved; e, s, held are updated.
+    Newton's method on its motion at the end, by the stiffness of what sticks. Turn 0 takes the force that the springs
+    have if none changes its mode (`last`), which most often is the true one. force: area and moment of full slip.
+    Returns path, area, moment, what springs do at the end and whether this was solved; e, s, held are updated.
     """
     (gap, w), (T, modes, arms) = springs, law
     h, free, y_0, rate_0 = tools.h, body.free, held[Y], held[RATE]
@@ -182,7 +184,7 @@ def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, too
         push = body.area[0] * area + body.moment[0] * moment
         push_rate = body.area[1] * area + body.moment[1] * moment
         off, off_rate = y - y_free + push, rate - rate_free + push_rate
-        least = ROUNDING * (abs(y) + h * (abs(rate) + motion.v))
+        least = ROUNDING * (abs(y) + h * (abs(rate) + abs(motion.v)))
         found = turn > 0 and abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
         if found:
             break
@@ -349,7 +351,7 @@ def glassy(arms):
 
 @_jit
 def tools_of(h, law, tools):
-    """The tools of another step."""
+    """The tools of another step; the room, and the excess of the step before, are the same."""
     one = Tools(h, np.empty_like(tools.held), np.empty_like(tools.decay), *tools[3:])
     fill(h, law.modes, law.arms, one, 0)
     return one

@@ -153,5 +153,5 @@ def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
 
 @_call
 def account_of_part(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
-    """The same for a part of the step."""
+    """The same for a part of the step, as a call: it is rare, and its rule has to be made."""
     account(sums, mode, s, e, i, w, path, nodes_of(t, modes, arms), T, modes, arms, tools)

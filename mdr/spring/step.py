@@ -54,7 +54,7 @@ class Path(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """What times make of arms and modes, and room to work in."""
+    """What times make of arms and modes, room to work in, and what one step tells the next."""
 
     h: float  #: length of the step
     held: Array  #: (2, 9, J) what arms, that are held on p t + q t² for the step or a part of it, come to, see `fill`
@@ -63,7 +63,7 @@ class Tools(NamedTuple):
     work: Array  #: (J + K,)
     one: Array  #: (N_PHI,)
     more: Array  #: (4, K)
-    excess: Array  #: (1 + J, 1) what the springs bear at the end of a step more than in full slip, see `as_they_are`
+    excess: Array  #: (1 + J, 1) at the end of a step: sum of w (e - s) in stick, of -2 w s in slip back
 
 
 class Ends(NamedTuple):
@@ -340,7 +340,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
     extension, row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: filled for the step.
     look: None or Look. Returns seven sums weighted by w: area of the tangential force over the time, its moment about
     the begin of the step, time in stick, its moment, tangential force at the end, share that sticks there, share that
-    slips back.
+    slips back. tools.excess is filled, for `as_they_are`.
     """
     h, n_x, rate, decay, excess = tools.h, s.shape[0], 0.0, tools.decay, tools.excess
     if modes is not None:
@@ -495,10 +495,11 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
 
 @_inline
 def as_they_are(path, sticking, back, T, arms, tools, zd, xd):
-    """What the springs bear over a step more than in full slip forward, if none changes its mode from what it was at
-    the end of the step before: those that stick L[e - s], those that slip back -2 L[s], which all are one spring, with
-    its state in tools.excess. sticking, back: shares of the springs; others as of `row`.
+    """The force over a step in which every spring keeps the mode that it had at the end of the last one, less that of
+    full slip forward. A spring that sticks bears L[e] - L[s] more, one that slips back -2 L[s]. As L is linear and the
+    same for all, they are together one spring, with the state tools.excess.
 
+    sticking, back: shares of the springs, as of `row` for the last step; the others are those of `row` for this step.
     Returns area, moment and force at the end; tools.excess is used up.
     """
     h, excess, part = tools.h, tools.excess, sticking + 2.0 * back

@@ -45,7 +45,7 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
             holding: tuple[_Itself, ...] = ()
             for one in args:
                 if not isinstance(one, PLAIN) and not callable(one):
-                    of_one = _holding(_Itself(one))
+                    of_one = _holding(_Itself(one)) if _kind(type(one))[0] else None  # type: ignore[arg-type]
                     if of_one is None:
                         return function(*args)
                     holding += of_one
@@ -58,7 +58,9 @@ def remembered(maxsize: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
 
 @lru_cache(256)
 def _holding(record: _Itself) -> tuple[_Itself, ...] | None:
-    """The records that hold a function among a record and its parts; None where one of them can be changed."""
+    """The records that hold a function among a record and its parts; None where one of them can be changed. Known by
+    identity, as the hash of a case takes as long as this.
+    """
     holding = []
     for one in _records([record.one]):
         frozen, names = _kind(type(one))  # type: ignore[arg-type]

@@ -80,7 +80,7 @@ def span(values: Any, unit: str = "") -> str:
 
 def with_error(value: float, error: float) -> str:
     """A number with its error, rounded to what the error leaves of it, to three digits at least."""
-    if not np.isfinite(error) or error <= 0:
+    if not (np.isfinite(value) and np.isfinite(error) and error > 0):
         return number(value)
     first, first_of_error = (np.floor(np.log10(one)) for one in (abs(value) or 10 * error, error))
     digits = int(np.clip(max(2 - first, 1 - first_of_error), 0, MOST_DIGITS))  # the third, or the second of the error

@@ -98,6 +98,7 @@ def test_numbers_are_cut_to_what_is_known():
     assert number(2.0, "-") == "2"
     assert with_error(0.43864123, 4.6e-6) == "0.4386412 +- 4.6e-06"
     assert with_error(0.5, 0.0) == with_error(0.5, np.nan) == with_error(0.5, np.inf) == "0.5"
+    assert with_error(np.nan, 0.1) == number(np.nan)
     assert with_error(0.5, 1e-300) == "0.50000000 +- 1.0e-300"
     assert with_error(12.0, 30.0) == "12.0 +- 3.0e+01"
     assert span([2.0, np.nan, 1.0], "s") == "1 to 2 s"
