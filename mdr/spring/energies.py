@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
 from mdr.spring.law import N_PHI, fill_phi
@@ -13,7 +12,6 @@ from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
 _call = compiled(error_model="numpy", nogil=True, fastmath={"reassoc", "contract"})
-_inline = njit(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
 
 # the sums, in this order; of the slip velocity the least of springs that touch or leave
 N_SUMS = 9
@@ -88,7 +86,7 @@ def nodes_of(t, modes, arms):
     return nodes
 
 
-@_inline
+@_call
 def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
     """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time."""
     if modes is None and mode == FREE:
@@ -149,9 +147,3 @@ def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
         sums[NORMAL_WORK] += w * worked
         sums[STICK_IMPULSE] += w * pressed if mode == STICK else 0.0
         sums[FRICTION_LOSS] += w * slipped if mode != STICK else 0.0
-
-
-@_call
-def account_of_part(sums, mode, s, e, i, w, path, t, T, modes, arms, tools):
-    """The same for a part of the step, as a call: it is rare, and its rule has to be made."""
-    account(sums, mode, s, e, i, w, path, nodes_of(t, modes, arms), T, modes, arms, tools)

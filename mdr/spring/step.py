@@ -27,7 +27,7 @@ import numpy as np
 from numba import njit
 
 from mdr.spring.contact_modes import FREE, SLIP, SLIP_BACK, STICK
-from mdr.spring.energies import LEAST_SLIP, Nodes, account, account_of_part
+from mdr.spring.energies import LEAST_SLIP, Nodes, account, nodes_of
 from mdr.spring.law import fill_phi
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -415,10 +415,8 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 fill(t, modes, arms, tools, 1)
             if look is not None:
                 here = Path(z_0, z_1, z_2, x_1, x_2)
-                if t == h:
-                    account(look.sums, mode, s, e, i, w[i], here, look.nodes, T, modes, arms, tools)
-                else:
-                    account_of_part(look.sums, mode, s, e, i, w[i], here, t, T, modes, arms, tools)
+                nodes = look.nodes if t == h else nodes_of(t, modes, arms)
+                account(look.sums, mode, s, e, i, w[i], here, nodes, T, modes, arms, tools)
             # the state after that time
             fallen = 0.0
             if modes is not None:
