@@ -25,7 +25,7 @@ from mdr.tools.arrays import EXACT
 
 
 class LossLaw(NamedTuple):
-    """Greatest loss over that at rest, a lambda²/(b + lambda) + c beta²/kappa, and what it was fitted to."""
+    """Greatest loss over that at rest, a lambda²/(b + lambda) + c beta²/kappa, and how far it is known to hold."""
 
     a: float
     b: float

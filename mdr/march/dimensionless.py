@@ -139,7 +139,7 @@ class ScaledContact:
         return found
 
     @property
-    def slip(self) -> loop.FullSlipForce:
+    def full_slip_force(self) -> loop.FullSlipForce:
         """Force of the springs over each step, if all slip forward."""
         return loop.FullSlipForce(self.normal.area, self.normal.moment, self.normal.end)
 

@@ -82,7 +82,7 @@ class Stepper:
         self._parts = (
             scaled.body,
             scaled.springs,
-            scaled.slip,
+            scaled.full_slip_force,
             scaled.drive.with_pull(v),
             scaled.law,
             tools_for(scaled.law, scaled.drive.h),

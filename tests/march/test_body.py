@@ -146,7 +146,7 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(64, steps, "full_slip", True))
     for v in (0.05, 0.3, 0.8):
-        of_body = scaled.body, scaled.springs, scaled.slip, scaled.drive.with_pull(v)
+        of_body = scaled.body, scaled.springs, scaled.full_slip_force, scaled.drive.with_pull(v)
         of_springs = scaled.law, tools_for(scaled.law, scaled.drive.h)
         s, state = scaled.normal.s.copy(), scaled.full_slip.state(v).copy()  # contiguous, as march() is compiled for
         assert scaled.body.light

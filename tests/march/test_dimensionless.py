@@ -130,7 +130,13 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     scaled = scaled_of(shape, 4.0, T, **body)
     s, start = scaled.normal.s, scaled.full_slip.state()
     e, held, trace = s.copy(), start.copy(), scaled.trace(3)
-    parts = scaled.springs, scaled.slip, scaled.drive.with_pull(1e3), scaled.law, tools_for(scaled.law, scaled.drive.h)
+    parts = (
+        scaled.springs,
+        scaled.full_slip_force,
+        scaled.drive.with_pull(1e3),
+        scaled.law,
+        tools_for(scaled.law, scaled.drive.h),
+    )
     assert loop.march(e, s.copy(), held, scaled.body, *parts, 3 * STEPS, trace, None)
     area, y = trace.area, trace.y
     # the rate of a light body takes a rounding of the force 1/h times

@@ -99,9 +99,8 @@ class Row:
             path, last = self.from_then(part * h), self.from_then((part + 1) * h)
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
-                args = path, *self.law, tools, last.z_1, last.x_1
-                args = self.gap[i : i + 1], np.ones(1), *args, look and look[i]
-                area, moment, stuck, *_ = row(two, one, *args)
+                spring, rates = (self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
+                area, moment, stuck, *_ = row(two, one, *spring, path, *self.law, tools, *rates, look and look[i])
                 sums[:, i] += area, moment + part * h * area, stuck
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
