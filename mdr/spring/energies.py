@@ -89,33 +89,30 @@ def nodes_of(t, modes, arms):
 @_call
 def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
     """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time."""
-    if modes is None and mode == FREE:
-        return
     J, K = 0, 0
-    press, lag, press_now, lag_now = tools.more
     sign = -1.0 if mode == SLIP_BACK else 1.0
     z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
     if modes is not None and mode != STICK:
         K = modes.mu.size
         for k in range(K):
-            press[k] = lag[k] = 0.0
+            press = lag = 0.0
             for j in range(s.shape[0]):
-                press[k] += modes.into[k, j] * s[j, i]
-                lag[k] += modes.into[k, j] * (e[j, i] if mode == FREE else s[j, i] - sign * e[j, i])
+                press += modes.into[k, j] * s[j, i]
+                lag += modes.into[k, j] * (e[j, i] if mode == FREE else s[j, i] - sign * e[j, i])
+            tools.more[0, k], tools.more[1, k] = press, lag
     if arms is not None:
         J = arms.rho.size
     pressed = slipped = worked = shear_lost = normal_lost = 0.0
     for g in range(nodes.u.size):
-        u, weight, phi = nodes.u[g], nodes.weight[g], nodes.phi[g]
+        u, weight = nodes.u[g], nodes.weight[g]
         s_rate, x_rate = z_1 + 2.0 * z_2 * u, x_1 + 2.0 * x_2 * u
         e_rate, lag_rate, press_rate = x_rate, 0.0, 0.0
         normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
         if modes is not None and mode != STICK:
             for k in range(K):
-                lag_now[k], press_now[k] = lag[k] * nodes.decay[g, k], press[k] * nodes.decay[g, k]
-                rate = modes.mu[k] * modes.out[0, k]
-                lag_rate -= rate * lag_now[k]
-                press_rate -= rate * press_now[k]
+                rate = modes.mu[k] * modes.out[0, k] * nodes.decay[g, k]
+                press_rate -= rate * tools.more[0, k]
+                lag_rate -= rate * tools.more[1, k]
         if mode == FREE:
             s_rate, e_rate = press_rate, lag_rate
         elif mode != STICK:
@@ -123,15 +120,16 @@ def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
         shear, pressure = T * e_rate * e_rate, T * s_rate * s_rate
         if arms is not None:
             for j in range(J):
-                s_j = s[1 + j, i] * phi[0, j] + z_1 * phi[1, j] + z_2 * phi[2, j]
+                s_j = s[1 + j, i] * nodes.phi[g, 0, j] + z_1 * nodes.phi[g, 1, j] + z_2 * nodes.phi[g, 2, j]
                 normal += arms.rho[j] * s_j
                 if mode == STICK:
-                    e_j = e[1 + j, i] * phi[0, j] + x_1 * phi[1, j] + x_2 * phi[2, j]
+                    e_j = e[1 + j, i] * nodes.phi[g, 0, j] + x_1 * nodes.phi[g, 1, j] + x_2 * nodes.phi[g, 2, j]
                 else:
                     of_lag = of_press = 0.0
                     for k in range(K):
-                        of_lag += modes.out[1 + j, k] * lag_now[k]
-                        of_press += modes.out[1 + j, k] * press_now[k]
+                        part = modes.out[1 + j, k] * nodes.decay[g, k]
+                        of_press += part * tools.more[0, k]
+                        of_lag += part * tools.more[1, k]
                     s_j, e_j = (of_press, of_lag) if mode == FREE else (s_j, sign * (s_j - of_lag))
                 shear += arms.rho[j] * arms.rate[j] * e_j * e_j
                 pressure += arms.rho[j] * arms.rate[j] * s_j * s_j

@@ -413,10 +413,12 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
             if ends:
                 t, k = until, 1
                 fill(t, modes, arms, tools, 1)
-            if look is not None:
+            if look is not None and (modes is not None or mode != FREE):
                 here = Path(z_0, z_1, z_2, x_1, x_2)
-                nodes = look.nodes if t == h else nodes_of(t, modes, arms)
-                account(look.sums, mode, s, e, i, w[i], here, nodes, T, modes, arms, tools)
+                if t == h:
+                    account(look.sums, mode, s, e, i, w[i], here, look.nodes, T, modes, arms, tools)
+                else:
+                    account(look.sums, mode, s, e, i, w[i], here, nodes_of(t, modes, arms), T, modes, arms, tools)
             # the state after that time
             fallen = 0.0
             if modes is not None:
