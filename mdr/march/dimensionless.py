@@ -141,7 +141,7 @@ class ScaledContact:
     @property
     def full_slip_force(self) -> loop.FullSlipForce:
         """Force of the springs over each step, if all slip forward."""
-        return loop.FullSlipForce(self.normal.area, self.normal.moment, self.normal.end)
+        return loop.FullSlipForce(self.normal.area, self.normal.moment, self.normal.end, self.normal.flight)
 
     @cached_property
     def full_slip(self) -> FullSlip:
@@ -150,7 +150,9 @@ class ScaledContact:
 
     def trace(self, n_periods: int = 1) -> loop.Trace:
         """Room for what a march leaves of its steps."""
-        return loop.Trace(*np.empty((4, n_periods * self.drive.steps)))
+        n_steps = n_periods * self.drive.steps
+        area, moment, y, rate = np.empty((4, n_steps))
+        return loop.Trace(area, moment, y, rate, np.empty((n_steps, 2, 3)))
 
 
 def _over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:

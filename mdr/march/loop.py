@@ -10,18 +10,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import ROUNDING, Look, Path, Tools, as_they_are, fill, press, row
+from mdr.spring.step import ROUNDING, Look, Path, Tools, as_they_are, fill, row
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled
+from mdr.tools.jit import compiled, inner
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-_inline = njit(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
+_inner = inner(error_model="numpy", fastmath={"reassoc", "contract"})
+_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
@@ -47,6 +47,7 @@ class FullSlipForce(NamedTuple):
     area: Array  #: (n_t,)
     moment: Array  #: (n_t,) about the start of the step
     end: Array  #: (n_t,) force at its end
+    flight: Array  #: (n_t,) how long it is zero from the start of a step in which springs come to press
 
 
 class Here(NamedTuple):
@@ -80,6 +81,7 @@ class Trace(NamedTuple):
     moment: Array  #: (n_steps,) of it
     y: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
     rate: Array  #: (n_steps,) its rate there
+    way: Array  #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts of the step; the first may have no length
 
 
 class Seen(NamedTuple):
@@ -104,6 +106,13 @@ def put(x, out):
 
 
 @_inline
+def copy(x, out):
+    """Copy x into out, of the same shape (n,)."""
+    for i in range(x.size):
+        out[i] = x[i]
+
+
+@_inline
 def path_of(motion, k, h, y_0, rate_0, y_1, rate_1):
     """The parabolas of a step, with the body from y_0 to y_1 and its rates at both ends."""
     z, zd, x, xd = motion.z, motion.z_dot, motion.x, motion.x_dot
@@ -121,25 +130,26 @@ def later(path, t):
 
 
 @_jit
-def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace, seen):
+def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
-    slip: the FullSlipForce; seen: None, or what a close look at a whole period fills. Returns whether every step was
-    solved for.
+    slip: the FullSlipForce; trace: filled. Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.h, motion.z.size - 1, True, Last(0.0, 0.0)
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
-    (areas, moments, ys, rates), (gap, w), (T, modes, arms) = trace, springs, law
+    (gap, w), (T, modes, arms) = springs, law
     for j in range(n_steps):
-        k = j % n_t
+        k, trace.way[j, 0, 0] = j % n_t, 0.0
         if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
             tools.excess[:] = 0.0
         zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
         path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
         if body.light:
-            here = Here(path, zd, xd, slip.area[k], slip.end[k])
-            area, moment, last, found = follow(e, s, e_0, s_0, held, last, body, springs, here, law, tools, k, seen)
+            here, flown = Here(path, zd, xd, slip.area[k], slip.end[k]), slip.flight[k]
+            area, moment, last, found = follow(
+                e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j, trace
+            )
         else:
             put(e, e_0)
             put(s, s_0)
@@ -151,10 +161,9 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace, s
                 path, area, moment, last, found = answer(
                     e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools
                 )
-            if seen is not None:
-                look_at(s_0, e_0, s, e, springs, path, zd, xd + held[RATE], law, tools, h, k, seen)
+            note(trace, j, 1, h, path)
         solved = solved and found
-        areas[j], moments[j], ys[j], rates[j] = area, moment, held[Y], held[RATE]
+        trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, held[Y], held[RATE]
     return solved
 
 
@@ -196,34 +205,32 @@ def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, too
     return path, area, moment, last, found
 
 
-@_jit
-def follow(e, s, e_0, s_0, held, last, body, springs, here, law, tools, k, seen):
-    """A step of a light body, in two parts where the first spring touches within it, as that throws the body.
+@_inner
+def follow(e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j, trace):
+    """Step j of a light body, in two parts where the first spring touches within it, after the time `flown`, as that
+    throws the body.
 
     here: motion of the indenter over the step; others as of `march`. Returns area and moment of the force, what springs
     do at the end and whether all was solved.
     """
-    h, now, solved = tools.h, tools, True
-    flown = flight_of(s, springs.gap, here.path, law, tools)
-    if flown > 0.0:
-        now = tools_of(flown, law, tools)
+    h, one, now, solved, first = tools.h, here, tools, True, 0
+    if not SHORTEST * h < flown < (1.0 - SHORTEST) * h:
+        flown, first = 0.0, 1
+    rest = later(here.path, flown)
+    for part in range(first, 2):
+        if part == 0:
+            one, now = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0), tools_of(flown, law, tools)
+        elif first == 0:
+            one, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools_of(h - flown, law, tools)
         put(e, e_0)
         put(s, s_0)
-        rest = later(here.path, flown)
-        flight = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0)
-        path, _, _, last, solved = balance(e, s, e_0, s_0, held, last, body, springs, flight, law, now)
-        if seen is not None:
-            look_at(s_0, e_0, s, e, springs, path, rest.z_1, rest.x_1 + held[RATE], law, now, h, k, seen)
-        here, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools_of(h - flown, law, tools)
-    put(e, e_0)
-    put(s, s_0)
-    path, area, moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, here, law, now)
-    if seen is not None:
-        look_at(s_0, e_0, s, e, springs, path, here.z_dot, here.x_dot + held[RATE], law, now, h, k, seen)
-    return area, moment + flown * area, last, solved and found
+        path, area, moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, one, law, now)
+        note(trace, j, part, now.h, path)
+        solved = solved and found
+    return area, moment + flown * area, last, solved
 
 
-@_jit
+@_inner
 def balance(e, s, e_0, s_0, held, last, body, springs, here, law, tools):
     """A step of a light body: no impulse of all forces is left over it, and no force at its end.
 
@@ -280,7 +287,7 @@ def not_balanced(y, u, rate, area, end, held, body, law, h):
     return impulse, force, CLOSE * (size + slope * (abs(y - y_0) + abs(u))) + ROUNDING * slope * abs(y)
 
 
-@_jit
+@_inner
 def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
     """What is left of impulse (over h) and force if a light body moves to y with u; e, s are updated.
 
@@ -294,13 +301,13 @@ def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
     return path, rate, of, impulse, force, close
 
 
-@_jit
+@_inner
 def steepest(body, law, h):
     """The most by which force or impulse of a light body can change with its motion over a step."""
     return body.M / (h * h) + (body.C + law.T) / h + body.K + 1.0 + glassy(law.arms)
 
 
-@_jit
+@_inner
 def enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools):
     """y and u of a step of a light body by two searches, one within the other: the force at the end rises with y, and
     where it is zero, the impulse falls as u grows.
@@ -339,7 +346,7 @@ def next_place(x, f, most, ends):
     return x - f / most if np.isnan(b) else x + 4.0 * (x - b)
 
 
-@_jit
+@_inner
 def glassy(arms):
     """Sum of the moduli of the arms."""
     total = 0.0
@@ -349,7 +356,7 @@ def glassy(arms):
     return total
 
 
-@_jit
+@_inner
 def tools_of(h, law, tools):
     """The tools of another step; the room, and the excess of the step before, are the same."""
     one = Tools(h, np.empty_like(tools.held), np.empty_like(tools.decay), *tools[3:])
@@ -357,38 +364,42 @@ def tools_of(h, law, tools):
     return one
 
 
-@_jit
-def flight_of(s, gap, path, law, tools):
-    """How long the first spring is in flight from the start of a step; zero if it presses there, or if it does not
-    touch within the step.
-    """
-    if s[0, 0] <= path.z_0 - gap[0]:
-        return 0.0
-    first, since = s[:, :1].copy(), np.zeros(1)
-    press(first, gap[:1], np.ones(1), path, law.T, law.modes, law.arms, tools, since)
-    return tools.h * (1.0 - since[0]) if SHORTEST < since[0] < 1.0 - SHORTEST else 0.0
+@_inline
+def note(trace, j, part, t, path):
+    """Leave the way of the top over a part, 0 or 1, of step j."""
+    trace.way[j, part, 0], trace.way[j, part, 1], trace.way[j, part, 2] = t, path.x_1, path.x_2
 
 
 @_jit
-def look_at(s_0, e_0, s, e, springs, path, zd, xd, law, tools, whole, k, seen):
-    """A close look at a step from s_0, e_0 (which it uses up) to s, e; fills place k of seen. zd, xd: rates of the top
-    at its end; whole: length of a step that is not cut.
-    """
-    keeps = seen.mode.shape[0] > 0
-    n = springs.gap.size
-    mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.zeros(3)
-    nodes = seen.nodes if tools.h == whole else nodes_of(tools.h, law.modes, law.arms)
-    look = Look(nodes, seen.sums, F, mode, f_x, f_z)
-    area, moment, _, _, _, _, _ = row(
-        s_0, e_0, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, zd, xd, look
-    )
-    seen.sums[SHEAR_WORK] += path.x_1 * area + 2.0 * path.x_2 * moment
-    for m in range(3):
-        seen.F[k, m] = F[m]
-    if keeps:
-        for i in range(n):
-            seen.mode[k, i], seen.f_x[k, i], seen.f_z[k, i] = mode[i], f_x[i], f_z[i]
-            seen.e[k, i], seen.s[k, i] = e[0, i], s[0, i]
+def look(e, s, springs, motion, law, tools, trace, seen):
+    """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
+    h, n, kept = tools.h, springs.gap.size, seen.mode.shape[0]
+    mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.empty(3)
+    for k in range(motion.z.size - 1):
+        path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
+        for part in range(2):
+            t, x_1, x_2 = trace.way[k, part, 0], trace.way[k, part, 1], trace.way[k, part, 2]
+            if t == 0.0:
+                continue
+            now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2)
+            if t < h:
+                now, nodes = tools_of(t, law, tools), nodes_of(t, law.modes, law.arms)
+            path = later(here, t)
+            zd, xd = path.z_1, path.x_1
+            if part == 1:
+                zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1] + trace.rate[k]
+            F[:] = 0.0
+            into = Look(nodes, seen.sums, F, mode, f_x, f_z)
+            area, moment, _, _, _, _, _ = row(
+                s, e, springs.gap, springs.w, here, law.T, law.modes, law.arms, now, zd, xd, into
+            )
+            seen.sums[SHEAR_WORK] += x_1 * area + 2.0 * x_2 * moment
+        for m in range(3):
+            seen.F[k, m] = F[m]
+        if kept > 0:
+            for i in range(n):
+                seen.mode[k, i], seen.f_x[k, i], seen.f_z[k, i] = mode[i], f_x[i], f_z[i]
+                seen.e[k, i], seen.s[k, i] = e[0, i], s[0, i]
 
 
 # --- the periodic state ---------------------------------------------------------------------------
@@ -434,7 +445,7 @@ def combine(at, image, roots):
     period = counts[PERIODS]
     counts[PERIODS] += 1
     if change < changes[BEST]:
-        at.best[:] = image
+        copy(image, at.best)
         changes[BEST], counts[SINCE] = change, period
     if change <= at.close or period - counts[SINCE] > at.patience:
         return True
@@ -443,8 +454,8 @@ def combine(at, image, roots):
     elif period > 0:
         if counts[KEPT] == at.d_image.shape[0]:
             for j in range(1, counts[KEPT]):
-                at.d_image[j - 1] = at.d_image[j]
-                at.d_moved[j - 1] = at.d_moved[j]
+                copy(at.d_image[j], at.d_image[j - 1])
+                copy(at.d_moved[j], at.d_moved[j - 1])
             counts[KEPT] -= 1
         for i in range(image.size):
             at.d_image[counts[KEPT], i] = image[i] - at.image[i]
@@ -470,22 +481,6 @@ def within_friction(x, s):
 
 
 @_jit
-def settle_in(states, s, body, springs, slip, motion, law, tools, n_periods, trace, before, after):
-    """March states (k, n_x) for some periods and one more, each on its own: fills before and after, of that shape."""
-    now, n_e, n_t = np.empty_like(s), s.size, motion.z.size - 1
-    for j in range(states.shape[0]):
-        x = after[j]
-        x[:] = states[j]
-        for turn in range(n_periods + 1):
-            if turn == n_periods:
-                before[j] = x
-            put(s, now)
-            within_friction(x, s)
-            e, held = x[:n_e].reshape(s.shape), x[n_e:]
-            march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace, None)
-
-
-@_jit
 def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, trace):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
 
@@ -494,11 +489,11 @@ def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, tra
     now, image, n_e, n_t, ended = np.empty_like(s), np.empty_like(at.x), s.size, motion.z.size - 1, False
     while n_periods > 0 and not ended:
         n_periods -= 1
-        image[:] = at.x
+        copy(at.x, image)
         put(s, now)
         within_friction(image, s)
-        at.start[:] = image
+        copy(image, at.start)
         e, held = image[:n_e].reshape(s.shape), image[n_e:]
-        march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace, None)
+        march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace)
         ended = combine(at, image, roots)
     return ended

@@ -110,11 +110,6 @@ class _Period(periodic.PeriodMap):
             raise _OutOfTime
         return self.stepper.period(self.stepper.within_friction(self.like.with_vector(x))).x
 
-    def settled_in(self, states: Array) -> tuple[Array, Array]:
-        if time_is_over():
-            raise _OutOfTime
-        return self.stepper.settled_in(states, self.like, periodic.AFTER)
-
 
 def _by_anderson(
     stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options, motions: periodic.SlowMotions | None

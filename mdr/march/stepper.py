@@ -123,11 +123,11 @@ class Stepper:
                 break
         return state, joined(parts)
 
-    def _marched(self, state: MarchState, n_periods: int, seen: loop.Seen | None = None) -> loop.Trace:
+    def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
         trace = self.scaled.trace(n_periods)
         n_steps = n_periods * self.scaled.drive.steps
-        self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace, seen)
+        self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
         self._count(n_periods)
         return trace
 
@@ -148,7 +148,8 @@ class Stepper:
         nodes = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms)
         seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 3)), *np.zeros((5, kept, n)))
         seen.sums[LEAST_SLIP] = np.inf
-        trace = self._marched(state, 1, seen)
+        trace, passed = self._marched(state, 1), before.copy()
+        loop.look(passed.e, passed.s, *self._parts[1:2], *self._parts[3:], trace, seen)
         x_2 = np.diff(scaled.drive.x_dot) / (2 * scaled.drive.h)  # the shake goes on parabolas
         x_1 = np.diff(scaled.drive.x) / scaled.drive.h - x_2 * scaled.drive.h
         seen.sums[SHAKE_WORK] = x_1 @ trace.area + 2 * x_2 @ trace.moment
@@ -170,13 +171,6 @@ class Stepper:
         ended = loop.search(at, like.s, roots, *self._parts, n_periods, trace)
         self._count(int(at.counts[loop.PERIODS]) - n_before)
         return bool(ended), self._periods_of(trace)
-
-    def settled_in(self, states: Array, like: MarchState, n_periods: int) -> tuple[Array, Array]:
-        """What states (k, n_x) of the march have come to after so many periods, and a period later; like: one of it."""
-        before, after = np.empty_like(states), np.empty_like(states)
-        loop.settle_in(states, like.s, *self._parts, n_periods, self.scaled.trace(), before, after)
-        self._count(len(states) * (n_periods + 1))
-        return before, after
 
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""

@@ -9,9 +9,7 @@ import numpy as np
 from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
 from mdr.spring.law import N_PHI, fill_phi
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled
-
-_call = compiled(error_model="numpy", nogil=True, fastmath={"reassoc", "contract"})
+from mdr.tools.jit import compiled, inner
 
 # the sums, in this order; of the slip velocity the least of springs that touch or leave
 N_SUMS = 9
@@ -48,7 +46,7 @@ class Nodes(NamedTuple):
     decay: Array  #: (N, K) exp(-mu_k u)
 
 
-@_call
+@compiled(error_model="numpy", nogil=True)
 def nodes_of(t, modes, arms):
     """Gauss's rule over a time for energies of springs in one mode: exact for elastic ones, to rounding for others, on
     parts of the time that double in length where something decays fast.
@@ -56,10 +54,12 @@ def nodes_of(t, modes, arms):
     J, K, fastest, rule = 0, 0, 0.0, OF_CUBES
     if arms is not None:
         J = arms.rate.size
-        fastest = arms.rate.max()
+        for j in range(J):
+            fastest = max(fastest, arms.rate[j])
     if modes is not None:
         K = modes.mu.size
-        fastest = max(fastest, modes.mu.max())
+        for k in range(K):
+            fastest = max(fastest, modes.mu[k])
         rule = OF_SLOW_DECAYS if fastest * t <= 0.5 else OF_DECAYS
     n, per = 1, rule.shape[0]
     while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
@@ -86,7 +86,7 @@ def nodes_of(t, modes, arms):
     return nodes
 
 
-@_call
+@inner(error_model="numpy", fastmath={"reassoc", "contract"})
 def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
     """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time."""
     J, K = 0, 0

@@ -27,6 +27,7 @@ class NormalPeriod:
     moment: Array  #: (n_t,) its moment about the start of the step
     end: Array  #: (n_t,) the force at the end of each step
     compression: Array  #: (n_t,) sum of w s at the start of each step
+    flight: Array  #: (n_t,) how long no spring presses from the start of a step, of those in which one comes to press
     force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
     since: Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
 
@@ -58,7 +59,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     rho, rate = law.arms or (np.empty(0), np.empty(0))
     s = np.zeros((1 + rho.size, n))
     s[0] = np.maximum(z[0] - gap, 0)
-    sums = np.empty((4, n_t))
+    sums = np.empty((5, n_t))
     none = np.empty((0, n))
 
     def pass_through(x: Array, who: NDArray[np.int64], force: Array, since: Array) -> None:
@@ -89,20 +90,21 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     every = np.arange(n)
     force, since = np.empty((2, n_t if each else 0, n))
     pass_through(s.copy(), every, force, since)
-    area, moment, end, compression = sums
-    return NormalPeriod(s, area, moment, end, compression, force, since)
+    area, moment, end, compression, flight = sums
+    return NormalPeriod(s, area, moment, end, compression, flight, force, since)
 
 
 @compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # type: ignore[no-untyped-def]
-    """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (4, n_t)."""
+    """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (5, n_t)."""
     h, now = tools.h, np.empty(gap.size)
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
-        before = end = 0.0
+        before, end, pressed, flies = 0.0, 0.0, 0.0, True
         for i in range(gap.size):
             before += w[i] * s[0, i]
+            flies = flies and s[0, i] > z[k] - gap[i]
         area, moment = press(s, gap, w, path, T, modes, arms, tools, now)
         for i in range(gap.size):
             normal = s[0, i] + T * z_dot[k + 1]
@@ -110,7 +112,10 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # t
                 for j in range(arms.rho.size):
                     normal += arms.rho[j] * s[1 + j, i]
             normal = max(normal, 0.0) if now[i] > 0.0 else 0.0
+            pressed = max(pressed, now[i])
             end += w[i] * normal
             if force.shape[0] > 0:
                 force[k, i], since[k, i] = normal, now[i]
-        sums[0, k], sums[1, k], sums[2, k], sums[3, k] = area, moment, end, before
+        sums[0, k], sums[1, k], sums[2, k], sums[3, k], sums[4, k] = area, moment, end, before, 0.0
+        if flies and pressed > 0.0:
+            sums[4, k] = h * (1.0 - pressed)

@@ -24,16 +24,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from mdr.spring.contact_modes import FREE, SLIP, SLIP_BACK, STICK
 from mdr.spring.energies import LEAST_SLIP, Nodes, account, nodes_of
 from mdr.spring.law import fill_phi
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled
+from mdr.tools.jit import compiled, inner
 
 _FAST = {"reassoc", "contract"}
-_inline = njit(forceinline=True, error_model="numpy", fastmath=_FAST)
+_inner = inner(error_model="numpy", fastmath=_FAST)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST)
 _call = compiled(error_model="numpy", nogil=True, fastmath=_FAST)
 
 TOUCHES, BEGINS = 4, 5  #: the mode is still to be found: just touched; at the begin of a step
@@ -150,7 +150,7 @@ def force(x, p, q, T, t):
     return area + T * dx, moment + T * (t * (x + dx) - area)
 
 
-@_inline
+@_call
 def fill(t, modes, arms, tools, k):
     """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts held[k, 0:3], the area of
     its force over the time held[k, 3:6], and its moment held[k, 6:9].
@@ -169,7 +169,7 @@ def fill(t, modes, arms, tools, k):
             tools.decay[k, j] = np.exp(-modes.mu[j] * t)
 
 
-@_call
+@_inner
 def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
     """First time in (0, t) at which a function falls below zero; infinite for none.
 
@@ -232,7 +232,7 @@ def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
     return zero(t, tol, a, b, c, 0.0, 0.0, m, 0, modes.mu.size, modes, arms, tools)
 
 
-@_call
+@_inner
 def slip_velocity(mode, s, e, i, zd, xd, modes):
     """Velocity over the plane of a spring in contact, with the rates zd and xd of its top."""
     if mode == STICK:
@@ -398,13 +398,13 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                     after, other = TOUCHES, FREE
                     apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
                     if not stays(apart, t, tol):
-                        until = until_alone(apart, -z_0, -z_1, -z_2, s_0, False, t, tol, modes, arms, tools)
+                        until = until_alone(apart, -z_0, -z_1, -z_2, s_0, mode != FREE, t, tol, modes, arms, tools)
                 else:
                     after, other = STICK, FREE
                     p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
                     slips = plus(left_rate, 1.0, held(p, q, 0.0, 0.0, t))
                     if not stays(slips, t, tol):
-                        until = until_alone(slips, p, q, 0.0, lag, True, t, tol, modes, arms, tools)
+                        until = until_alone(slips, p, q, 0.0, lag, mode != FREE, t, tol, modes, arms, tools)
                     if not stays(press, t, tol):
                         second = until_held(press, s_0, s, e, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
             if second < until:
@@ -412,7 +412,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
             ends = until < t
             if ends:
                 t, k = until, 1
-                fill(t, modes, arms, tools, 1)
+                fill(t, modes, arms, tools, k)
             if look is not None and (modes is not None or mode != FREE):
                 here = Path(z_0, z_1, z_2, x_1, x_2)
                 if t == h:
@@ -459,7 +459,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 e[0, i] += np.sign(e[0, i]) * (z_0 - s[0, i])
                 s[0, i] = z_0
             mode, t, k = after, h - done, 1
-            fill(t, modes, arms, tools, 1)
+            fill(t, modes, arms, tools, k)
         area += w[i] * of_area
         moment += w[i] * of_moment
         stuck += w[i] * sticks
@@ -493,7 +493,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
     return area, moment, stuck, when, end, sticking, back
 
 
-@_inline
+@_call
 def as_they_are(path, sticking, back, T, arms, tools, zd, xd):
     """The force over a step in which every spring keeps the mode that it had at the end of the last one, less that of
     full slip forward. A spring that sticks bears L[e] - L[s] more, one that slips back -2 L[s]. As L is linear and the
@@ -554,11 +554,11 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
                     left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
                 apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
                 if not stays(apart, t, tol):
-                    until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+                    until = until_alone(apart, -z_0, -z_1, -z_2, x, presses, t, tol, modes, arms, tools)
             ends = until < t
             if ends:
                 t, k = until, 1
-                fill(t, modes, arms, tools, 1)
+                fill(t, modes, arms, tools, k)
             if presses:
                 A, B = force(x, z_1, z_2, T, t)
                 s[0, i] = x + t * (z_1 + z_2 * t)
@@ -581,7 +581,7 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
             if presses:
                 s[0, i] = z_0
             t, k = h - done, 1
-            fill(t, modes, arms, tools, 1)
+            fill(t, modes, arms, tools, k)
         all_area += w[i] * area
         all_moment += w[i] * moment
         since[i] = pressed / h if h > 0.0 else 0.0

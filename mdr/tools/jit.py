@@ -20,6 +20,8 @@ from mdr.tools.progress import PATIENCE, Ticker
 
 Function = Callable[..., Any]
 
+_njit: Any = njit  # its types do not name all of its options
+
 _STAMP = sources.hash_of(sources.compiled())
 
 
@@ -53,6 +55,13 @@ class _Cache(FunctionCache):
         self._cache_file = _Files(self._cache_path, self._impl.filename_base, stamp)
 
 
+def inner(**options: Any) -> Any:
+    """Decorator of a function that compiled ones alone may call: it has no entry from Python, and asking for one is
+    fatal. Its code is kept with those that call it.
+    """
+    return _njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
+
+
 def compiled(**options: Any) -> Callable[[Function], Function]:
     """Decorator: numba's njit with these options.
 
@@ -63,7 +72,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
     """
 
     def wrap(function: Function) -> Any:
-        ready: Any = njit(**options)(function)
+        ready = _njit(no_cfunc_wrapper=True, **options)(function)
         if ready is function:  # NUMBA_DISABLE_JIT
             return function
         try:

@@ -137,7 +137,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
         scaled.law,
         tools_for(scaled.law, scaled.drive.h),
     )
-    assert loop.march(e, s.copy(), held, scaled.body, *parts, 3 * STEPS, trace, None)
+    assert loop.march(e, s.copy(), held, scaled.body, *parts, 3 * STEPS, trace)
     area, y = trace.area, trace.y
     # the rate of a light body takes a rounding of the force 1/h times
     size = np.abs(y).max() + np.abs(start).max()

@@ -25,7 +25,7 @@ def depth(n):
 def test_it_comes_back_after_a_period(material):
     law, z = law_of(*material), depth(64)
     found = settled(GAP, W, *z, law, each=True)
-    known = np.array([found.area, found.moment, found.end, found.compression])
+    known = np.array([found.area, found.moment, found.end, found.compression, found.flight])
     s, again = found.s.copy(), np.empty_like(known)
     none = np.empty((0, GAP.size))
     period(s, GAP, W, *z, *law, tools_for(law, 2 * np.pi / 64), again, none, none)
