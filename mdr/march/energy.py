@@ -77,14 +77,13 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
         stretch, rate = account.y, account.rate  # of the system spring, backward
         if at_pull := bool(drive.far_end.any()):
             stretch, rate = stretch + drive.x - drive.far_end, rate + drive.x_dot - drive.far_end_dot
-        pull, of_shake = 0.0, 0.0
-        for u, w in OF_QUARTICS:
-            y, y_dot = _between(stretch, rate, h, u, body.light)
-            force = -body.K * y - body.C * y_dot  # of the pull, forward
-            pull += v * h * w * float(force.sum())
-            damper += body.C * h * w * float(y_dot @ y_dot)
-            of_shake += h * w * float(force @ _between(drive.far_end, drive.far_end_dot, h, u, False)[1])
-        shake = of_shake if at_pull else shake
+        u, w = OF_QUARTICS[:, :1], h * OF_QUARTICS[:, 1]
+        y, y_dot = _between(stretch, rate, h, u, body.light)
+        force = -body.K * y - body.C * y_dot  # of the pull, forward
+        pull = v * float(w @ force.sum(axis=1))
+        damper = body.C * float(w @ (y_dot**2).sum(axis=1))
+        if at_pull:
+            shake = float(w @ (force * _between(drive.far_end, drive.far_end_dot, h, u, False)[1]).sum(axis=1))
     viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(
         pull_work=unit_x * pull,
@@ -97,9 +96,9 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     )
 
 
-def _between(y: Array, y_dot: Array, h: float, u: float, bends_evenly: bool) -> tuple[Array, Array]:
-    """Value and rate, a share u of each step after its start, of the cubic through values and rates (n + 1,) at its
-    ends; of the parabola that a light body moves on in a step, which has the rate at its end.
+def _between(y: Array, y_dot: Array, h: float, u: Array, bends_evenly: bool) -> tuple[Array, Array]:
+    """Value and rate, shares u (m, 1) of each step after its start, of the cubic through values and rates (n + 1,) at
+    its ends; of the parabola that a light body moves on in a step, which has the rate at its end. Both (m, n).
     """
     mean, last = np.diff(y) / h, y_dot[1:]
     first = 2 * mean - last if bends_evenly else y_dot[:-1]

@@ -21,7 +21,6 @@ from mdr.march.orbit_search import (
     Orbit,
     at_other_resolution,
     gain_at_other_resolution,
-    motions_at_other_resolution,
     search,
     search_from_full_slip,
 )
@@ -280,10 +279,9 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, ga
         return _after_a_period(stepper)
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
-        start = at_other_resolution(near.state, near.scaled, scaled)
+        start, motions = at_other_resolution(near.state, near.motions, near.scaled, scaled)
         gain = near.settling.gain if near.stepper.v == stepper.v else gain
         gain = gain_at_other_resolution(gain, near.scaled, scaled)
-        motions = motions_at_other_resolution(near.motions, near.scaled, scaled)
         orbit = search(stepper, (start,), gain, near=True, motions=motions)
     if from_full_slip and (orbit is None or not orbit.settling.settled):
         again = search_from_full_slip(stepper)

@@ -140,32 +140,27 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
     return search(stepper, (*(() if driven is None else (driven,)), stepper.full_slip()))
 
 
-def at_other_resolution(state: MarchState, of: ScaledContact, on: ScaledContact) -> MarchState:
-    """A state of a march with other springs or steps, on the springs and steps of this one."""
-    return MarchState(_on_other_springs(state.x, of, on), on.normal.s.copy())
+def at_other_resolution(
+    state: MarchState, motions: periodic.SlowMotions | None, of: ScaledContact, on: ScaledContact
+) -> tuple[MarchState, periodic.SlowMotions | None]:
+    """A state of a march with other springs or steps, and the slow motions about it, on those of this one."""
+    parts = [state.x[None]] if motions is None else [state.x[None], motions.before, motions.after]
+    xs = _on_other_springs(np.concatenate(parts), of, on)
+    if motions is not None:
+        motions = periodic.SlowMotions(*np.split(xs[1:], 2))
+    return MarchState(xs[0], on.normal.s.copy()), motions
 
 
-def motions_at_other_resolution(
-    motions: periodic.SlowMotions | None, of: ScaledContact, on: ScaledContact
-) -> periodic.SlowMotions | None:
-    """Slow motions of a march with other springs or steps, on the springs of this one."""
-    if motions is None or _same_springs(of, on):
-        return motions
-    before, after = (np.array([_on_other_springs(x, of, on) for x in xs]) for xs in (motions.before, motions.after))
-    return periodic.SlowMotions(before, after)
-
-
-def _same_springs(one: ScaledContact, other: ScaledContact) -> bool:
-    return one.springs.gap is other.springs.gap or np.array_equal(one.springs.gap, other.springs.gap)
-
-
-def _on_other_springs(x: Array, of: ScaledContact, on: ScaledContact) -> Array:
-    """A state vector of other springs on the springs of this march."""
-    if _same_springs(of, on):
-        return x.copy()
+def _on_other_springs(xs: Array, of: ScaledContact, on: ScaledContact) -> Array:
+    """State vectors (k, n_x) of other springs on the springs of this march, linear between those."""
+    if of.springs.gap is on.springs.gap or np.array_equal(of.springs.gap, on.springs.gap):
+        return xs
     order = np.argsort(of.springs.gap, kind="stable")
-    e = x[:-N_BODY].reshape(-1, of.springs.gap.size)
-    return np.concatenate([*(np.interp(on.springs.gap, of.springs.gap[order], row[order]) for row in e), x[-N_BODY:]])
+    place = np.interp(on.springs.gap, of.springs.gap[order], np.arange(order.size))
+    before = np.minimum(place.astype(int), order.size - 2)
+    e = xs[:, :-N_BODY].reshape(len(xs), -1, order.size)[:, :, order]
+    e = e[..., before] + (place - before) * (e[..., before + 1] - e[..., before])
+    return np.concatenate([e.reshape(len(xs), -1), xs[:, -N_BODY:]], axis=1)
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
