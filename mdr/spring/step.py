@@ -150,7 +150,7 @@ def force(x, p, q, T, t):
     return area + T * dx, moment + T * (t * (x + dx) - area)
 
 
-@_call
+@compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=_FAST)
 def fill(t, modes, arms, tools, k):
     """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts held[k, 0:3], the area of
     its force over the time held[k, 3:6], and its moment held[k, 6:9].
