@@ -6,7 +6,7 @@ falls cleanly, as long as the levels are no family: steps without common factors
 points are luckier than others), springs that divide evenly among the panels of the array. Runs have a fixed number of
 periods, so that all resolutions see the same motion, transient included.
 
-Symbols: n steps per period or springs at x >= 0, error of cof/mu_0 against a run 16 times finer than the last.
+Symbols: n steps per period or springs at x >= 0, error of cof/mu_0 against a run 4 times finer than the last.
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ LEVELS = {
     "steps": tuple(round(64 * 16 ** (i / 16)) for i in range(17)),
     "springs": (48, 96, 144, 192, 288, 384, 576, 768),
 }  # a factor of 16
-FINEST = {knob: 16 * levels[-1] for knob, levels in LEVELS.items()}
+FINEST = {knob: 4 * levels[-1] for knob, levels in LEVELS.items()}
 VELOCITIES = {"quick": 5, "full": 8, "long": 24}
 SYSTEMS: dict[str, tuple[dict[str, Any], int]] = {"rigid pull": ({}, 8), "spring pull": (SWUNG, 12)}  # pull, periods
 #: bodies that used to say less than their error: shape, alpha, T, pull

@@ -45,6 +45,7 @@ MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a reco
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
 CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
+MOST_CHOSEN = 2**22  #: springs times steps, of which a run takes seconds: errors of first order would go on for minutes
 UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an error was seen to fall by a fifth only
 BY_CHANCE = 3.0  #: times the difference to a run with three quarters of steps and springs: what the bound is at least
 MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled
@@ -212,7 +213,7 @@ def within(
 
 
 def _finer(main: Converged, missed: Missed, free: tuple[bool, bool]) -> Resolution:
-    """Twice the steps or springs, or both, of which too much is missed."""
+    """Twice the steps or springs, or both, of which too much is missed; the same where that cannot be afforded."""
     share, of_springs = main.resolution.accuracy / 2, max(missed.of_springs, main.off_load)
     both = max(missed.of_steps, of_springs) <= share  # the error is that of the other companion
     n_springs, steps = main.resolution.n_springs, main.resolution.steps
@@ -220,6 +221,8 @@ def _finer(main: Converged, missed: Missed, free: tuple[bool, bool]) -> Resoluti
         n_springs = max(n_springs, min(2 * n_springs, MOST_SPRINGS))
     if free[1] and (both or missed.of_steps > share):
         steps = max(steps, min(2 * steps, MOST_STEPS))
+    if n_springs * steps > MOST_CHOSEN:
+        return main.resolution
     return main.resolution._replace(n_springs=n_springs, steps=steps)
 
 

@@ -50,6 +50,17 @@ def test_what_is_given_is_kept_and_its_error_within_its_bound(case):
         assert run.cof == pytest.approx(case.mu_0 * own.cof, abs=2 * TOLERANCE * case.mu_0)
 
 
+def test_a_refinement_that_is_too_dear_ends_and_its_error_is_within_its_bound(monkeypatch):
+    case = contact("cone", 3.0, 0.3)
+    v_0 = 0.3 * unit_of_velocity(case)
+    monkeypatch.setattr(refinement, "MOST_CHOSEN", 2**13)
+    run = mdr.slide(case, v_0, accuracy=1e-8)
+    assert run.n_springs * run.steps_per_period <= 2**13
+    assert 1e-8 * case.mu_0 < run.cof_error
+    assert abs(run.cof - exact(case, v_0)) <= run.cof_error
+    assert run.settled
+
+
 def test_steps_that_are_chosen_resolve_the_oscillation_of_the_body():
     assert mdr.slide(FAST, 0.5 * mdr.full_slip_critical_velocity(FAST)).steps_per_period >= 16 * 7.8
 
