@@ -32,7 +32,7 @@ from validation.words import span
 # a factor of 16, without common factors, so that kinks fall anywhere
 LEVELS = tuple(round(64 * 16 ** (i / 10)) for i in range(11))
 SHARES = {
-    "quick": (0.25, 0.45, 0.65, 0.85),
+    "quick": (0.3, 0.55, 0.8),
     "full": tuple(np.linspace(0.2, 0.9, 10)),
     "long": tuple(np.linspace(0.2, 0.9, 24)),
 }

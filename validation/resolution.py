@@ -29,7 +29,7 @@ LEVELS = {
     "springs": (48, 96, 144, 192, 288, 384, 576, 768),
 }  # a factor of 16
 FINEST = {knob: 4 * levels[-1] for knob, levels in LEVELS.items()}
-VELOCITIES = {"quick": 5, "full": 8, "long": 24}
+VELOCITIES = {"quick": 4, "full": 8, "long": 24}
 SYSTEMS: dict[str, tuple[dict[str, Any], int]] = {"rigid pull": ({}, 8), "spring pull": (SWUNG, 12)}  # pull, periods
 #: bodies that used to say less than their error: shape, alpha, T, pull
 HARD: dict[str, tuple[str, float, float, dict[str, Any]]] = {

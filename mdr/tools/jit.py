@@ -1,6 +1,6 @@
 """Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
 
-What takes long is said on standard error: the first run on a machine waits for it, nearly a minute on one core.
+What takes long is said on standard error: the first run on a machine waits for it, half a minute on one core.
 """
 
 # mypy: disallow-untyped-calls=false
@@ -80,7 +80,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
-                "own, which takes nearly a minute of one core; let NUMBA_CACHE_DIR name a folder that can"
+                "own, which takes half a minute of one core; let NUMBA_CACHE_DIR name a folder that can"
             )
         return ready
 
@@ -92,7 +92,7 @@ class Notice(event.Listener):
 
     def __init__(self) -> None:
         self.open = 0
-        parts = "functions, which take nearly a minute of one core,"
+        parts = "functions, which take half a minute of one core,"
         self.line = Ticker("compiling, once on this machine", parts=parts)
 
     def on_start(self, event: Any) -> None:

@@ -66,7 +66,6 @@ EDITS = [
     ("pairs", "pair.a * pair.b", "(pair.a + pair.b)", "16.0 0 1"),
     ("constants", "2.0", "4.0", "32.0 0 1"),
     ("pairs", "Pair", "Couple", "32.0 0 1"),  # the index on disk names a type that is gone
-    ("other", "2", "3", "32.0 1 0"),
 ]
 
 
