@@ -29,7 +29,7 @@ from itertools import product
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.march.march import BUDGET, accuracy_of
+from mdr.march.march import BUDGET, Converged, accuracy_of
 from mdr.march.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide, slide_without_bound
@@ -44,6 +44,7 @@ SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step lo
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
+MANY = 4  #: times the steps of a first run, from which on a search of many periods begins in the state of that
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
 
@@ -164,7 +165,9 @@ class _Search:
     def __init__(self, case: SlidingContact, start: str, margin: float) -> None:
         self.case, self.start, self.margin, self.n_runs = case, start, margin, 0
         self.ticker = Ticker("critical velocity from runs", parts="runs")
-        self.steps, self.n_springs = default_steps(case), default_springs(case)
+        self.few = self.steps = default_steps(case)
+        self.n_springs = default_springs(case)
+        self.near: Converged | None = None  # a run from full slip in which springs stick
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity
 
@@ -176,9 +179,22 @@ class _Search:
     def quick_run(self, v_0: float, start: str | None = None) -> SlidingRun:
         """A run that tells whether springs stick; the bound on its error is worked out only where that decides."""
         self._begin(v_0)
-        knobs = {"n_springs": self.n_springs, "steps_per_period": self.steps}
-        run = slide_without_bound(self.case, v_0, **knobs, start=start or self.start)
+        start = start or self.start
+        if start != "full_slip":
+            run, _ = self._without_bound(v_0, start, self.steps)
+        else:
+            if self.near is None and self.steps >= MANY * self.few:
+                self.near = _begin_of(self._without_bound(v_0, start, self.few)[1])
+            run, end = self._without_bound(v_0, start, self.steps, self.near)
+            self.near = _begin_of(end) or self.near
         return self.run(v_0, start) if run.settled and _slips(run) and _is_reduced(run) else run
+
+    def _without_bound(
+        self, v_0: float, start: str, steps: int, near: Converged | None = None
+    ) -> tuple[SlidingRun, Converged]:
+        return slide_without_bound(
+            self.case, v_0, n_springs=self.n_springs, steps_per_period=steps, start=start, near=near
+        )
 
     def _begin(self, v_0: float) -> None:
         """One more run, if there is time."""
@@ -325,6 +341,10 @@ class _Search:
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
         return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
+
+
+def _begin_of(end: Converged) -> Converged | None:
+    return end if end.is_start else None
 
 
 def _slips(run: SlidingRun) -> bool:

@@ -47,7 +47,7 @@ class FullSlipForce(NamedTuple):
     area: Array  #: (n_t,)
     moment: Array  #: (n_t,) about the start of the step
     end: Array  #: (n_t,) force at its end
-    flight: Array  #: (n_t,) how long it is zero from the start of a step in which springs come to press
+    flight: Array  #: (n_t,) time to the first touch in a step that begins without contact; else zero
 
 
 class Here(NamedTuple):
@@ -81,7 +81,7 @@ class Trace(NamedTuple):
     moment: Array  #: (n_steps,) of it
     y: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
     rate: Array  #: (n_steps,) its rate there
-    way: Array  #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts of the step; the first may have no length
+    way: Array  #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts; if the first has no length, no more is set
 
 
 class Seen(NamedTuple):
@@ -139,7 +139,8 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
     (gap, w), (T, modes, arms) = springs, law
     for j in range(n_steps):
-        k, trace.way[j, 0, 0] = j % n_t, 0.0
+        k = j % n_t
+        trace.way[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
         if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
             tools.excess[:] = 0.0
@@ -213,21 +214,22 @@ def follow(e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j
     here: motion of the indenter over the step; others as of `march`. Returns area and moment of the force, what springs
     do at the end and whether all was solved.
     """
-    h, one, now, solved, first = tools.h, here, tools, True, 0
-    if not SHORTEST * h < flown < (1.0 - SHORTEST) * h:
-        flown, first = 0.0, 1
-    rest = later(here.path, flown)
+    h, area, moment, solved, begin, first = tools.h, 0.0, 0.0, True, 0.0, 1
+    if SHORTEST * h < flown < (1.0 - SHORTEST) * h:
+        begin, first = flown, 0
+    rest = later(here.path, begin)
     for part in range(first, 2):
+        one, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools
         if part == 0:
-            one, now = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0), tools_of(flown, law, tools)
+            one, now = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0), tools_of(begin, law, tools)
         elif first == 0:
-            one, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools_of(h - flown, law, tools)
+            now = tools_of(h - begin, law, tools)
         put(e, e_0)
         put(s, s_0)
-        path, area, moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, one, law, now)
+        path, of_area, of_moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, one, law, now)
         note(trace, j, part, now.h, path)
-        solved = solved and found
-    return area, moment + flown * area, last, solved
+        area, moment, solved = area + of_area, moment + of_moment + part * begin * of_area, solved and found
+    return area, moment, last, solved
 
 
 @_inner

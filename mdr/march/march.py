@@ -112,6 +112,11 @@ class Converged:
         return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.off_load)
 
     @property
+    def is_start(self) -> bool:
+        """Whether other runs begin in its state: a periodic one, and not full slip, in which they begin anyway."""
+        return self.settling.solved and not self.slips_fully
+
+    @property
     def slips_fully(self) -> bool:
         """Whether nothing is missing in the COF but rounding."""
         return abs(1 - self.cof) < FULL

@@ -99,7 +99,7 @@ def search(
     return None
 
 
-class _Period(periodic.PeriodMap):
+class _Period:
     """The map of one period of the march; it stops where the time limit of the caller is over."""
 
     def __init__(self, stepper: Stepper, like: MarchState) -> None:
@@ -157,7 +157,7 @@ def _on_other_springs(xs: Array, of: ScaledContact, on: ScaledContact) -> Array:
         return xs
     order = np.argsort(of.springs.gap, kind="stable")
     place = np.interp(on.springs.gap, of.springs.gap[order], np.arange(order.size))
-    before = np.minimum(place.astype(int), order.size - 2)
+    before = np.minimum(place.astype(int), order.size - 2)  # -1 of a single spring is itself
     e = xs[:, :-N_BODY].reshape(len(xs), -1, order.size)[:, :, order]
     e = e[..., before] + (place - before) * (e[..., before + 1] - e[..., before])
     return np.concatenate([e.reshape(len(xs), -1), xs[:, -N_BODY:]], axis=1)

@@ -29,6 +29,7 @@ from mdr.march.stepper import Periods
 from mdr.tools.arrays import Array
 
 Measure = Callable[[Array], Array]
+PeriodMap = Callable[[Array], Array]  #: of a state (n,) to the one a period later
 Pushes = Callable[[], tuple[Array, ...]]
 
 MEMORY = 8  #: periods that are combined
@@ -49,22 +50,6 @@ STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms 
 TURNS = 30  #: corrections of the Newton-Picard method
 SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes on without it
 LOST = 5  #: corrections in a row of which no share is a gain, after which it ends
-
-
-class PeriodMap:
-    """The map of one period, of a state (n,) to the one that it comes to."""
-
-    def __init__(self, step: Callable[[Array], Array]) -> None:
-        self.step = step
-
-    def __call__(self, x: Array) -> Array:
-        """The state a period later."""
-        return self.step(x)
-
-    def settled_in(self, states: Array) -> tuple[Array, Array]:
-        """What states (k, n) have come to after some periods, and a period later: both (k, n)."""
-        pairs = [_settled_in(self, x) for x in states]
-        return np.array([one for one, _ in pairs]), np.array([later for _, later in pairs])
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,7 +212,8 @@ def _displaced(
     displacements (k, n) from there.
     """
     size = push * (float(np.linalg.norm(measure(x))) or 1.0)  # of a state that is nothing, as in flight, the unit
-    before, after = step.settled_in(np.array([x, *(x + size * np.array(pushes))]))
+    pairs = [_settled_in(step, one) for one in (x, *(x + size * np.array(pushes)))]
+    before, after = (np.array(of) for of in zip(*pairs, strict=True))
     return (before[0], after[0]), before[1:] - before[0], after[1:] - after[0]
 
 

@@ -8,7 +8,7 @@ Run less (1) tells the error of the steps, (1) less (2) that of the springs, whi
 second order each is three times the true error. The bound is their sum. Two runs may agree by chance, so that it is
 never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than 3/8 |(2) - (4)|, as errors fall at
 most eightfold where both numbers are doubled. Where the bound is more than is asked for, steps or springs are doubled,
-as these companions tell.
+as these companions tell, until a run would be too dear.
 
 Each run begins in the periodic state of one before it.
 """
@@ -221,9 +221,12 @@ def _finer(main: Converged, missed: Missed, free: tuple[bool, bool]) -> Resoluti
         n_springs = max(n_springs, min(2 * n_springs, MOST_SPRINGS))
     if free[1] and (both or missed.of_steps > share):
         steps = max(steps, min(2 * steps, MOST_STEPS))
-    if n_springs * steps > MOST_CHOSEN:
-        return main.resolution
-    return main.resolution._replace(n_springs=n_springs, steps=steps)
+    now = main.resolution
+    worse = (n_springs, now.steps) if of_springs > missed.of_steps else (now.n_springs, steps)
+    for n, n_t in ((n_springs, steps), worse):
+        if n * n_t <= MOST_CHOSEN or not all(free):
+            return now._replace(n_springs=n, steps=n_t)
+    return now
 
 
 def _that_touch(case: SlidingContact, resolution: Resolution, free: bool) -> Resolution:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.march.march import BUDGET, Resolution, accuracy_of, check, march, steady
+from mdr.march.march import BUDGET, Converged, Resolution, accuracy_of, check, looked_at, march, steady
 from mdr.march.refinement import check_size, default_springs, default_steps, within
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
@@ -153,15 +153,27 @@ def slides(
     check_size(resolution.n_springs, resolution.steps, 0)
     for v_0 in velocities:
         run, end = within(case, v_0, resolution, (n_springs is None, steps_per_period is None), near)
-        near = end if end.settling.solved and not end.slips_fully else None
+        near = end if end.is_start else None
         yield run
 
 
 def slide_without_bound(
-    case: SlidingContact, v_0: float, *, n_springs: int, steps_per_period: int, start: str
-) -> SlidingRun:
-    """A run without companions: its error is that of settling."""
-    return finish(march(case, v_0, Resolution(n_springs, steps_per_period, start, lump=True)))
+    case: SlidingContact,
+    v_0: float,
+    *,
+    n_springs: int,
+    steps_per_period: int,
+    start: str,
+    near: Converged | None = None,
+) -> tuple[SlidingRun, Converged]:
+    """A run without companions, and its end: its error is that of settling.
+
+    near: the end of a run at another velocity, in the state of which it begins, and whose gain it takes for its own.
+    """
+    check(case, v_0)
+    resolution = Resolution(n_springs, steps_per_period, start, lump=True)
+    end = steady(case, v_0, resolution, near=near, gain=None if near is None else near.settling.gain)
+    return finish(looked_at(end)), end
 
 
 def cofs_without_bound(

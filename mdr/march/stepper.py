@@ -21,7 +21,9 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
-FINE = 65  #: places at which that polynomial is looked at: the parabola through the three lowest is good to 1e-6
+FINE = (
+    65  #: places at which `least_between` looks at a polynomial; the parabola there misses 1e-6 of a second difference
+)
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -150,7 +152,8 @@ class Stepper:
         seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 3)), *np.zeros((5, kept, n)))
         seen.sums[LEAST_SLIP] = np.inf
         trace, passed = self._marched(state, 1), before.copy()
-        loop.look(passed.e, passed.s, *self._parts[1:2], *self._parts[3:], trace, seen)
+        _, springs, _, motion, law, tools = self._parts
+        loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
         x_2 = np.diff(scaled.drive.x_dot) / (2 * scaled.drive.h)  # the shake goes on parabolas
         x_1 = np.diff(scaled.drive.x) / scaled.drive.h - x_2 * scaled.drive.h
         seen.sums[SHAKE_WORK] = x_1 @ trace.area + 2 * x_2 @ trace.moment

@@ -15,6 +15,7 @@ from mdr.tools.jit import compiled
 
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state
 NOT_PERIODIC = 1e-3  #: change over a period, of the unit of lengths, that a spring may be left with
+EARLY = 1e-9  #: of a step, by which a flight ends before the touch, so that by no rounding a spring touches in it
 SAME = 0.9999  #: ratio of two changes in a row, from which on they are not extrapolated
 
 
@@ -27,7 +28,7 @@ class NormalPeriod:
     moment: Array  #: (n_t,) its moment about the start of the step
     end: Array  #: (n_t,) the force at the end of each step
     compression: Array  #: (n_t,) sum of w s at the start of each step
-    flight: Array  #: (n_t,) how long no spring presses from the start of a step, of those in which one comes to press
+    flight: Array  #: (n_t,) time to the first touch of a step that begins without one and ends in contact; else zero
     force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
     since: Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
 
@@ -118,4 +119,4 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # t
                 force[k, i], since[k, i] = normal, now[i]
         sums[0, k], sums[1, k], sums[2, k], sums[3, k], sums[4, k] = area, moment, end, before, 0.0
         if flies and pressed > 0.0:
-            sums[4, k] = h * (1.0 - pressed)
+            sums[4, k] = h * max(1.0 - pressed - EARLY, 0.0)

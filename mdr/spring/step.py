@@ -152,6 +152,7 @@ def force(x, p, q, T, t):
 
 @compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=_FAST)
 def fill(t, modes, arms, tools, k):
+    # k is a variable in all calls: numba compiles a call with a literal once more
     """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts held[k, 0:3], the area of
     its force over the time held[k, 3:6], and its moment held[k, 6:9].
     """

@@ -56,8 +56,8 @@ class _Cache(FunctionCache):
 
 
 def inner(**options: Any) -> Any:
-    """Decorator of a function that compiled ones alone may call: it has no entry from Python, and asking for one is
-    fatal. Its code is kept with those that call it.
+    """Decorator of a function that compiled ones alone may call; called from Python it ends the process. Its code is
+    kept with those that call it.
     """
     return _njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
 

@@ -105,14 +105,17 @@ def test_measuring_sees_runs_only(monkeypatch):
 def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
     """The measurement follows its runs: if they stick up to 1.07 v_c, so it says."""
     case = make(*MEASURED["flat, rigid"])
-    slide = measured_velocity.slide
+    slide, without_bound = measured_velocity.slide, measured_velocity.slide_without_bound
 
-    def slow(case, v_0, **knobs):
-        run = slide(case, v_0 / 1.07, **knobs)
-        return replace(run, v_0=v_0, least_slip=1.07 * run.least_slip)
+    def slower(run):
+        return replace(run, v_0=1.07 * run.v_0, least_slip=1.07 * run.least_slip)
 
-    for name in ("slide", "slide_without_bound"):
-        monkeypatch.setattr(measured_velocity, name, slow)
+    def slow_without_bound(case, v_0, **knobs):
+        run, end = without_bound(case, v_0 / 1.07, **knobs)
+        return slower(run), end
+
+    monkeypatch.setattr(measured_velocity, "slide", lambda case, v_0, **knobs: slower(slide(case, v_0 / 1.07, **knobs)))
+    monkeypatch.setattr(measured_velocity, "slide_without_bound", slow_without_bound)
     found = mdr.measure_critical_velocity(case)
     assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=BUDGET)
 

@@ -20,7 +20,7 @@ def world(monkeypatch):
     """In the place of slide(): friction is reduced, springs stick, up to ends(start, steps, n_periods), in Eq. (1)."""
 
     def make(ends, settled=lambda v, start: True):
-        def slide(case, v_0, *, start, n_springs, steps_per_period, n_periods=50):
+        def slide(case, v_0, *, start, n_springs, steps_per_period, n_periods=50, near=None):
             end = ends(start, steps_per_period, n_periods) * UNIT
             free = v_0 > end
             return SimpleNamespace(
@@ -30,8 +30,11 @@ def world(monkeypatch):
                 n_periods=n_periods,
             )  # fmt: skip
 
-        for name in ("slide", "slide_without_bound"):
-            monkeypatch.setattr(measured_velocity, name, slide)
+        monkeypatch.setattr(measured_velocity, "slide", slide)
+        end = SimpleNamespace(is_start=False)
+        monkeypatch.setattr(
+            measured_velocity, "slide_without_bound", lambda *args, **knobs: (slide(*args, **knobs), end)
+        )
 
     return make
 

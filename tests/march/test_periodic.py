@@ -33,7 +33,7 @@ def find(step, x):
             break
     change = at.changes[loop.BEST]
     near = periodic_orbit.Iterate(at.best, change) if math.isfinite(change) else None
-    return periodic_orbit.find(periodic_orbit.PeriodMap(step), near, itself, lambda: PUSHES, how)
+    return periodic_orbit.find(step, near, itself, lambda: PUSHES, how)
 
 
 def linear(slow, fast=0.01):

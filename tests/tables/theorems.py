@@ -31,7 +31,7 @@ from mdr.tools.progress import progress
 
 OMEGA, U_Z0, MU_0 = 300.0, 2e-5, 0.5
 LONGER = 10  #: times the periods of a run, for which it is continued
-MOST_STEPS = 1e8  #: of it, times springs
+MOST_WORK = 1e8  #: of it: periods times steps times springs
 FASTER = 1.05  #: velocity of the neighbour
 
 
@@ -141,7 +141,9 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     settling = orbit.settling
     if not settling.settled:
         return []
-    n = min(max(64, LONGER * stepper.n_periods), int(MOST_STEPS / (scaled.drive.steps * scaled.springs.gap.size)))
+    n = min(
+        max(64, LONGER * stepper.n_periods), max(1, int(MOST_WORK / (scaled.drive.steps * scaled.springs.gap.size)))
+    )
     mean = float(stepper.advance(orbit.state, n)[1].cof.mean())
     off = abs(mean - settling.mean)
     return [f"continued: {settling.mean:.8g} +- {settling.spread:.1g}, then {mean:.8g}"] if off > LEEWAY else []
