@@ -25,7 +25,7 @@ SHARE = 20.0  #: safety: a search begins with a change of tolerance/(SHARE gain)
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
-SAME_GAIN = 0.1  #: gain times h², up to which it is the same at another resolution: multipliers move by h²
+SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,8 +164,9 @@ def _on_other_springs(xs: Array, of: ScaledContact, on: ScaledContact) -> Array:
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
-    """The gain of a march with other springs or steps, where these move it by little; None where they may not."""
-    return gain if gain is not None and gain * max(one.drive.h, other.drive.h) ** 2 < SAME_GAIN else None
+    """The gain of a march with other springs or steps, whose multipliers differ by h²; None where that may be much."""
+    h = max(one.drive.h, other.drive.h)
+    return gain / (1 - gain * h**2) if gain is not None and gain * h**2 < SAME_GAIN else None
 
 
 def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm: EnergyNorm) -> Orbit | None:
