@@ -10,10 +10,10 @@ A threshold on the COF alone would therefore read v_c too low. Two sharper signs
 * Below v_c there is stick, above it there is none. Two runs close to v_c, one on either side, confirm this. They are
   the bracket, which is widened by what the numbers of steps and springs still change.
 
-Runs at higher velocities, from both starts, then look for friction that stays low.
+Runs at higher velocities, from both starts, then look for friction that stays low. If they do not settle, `why` tells.
 
-A run that has not settled is no evidence. The search then takes runs at velocities close by. If these do not settle
-either, the answer is "unsettled". So it is where no end of stick tells the end of friction reduction:
+A run close to v_c that has not settled is no evidence. The search then takes runs at velocities close by. If these do
+not settle either, the answer is "unsettled". So it is where no end of stick tells the end of friction reduction:
 
 * An undamped body whose omega_0 is a whole multiple of omega can keep a free oscillation in step with the drive. It may
   keep springs from sticking, so that the end of stick depends on it (`mdr.laws.lock_in`).
@@ -44,7 +44,7 @@ SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step lo
 ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
-MANY = 4  #: times the steps of a first run, from which on a search of many periods begins in the state of that
+MANY = 4  #: times the first steps, from which on a run from full slip begins in the state of one of so few
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
 
@@ -54,7 +54,8 @@ class MeasuredVelocity(Summarised):
 
     The kinds of end:
 
-    * "end of stick": the least slip velocity, stick and the COF all name one velocity.
+    * "end of stick": a run just above v_c has no stick and full friction, one just below has not. No settled run
+      further above has reduced friction; `why` names those that did not settle.
     * "none": no run without stick up to the highest velocity. v_c is None.
     * "unsettled": the runs that would tell do not settle, or contradict one another, or stick does not tell where
       friction becomes full. v_c is None.
@@ -100,7 +101,8 @@ def measure_critical_velocity(
 ) -> MeasuredVelocity:
     """Critical velocity [m/s] from simulated runs alone, with its bracket.
 
-    No closed form takes part, so that the agreement with Eq. (15) is evidence.
+    v_c comes from no closed form: Eq. (1) only sets which velocities are tried, and below which one v_c counts as zero.
+    So the agreement with Eq. (15) is evidence.
 
     Parameters
     ----------
@@ -131,8 +133,9 @@ def measure_critical_velocity(
 
     Notes
     -----
-    The bracket is 4e-5 to 8e-5 of v_c wide, four to eight times the accuracy, and wider where the number of steps or
-    springs still moves it. The search takes 10 to 40 runs, some hundredths of a second to a second.
+    The bracket is four to eight times the accuracy wide, 4e-5 to 8e-5 of v_c by default. It is wider where the number
+    of steps or springs still moves it, and where two runs so close to v_c do not tell stick from none. The search takes
+    10 to 40 runs, some hundredths of a second to a second.
 
     Examples
     --------
@@ -281,10 +284,11 @@ class _Search:
         return None
 
     def _resolve(self, free: SlidingRun) -> SlidingRun | None:
-        """Double steps and springs until the end of stick moves by less than the margin; the last run without stick.
+        """Double steps and springs until the end of stick moves by less than the margin, or up to their limits.
 
-        A first touch falls anywhere within a step, so that its error is irregular: three resolutions are compared. The
-        first of them is as good as they are alike.
+        Returns the last run without stick. A first touch falls anywhere within a step, so that its error is irregular.
+        So 1, 1.5 and 2 times the steps and springs are compared. The spread of the three is the doubt of the coarsest,
+        which is then used.
         """
         while True:
             steps, n_springs, ends = self.steps, self.n_springs, [free.v_0 - free.least_slip]
@@ -302,7 +306,12 @@ class _Search:
                 return free
 
     def _locate(self, free: SlidingRun) -> tuple[float, float, float]:
-        """Narrow [low, high] between stick and no stick down to the margin, led by the smallest slip velocity."""
+        """The end of stick, and [low, high] around it.
+
+        The smallest slip velocity gives a guess. One run is taken on either side of it, one margin away. If these do
+        not show stick below and none above, they are taken 4, 16 and 64 margins away; such a bracket stays that wide.
+        If none of these does, [low, high] is halved down to the margin.
+        """
         low, high, guess = 0.0, free.v_0, free.v_0 - free.least_slip
         # the rate of a parabola is off by h²/12 where stick ends: that of these steps by half of the margin
         steps = int(oscillations(self.case) * np.pi * np.sqrt(2 / (3 * self.margin)))

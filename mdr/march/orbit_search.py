@@ -21,7 +21,9 @@ from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import time_is_over
 
 FULL = EXACT  #: what is missing in the COF in full slip
-SHARE = 20.0  #: safety: a search begins with a change of tolerance/(SHARE gain); the force is off by twice the distance
+SHARE = (
+    20.0  #: safety: a search first stops at a change of tolerance/(SHARE gain); the force is off by twice the distance
+)
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
@@ -52,12 +54,12 @@ def search(
 ) -> Orbit | None:
     """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
 
-    A search ends at a change over a period with which the COF is good to the tolerance, if the gain is what was known
-    of it before. Where it is more, the search goes on to a smaller change.
+    A search stops when the change in a period is so small that the error of the COF is below the tolerance. This limit
+    follows from the gain as known before. If the gain turns out to be larger, the search goes on to a smaller change.
 
-    gain: how far a state may be from the periodic one, over its change over a period, where that is known. near:
-    whether the starts are periodic states themselves, at other steps, springs or velocity; motions: the slow ones about
-    them.
+    gain: bound on the distance from the periodic state, divided by the change in one period, where it is known. near:
+    whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
+    motions about them.
     """
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
@@ -93,7 +95,7 @@ def search(
             if close <= periodic.CLOSEST:
                 break
             close *= min(0.01, stepper.tolerance / (SHARE * spread + 1e-300))
-        if orbit is not None and (slow or orbit.settling.settled):  # waiting for arms takes far longer
+        if orbit is not None and (slow or orbit.settling.settled):  # waiting for slow motions takes far longer
             return orbit
     stepper.n_periods = n_before
     return None
@@ -170,9 +172,10 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
 
 
 def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm: EnergyNorm) -> Orbit | None:
-    """The orbit of a state that slips throughout, by so much that its change over a period, however large that still
-    is, takes ages to end it; None of any other. There is no need to know how far the exact one is: the COF is the same,
-    and the least slip velocity is told to that change.
+    """The orbit of a state in full slip that is far from stick; None of any other state.
+
+    Its least slip velocity is more than AGES times what changes over a period. So it need not be close to the exact
+    periodic state: the COF is the same, and the least slip velocity is known within that change.
 
     Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
     """
@@ -192,7 +195,7 @@ def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm:
 
 def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, norm: EnergyNorm) -> Orbit:
     """The COF of the periodic state, and how far it may be from that of the exact one."""
-    # the mean force follows a displacement of the state, which spreads over springs of stiffness one in all
+    # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
     spread = 2 * found.distance * float(np.linalg.norm(norm.of(found.x))) / stepper.mean_F_z
     period = found.end.period  # began as far from the exact one as `spread` says
     if period is None:

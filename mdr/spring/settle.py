@@ -50,10 +50,13 @@ def tools_for(law: Law, h: float) -> Tools:
 def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool = False) -> NormalPeriod | None:
     """The periodic motion under the depth z (n_t + 1,), of rate z_dot; None if springs with arms find none.
 
-    Without arms one period is the memory of a spring. With arms the passes go on: what an arm changed in one, over the
-    share 1 - exp(-2 pi/theta) that it forgets in it, is added to its start, which is exact for a spring that keeps
-    contact; where changes grow, half as much of what is beyond the plain change. Every third time, where the last two
-    changes are alike, what they tend to is added at once. each: whether force and since are asked for.
+    Without arms a spring forgets its start within a period. With arms the passes go on. After each pass the start of
+    an arm moves by its change in the period, divided by the share 1 - exp(-2 pi/theta) that it forgets in it. This is
+    exact for a spring that keeps contact. Each time the change of a spring grows, the part of its moves beyond the
+    plain change is halved for good. In every third pass the ratio of the last two moves is taken: if it is between 0
+    and SAME, and the change did not grow, the limit of this geometric series is added at once.
+
+    each: whether force and since are asked for.
     """
     n_t, n = z.size - 1, gap.size
     tools = tools_for(law, 2 * np.pi / n_t)
