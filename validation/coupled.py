@@ -124,10 +124,9 @@ def _again_checks(rows: list[Row], quick: bool) -> Checks:
     """Points computed now on a coarser grid."""
     known = {row.point: row for row in rows}
     settings = Settings(17 if quick else 21, 24 if quick else 32, cycles=4, settled=1e-3)
+    velocities = (0.6,) if quick else (1.2, 0.6)
     for shape in SHAPES[:1] if quick else SHAPES:
-        for new in tables.column(
-            [Point(shape, 0.3, 0.3, ALPHA, 0.0, v) for v in ((0.6,) if quick else (1.2, 0.6))], settings
-        ):
+        for new in tables.column([Point(shape, 0.3, 0.3, ALPHA, 0.0, v) for v in velocities], settings):
             old = known[new.point]
             name = f"{shape}, ν = μ_0 = 0.3, {new.point.v:g} v_c: loss computed again"
             yield Check(name, new.loss, old.loss, new.error + old.error, "errors of both")

@@ -170,7 +170,7 @@ class _Search:
         self.ticker = Ticker("critical velocity from runs", parts="runs")
         self.few = self.steps = default_steps(case)
         self.n_springs = default_springs(case)
-        self.near: Converged | None = None  # a run from full slip in which springs stick
+        self.near: Converged | None = None  # the last run from full slip in which springs stuck
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity
 
@@ -183,21 +183,20 @@ class _Search:
         """A run that tells whether springs stick; the bound on its error is worked out only where that decides."""
         self._begin(v_0)
         start = start or self.start
-        if start != "full_slip":
-            run, _ = self._without_bound(v_0, start, self.steps)
-        else:
-            if self.near is None and self.steps >= MANY * self.few:
-                self.near = _begin_of(self._without_bound(v_0, start, self.few)[1])
-            run, end = self._without_bound(v_0, start, self.steps, self.near)
-            self.near = _begin_of(end) or self.near
+        if start == "full_slip" and self.near is None and self.steps >= MANY * self.few:
+            self._without_bound(v_0, start, self.few)
+        run = self._without_bound(v_0, start, self.steps)
         return self.run(v_0, start) if run.settled and _slips(run) and _is_reduced(run) else run
 
-    def _without_bound(
-        self, v_0: float, start: str, steps: int, near: Converged | None = None
-    ) -> tuple[SlidingRun, Converged]:
-        return slide_without_bound(
-            self.case, v_0, n_springs=self.n_springs, steps_per_period=steps, start=start, near=near
+    def _without_bound(self, v_0: float, start: str, steps: int) -> SlidingRun:
+        """A run; one from full slip begins in the state of the last in which springs stuck."""
+        near, n_springs = self.near if start == "full_slip" else None, self.n_springs
+        run, end = slide_without_bound(
+            self.case, v_0, n_springs=n_springs, steps_per_period=steps, start=start, near=near
         )
+        if start == "full_slip":
+            self.near = end.to_begin_from or self.near
+        return run
 
     def _begin(self, v_0: float) -> None:
         """One more run, if there is time."""
@@ -350,10 +349,6 @@ class _Search:
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
         return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
-
-
-def _begin_of(end: Converged) -> Converged | None:
-    return end if end.is_start else None
 
 
 def _slips(run: SlidingRun) -> bool:

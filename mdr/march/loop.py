@@ -228,7 +228,8 @@ def follow(e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j
         put(s, s_0)
         path, of_area, of_moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, one, law, now)
         note(trace, j, part, now.h, path)
-        area, moment, solved = area + of_area, moment + of_moment + part * begin * of_area, solved and found
+        later_by = 0.0 if part == 0 else begin
+        area, moment, solved = area + of_area, moment + of_moment + later_by * of_area, solved and found
     return area, moment, last, solved
 
 

@@ -112,9 +112,9 @@ class Converged:
         return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.off_load)
 
     @property
-    def is_start(self) -> bool:
-        """Whether other runs begin in its state: a periodic one, and not full slip, in which they begin anyway."""
-        return self.settling.solved and not self.slips_fully
+    def to_begin_from(self) -> Converged | None:
+        """Itself, if other runs may begin in its state: a periodic one, and not full slip, where they begin anyway."""
+        return self if self.settling.solved and not self.slips_fully else None
 
     @property
     def slips_fully(self) -> bool:

@@ -21,9 +21,7 @@ from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import time_is_over
 
 FULL = EXACT  #: what is missing in the COF in full slip
-SHARE = (
-    20.0  #: safety: a search first stops at a change of tolerance/(SHARE gain); the force is off by twice the distance
-)
+SHARE = 20.0  #: safety: a search first stops at a change of tolerance/(SHARE gain); COFs are off by twice the distance
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are

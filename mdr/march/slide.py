@@ -153,7 +153,7 @@ def slides(
     check_size(resolution.n_springs, resolution.steps, 0)
     for v_0 in velocities:
         run, end = within(case, v_0, resolution, (n_springs is None, steps_per_period is None), near)
-        near = end if end.is_start else None
+        near = end.to_begin_from
         yield run
 
 
@@ -170,9 +170,7 @@ def slide_without_bound(
 
     near: the end of a run at another velocity, in the state of which it begins, and whose gain it takes for its own.
     """
-    check(case, v_0)
-    resolution = Resolution(n_springs, steps_per_period, start, lump=True)
-    end = steady(case, v_0, resolution, near=near, gain=None if near is None else near.settling.gain)
+    end = _alone(case, v_0, Resolution(n_springs, steps_per_period, start, lump=True), near)
     return finish(looked_at(end)), end
 
 
@@ -182,7 +180,12 @@ def cofs_without_bound(
     """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
     resolution, near = Resolution(n_springs, steps, "full_slip", lump=True), None
     for v_0 in velocities:
-        check(case, v_0)
-        end = steady(case, v_0, resolution, near=near, gain=None if near is None else near.settling.gain)
+        end = _alone(case, v_0, resolution, near)
         near = end if end.settling.solved else None
         yield case.mu_0 * end.cof
+
+
+def _alone(case: SlidingContact, v_0: float, resolution: Resolution, near: Converged | None) -> Converged:
+    """The end of a run without companions, for which the gain of a run at a velocity close by will do."""
+    check(case, v_0)
+    return steady(case, v_0, resolution, near=near, gain=None if near is None else near.settling.gain)

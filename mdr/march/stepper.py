@@ -21,9 +21,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
-FINE = (
-    65  #: places at which `least_between` looks at a polynomial; the parabola there misses 1e-6 of a second difference
-)
+FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 

@@ -152,7 +152,6 @@ def force(x, p, q, T, t):
 
 @compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=_FAST)
 def fill(t, modes, arms, tools, k):
-    # k is a variable in all calls: numba compiles a call with a literal once more
     """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts held[k, 0:3], the area of
     its force over the time held[k, 3:6], and its moment held[k, 6:9].
     """
@@ -399,13 +398,13 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                     after, other = TOUCHES, FREE
                     apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
                     if not stays(apart, t, tol):
-                        until = until_alone(apart, -z_0, -z_1, -z_2, s_0, mode != FREE, t, tol, modes, arms, tools)
+                        until = until_alone(apart, -z_0, -z_1, -z_2, s_0, False, t, tol, modes, arms, tools)
                 else:
                     after, other = STICK, FREE
                     p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
                     slips = plus(left_rate, 1.0, held(p, q, 0.0, 0.0, t))
                     if not stays(slips, t, tol):
-                        until = until_alone(slips, p, q, 0.0, lag, mode != FREE, t, tol, modes, arms, tools)
+                        until = until_alone(slips, p, q, 0.0, lag, True, t, tol, modes, arms, tools)
                     if not stays(press, t, tol):
                         second = until_held(press, s_0, s, e, i, 1.0, 0.0, z_1, z_2, t, tol, T, modes, arms, tools)
             if second < until:
@@ -413,7 +412,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
             ends = until < t
             if ends:
                 t, k = until, 1
-                fill(t, modes, arms, tools, k)
+                fill(t, modes, arms, tools, 1)
             if look is not None and (modes is not None or mode != FREE):
                 here = Path(z_0, z_1, z_2, x_1, x_2)
                 if t == h:
@@ -460,7 +459,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 e[0, i] += np.sign(e[0, i]) * (z_0 - s[0, i])
                 s[0, i] = z_0
             mode, t, k = after, h - done, 1
-            fill(t, modes, arms, tools, k)
+            fill(t, modes, arms, tools, 1)
         area += w[i] * of_area
         moment += w[i] * of_moment
         stuck += w[i] * sticks
@@ -555,11 +554,11 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
                     left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
                 apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
                 if not stays(apart, t, tol):
-                    until = until_alone(apart, -z_0, -z_1, -z_2, x, presses, t, tol, modes, arms, tools)
+                    until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
             ends = until < t
             if ends:
                 t, k = until, 1
-                fill(t, modes, arms, tools, k)
+                fill(t, modes, arms, tools, 1)
             if presses:
                 A, B = force(x, z_1, z_2, T, t)
                 s[0, i] = x + t * (z_1 + z_2 * t)
@@ -582,7 +581,7 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
             if presses:
                 s[0, i] = z_0
             t, k = h - done, 1
-            fill(t, modes, arms, tools, k)
+            fill(t, modes, arms, tools, 1)
         all_area += w[i] * area
         all_moment += w[i] * moment
         since[i] = pressed / h if h > 0.0 else 0.0

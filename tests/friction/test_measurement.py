@@ -31,7 +31,7 @@ def world(monkeypatch):
             )  # fmt: skip
 
         monkeypatch.setattr(measured_velocity, "slide", slide)
-        end = SimpleNamespace(is_start=False)
+        end = SimpleNamespace(to_begin_from=None)
         monkeypatch.setattr(
             measured_velocity, "slide_without_bound", lambda *args, **knobs: (slide(*args, **knobs), end)
         )

@@ -141,9 +141,8 @@ def continued(case: mdr.SlidingContact, v_0: float, run: mdr.SlidingRun) -> list
     settling = orbit.settling
     if not settling.settled:
         return []
-    n = min(
-        max(64, LONGER * stepper.n_periods), max(1, int(MOST_WORK / (scaled.drive.steps * scaled.springs.gap.size)))
-    )
+    most = max(1, int(MOST_WORK / (scaled.drive.steps * scaled.springs.gap.size)))
+    n = min(max(64, LONGER * stepper.n_periods), most)
     mean = float(stepper.advance(orbit.state, n)[1].cof.mean())
     off = abs(mean - settling.mean)
     return [f"continued: {settling.mean:.8g} +- {settling.spread:.1g}, then {mean:.8g}"] if off > LEEWAY else []
