@@ -8,8 +8,11 @@ import math
 import numpy as np
 import pytest
 import reference
+import reference_shaken
+import reference_turning
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
+from scipy.special import ellipk
 
 FLAT = math.inf
 
@@ -92,3 +95,97 @@ def test_flat_punch_agrees_with_an_adaptive_integrator():
     mean = impulse / (8 * np.pi * reference.mean_force(FLAT, depth, T))
     *_, cof = reference.spring_pull_run(FLAT, depth, v_hat, T, k, omega_0, c, steps=(256, 2048))
     assert_allclose(cof, mean, rtol=0, atol=2e-6)  # both cut through the kinks of stick and slip
+
+
+# --- friction that turns ------------------------------------------------------------------------------------
+
+KELVIN, ARMS = (0.3, (), ()), (0.3, (1.0, 0.5), (0.3, 2.0))
+FEW = {"steps": 4096, "count": 64}
+
+
+def rigid_body():
+    return reference_turning.Body(np.zeros(2), np.zeros(2), np.full(2, np.inf))
+
+
+@pytest.mark.parametrize("T", [0.0, 0.3])
+@pytest.mark.parametrize("depth", [0.7, 2.0])
+def test_what_turns_nowhere_is_what_is_shaken_along(T, depth):
+    x_n = [1.5 * np.exp(0.7j)]
+    got = reference_turning.friction(2, depth, [1.0], x_n, [], -0.4, (T, (), ()), **FEW)
+    expected, _ = reference_shaken.friction(2, depth, [1.0], np.negative(x_n), T, 0.4, steps=4096, n_periods=12)
+    assert abs(got.along + expected) < got.doubt + 1e-5  # what touches of the other one are off by
+    assert got.across == 0
+
+
+@pytest.mark.parametrize("r", [0.3, 1.0])
+def test_wide_motion_across_is_that_of_a_rigid_contact(r):
+    expected = 2 / np.pi * r / math.hypot(1, r) * ellipk(1 / (1 + r**2))
+    off = []
+    for wide in (100.0, 400.0):
+        got = reference_turning.friction(FLAT, 1.0, [0.0], [], [wide], r * wide)
+        off.append(got.along - expected)
+    assert 0 < 15 * off[1] < off[0] < 5e-4  # as the square of leash over amplitude
+
+
+@pytest.mark.parametrize("eta", [0.3, 0.7])
+def test_slow_motion_across_leaves_what_the_circle_leaves(eta):
+    two, one = (
+        reference_turning.friction(FLAT, 1.0, [0.0], [], [eta], v, steps=4096, most=1000).along for v in (2e-3, 1e-3)
+    )
+    assert_allclose(2 * one - two, math.sqrt(1 - eta**2), rtol=0, atol=2e-4)  # in v all but linear
+
+
+@pytest.mark.parametrize("material", [reference_turning.ELASTIC, KELVIN, ARMS])
+def test_fast_pull_leaves_half_the_mean_square_of_the_direction(material):
+    y_n, v, L = [1.0, 0.5j], 80.0, reference_turning.Material(*material)
+    n = np.arange(1, 3)
+    theta = 1j * n * y_n / (v + 1j * n / np.array([reference_turning.response(L, one) for one in n]))
+    got = reference_turning.friction(FLAT, 1.0, [0.0], [], y_n, v, material, **FEW)
+    assert_allclose(1 - got.along, 0.25 * np.sum(np.abs(theta) ** 2), rtol=2 / v**2 + 5e-4)
+
+
+@pytest.mark.parametrize("yields", [False, True])
+@pytest.mark.parametrize("material", [reference_turning.ELASTIC, KELVIN, ARMS])
+def test_no_direction_is_special(material, yields):
+    """All that moves in the plane turned by an angle turns the forces, to rounding."""
+    twin, angle = reference_turning, 0.7
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    L = twin.Material(material[0], *(np.array(one) for one in material[1:]))
+    row, motion = twin.springs(2, 0.8, (0.0, 1.8), 32), twin.motion_of([1.0], [0.5j, 0.2], [2.0, 0.3j], 0.5, 256)
+    body = twin.Body(*(np.full(2, one) for one in (0.8, 0.5, 1.2))) if yields else rigid_body()
+    turned = motion._replace(u=np.ascontiguousarray(turn @ motion.u), v=turn @ motion.v)
+    state = twin.at_rest(row, L, motion, body)
+    other = twin.State(*(np.array(one) for one in state))
+    other.x[:2], other.y[:] = turn @ state.x[:2], turn @ state.y
+    for _ in range(5):
+        one, two = twin.period(row, L, motion, body, state), twin.period(row, L, turned, body, other)
+        assert_allclose(two, [*(turn @ one[:2]), one[2]], rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("depth", [0.9, 2.0])
+def test_body_moved_both_ways_agrees_with_an_adaptive_integrator(depth):
+    """One spring with a dashpot, in contact and free, that turns under a body."""
+    T, v, x_n, y_n = 0.6, 0.5, 0.5j, 1.5
+    (M, C, K), (_, C_y, K_y) = bodies = (0.8, 0.5, 1.2), (0.8, 0.7, 0.6)
+    mass, damping, spring = np.full(2, M), np.array([C, C_y]), np.array([K, K_y])
+    on, off = (float(t[0]) for t in reference.contact_times([depth], T))
+
+    def rate(t, q, touches):
+        e, y, y_dot = q[0:2], q[2:4], q[4:6]
+        load = max(depth + math.cos(t) - T * math.sin(t), 0.0) if touches else 0.0
+        shake = np.array([(1j * x_n * np.exp(1j * t)).real, (1j * y_n * np.exp(1j * t)).real])
+        trial = e + T * (np.array([v, 0.0]) + shake + y_dot)
+        force = trial * min(1.0, load / np.hypot(*trial))
+        return np.concatenate([(force - e) / T, y_dot, -(spring * y + damping * y_dot + force) / mass, force])
+
+    q = np.array([0.1, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    for k in range(20):
+        before = q[6:].copy()
+        for start, stop, touches in ((on, off, True), (off, on + 2 * np.pi, False)):
+            knobs = {"method": "DOP853", "rtol": 1e-8, "atol": 1e-10, "max_step": 0.05 if k == 19 else 0.3}
+            if stop > start:
+                q = solve_ivp(rate, (start, stop), q, args=(touches,), **knobs).y[:, -1]
+    mean = (q[6:] - before) / (2 * np.pi * reference.mean_force(FLAT, depth, T))
+    got = reference_turning.friction(FLAT, depth, [1.0], [x_n], [y_n], v, (T, (), ()), *bodies)
+    assert_allclose([got.along, got.across], mean, rtol=0, atol=3e-7)  # steps that cut through kinks
+    assert got.doubt < 3e-7

@@ -43,7 +43,7 @@ OPTIONAL = ("shake",)  #: parts that may be None
 
 @dataclass(frozen=True)
 class SlidingContact(Summarised):
-    """An indenter that slides on a half-space while it is shaken, in the normal direction or along its way.
+    """An indenter that slides on a half-space while it is shaken, in the normal direction or in the plane.
 
     Examples
     --------
@@ -88,6 +88,13 @@ class SlidingContact(Summarised):
                 "shake",
             )
         _ = self.repeats  # refuses frequencies in no ratio
+        if self.moves_across and self.shake is not None and self.shake.at == "pull":
+            if np.isinf(self.pull.across[2]) and not self.pull.is_rigid:
+                raise FieldError(
+                    "the pulling point is shaken across, and the body is guided there, so that nothing moves: give the "
+                    'pull a stiffness k_y, or shake at = "tool"',
+                    "shake",
+                )
         object.__setattr__(self, "oscillation", self.oscillation.on(self.indenter, self.material))
         if self.oscillation.knows_depth:
             if not self.u_z_max > 0:
@@ -185,12 +192,25 @@ class SlidingContact(Summarised):
     @property
     def shake_harmonics(self) -> NDArray[np.complex128]:
         """X_n [m], shape (N,), of the shake x(t) = Re of sum X_n exp(i n omega t), n = 1 ... N; empty without one."""
-        if self.shake is None or self.shake.is_still:
+        return self._harmonics(across=False)
+
+    @property
+    def harmonics_across(self) -> NDArray[np.complex128]:
+        """Y_n [m], shape (N,), of the shake across the pull likewise; empty where nothing moves across."""
+        return self._harmonics(across=True)
+
+    def _harmonics(self, across: bool) -> NDArray[np.complex128]:
+        if self.shake is None or self.shake.is_still or (across and not self.shake.across.any()):
             return np.zeros(0, dtype=complex)
-        n_x = self.repeats[1]
-        out = np.zeros(n_x * self.shake.along.size, dtype=complex)
-        out[n_x - 1 :: n_x] = self.shake.along
+        n_x, given = self.repeats[1], self.shake.across if across else self.shake.along
+        out = np.zeros(n_x * given.size, dtype=complex)
+        out[n_x - 1 :: n_x] = given
         return out
+
+    @property
+    def moves_across(self) -> bool:
+        """Whether it is shaken across the pull, so that friction turns."""
+        return self.harmonics_across.size > 0
 
     @property
     def way(self) -> NDArray[np.complex128]:
@@ -198,14 +218,21 @@ class SlidingContact(Summarised):
 
         Of a shaken pulling point it is what spring, damper and mass pass on: (k_x + i n omega c_x) H(n omega) X_n.
         """
-        given = self.shake_harmonics
+        return self._passed_on(self.shake_harmonics, across=False)
+
+    @property
+    def way_across(self) -> NDArray[np.complex128]:
+        """Y_n [m] likewise, across the pull, where k_y and c_y pass on."""
+        return self._passed_on(self.harmonics_across, across=True)
+
+    def _passed_on(self, given: NDArray[np.complex128], across: bool) -> NDArray[np.complex128]:
         if not given.size or self.pull.is_rigid or self.shake is None or self.shake.at == "tool":
             return given
-        _, c_x, k_x = self.pull.coefficients
+        _, c, k = self.pull.across if across else self.pull.coefficients
         n_omega = self.omega * np.arange(1, given.size + 1)
-        H, out = np.asarray(self.pull.receptance(n_omega)), np.zeros_like(given)
+        H, out = np.asarray(self.pull.receptance(n_omega, across=across)), np.zeros_like(given)
         passed = (given != 0) & np.isfinite(H)
-        out[passed] = (k_x + 1j * n_omega[passed] * c_x) * H[passed] * given[passed]
+        out[passed] = (k + 1j * n_omega[passed] * c) * H[passed] * given[passed]
         out[(given != 0) & ~np.isfinite(H)] = np.inf
         return out
 
@@ -317,18 +344,21 @@ class SlidingContact(Summarised):
         u_z0 <= 0.
         """
         reach = self.mu_0 * self.material.mindlin_ratio * self.working_depth
-        given = self.shake_harmonics
-        if not given.size:
-            return 0.0
-        return 0.5 * (peak(given) + peak(-given)) / reach if reach > 0 else np.inf
+        return _half_way(self.shake_harmonics, reach)
+
+    @property
+    def eta(self) -> float:
+        """du_y/(mu_0 kappa u_z0) [-], the same across the pull."""
+        return _half_way(self.harmonics_across, self.mu_0 * self.material.mindlin_ratio * self.working_depth)
 
     @property
     def pace(self) -> float:
         """Sum of the velocities [m/s] that oscillation and shake bring about: a scale, no less than any of them."""
         if not self.is_shaken:
             return self.unit_velocity
-        way = self.way
-        fastest = float(np.sum(self.omega * np.arange(1, way.size + 1) * np.abs(way)))
+        fastest = sum(
+            float(np.sum(self.omega * np.arange(1, way.size + 1) * np.abs(way))) for way in (self.way, self.way_across)
+        )
         n_C = np.arange(1, self.cycle.cos.size + 1) * np.abs(self.cycle.harmonics)
         return self.unit_velocity * float(np.sum(n_C)) + fastest
 
@@ -348,6 +378,12 @@ class SlidingContact(Summarised):
         """Whether depth is harmonic and material without arms: as in the paper, the normal force in closed form."""
         prescribed = self.oscillation.knows_depth and self.oscillation.load is None
         return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
+
+
+def _half_way(given: NDArray[np.complex128], reach: float) -> float:
+    if not given.any():
+        return 0.0
+    return 0.5 * (peak(given) + peak(-given)) / reach if reach > 0 else np.inf
 
 
 def _told(name: str, part: Any) -> Row:

@@ -1,6 +1,6 @@
-"""The imposed motion in the plane, besides the pull: u_x(t) = v_0 t + x(t), x periodic with zero mean.
+"""The imposed motion in the plane, besides the pull: u_x(t) = v_0 t + x(t), u_y(t) = y(t), periodic with zero mean.
 
-Where it acts matters once a body hangs on a spring. At the tool, between body and indenter (a piezo; to shake the
+Along the pull it is called longitudinal, across it transverse. Where it acts matters once a body hangs on a spring. At the tool, between body and indenter (a piezo; to shake the
 half-space is the same with the sign turned), the indenter stands at the body's place plus x. At the pull, the far end
 of the pulling spring is shaken, and without friction the body answers harmonic n by (k_x + i n omega c_x) H(n omega)
 X_n.
@@ -37,23 +37,6 @@ def _place(name: str, value: Any, note: str = "") -> str:
     return value
 
 
-ACROSS = "must be zero: motion across the pull (transverse) is not supported"
-
-
-def _no_amplitude(name: str, value: Any, note: str = "") -> float:
-    """An amplitude across the pull, which the march does not know."""
-    if finite(name, value) != 0:
-        raise FieldError(f"{name} {ACROSS}", name)
-    return 0.0
-
-
-def _no_amplitudes(name: str, value: Any, note: str = "") -> tuple[float, ...]:
-    """A list of such."""
-    if any(amplitudes(name, value)):
-        raise FieldError(f"{name} {ACROSS}", name)
-    return ()
-
-
 FREQUENCY = facts(
     "rad/s", "angular frequency of the motion in the plane", label=r"angular frequency $\omega_x$", example=314.159
 )
@@ -61,7 +44,7 @@ PLACE = facts("", "where the motion acts", _place)
 
 
 class Shake(Record, ABC):
-    """A periodic motion in the plane: what each must answer is `omega`, `at` and `along`."""
+    """A periodic motion in the plane: what each must answer is `omega`, `at`, `along`, `across` and `mirrored`."""
 
     omega: float
     at: str
@@ -73,21 +56,26 @@ class Shake(Record, ABC):
 
     @property
     @abstractmethod
+    def across(self) -> NDArray[np.complex128]:
+        """Y_n [m], shape (N,), of y(t) likewise, across the pull."""
+
+    @property
+    @abstractmethod
     def mirrored(self) -> Shake:
-        """The motion -x(t)."""
+        """The motion -x(t), y(t)."""
 
     @property
     def is_still(self) -> bool:
         """Whether nothing moves."""
-        return not self.along.any()
+        return not (self.along.any() or self.across.any())
 
 
 @dataclass(frozen=True)
 class InPlaneOscillation(Shake):
-    """A harmonic motion in the plane, besides the pull: x(t) = du_x cos(omega t + phi_x).
+    """A harmonic motion in the plane, besides the pull: x = du_x cos(omega t + phi_x), y = du_y cos(omega t + phi_y).
 
-    The instant t = 0 is that of the normal oscillation u_z0 + du_z cos(omega t), so that phi_x is a phase between the
-    two.
+    The instant t = 0 is that of the normal oscillation u_z0 + du_z cos(omega t), so that phi_x and phi_y are phases
+    between the two.
     """
 
     omega: float = field(metadata=FREQUENCY)
@@ -100,8 +88,11 @@ class InPlaneOscillation(Shake):
     phi_x: float = field(
         default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$", example=1.5707963)
     )
-    du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull, zero", _no_amplitude))
-    phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite))
+    du_y: float = field(
+        default=0.0,
+        metadata=facts("m", "amplitude across the pull", not_negative, label=r"transverse amplitude $\Delta u_y$"),
+    )
+    phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_y$"))
     at: str = field(default="tool", metadata=PLACE)
 
     @property
@@ -110,8 +101,13 @@ class InPlaneOscillation(Shake):
         return np.array([self.du_x * np.exp(1j * self.phi_x)])
 
     @property
+    def across(self) -> NDArray[np.complex128]:
+        """The one harmonic [m] of y."""
+        return np.array([self.du_y * np.exp(1j * self.phi_y)])
+
+    @property
     def mirrored(self) -> InPlaneOscillation:
-        """The motion -x(t): half a period later."""
+        """The motion -x(t), y(t): x half a period later."""
         return replace(self, phi_x=self.phi_x + np.pi)
 
 
@@ -121,7 +117,8 @@ class InPlaneMotion(Shake):
 
         x(t) = sum over n >= 1 of x_cos[n-1] cos(n omega t) + x_sin[n-1] sin(n omega t)
 
-    Amplitudes in m; a list left out, or shorter than the other, is filled with zeros.
+    and y(t) across the pull likewise: a figure-eight has y of twice the frequency of x. Amplitudes in m; a list left
+    out, or shorter than the others, is filled with zeros.
     """
 
     omega: float = field(metadata=FREQUENCY)
@@ -129,13 +126,17 @@ class InPlaneMotion(Shake):
     x_sin: tuple[float, ...] = field(
         default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=SAWTOOTH)
     )
-    y_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
-    y_sin: tuple[float, ...] = field(default=(), metadata=facts("m", "the same across the pull, zero", _no_amplitudes))
+    y_cos: tuple[float, ...] = field(
+        default=(), metadata=facts("m", "amplitudes of cos(n omega t) across the pull", amplitudes)
+    )
+    y_sin: tuple[float, ...] = field(
+        default=(), metadata=facts("m", "amplitudes of sin(n omega t) across the pull", amplitudes)
+    )
     at: str = field(default="tool", metadata=PLACE)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        fill_up(self, "x_cos", "x_sin")
+        fill_up(self, "x_cos", "x_sin", "y_cos", "y_sin")
 
     @property
     def along(self) -> NDArray[np.complex128]:
@@ -143,8 +144,13 @@ class InPlaneMotion(Shake):
         return np.array(self.x_cos) - 1j * np.array(self.x_sin)
 
     @property
+    def across(self) -> NDArray[np.complex128]:
+        """The harmonics [m] of y."""
+        return np.array(self.y_cos) - 1j * np.array(self.y_sin)
+
+    @property
     def mirrored(self) -> InPlaneMotion:
-        """The motion -x(t)."""
+        """The motion -x(t), y(t)."""
         return replace(self, x_cos=tuple(-x for x in self.x_cos), x_sin=tuple(-x for x in self.x_sin))
 
 

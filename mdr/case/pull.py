@@ -8,23 +8,30 @@ optional damper c_x, whose far end moves at v_0; with y = u_x - v_0 t the body o
 Eq. (8) with a damper. An oscillating force F exp(i omega t) moves it by -F H(omega), with the receptance
 H = 1/(k_x - m omega² + i omega c_x). The rigid pull is H = 0.
 
-Symbols: k_x stiffness [N/m], m mass [kg], c_x damping [N s/m], omega angular frequency [rad/s].
+Across the pull the body is guided, or hangs on a spring k_y and a damper c_y of its own.
+
+Symbols: k_x, k_y stiffness [N/m], m mass [kg], c_x, c_y damping [N s/m], omega angular frequency [rad/s].
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import finite_array, not_negative
+from mdr.tools.checks import FieldError, finite_array, not_negative, positive
 from mdr.tools.fields import Record, facts
 
 __all__ = ["Pull", "RigidPull", "SpringPull"]
 
 STIFFNESS = "stiffness in N/m; for a rigid pull use RigidPull()"  #: what a refused one is told
+
+
+def _or_none(name: str, value: Any, note: str = "") -> float | None:
+    return None if value is None else positive(name, value, note)
 
 
 class Pull(Record, ABC):
@@ -34,6 +41,11 @@ class Pull(Record, ABC):
     @abstractmethod
     def coefficients(self) -> tuple[float, float, float]:
         """m [kg], c_x [N s/m] and k_x [N/m] of m y'' + c_x y' + k_x y = -F_x; k_x is infinite where nothing yields."""
+
+    @property
+    def across(self) -> tuple[float, float, float]:
+        """m [kg], c_y [N s/m] and k_y [N/m] of the same across the pull; k_y is infinite where the body is guided."""
+        return 0.0, 0.0, np.inf
 
     @property
     def is_rigid(self) -> bool:
@@ -54,13 +66,15 @@ class Pull(Record, ABC):
             return 0.0
         return float(c_x / (2 * np.sqrt(k_x * m))) if m > 0 else np.inf
 
-    def receptance(self, omega: ArrayLike) -> NDArray[np.complex128] | complex:
+    def receptance(self, omega: ArrayLike, *, across: bool = False) -> NDArray[np.complex128] | complex:
         """Receptance H(omega) [m/N]: displacement over an oscillating force.
 
         Parameters
         ----------
         omega : array_like of float
             Angular frequency [rad/s].
+        across : bool
+            Whether the force acts across the pull.
 
         Returns
         -------
@@ -68,10 +82,10 @@ class Pull(Record, ABC):
             H [m/N] in the shape of omega; infinite on an undamped resonance.
         """
         omega = finite_array("omega", omega, "rad/s")
-        if self.is_rigid:
+        m, c, k = self.across if across else self.coefficients
+        if np.isinf(k):
             return 0j if omega.ndim == 0 else np.zeros(omega.shape, dtype=complex)
-        m, c_x, k_x = self.coefficients
-        dynamic_stiffness = k_x - m * omega**2 + 1j * omega * c_x
+        dynamic_stiffness = k - m * omega**2 + 1j * omega * c
         with np.errstate(divide="ignore", invalid="ignore"):
             H = np.where(dynamic_stiffness == 0, complex(np.inf), 1 / dynamic_stiffness)
         return complex(H) if H.ndim == 0 else H
@@ -104,8 +118,29 @@ class SpringPull(Pull):
         default=0.0,
         metadata=facts("N s/m", "damping of the system", not_negative, label="system damping $c_x$", example=4.0),
     )
+    k_y: float | None = field(
+        default=None,
+        metadata=facts("N/m", "stiffness across the pull; none guides the body", _or_none, label="stiffness $k_y$"),
+    )
+    c_y: float = field(
+        default=0.0, metadata=facts("N s/m", "damping across the pull", not_negative, label="damping $c_y$")
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.c_y and self.k_y is None:
+            raise FieldError(
+                f"c_y = {self.c_y:g} N s/m damps a motion across the pull, and without k_y the body is guided and has "
+                "none: give k_y, or leave c_y out",
+                "c_y",
+            )
 
     @property
     def coefficients(self) -> tuple[float, float, float]:
         """m [kg], c_x [N s/m], k_x [N/m]."""
         return self.m, self.c_x, self.k_x
+
+    @property
+    def across(self) -> tuple[float, float, float]:
+        """m [kg], c_y [N s/m], k_y [N/m]."""
+        return (0.0, 0.0, np.inf) if self.k_y is None else (self.m, self.c_y, self.k_y)

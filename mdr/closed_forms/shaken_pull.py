@@ -105,7 +105,7 @@ class ShakenPull(ArrayRecord):
 def has_closed_form(case: SlidingContact) -> bool:
     """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
     known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
-    if not known or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
+    if not known or case.moves_across or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
         return False
     reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
     return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'

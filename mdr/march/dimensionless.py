@@ -56,15 +56,23 @@ class Units:
 
 
 @dataclass(frozen=True, eq=False)
+class Way:
+    """A shake in one direction over one period of n_steps steps: arrays (n_steps + 1,), both ends included."""
+
+    x: Array  #: way on which it takes the indenter
+    x_dot: Array  #: its rate
+    far_end: Array  #: motion of the pulling point besides the pull; zero where the tool is shaken
+    far_end_dot: Array  #: its rate
+
+
+@dataclass(frozen=True, eq=False)
 class Drive:
     """What is imposed over one period of n_steps steps: arrays (n_steps + 1,), both ends included."""
 
     z: Array  #: normal motion
     z_dot: Array  #: its rate
-    x: Array  #: way on which a shake takes the indenter along the pull
-    x_dot: Array  #: its rate
-    far_end: Array  #: motion of the pulling point besides the pull; zero where the tool is shaken
-    far_end_dot: Array  #: its rate
+    along: Way  #: shake along the pull
+    across: Way | None  #: across it; None where friction does not turn
     is_shaken: bool  #: whether there is a shake
 
     @property
@@ -79,26 +87,30 @@ class Drive:
 
     def pace(self, v: float) -> float:
         """A scale of velocities where the pull is at v: this, or that of the shake if it is faster."""
-        return max(v, float(np.abs(self.x_dot).max()))
+        ways = [self.along] if self.across is None else [self.along, self.across]
+        return max(v, *(float(np.abs(way.x_dot).max()) for way in ways))
 
     def with_pull(self, v: float) -> loop.Motion:
         """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
-        return loop.Motion(self.z, self.z_dot, v, self.x, self.x_dot)
+        return loop.Motion(self.z, self.z_dot, v, self.along.x, self.along.x_dot)
 
     @classmethod
     def of(cls, case: SlidingContact, length_x: float, steps: int) -> Drive:
         """What moves a contact."""
-        way = case.way
-        if not np.isfinite(way).all():
+        ways = [(case.way, case.shake_harmonics)]
+        if case.moves_across:
+            ways += [(case.way_across, case.harmonics_across)]
+        if not all(np.isfinite(way).all() for way, _ in ways):
             raise ValueError(
                 "the pulling point is shaken at the undamped natural frequency of the body: in full slip there is no "
-                "periodic motion to begin with; give the pull a damper c_x, or move omega or m"
+                "periodic motion to begin with; give the pull a damper, or move omega or m"
             )
         at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
-        far_end = case.shake_harmonics[: None if at_pull else 0]
-        z, z_dot = case.cycle.over_a_period(steps)
-        (x, x_dot), (end, end_dot) = (_over_a_period(one / length_x, steps) for one in (way, far_end))
-        return cls(z, z_dot, x, x_dot, end, end_dot, case.is_shaken)
+        along, *across = (
+            Way(*_over_a_period(way / length_x, steps), *_over_a_period(at_pull * far_end / length_x, steps))
+            for way, far_end in ways
+        )
+        return cls(*case.cycle.over_a_period(steps), along, across[0] if across else None, case.is_shaken)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +124,12 @@ class ScaledContact:
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
     law: Law  #: the same, with its modes
     body: Body  #: the body over a step
+    body_across: Body  #: across the pull; rigid where it is guided
+
+    @property
+    def ways(self) -> int:
+        """Directions in the plane in which springs are stretched."""
+        return 1 if self.drive.across is None else 2
 
     @classmethod
     def of(cls, case: SlidingContact, springs: SpringArray, steps: int, lump: bool) -> ScaledContact:
@@ -122,10 +140,12 @@ class ScaledContact:
         row, n_alike = loop.Springs(springs.gap / unit, springs.width / width), 1
         if lump and row.gap.max() == row.gap.min():
             row, n_alike = loop.Springs(row.gap[:1], np.ones(1)), row.gap.size
-        M, C, K = _body_groups(case, units.stiffness_x)
         law = law_of(rheology.T, rheology.rho, rheology.theta)
-        body = body_of(M, C, K, law, 2 * np.pi / steps, _ringing(M, K, rheology))
-        return cls(units, row, n_alike, Drive.of(case, length_x, steps), rheology, law, body)
+        body, across = (
+            body_of(M, C, K, law, 2 * np.pi / steps, _ringing(M, K, rheology))
+            for M, C, K in (_body_groups(case, units.stiffness_x, one) for one in (False, True))
+        )
+        return cls(units, row, n_alike, Drive.of(case, length_x, steps), rheology, law, body, across)
 
     @cached_property
     def normal(self) -> NormalPeriod:
@@ -146,7 +166,7 @@ class ScaledContact:
     @cached_property
     def full_slip(self) -> FullSlip:
         """The body in full slip."""
-        return FullSlip(self.body, self.normal, self.drive.z_dot - self.drive.x_dot, self.drive.pace(0.0))
+        return FullSlip(self.body, self.normal, self.drive.z_dot - self.drive.along.x_dot, self.drive.pace(0.0))
 
     def trace(self, n_periods: int = 1) -> loop.Trace:
         """Room for what a march leaves of its steps."""
@@ -168,8 +188,9 @@ def fast_ratio(case: SlidingContact) -> float:
     """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
     if case.pull.is_rigid:
         return 0.0
-    M, _, K = _body_groups(case, float(case.indenter.stiffness(case.u_z_max, case.material.G_star)))
-    return _ringing(M, K, case.rheology)
+    stiffness = float(case.indenter.stiffness(case.u_z_max, case.material.G_star))
+    groups = [_body_groups(case, stiffness, across) for across in (False, True)][: 1 + case.moves_across]
+    return max(_ringing(M, K, case.rheology) for M, _, K in groups if np.isfinite(K))
 
 
 def _ringing(M: float, K: float, rheology: Rheology) -> float:
@@ -178,7 +199,7 @@ def _ringing(M: float, K: float, rheology: Rheology) -> float:
 
     Stiffness rises with frequency, so that the iteration falls from that of all arms to the greatest solution.
     """
-    if M == 0:
+    if M == 0 or np.isinf(K):
         return np.inf
     fast = float(np.sqrt((K + 1 + sum(rheology.rho)) / M))
     for _ in range(RINGING_PASSES if rheology.rho else 0):
@@ -186,6 +207,6 @@ def _ringing(M: float, K: float, rheology: Rheology) -> float:
     return fast
 
 
-def _body_groups(case: SlidingContact, stiffness: float) -> tuple[float, float, float]:
-    (m, c_x, k_x), omega = case.pull.coefficients, case.omega
-    return m * omega**2 / stiffness, c_x * omega / stiffness, k_x / stiffness
+def _body_groups(case: SlidingContact, stiffness: float, across: bool) -> tuple[float, float, float]:
+    (m, c, k), omega = case.pull.across if across else case.pull.coefficients, case.omega
+    return m * omega**2 / stiffness, c * omega / stiffness, k / stiffness

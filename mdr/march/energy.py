@@ -68,22 +68,26 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
 
 def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     """The account of a period that was looked at closely."""
-    scaled, v = stepper.scaled, stepper.v
-    sums, drive, body = account.seen.sums, scaled.drive, scaled.body
-    h, unit_x, unit_z = drive.h, scaled.units.energy_x, scaled.units.energy_z
+    scaled = stepper.scaled
+    sums, h = account.seen.sums, scaled.drive.h
+    unit_x, unit_z = scaled.units.energy_x, scaled.units.energy_z
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
-    if not body.rigid:
-        stretch, rate = account.y, account.rate  # of the system spring, backward
-        if at_pull := bool(drive.far_end.any()):
-            stretch, rate = stretch + drive.x - drive.far_end, rate + drive.x_dot - drive.far_end_dot
+    at_pull = any(way.far_end.any() for _, way, _, _ in stepper.directions)
+    shake = 0.0 if at_pull else shake
+    motions = [(account.y, account.rate), account.across]
+    for (body, way, v, at), (stretch, rate) in zip(stepper.directions, motions, strict=False):
+        if body.rigid:
+            continue
+        if way.far_end.any():  # stretch of the system spring, backward
+            stretch, rate = stretch + way.x - way.far_end, rate + way.x_dot - way.far_end_dot
         u, w = OF_QUARTICS[:, :1], h * OF_QUARTICS[:, 1]
         y, y_dot = _between(stretch, rate, h, u, body.light)
         force = -body.K * y - body.C * y_dot  # of the pull, forward
-        pull = v * float(w @ force.sum(axis=1))
-        damper = body.C * float(w @ (y_dot**2).sum(axis=1))
+        pull = v * float(w @ force.sum(axis=1)) if at == 0 else pull
+        damper += body.C * float(w @ (y_dot**2).sum(axis=1))
         if at_pull:
-            shake = float(w @ (force * _between(drive.far_end, drive.far_end_dot, h, u, False)[1]).sum(axis=1))
+            shake += float(w @ (force * _between(way.far_end, way.far_end_dot, h, u, False)[1]).sum(axis=1))
     viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(
         pull_work=unit_x * pull,

@@ -1,4 +1,4 @@
-"""The compiled march: springs and body step by step, period by period, and the search for a state that returns.
+"""The compiled march: springs and body step by step, period by period.
 
 Scaled form (dimensionless.py): time is omega t, normal lengths are in du_z, tangential ones in mu_0 kappa du_z,
 stiffnesses in that of the array. A state is one vector: extensions (1 + J, n) of the springs and their arms, then the
@@ -10,12 +10,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.march.body import RATE, Y
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import ROUNDING, Look, Path, Tools, as_they_are, fill, row
-from mdr.tools.anderson import shares
+from mdr.spring.step import ROUNDING, Look, Path, Tools, as_they_are, fill, glassy, row
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -89,12 +87,14 @@ class Seen(NamedTuple):
 
     nodes: Nodes  #: over a step
     sums: Array  #: (N_SUMS,)
-    F: Array  #: (n_t, 3) at the end of each step: tangential and normal force, least slip velocity
+    F: Array  #: (n_t, 4) at the end of each step: force along and normal, least slip velocity, force across
     mode: Array  #: (n_t or 0, n) of each spring
     f_x: Array  #: (n_t or 0, n) its force over its stiffness
     f_z: Array  #: (n_t or 0, n)
     e: Array  #: (n_t or 0, n)
     s: Array  #: (n_t or 0, n)
+    f_y: Array  #: (n_t or 0, n) across the pull
+    e_y: Array  #: (n_t or 0, n)
 
 
 @_inline
@@ -169,6 +169,29 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
 
 
 @_inline
+def off_way(y, rate, y_0, rate_0, area, moment, v, body, h):
+    """How far a body with mass is from where area and moment of the force take it, in y and its rate; whether that is
+    nothing.
+    """
+    free = body.free
+    push = body.area[0] * area + body.moment[0] * moment
+    push_rate = body.area[1] * area + body.moment[1] * moment
+    off = y - (free[0][0] * y_0 + free[0][1] * rate_0) + push
+    off_rate = rate - (free[1][0] * y_0 + free[1][1] * rate_0) + push_rate
+    least = ROUNDING * (abs(y) + h * (abs(rate) + abs(v)))
+    return off, off_rate, abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
+
+
+@_inline
+def corrected_way(off, off_rate, share, body):
+    """What to take from y and its rate, by the stiffness of the share of springs that stick."""
+    a, b = 1.0 + share * body.stuck[0][0], share * body.stuck[0][1]
+    c, d = share * body.stuck[1][0], 1.0 + share * body.stuck[1][1]
+    det = a * d - b * c
+    return (d * off - b * off_rate) / det, (a * off_rate - c * off) / det
+
+
+@_inline
 def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools):
     """A step of a body with mass: it moves as area and moment of the force make it, and the springs move with it.
 
@@ -177,8 +200,7 @@ def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, too
     Returns path, area, moment, what springs do at the end and whether this was solved; e, s, held are updated.
     """
     (gap, w), (T, modes, arms) = springs, law
-    h, free, y_0, rate_0 = tools.h, body.free, held[Y], held[RATE]
-    y_free, rate_free = free[0][0] * y_0 + free[0][1] * rate_0, free[1][0] * y_0 + free[1][1] * rate_0
+    h, y_0, rate_0 = tools.h, held[Y], held[RATE]
     y, rate, found = y_0 + h * rate_0, rate_0, False
     for turn in range(MOST_TURNS):
         path = path_of(motion, k, h, y_0, rate_0, y, rate)
@@ -191,17 +213,12 @@ def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, too
                 put(s_0, s)
             area, moment, stuck, _, _, sticking, back = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
             last, share = Last(sticking, back), stuck / h
-        push = body.area[0] * area + body.moment[0] * moment
-        push_rate = body.area[1] * area + body.moment[1] * moment
-        off, off_rate = y - y_free + push, rate - rate_free + push_rate
-        least = ROUNDING * (abs(y) + h * (abs(rate) + abs(motion.v)))
-        found = turn > 0 and abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
+        off, off_rate, is_close = off_way(y, rate, y_0, rate_0, area, moment, motion.v, body, h)
+        found = turn > 0 and is_close
         if found:
             break
-        a, b = 1.0 + share * body.stuck[0][0], share * body.stuck[0][1]
-        c, d = share * body.stuck[1][0], 1.0 + share * body.stuck[1][1]
-        det = a * d - b * c
-        y, rate = y - (d * off - b * off_rate) / det, rate - (a * off_rate - c * off) / det
+        dy, d_rate = corrected_way(off, off_rate, share, body)
+        y, rate = y - dy, rate - d_rate
     held[Y], held[RATE] = y, rate
     return path, area, moment, last, found
 
@@ -241,8 +258,7 @@ def balance(e, s, e_0, s_0, held, last, body, springs, here, law, tools):
     `enclosed` finds them. Returns path, area, moment, what springs do at the end and whether this was solved; e, s,
     held are updated.
     """
-    h, T, M, C, K = tools.h, law.T, body.M, body.C, body.K
-    stiff = 1.0 + glassy(law.arms)
+    h, T = tools.h, law.T
     y, u, found = held[Y] + h * held[RATE], 0.0, False
     for turn in range(MOST_TURNS + 1):
         if turn == MOST_TURNS:
@@ -254,19 +270,15 @@ def balance(e, s, e_0, s_0, held, last, body, springs, here, law, tools):
             )
             area, end, sticking = here.area + area, here.end + end, last.sticking
             stuck, when = sticking * h, 0.5 * sticking * h * h
-            impulse, force, _ = not_balanced(y, u, rate, area, end, held, body, law, h)
+            impulse, force, _ = not_balanced(y, u, rate, held[Y], held[RATE], area, end, body, law, h)
         else:
             path, rate, of, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
             area, moment, stuck, when, _, sticking, back = of
             last, found = Last(sticking, back), abs(impulse) + abs(force) <= close
         if found:
             break
-        share, inertia = stuck / h, M / (h * h) + C / h
-        a = inertia + 0.5 * (K + share * stiff) + T * share / h
-        b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * when / h - stuck) / (h * h)
-        c, d = C / h + K + sticking * (stiff + T / h), 2.0 * M / (h * h) + (C + sticking * T) / h
-        det = a * d - b * c
-        y, u = y - (d * impulse - b * force) / det, u - (a * force - c * impulse) / det
+        dy, du = corrected_balance(impulse, force, stuck, when, sticking, body, law, h)
+        y, u = y - dy, u - du
     held[Y], held[RATE] = y, rate
     return path, area, moment, last, found
 
@@ -279,15 +291,26 @@ def with_body(y, u, held, path, h):
 
 
 @_inline
-def not_balanced(y, u, rate, area, end, held, body, law, h):
+def not_balanced(y, u, rate, y_0, rate_0, area, end, body, law, h):
     """What is left of impulse (over h) and force if a light body moves to y with u, under the area of a force and the
     force at the end; and how little of them is none.
     """
-    M, C, K, y_0 = body.M, body.C, body.K, held[Y]
-    impulse = M * (rate - held[RATE]) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
+    M, C, K = body.M, body.C, body.K
+    impulse = M * (rate - rate_0) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
     force = 2.0 * M * u / (h * h) + C * rate + K * y + end
     size, slope = abs(K * y) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
     return impulse, force, CLOSE * (size + slope * (abs(y - y_0) + abs(u))) + ROUNDING * slope * abs(y)
+
+
+@_inline
+def corrected_balance(impulse, force, stuck, when, sticking, body, law, h):
+    """What to take from y and u of a light body, by the stiffness of what sticks."""
+    M, C, K, T, stiff, share = body.M, body.C, body.K, law.T, glassy(law.arms), stuck / h
+    a = M / (h * h) + C / h + 0.5 * (K + share * stiff) + T * share / h
+    b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * when / h - stuck) / (h * h)
+    c, d = C / h + K + sticking * (stiff + T / h), 2.0 * M / (h * h) + (C + sticking * T) / h
+    det = a * d - b * c
+    return (d * impulse - b * force) / det, (a * force - c * impulse) / det
 
 
 @_inner
@@ -300,14 +323,14 @@ def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
     put(s_0, s)
     path, rate = with_body(y, u, held, here.path, tools.h)
     of = row(s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, here.z_dot, here.x_dot + rate, None)
-    impulse, force, close = not_balanced(y, u, rate, of[0], of[4], held, body, law, tools.h)
+    impulse, force, close = not_balanced(y, u, rate, held[Y], held[RATE], of[0], of[4], body, law, tools.h)
     return path, rate, of, impulse, force, close
 
 
 @_inner
 def steepest(body, law, h):
     """The most by which force or impulse of a light body can change with its motion over a step."""
-    return body.M / (h * h) + (body.C + law.T) / h + body.K + 1.0 + glassy(law.arms)
+    return body.M / (h * h) + (body.C + law.T) / h + body.K + glassy(law.arms)
 
 
 @_inner
@@ -347,16 +370,6 @@ def next_place(x, f, most, ends):
     if not np.isnan(a):
         return x - f * (x - a) / (f - f_a)
     return x - f / most if np.isnan(b) else x + 4.0 * (x - b)
-
-
-@_inner
-def glassy(arms):
-    """Sum of the moduli of the arms."""
-    total = 0.0
-    if arms is not None:
-        for j in range(arms.rho.size):
-            total += arms.rho[j]
-    return total
 
 
 @_inner
@@ -403,100 +416,3 @@ def look(e, s, springs, motion, law, tools, trace, seen):
             for i in range(n):
                 seen.mode[k, i], seen.f_x[k, i], seen.f_z[k, i] = mode[i], f_x[i], f_z[i]
                 seen.e[k, i], seen.s[k, i] = e[0, i], s[0, i]
-
-
-# --- the periodic state ---------------------------------------------------------------------------
-
-PERIODS, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
-LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
-
-
-class Search(NamedTuple):
-    """Anderson's method on its way to a state that returns after a period, updated in place. Measured is a state as a
-    vector whose length is the root of its energy.
-    """
-
-    x: Array  #: (n_x,) the state that the next period starts from
-    start: Array  #: (n_x,) the one that the last period started from
-    image: Array  #: (n_x,) what it came to
-    moved: Array  #: (n_x,) how far that was, measured
-    best: Array  #: (n_x,) the image that moved least
-    d_image: Array  #: (memory, n_x) from image to image, oldest first
-    d_moved: Array  #: (memory, n_x) from move to move, measured
-    counts: NDArray[np.int64]  #: (3,)
-    changes: Array  #: (2,)
-    close: float  #: change at which the search ends
-    plain: int  #: periods before the first combination, while springs find their modes
-    patience: int  #: periods without a smaller change, after which it ends as well
-    growth: float  #: of the change over the least, at which combinations start anew
-
-
-@_jit
-def combine(at, image, roots):
-    """Take into a search what a period has made of at.x; whether the search has come to its end. If not, at.x is the
-    state to go on from.
-    """
-    counts, changes = at.counts, at.changes
-    size = change = 0.0
-    for i in range(image.size):
-        size += (roots[i] * image[i]) ** 2
-        change += (roots[i] * (image[i] - at.start[i])) ** 2
-    if not np.isfinite(size):
-        changes[BEST] = np.nan
-        return True
-    change = np.sqrt(change) / (np.sqrt(size) + 1e-300)
-    period = counts[PERIODS]
-    counts[PERIODS] += 1
-    if change < changes[BEST]:
-        copy(image, at.best)
-        changes[BEST], counts[SINCE] = change, period
-    if change <= at.close or period - counts[SINCE] > at.patience:
-        return True
-    if change > at.growth * changes[LEAST]:
-        counts[KEPT], changes[LEAST] = 0, np.inf
-    elif period > 0:
-        if counts[KEPT] == at.d_image.shape[0]:
-            for j in range(1, counts[KEPT]):
-                copy(at.d_image[j], at.d_image[j - 1])
-                copy(at.d_moved[j], at.d_moved[j - 1])
-            counts[KEPT] -= 1
-        for i in range(image.size):
-            at.d_image[counts[KEPT], i] = image[i] - at.image[i]
-            at.d_moved[counts[KEPT], i] = roots[i] * (image[i] - at.start[i]) - at.moved[i]
-        counts[KEPT] += 1
-    changes[LEAST] = min(changes[LEAST], change)
-    for i in range(image.size):
-        at.image[i] = at.x[i] = image[i]
-        at.moved[i] = roots[i] * (image[i] - at.start[i])
-    if period >= at.plain and counts[KEPT] > 0:
-        share = shares(at.d_moved[: counts[KEPT]], at.moved, 1e-10)
-        for j in range(share.size):
-            for i in range(image.size):
-                at.x[i] -= share[j] * at.d_image[j, i]
-    return False
-
-
-@_jit
-def within_friction(x, s):
-    """Bring the extensions of a state x into the cone of friction: combinations may leave it."""
-    for i in range(s.shape[1]):
-        x[i] = max(min(x[i], s[0, i]), -s[0, i])
-
-
-@_jit
-def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, trace):
-    """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
-
-    s: (1 + J, n) compressions at the start of a period. trace: of the last period.
-    """
-    now, image, n_e, n_t, ended = np.empty_like(s), np.empty_like(at.x), s.size, motion.z.size - 1, False
-    while n_periods > 0 and not ended:
-        n_periods -= 1
-        copy(at.x, image)
-        put(s, now)
-        within_friction(image, s)
-        copy(image, at.start)
-        e, held = image[:n_e].reshape(s.shape), image[n_e:]
-        march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace)
-        ended = combine(at, image, roots)
-    return ended

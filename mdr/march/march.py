@@ -16,6 +16,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dimensionless import ScaledContact
+from mdr.march.each_alone import search_alone
 from mdr.march.orbit_search import (
     FULL,
     Orbit,
@@ -158,9 +159,15 @@ class Observed:
         scaled = self.end.scaled
         if self.end.v_0 != 0:
             return False
-        x, z = self.account.y[1:] + scaled.drive.x[1:], scaled.drive.z[1:]
-        both = np.fft.rfft([z - x, z + x]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
-        return float(np.fft.irfft(both, scaled.drive.steps).min(axis=1).sum()) > 2 * float(scaled.springs.gap.min())
+        x, z = self.account.y[1:] + scaled.drive.along.x[1:], scaled.drive.z[1:]
+        y = 0 * x if scaled.drive.across is None else self.account.across[0][1:] + scaled.drive.across.x[1:]
+        bear = np.fft.rfft([z, x, y]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
+        press, along, across = np.fft.irfft(bear, scaled.drive.steps)
+        if scaled.ways == 2:  # a foot so at rest that the force goes about zero
+            away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
+            return float((press - away).min()) > float(scaled.springs.gap.min())
+        least = (press - along).min() + (press + along).min()
+        return float(least) > 2 * float(scaled.springs.gap.min())
 
     @property
     def sees_contact(self) -> bool:
@@ -265,7 +272,7 @@ def check(case: SlidingContact, v_0: float) -> None:
             f"the amplitude du_z = {cycle.unit:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
-    farthest = float(np.abs(case.way).max(initial=0.0))
+    farthest = max(float(np.abs(way).max(initial=0.0)) for way in (case.way, case.way_across))
     if np.inf > farthest > DEEPEST * case.mu_0 * case.material.mindlin_ratio * cycle.unit:
         raise ValueError(
             f"the shake is more than {DEEPEST:g} times mu_0 kappa u_z0 (or du_z), so that the deflection of springs is "
@@ -280,14 +287,20 @@ def check(case: SlidingContact, v_0: float) -> None:
 def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, gain: float | None) -> Orbit | None:
     """The periodic state, where it can be solved for."""
     scaled, orbit = stepper.scaled, None
-    if scaled.body.rigid and not scaled.rheology.remembers and from_full_slip and stepper.v > 0:
+    at_once = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
+    if at_once and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
+    alone = scaled.ways == 2 and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start, motions = at_other_resolution(near.state, near.motions, near.scaled, scaled)
+        if alone and (orbit := search_alone(stepper, start)) is not None:
+            return orbit
         gain = near.settling.gain if near.stepper.v == stepper.v else gain
         gain = gain_at_other_resolution(gain, near.scaled, scaled)
         orbit = search(stepper, (start,), gain, near=True, motions=motions)
+    if alone and from_full_slip and (orbit := search_alone(stepper, stepper.full_slip())) is not None:
+        return orbit
     if from_full_slip and (orbit is None or not orbit.settling.settled):
         again = search_from_full_slip(stepper)
         orbit = again if orbit is None or (again is not None and again.settling.settled) else orbit
@@ -301,7 +314,7 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     at the limit of friction, and the spring with it.
     """
     state, periods = stepper.advance(stepper.full_slip(), 2)
-    last = Periods(periods.cof[-1:], periods.swing[-1:])
+    last = Periods(*(column[-1:] for column in periods))
     return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0))
 
 

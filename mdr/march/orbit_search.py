@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mdr.march import loop
+from mdr.march import orbit_loop
 from mdr.march import periodic_orbit as periodic
-from mdr.march.body import N_BODY, RATE, Y
+from mdr.march.body import N_BODY, RATE, Body, Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.steady_state import UNKNOWN, Settling
 from mdr.march.stepper import AT_ONCE, MarchState, PeriodRecord, Periods, Stepper
@@ -122,10 +122,10 @@ def _by_anderson(
             raise _OutOfTime
         ended, last = stepper.search(at, start, norm.roots, min(left, at_once))
         left -= at_once
-    change = float(at.changes[loop.BEST])
+    change = float(at.changes[orbit_loop.BEST])
     if not np.isfinite(change):
         return None
-    is_last = at.counts[loop.SINCE] == at.counts[loop.PERIODS] - 1
+    is_last = at.counts[orbit_loop.SINCE] == at.counts[orbit_loop.PERIODS] - 1
     return periodic.Iterate(at.best, change, last if is_last else None)
 
 
@@ -158,9 +158,10 @@ def _on_other_springs(xs: Array, of: ScaledContact, on: ScaledContact) -> Array:
     order = np.argsort(of.springs.gap, kind="stable")
     place = np.interp(on.springs.gap, of.springs.gap[order], np.arange(order.size))
     before = np.minimum(place.astype(int), order.size - 2)  # -1 of a single spring is itself
-    e = xs[:, :-N_BODY].reshape(len(xs), -1, order.size)[:, :, order]
+    n_body = on.ways * N_BODY
+    e = xs[:, :-n_body].reshape(len(xs), -1, order.size)[:, :, order]
     e = e[..., before] + (place - before) * (e[..., before + 1] - e[..., before])
-    return np.concatenate([e.reshape(len(xs), -1), xs[:, -N_BODY:]], axis=1)
+    return np.concatenate([e.reshape(len(xs), -1), xs[:, -n_body:]], axis=1)
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
@@ -198,11 +199,11 @@ def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, n
     period = found.end.period  # began as far from the exact one as `spread` says
     if period is None:
         state, period = stepper.advance(stepper.within_friction(state), 1)
-    cof = float(period.cof[-1])
+    cof, cof_y = float(period.cof[-1]), float(period.cof_y[-1])
     if spread <= SOLVED_TOLERANCE:
-        return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain))
+        return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain, across=cof_y))
     why = "a periodic state was found, but not how far it may be from the exact one"
-    return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why))
+    return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why, across=cof_y))
 
 
 class EnergyNorm:
@@ -210,13 +211,20 @@ class EnergyNorm:
 
     def __init__(self, scaled: ScaledContact) -> None:
         self.scaled = scaled
-        self.n_e = (1 + len(scaled.rheology.rho)) * scaled.springs.gap.size
-        self.n_x = self.n_e + N_BODY
+        self.n_way = (1 + len(scaled.rheology.rho)) * scaled.springs.gap.size
+        self.n_e = scaled.ways * self.n_way
+        self.n_x = self.n_e + scaled.ways * N_BODY
         self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
         moduli = np.concatenate([[1.0], scaled.rheology.rho])
-        self.roots[: self.n_e] = np.sqrt(np.outer(moduli, scaled.springs.w)).ravel()
-        if not scaled.body.rigid:
-            self.roots[self.n_e + Y], self.roots[self.n_e + RATE] = np.sqrt(scaled.body.K), np.sqrt(scaled.body.M)
+        self.roots[: self.n_e] = np.tile(np.sqrt(np.outer(moduli, scaled.springs.w)).ravel(), scaled.ways)
+        for at, body in self.bodies:
+            self.roots[at + Y], self.roots[at + RATE] = np.sqrt(body.K), np.sqrt(body.M)
+
+    @property
+    def bodies(self) -> list[tuple[int, Body]]:
+        """Places in the state and bodies, of those that are not rigid, along the pull and across it."""
+        both = enumerate((self.scaled.body, self.scaled.body_across)[: self.scaled.ways])
+        return [(self.n_e + way * N_BODY, body) for way, body in both if not body.rigid]
 
     def of(self, x: Array) -> Array:
         """State vectors (n_x,) or (k, n_x), measured: vectors of the same shape whose squares are energies."""
@@ -226,19 +234,15 @@ class EnergyNorm:
         """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body; of
         the springs themselves where there is neither.
         """
-        scaled, n = self.scaled, self.n_e
-        pushes = []
-        for j, rho in enumerate(scaled.rheology.rho, start=1):
-            arm = np.zeros(self.n_x)
-            arm[j * scaled.springs.gap.size : (j + 1) * scaled.springs.gap.size] = 1 / np.sqrt(rho)
-            pushes.append(arm)
-        if not scaled.body.rigid:
-            for part in (Y, RATE) if scaled.body.M else (Y,):
-                push = np.zeros(self.n_x)
-                push[n + part] = 1 / self.roots[n + part]
-                pushes.append(push)
-        elif not pushes:
-            springs = np.zeros(self.n_x)
-            springs[: scaled.springs.gap.size] = 1.0
-            pushes.append(springs)
+        scaled, n = self.scaled, self.scaled.springs.gap.size
+        moved = [(at + part, at + part + 1) for at, body in self.bodies for part in ((Y, RATE) if body.M else (Y,))]
+        for way in range(scaled.ways):
+            first = way * self.n_way
+            rows = range(1, 1 + len(scaled.rheology.rho))
+            if not rows and not self.bodies:
+                rows = range(1)
+            moved += [(first + j * n, first + (j + 1) * n) for j in rows]
+        pushes = np.zeros((len(moved), self.n_x))
+        for push, (start, stop) in zip(pushes, moved, strict=True):
+            push[start:stop] = 1 / np.linalg.norm(self.roots[start:stop])
         return tuple(pushes)

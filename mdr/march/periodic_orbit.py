@@ -24,7 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.march import loop
+from mdr.march import orbit_loop
 from mdr.march.stepper import Periods
 from mdr.tools.arrays import Array
 
@@ -104,15 +104,17 @@ class Options:
         """Periods after which Anderson's method gives up."""
         return MOST + A_TIME[1] * len(self.slow)
 
-    def by_anderson(self, x: Array, measure: Measure = np.asarray, motions: SlowMotions | None = None) -> loop.Search:
+    def by_anderson(
+        self, x: Array, measure: Measure = np.asarray, motions: SlowMotions | None = None
+    ) -> orbit_loop.Search:
         """Anderson's method at its beginning, from a state (n,); motions: slow ones that it may begin to combine."""
         memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # differences between so many images
         (start, image, moved, best), (d_image, d_moved) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
         counts = np.zeros(3, dtype=np.int64)
         if motions is not None:
-            counts[loop.KEPT] = k = min(len(motions.after), memory)
+            counts[orbit_loop.KEPT] = k = min(len(motions.after), memory)
             d_image[:k], d_moved[:k] = motions.after[:k], measure(motions.after[:k] - motions.before[:k])
-        return loop.Search(
+        return orbit_loop.Search(
             x=x.copy(),
             start=start,
             image=image,

@@ -77,7 +77,9 @@ def _harder(case: SlidingContact) -> tuple[int, int]:
 
 def oscillations(case: SlidingContact) -> float:
     """Frequency over omega by which the third derivative of depth or shake exceeds the motion: a parabola misses it."""
-    motions = [np.abs(motion) for motion in (case.cycle.harmonics, case.shake_harmonics) if motion.any()]
+    motions = [
+        np.abs(motion) for motion in (case.cycle.harmonics, case.shake_harmonics, case.harmonics_across) if motion.any()
+    ]
     return max(float((a @ np.arange(1.0, a.size + 1) ** 3 / a.sum()) ** (1 / 3)) for a in motions)
 
 
@@ -92,7 +94,7 @@ class _Runs:
     def __init__(self, case: SlidingContact, v_0: float, near: Converged | None) -> None:
         self.case, self.v_0, self.near = case, v_0, near
         self.fast = fast_ratio(case)
-        self.searched = not case.pull.is_rigid or case.rheology.remembers
+        self.searched = not case.pull.is_rigid or case.rheology.remembers or case.moves_across
         self.ends: dict[Resolution, Converged] = {}
         self.ticker = Ticker("slide", parts="runs")
 
@@ -297,9 +299,10 @@ def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
 
 def _missed(main: Converged, companion: Converged) -> float:
     """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
-    if abs(main.cof - companion.cof) <= FULL:
+    apart = float(np.hypot(main.cof - companion.cof, main.settling.across - companion.settling.across))
+    if apart <= FULL:
         return 0.0
     missing = companion.settling.spread if main.settling.solved else 0.0
     if main.settling.solved and not companion.settling.settled:
         missing = max(missing, BUDGET)
-    return missing + abs(main.cof - companion.cof)
+    return missing + apart

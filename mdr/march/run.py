@@ -42,13 +42,15 @@ class SlidingRun(Summarised, ArrayRecord):
     """
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
-    cof_error: float  #: bound on its numerical error: step, springs and settling [-]
+    cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
+    cof_error: float  #: bound on the numerical error of both: step, springs and settling [-]
     settled: bool  #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
     least_slip: float  #: smallest slip velocity, the way of the pull, of a spring in contact in that period [m/s]
     mean_F_x: float  #: [N]
+    mean_F_y: float  #: [N]
     mean_F_z: float  #: [N]
     energy_balance: EnergyBalance  #: of one of the last periods
     v_0: float  #: pulling velocity [m/s]
@@ -68,14 +70,18 @@ class SlidingRun(Summarised, ArrayRecord):
     s: Array | None = None  #: (n_t, n_springs) normal compressions [m]
     f_x: Array | None = None  #: (n_t, n_springs) tangential forces of the springs, pairs at +x and -x [N]
     f_z: Array | None = None  #: (n_t, n_springs) normal forces [N]
-    state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State
+    state: NDArray[np.uint8] | None = None  #: (n_t, n_springs) modes, see State; slip in any direction is SLIP
+    u_y: Array | None = None  #: (n_t,) position of the indenter across the pull [m]; None where nothing moves there
+    F_y: Array | None = None  #: (n_t,) force across at the end of a step [N]
+    e_y: Array | None = None  #: (n_t, n_springs) extensions across [m]
+    f_y: Array | None = None  #: (n_t, n_springs) forces across [N], which have the direction of slip where it slips
 
     @property
     def mirrored(self) -> SlidingRun:
         """The run seen from the other side, which goes the other way."""
         turned = {name: _turned(getattr(self, name)) for name in ("v_0", "cof", "mean_F_x", "u_x", "F_x", "e", "f_x")}
         state = self.state
-        if state is not None:
+        if state is not None and self.f_y is None:
             state = np.array([State.FREE, State.STICK, State.SLIP_BACK, State.SLIP], dtype=state.dtype)[state]
         return replace(self, **turned, state=state)
 
@@ -90,6 +96,11 @@ class SlidingRun(Summarised, ArrayRecord):
                 ("settled", "yes" if self.settled else "no", self.kind),
                 *([("why", self.why, "")] if self.why else []),
                 ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),
+                *(
+                    []
+                    if not self.cof_y
+                    else [("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z")]
+                ),
                 ("mean F_x", number(self.mean_F_x, "N"), "tangential force, which holds the indenter back"),
                 ("mean F_z", number(self.mean_F_z, "N"), "normal force"),
                 (
@@ -133,6 +144,8 @@ class SlidingRun(Summarised, ArrayRecord):
         if self.t is None:
             raise ValueError("the run kept no arrays to write; call slide(case, v_0, record=1) to keep a period")
         columns = {"t [s]": self.t, "u_x [m]": self.u_x, "u_z [m]": self.u_z, "F_x [N]": self.F_x, "F_z [N]": self.F_z}
+        if self.u_y is not None and self.F_y is not None:
+            columns |= {"u_y [m]": self.u_y, "F_y [N]": self.F_y}
         return csv_text(columns)
 
     def plot(self) -> Any:
@@ -172,6 +185,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
     return SlidingRun(
         cof=mu_0 * cof,
+        cof_y=mu_0 * settling.across,
         cof_error=mu_0 * (error + settling.spread + 1e-12),
         settled=settling.settled,
         kind=kind,
@@ -179,6 +193,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         stick_share=sticks,
         least_slip=float(sums[LEAST_SLIP]) * scaled.units.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
+        mean_F_y=mu_0 * settling.across * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
         v_0=march.end.v_0,
@@ -213,7 +228,7 @@ def _why_not(march: Observed) -> str:
 def _recorded(march: Observed) -> dict[str, Any]:
     """The last periods in SI, springs that stand alike each for itself."""
     scaled, springs = march.end.scaled, march.end.springs
-    F_x, F_z, y, e, s, f_x, f_z, mode = (
+    F_x, F_z, F_y, y, aside, e, s, f_x, f_z, e_y, f_y, mode = (
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
     )
     n_steps = F_x.size
@@ -222,12 +237,20 @@ def _recorded(march: Observed) -> dict[str, Any]:
     ) * scaled.drive.h / scaled.units.omega
     n = scaled.n_alike
     if n > 1:
-        e, s, f_x, f_z, mode = (np.repeat(one, n, axis=1) for one in (e, s, f_x, f_z, mode))
+        e, s, f_x, f_z, e_y, f_y, mode = (np.repeat(one, n, axis=1) for one in (e, s, f_x, f_z, e_y, f_y, mode))
     phase = np.arange(1, n_steps + 1) % scaled.drive.steps
-    share = springs.width / springs.width.sum()
-    return {
+    share, side = springs.width / springs.width.sum(), scaled.drive.across
+    across = {}
+    if side is not None:
+        across = {
+            "u_y": (aside + side.x[phase]) * scaled.units.length_x,
+            "F_y": F_y * scaled.units.stiffness_x * scaled.units.length_x,
+            "e_y": e_y * scaled.units.length_x,
+            "f_y": f_y * share * scaled.units.stiffness_x * scaled.units.length_x,
+        }
+    return across | {
         "t": t,
-        "u_x": march.end.v_0 * t + (y + scaled.drive.x[phase]) * scaled.units.length_x,
+        "u_x": march.end.v_0 * t + (y + scaled.drive.along.x[phase]) * scaled.units.length_x,
         "u_z": march.end.case.cycle.u_z0 + scaled.units.length_z * scaled.drive.z[phase],
         "F_x": F_x * scaled.units.stiffness_x * scaled.units.length_x,
         "F_z": F_z * scaled.units.stiffness_z * scaled.units.length_z,
@@ -244,4 +267,6 @@ def _recorded(march: Observed) -> dict[str, Any]:
 def _arrays(record: PeriodRecord) -> tuple[Array | NDArray[np.uint8], ...]:
     """What is kept of a period, at the ends of its steps."""
     seen = record.seen
-    return seen.F[:, 0], seen.F[:, 1], record.y[1:], seen.e, seen.s, seen.f_x, seen.f_z, seen.mode.astype(np.uint8)
+    forces = seen.F[:, 0], seen.F[:, 1], seen.F[:, 3]
+    springs = seen.e, seen.s, seen.f_x, seen.f_z, seen.e_y, seen.f_y
+    return *forces, record.y[1:], record.across[0][1:], *springs, seen.mode.astype(np.uint8)

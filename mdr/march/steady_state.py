@@ -36,6 +36,7 @@ class Settling:
     gain: float | None = None  #: of a periodic state that was solved for (periodic_orbit.py); None of an awaited motion
     why: str = ""  #: what still moves where the windows agree
     contradicts: bool = False  #: whether the mean contradicts a theorem (theorems.py)
+    across: float = 0.0  #: the mean of the force across the pull
 
     @property
     def solved(self) -> bool:

@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.march import loop
-from mdr.march.body import N_BODY, RATE, Y
-from mdr.march.dimensionless import ScaledContact
+from mdr.march import loop, orbit_loop
+from mdr.march.body import N_BODY, RATE, Body, Y
+from mdr.march.dimensionless import ScaledContact, Way
 from mdr.march.steady_state import TOLERANCE
+from mdr.march.turning import Across, look_turning, march_turning
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.settle import tools_for
 from mdr.tools.arrays import Array
@@ -35,9 +36,10 @@ class MarchState:
 
     def __init__(self, x: Array, s: Array) -> None:
         self.x = x  #: (n_x,) extensions, then the body
+        ways = x.size // (s.size + N_BODY)
         self.s = s  #: (1 + J, n) compressions, and their arms
-        self.e = x[: s.size].reshape(s.shape)  #: (1 + J, n) extensions, and their arms
-        self.body = x[s.size :]  #: (N_BODY,) see body.py
+        self.e = x[: ways * s.size].reshape(-1, s.shape[1])  #: (1 + J, n) extensions and arms, and those across
+        self.body = x[ways * s.size :]  #: (N_BODY,) see body.py, and the body across
 
     @classmethod
     def of(cls, e: Array, s: Array, body: Array) -> MarchState:
@@ -58,6 +60,7 @@ class Periods(NamedTuple):
 
     cof: Array  #: (n_periods,) mean of F_x over that of F_z, which is the COF over mu_0
     swing: Array  #: (n_periods,) of the body, greatest less least y
+    cof_y: Array  #: (n_periods,) mean of F_y over that of F_z, over mu_0
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +70,7 @@ class PeriodRecord:
     seen: loop.Seen  #: forces, modes and energies
     y: Array  #: (n_steps + 1,) the body at the start of the period and at the end of every step
     rate: Array  #: (n_steps + 1,) its velocity there
+    across: tuple[Array, Array]  #: the same two across the pull; zero where nothing moves there
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
     period: Periods  #: its COF and swing
     solved: bool  #: whether every step of it was solved for
@@ -95,19 +99,26 @@ class Stepper:
 
     def full_slip(self) -> MarchState:
         """The state of full slip at phase 0; of a body without its free oscillation."""
-        s = self.scaled.normal.s
-        return MarchState.of(s, s, self.scaled.full_slip.state(self.v))
+        return self._ahead(self.scaled.full_slip.state(self.v))
 
     def resonant(self) -> MarchState | None:
         """The state of a body that a resonance drives as far as stick lets it; None where none does."""
-        s, body = self.scaled.normal.s, self.scaled.full_slip.resonant(self.v)
-        return None if body is None else MarchState.of(s, s, body)
+        body = self.scaled.full_slip.resonant(self.v)
+        return None if body is None else self._ahead(body)
+
+    def _ahead(self, body: Array) -> MarchState:
+        """All springs at their limit along the pull, and the body so."""
+        s, nothing = self.scaled.normal.s, self.scaled.ways - 1
+        return MarchState.of(
+            np.concatenate([s, *nothing * [np.zeros_like(s)]]), s, np.r_[body, np.zeros(nothing * N_BODY)]
+        )
 
     def rest(self) -> MarchState:
         """The state in which nothing is stretched and the body at rest, from which the pull sets off."""
-        s, body = self.scaled.normal.s, np.zeros(N_BODY)
-        body[RATE] = 0.0 if self.scaled.body.rigid else -self.v
-        return MarchState.of(np.zeros_like(s), s, body)
+        state = self._ahead(np.zeros(N_BODY))
+        state.x[:] = 0.0
+        state.body[RATE] = 0.0 if self.scaled.body.rigid else -self.v
+        return state
 
     def period(self, state: MarchState) -> MarchState:
         """The state a period later; the one given is marched on in place."""
@@ -116,30 +127,45 @@ class Stepper:
 
     def advance(self, state: MarchState, n_periods: int) -> tuple[MarchState, Periods]:
         """The state some periods later, with their COFs; fewer periods where the time limit of the caller is over."""
-        parts, most = [Periods(np.empty(0), np.empty(0))], max(1, AT_ONCE // self.scaled.drive.steps)
+        parts, most = [Periods(*np.empty((3, 0)))], max(1, AT_ONCE // self.scaled.drive.steps)
         state = state.copy()
         for start in range(0, n_periods, most):
-            parts.append(self._periods_of(self._marched(state, min(most, n_periods - start))))
+            parts.append(self._periods_of(*self._marched(state, min(most, n_periods - start))))
             if time_is_over():
                 break
         return state, joined(parts)
 
-    def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
+    def _traces(self, n_periods: int) -> tuple[loop.Trace, Across | None]:
+        """Room for what a march leaves, along and across."""
+        trace, way = self.scaled.trace(n_periods), self.scaled.drive.across
+        if way is None:
+            return trace, None
+        return trace, Across(way.x, way.x_dot, self.scaled.body_across, self.scaled.trace(n_periods))
+
+    def _marched(self, state: MarchState, n_periods: int) -> tuple[loop.Trace, Across | None]:
         """A whole number of periods in place, counted."""
-        trace = self.scaled.trace(n_periods)
+        trace, across = self._traces(n_periods)
         n_steps = n_periods * self.scaled.drive.steps
-        self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
+        if across is None:
+            self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
+        else:
+            body, springs, _, *others = self._parts
+            self.solved = march_turning(state.e, state.s, state.body, body, springs, *others, n_steps, trace, across)
         self._count(n_periods)
-        return trace
+        return trace, across
 
     def _count(self, n_periods: int) -> None:
         self.n_periods += n_periods
         self.ticker.tick(n_periods)
 
-    def _periods_of(self, trace: loop.Trace) -> Periods:
-        """COF and swing of each whole period."""
+    def _periods_of(self, trace: loop.Trace, across: Across | None) -> Periods:
+        """COFs and swing of each whole period."""
+        (cof, swing), (cof_y, aside) = (self._means(one) for one in (trace, trace if across is None else across.trace))
+        return Periods(cof, swing, 0 * cof_y) if across is None else Periods(cof, np.maximum(swing, aside), cof_y)
+
+    def _means(self, trace: loop.Trace) -> tuple[Array, Array]:
         area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
-        return Periods(area.sum(axis=1) / (2 * np.pi * self.mean_F_z), np.ptp(y, axis=1))
+        return area.sum(axis=1) / (2 * np.pi * self.mean_F_z), np.ptp(y, axis=1)
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
@@ -147,44 +173,63 @@ class Stepper:
         before, state = state, state.copy()
         kept = n_steps if keep else 0
         nodes = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms)
-        seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 3)), *np.zeros((5, kept, n)))
+        seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 4)), *np.zeros((7, kept, n)))
         seen.sums[LEAST_SLIP] = np.inf
-        trace, passed = self._marched(state, 1), before.copy()
+        (trace, across), passed = self._marched(state, 1), before.copy()
         _, springs, _, motion, law, tools = self._parts
-        loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
-        x_2 = np.diff(scaled.drive.x_dot) / (2 * scaled.drive.h)  # the shake goes on parabolas
-        x_1 = np.diff(scaled.drive.x) / scaled.drive.h - x_2 * scaled.drive.h
-        seen.sums[SHAKE_WORK] = x_1 @ trace.area + 2 * x_2 @ trace.moment
-        seen.sums[LEAST_SLIP] = min(seen.sums[LEAST_SLIP], least_between(seen.F[:, 2]))
-        y, rate = (np.concatenate([before.body[k : k + 1], of]) for k, of in ((Y, trace.y), (RATE, trace.rate)))
+        nothing = np.zeros(n_steps + 1)
+        seen.sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace)
+        if across is None or scaled.drive.across is None:
+            loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
+            seen.sums[LEAST_SLIP] = min(seen.sums[LEAST_SLIP], least_between(seen.F[:, 2]))
+            aside = nothing, nothing
+        else:
+            look_turning(passed.e, passed.s, springs, motion, law, tools, trace, across, seen)
+            seen.sums[SHAKE_WORK] += self._work_of(scaled.drive.across, across.trace)
+            aside = _from(before.body[N_BODY:], across.trace)
         stored = self.stored_energy(before), self.stored_energy(state)
-        return state, PeriodRecord(seen, y, rate, stored, self._periods_of(trace), self.solved)
+        periods = self._periods_of(trace, across)
+        return state, PeriodRecord(seen, *_from(before.body, trace), aside, stored, periods, self.solved)
+
+    def _work_of(self, way: Way, trace: loop.Trace) -> float:
+        """Work of a shake, which goes on parabolas."""
+        h = self.scaled.drive.h
+        x_2 = np.diff(way.x_dot) / (2 * h)
+        return float((np.diff(way.x) / h - x_2 * h) @ trace.area + 2 * x_2 @ trace.moment)
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""
-        loop.within_friction(state.x, state.s)
+        orbit_loop.within_friction(state.x, state.s, self.scaled.ways == 2)
         return state
 
-    def search(self, at: loop.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
+    def search(self, at: orbit_loop.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
         """Go on with a search for its periodic state, for at most so many periods; whether it has come to its end, and
         the last period, if it was the one that moved least. like: a state of this march.
         """
-        n_before, trace = int(at.counts[loop.PERIODS]), self.scaled.trace()
-        ended = loop.search(at, like.s, roots, *self._parts, n_periods, trace)
-        self._count(int(at.counts[loop.PERIODS]) - n_before)
-        return bool(ended), self._periods_of(trace)
+        n_before, (trace, across) = int(at.counts[orbit_loop.PERIODS]), self._traces(1)
+        ended = orbit_loop.search(at, like.s, roots, *self._parts, n_periods, trace, across)
+        self._count(int(at.counts[orbit_loop.PERIODS]) - n_before)
+        return bool(ended), self._periods_of(trace, across)
 
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
-        scaled, y, rate = self.scaled, float(state.body[Y]), float(state.body[RATE])
-        u_dot = self.v + rate
-        if scaled.drive.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
-            u_dot, y = u_dot + float(scaled.drive.x_dot[0]), y + float(scaled.drive.x[0] - scaled.drive.far_end[0])
+        scaled, system = self.scaled, 0.0
+        for body, way, pull, at in self.directions:
+            y, u_dot = float(state.body[at + Y]), pull + float(state.body[at + RATE])
+            if way.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
+                u_dot, y = u_dot + float(way.x_dot[0]), y + float(way.x[0] - way.far_end[0])
+            system += 0.0 if body.rigid else 0.5 * body.K * y**2 + 0.5 * body.M * u_dot**2
         ratios = np.concatenate([[1.0], scaled.rheology.rho])
-        springs, normal = (0.5 * float(ratios @ (one**2 @ scaled.springs.w)) for one in (state.e, state.s))
-        ratio = scaled.units.energy_z / scaled.units.energy_x
-        system = 0.0 if scaled.body.rigid else 0.5 * scaled.body.K * y**2 + 0.5 * scaled.body.M * u_dot**2
-        return float(springs + normal * ratio + system)
+        springs = 0.5 * float(np.tile(ratios, scaled.ways) @ (state.e**2 @ scaled.springs.w))
+        normal = 0.5 * float(ratios @ (state.s**2 @ scaled.springs.w))
+        return springs + normal * scaled.units.energy_z / scaled.units.energy_x + system
+
+    @property
+    def directions(self) -> list[tuple[Body, Way, float, int]]:
+        """Body, way, velocity of the pull, and place in the state of the body: along the pull, and across it."""
+        drive, aside = self.scaled.drive, self.scaled.drive.across
+        along: list[tuple[Body, Way, float, int]] = [(self.scaled.body, drive.along, self.v, 0)]
+        return along if aside is None else [*along, (self.scaled.body_across, aside, 0.0, N_BODY)]
 
 
 def least_between(values: Array) -> float:
@@ -209,5 +254,9 @@ def least_between(values: Array) -> float:
 
 def joined(parts: list[Periods]) -> Periods:
     """Periods one after the other."""
-    cofs, swings = zip(*parts, strict=True)
-    return Periods(np.concatenate(cofs), np.concatenate(swings))
+    return Periods(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _from(before: Array, trace: loop.Trace) -> tuple[Array, Array]:
+    """Motion and rate of a body from the begin of a period on, (n_steps + 1,)."""
+    return np.r_[before[Y], trace.y], np.r_[before[RATE], trace.rate]

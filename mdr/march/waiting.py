@@ -32,7 +32,7 @@ class Waiting:
 
     def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
         self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
-        self.periods = Periods(np.empty(0), np.empty(0))
+        self.periods = Periods(*np.empty((3, 0)))
 
     @property
     def n(self) -> int:
@@ -78,7 +78,11 @@ class Waiting:
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""
         # under a rigid pull a change shrinks at a constant rate, so that any tolerance is met in time
-        settling = assess(self.periods.cof, self.stepper.tolerance if self.scaled.body.rigid else TOLERANCE)
+        tolerance = self.stepper.tolerance if self.scaled.body.rigid else TOLERANCE
+        settling, beside = (assess(one, tolerance) for one in (self.periods.cof, self.periods.cof_y))
+        settling = replace(settling, across=beside.mean)
+        if beside.spread > settling.spread:
+            settling = replace(beside, mean=settling.mean, across=beside.mean)
         if self.n < E_FOLDS * self.scaled.body.pull_time and abs(1 - settling.mean) > TOLERANCE:
             takes = f"spring and damper of the pull take {self.scaled.body.pull_time:.3g}"
             why = f"after {self.n} periods the body still creeps: {takes}"

@@ -145,3 +145,18 @@ def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
         sums[NORMAL_WORK] += w * worked
         sums[STICK_IMPULSE] += w * pressed if mode == STICK else 0.0
         sums[FRICTION_LOSS] += w * slipped if mode != STICK else 0.0
+
+
+@inner(error_model="numpy", fastmath={"reassoc", "contract"})
+def lost_on_parabola(x, i, p, q, t, T, arms):
+    """What dashpot and arms of x[:, i] turn into heat over a time in which it is held on p t + q t²."""
+    lost = T * t * (p * p + 2.0 * p * q * t + 4.0 / 3.0 * q * q * t * t)
+    if arms is not None:
+        values = np.empty(N_PHI)
+        for j in range(arms.rho.size):
+            for g in range(OF_DECAYS.shape[0]):
+                u = t * OF_DECAYS[g, 0]
+                fill_phi(u * arms.rate[j], values)
+                y = x[1 + j, i] * values[0] + u * (p * values[1] + 2.0 * q * u * values[2])
+                lost += t * OF_DECAYS[g, 1] * arms.rho[j] * arms.rate[j] * y * y
+    return lost

@@ -41,7 +41,7 @@ class NormalPeriod:
 def tools_for(law: Law, h: float) -> Tools:
     """Room to work in, and what a step makes of arms and modes."""
     J, K = (0 if law.arms is None else law.arms.rho.size), (0 if law.modes is None else law.modes.mu.size)
-    room = np.empty((2, 9, J)), np.empty((2, K)), np.empty(K), np.empty(J + K), np.empty(N_PHI), np.empty((4, K))
+    room = np.empty((4, 9, J)), np.empty((4, K)), np.empty(K), np.empty(J + K), np.empty(N_PHI), np.empty((4, K))
     tools = Tools(h, *room, np.empty((1 + J, 1)))
     fill(h, law.modes, law.arms, tools, 0)
     return tools

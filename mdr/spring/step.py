@@ -57,8 +57,8 @@ class Tools(NamedTuple):
     """What times make of arms and modes, room to work in, and what one step tells the next."""
 
     h: float  #: length of the step
-    held: Array  #: (2, 9, J) what arms, that are held on p t + q t² for the step or a part of it, come to, see `fill`
-    decay: Array  #: (2, K) exp(-mu_k t) likewise
+    held: Array  #: (4, 9, J) what arms, that are held on p t + q t² for the step, a part, or half of these, come to
+    decay: Array  #: (4, K) exp(-mu_k t) likewise
     modes: Array  #: (K,)
     work: Array  #: (J + K,)
     one: Array  #: (N_PHI,)
@@ -514,6 +514,53 @@ def as_they_are(path, sticking, back, T, arms, tools, zd, xd):
     return area, moment, end
 
 
+@_inner
+def glassy(arms):
+    """Modulus at once over the long-time one: one, and the moduli of the arms."""
+    total = 1.0
+    if arms is not None:
+        for j in range(arms.rho.size):
+            total += arms.rho[j]
+    return total
+
+
+@_inline
+def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, instantaneous, T, modes, arms, tools):
+    """Whether spring i presses or flies, as it did at the event before, and until when: infinite for the time t."""
+    x, until, fallen, rate, of_force = s[0, i], NEVER, 0.0, 0.0, tol * instantaneous
+    if presses:
+        normal = held(x, z_1, z_2, T, t)
+        if arms is not None:
+            normal = plus(normal, 1.0, arms_ends(s, i, z_1, z_2, t, k, tools, arms))
+        presses = event > 0 or not below(normal, of_force)
+    if presses and not stays(normal, t, of_force):
+        until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, of_force, T, modes, arms, tools)
+    if not presses:
+        if modes is not None:
+            rate, fallen = modes.mu[0], tools.decay[k, 0]
+        left, _ = alone(x, rate, fallen)
+        if arms is not None:
+            left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
+        apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
+        if not stays(apart, t, tol):
+            until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+    return presses, until
+
+
+@_inline
+def relax(x, i, k, modes, arms, tools):
+    """What x[:, i] is after a time in which nothing holds it."""
+    fallen = 0.0
+    if modes is not None:
+        fallen = tools.decay[k, 0]
+    if arms is None:
+        x[0, i] *= fallen
+    else:
+        into_modes(x, x, i, 0.0, k, tools, modes)
+        for j in range(x.shape[0]):
+            x[j, i] = of_modes(j, k, tools, modes)
+
+
 @_call
 def press(s, gap, w, path, T, modes, arms, tools, since):
     """The normal part alone, in which friction has no part: sums of area and moment of the normal forces.
@@ -521,16 +568,10 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
     s (1 + J, n) is updated; since (n,) is filled with the share of the step that each spring has pressed at its end,
     zero in flight.
     """
-    h, decay, rate, instantaneous = tools.h, tools.decay, 0.0, 1.0
-    if modes is not None:
-        rate = modes.mu[0]
-    if arms is not None:
-        for j in range(arms.rho.size):
-            instantaneous += arms.rho[j]
+    h, instantaneous = tools.h, glassy(arms)
     all_area = all_moment = 0.0
     for i in range(gap.size):
         tol = ROUNDING * (1.0 + abs(gap[i]))
-        of_force = tol * instantaneous
         z_0, z_1, z_2 = path.z_0 - gap[i], path.z_1, path.z_2
         t, done, k, pressed = h, 0.0, 0, 0.0
         area = moment = 0.0
@@ -538,42 +579,21 @@ def press(s, gap, w, path, T, modes, arms, tools, since):
         if presses:
             s[0, i] = z_0
         for event in range(MOST_EVENTS):
-            x, until, fallen = s[0, i], NEVER, 0.0
-            if presses:
-                normal = held(x, z_1, z_2, T, t)
-                if arms is not None:
-                    normal = plus(normal, 1.0, arms_ends(s, i, z_1, z_2, t, k, tools, arms))
-                presses = event > 0 or not below(normal, of_force)
-            if presses and not stays(normal, t, of_force):
-                until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, of_force, T, modes, arms, tools)
-            if not presses:
-                if modes is not None:
-                    fallen = decay[k, 0]
-                left, _ = alone(x, rate, fallen)
-                if arms is not None:
-                    left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
-                apart = plus(left, -1.0, held(z_0, z_1, z_2, 0.0, t))
-                if not stays(apart, t, tol):
-                    until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+            presses, until = lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, instantaneous, T, modes, arms, tools)
             ends = until < t
             if ends:
                 t, k = until, 1
                 fill(t, modes, arms, tools, 1)
             if presses:
-                A, B = force(x, z_1, z_2, T, t)
-                s[0, i] = x + t * (z_1 + z_2 * t)
+                A, B = force(s[0, i], z_1, z_2, T, t)
                 if arms is not None:
                     C, D = hold_arms(s, i, z_1, z_2, k, tools, arms)
                     A, B = A + C, B + D
+                s[0, i] += t * (z_1 + z_2 * t)
                 area, moment, pressed = area + A, moment + done * A + B, pressed + t
             else:
-                pressed, fallen = 0.0, 0.0
-                if modes is not None:
-                    fallen = decay[k, 0]
-                s[0, i] = x * fallen
-                if arms is not None:
-                    for j in range(s.shape[0]):
-                        s[j, i] = of_modes(j, k, tools, modes)
+                pressed = 0.0
+                relax(s, i, k, modes, arms, tools)
             if not ends:
                 break
             done += t

@@ -29,9 +29,9 @@ def find(step, x):
     for _ in range(how.most):
         at.start[:] = at.x
         image = step(at.x.copy())
-        if loop.combine(at, image, np.ones_like(image)):
+        if orbit_loop.combine(at, image, np.ones_like(image)):
             break
-    change = at.changes[loop.BEST]
+    change = at.changes[orbit_loop.BEST]
     near = periodic_orbit.Iterate(at.best, change) if math.isfinite(change) else None
     return periodic_orbit.find(step, near, itself, lambda: PUSHES, how)
 

@@ -1,0 +1,73 @@
+"""The periodic state of springs under a rigid pull, which know nothing of each other: each solved for by itself.
+
+Newton's method on the map of a period, for all springs at once: the derivative of each by its own extensions and arms
+comes from as many periods as it has of these. Friction makes the map non-expansive (periodic_orbit.py), so that a step
+which does not make the change of a spring smaller is no gain, and this spring is marched on instead.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mdr.march.orbit_search import Orbit
+from mdr.march.steady_state import Settling
+from mdr.march.stepper import MarchState, Stepper
+from mdr.tools.arrays import Array
+from mdr.tools.progress import time_is_over
+
+TURNS = 40  #: of Newton's method; springs at slow pulls meet kinks in a dozen
+PUSH = 1e-6  #: displacement that tells the derivative, over the greatest compression
+FLAT = 1e-9  #: share of itself by which a spring is taken to forget in a period, where it forgets nothing
+BEFORE = 0.01  #: part of the tolerance at which it ends
+
+
+def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
+    """The periodic state of every spring, from one of any other; None where it is not found."""
+    scaled = stepper.scaled
+    n, w = scaled.springs.gap.size, scaled.springs.w
+    roots = np.sqrt(np.tile(np.r_[1.0, scaled.rheology.rho], scaled.ways))[:, None]
+    farthest = float(start.s[0].max())
+    x = _inside(stepper, start.e.copy(), start)
+    before, last = np.full(n, np.inf), x
+    for _ in range(TURNS):
+        if time_is_over():
+            return None
+        image = _marched(stepper, x, start)
+        moved = image - x
+        change = np.linalg.norm(roots * moved, axis=0)
+        worse = ~(change <= before)
+        if worse.any():  # go on from where it was marched to
+            x = np.where(worse, last, x)
+            image = _marched(stepper, x, start)
+            moved = image - x
+            change = np.linalg.norm(roots * moved, axis=0)
+        turn = np.empty((n, len(x), len(x)))
+        for k in range(len(x)):
+            push = np.zeros_like(x)
+            push[k] = np.where(x[k] > 0, -PUSH, PUSH) * farthest
+            turn[:, :, k] = ((_marched(stepper, x + push, start) - image) / push[k]).T
+        left = (1 + FLAT) * np.eye(len(x)) - turn
+        step = np.linalg.solve(left, moved.T[:, :, None])[:, :, 0].T
+        off = float(np.linalg.norm(roots * step, axis=0) @ w) / stepper.mean_F_z
+        if not np.isfinite(off):
+            return None
+        if off <= BEFORE * stepper.tolerance:
+            state = start.with_vector(np.r_[x.ravel(), start.body])
+            state, periods = stepper.advance(state, 1)
+            cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
+            return Orbit(state, periods, Settling(cof, 2 * off, True, "periodic", gain=1.0, across=cof_y))
+        length = np.linalg.norm(step, axis=0)
+        step *= np.minimum(1.0, 2 * farthest / np.maximum(length, 1e-300))
+        before, last = change, image
+        x = _inside(stepper, x + step, start)
+    return None
+
+
+def _marched(stepper: Stepper, x: Array, like: MarchState) -> Array:
+    """The extensions a period later."""
+    return stepper.period(like.with_vector(np.r_[x.ravel(), like.body])).e
+
+
+def _inside(stepper: Stepper, x: Array, like: MarchState) -> Array:
+    """The extensions within the friction of each spring."""
+    return stepper.within_friction(like.with_vector(np.r_[x.ravel(), like.body])).e.copy()

@@ -1,0 +1,124 @@
+"""The compiled search for a state that returns after a period: Anderson's method on the march (loop.py, turning.py)."""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.march.loop import copy, march, put
+from mdr.march.turning import march_turning
+from mdr.tools.anderson import shares
+from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
+
+_jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+
+
+PERIODS, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
+LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
+
+
+class Search(NamedTuple):
+    """Anderson's method on its way to a state that returns after a period, updated in place. Measured is a state as a
+    vector whose length is the root of its energy.
+    """
+
+    x: Array  #: (n_x,) the state that the next period starts from
+    start: Array  #: (n_x,) the one that the last period started from
+    image: Array  #: (n_x,) what it came to
+    moved: Array  #: (n_x,) how far that was, measured
+    best: Array  #: (n_x,) the image that moved least
+    d_image: Array  #: (memory, n_x) from image to image, oldest first
+    d_moved: Array  #: (memory, n_x) from move to move, measured
+    counts: NDArray[np.int64]  #: (3,)
+    changes: Array  #: (2,)
+    close: float  #: change at which the search ends
+    plain: int  #: periods before the first combination, while springs find their modes
+    patience: int  #: periods without a smaller change, after which it ends as well
+    growth: float  #: of the change over the least, at which combinations start anew
+
+
+@_jit
+def combine(at, image, roots):
+    """Take into a search what a period has made of at.x; whether the search has come to its end. If not, at.x is the
+    state to go on from.
+    """
+    counts, changes = at.counts, at.changes
+    size = change = 0.0
+    for i in range(image.size):
+        size += (roots[i] * image[i]) ** 2
+        change += (roots[i] * (image[i] - at.start[i])) ** 2
+    if not np.isfinite(size):
+        changes[BEST] = np.nan
+        return True
+    change = np.sqrt(change) / (np.sqrt(size) + 1e-300)
+    period = counts[PERIODS]
+    counts[PERIODS] += 1
+    if change < changes[BEST]:
+        copy(image, at.best)
+        changes[BEST], counts[SINCE] = change, period
+    if change <= at.close or period - counts[SINCE] > at.patience:
+        return True
+    if change > at.growth * changes[LEAST]:
+        counts[KEPT], changes[LEAST] = 0, np.inf
+    elif period > 0:
+        if counts[KEPT] == at.d_image.shape[0]:
+            for j in range(1, counts[KEPT]):
+                copy(at.d_image[j], at.d_image[j - 1])
+                copy(at.d_moved[j], at.d_moved[j - 1])
+            counts[KEPT] -= 1
+        for i in range(image.size):
+            at.d_image[counts[KEPT], i] = image[i] - at.image[i]
+            at.d_moved[counts[KEPT], i] = roots[i] * (image[i] - at.start[i]) - at.moved[i]
+        counts[KEPT] += 1
+    changes[LEAST] = min(changes[LEAST], change)
+    for i in range(image.size):
+        at.image[i] = at.x[i] = image[i]
+        at.moved[i] = roots[i] * (image[i] - at.start[i])
+    if period >= at.plain and counts[KEPT] > 0:
+        share = shares(at.d_moved[: counts[KEPT]], at.moved, 1e-10)
+        for j in range(share.size):
+            for i in range(image.size):
+                at.x[i] -= share[j] * at.d_image[j, i]
+    return False
+
+
+@_jit
+def within_friction(x, s, is_turning):
+    """Bring the extensions of a state x into the cone of friction: combinations may leave it."""
+    for i in range(s.shape[1]):
+        if is_turning:
+            size = np.hypot(x[i], x[s.size + i])
+            if size > s[0, i]:
+                x[i] *= s[0, i] / size
+                x[s.size + i] *= s[0, i] / size
+        else:
+            x[i] = max(min(x[i], s[0, i]), -s[0, i])
+
+
+@_jit
+def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, trace, across):
+    """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
+
+    s: (1 + J, n) compressions at the start of a period. trace: of the last period. across: None, or the Across of
+    springs whose friction turns.
+    """
+    now, image, n_e, n_t, ended = np.empty_like(s), np.empty_like(at.x), s.size, motion.z.size - 1, False
+    if across is not None:
+        n_e = 2 * n_e
+    while n_periods > 0 and not ended:
+        n_periods -= 1
+        copy(at.x, image)
+        put(s, now)
+        within_friction(image, s, across is not None)
+        copy(image, at.start)
+        e, held = image[:n_e].reshape((-1, s.shape[1])), image[n_e:]
+        if across is None:
+            march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace)
+        else:
+            march_turning(e, now, held, body, springs, motion, law, tools, n_t, trace, across)
+        ended = combine(at, image, roots)
+    return ended
