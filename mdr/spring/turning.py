@@ -35,6 +35,7 @@ from mdr.spring.energies import (
     STICK_IMPULSE,
     lost_on_parabola,
 )
+from mdr.spring.law import fill_phi
 from mdr.spring.step import MOST_EVENTS, ROUNDING, arms_ends, fill, force, glassy, held, hold_arms, lasts, plus, relax
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
@@ -46,6 +47,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST)
 GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
 MOST_HALVINGS = 60  #: in the search for the end of a mode
+TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
 
 
@@ -142,42 +144,61 @@ def turned(n, b_1, b_2, t):
 
 
 @_inline
-def decays(r):
-    """phi_1 and phi_2 of r >= 0, and exp(-r)."""
-    e = np.exp(-r)
-    if r < 0.02:
-        two = 0.5 - r * (1.0 / 6.0 - r * (1.0 / 24.0 - r * (1.0 / 120.0 - r / 720.0)))
-        return e, 1.0 - r * two, two
-    one = (1.0 - e) / r
-    return e, one, (1.0 - one) / r
+def curved(f, t):
+    """Half of the second derivative of a cubic."""
+    return f.c + 3.0 * t * f.d
 
 
 @_inline
-def slid(n, l, a, b, v, R, T, G):
-    """Direction and velocity of slip at b, from those at a. v, R: cubics."""
+def pull_of(n, l, t, v, R, T, span):
+    """v.n - R' of a spring on a dashpot at a time, and its rate; span: of the time it is to serve for."""
+    v_t, rho = at(v, t), max(at(R, t) + T * l, 1e-300)
+    across = v_t.imag * n.real - v_t.real * n.imag
+    turning = across * across * rho / (rho * rho + across * across * span * span)  # where it turns at once, less
+    return along(v_t, n) - slope(R, t), along(slope(v, t), n) + turning - 2.0 * curved(R, t)
+
+
+@_inline
+def driven(l, c_0, d_0, c_1, d_1, t, T, phi):
+    """l after a time t in which T l' + G l is the cubic of these values and slopes; phi of law.py, of G t/T."""
+    step, first = c_1 - c_0, d_0 * t
+    last = first + d_1 * t - 2.0 * step
+    of = c_0 * phi[1] + first * phi[2] + 2.0 * (step - first - last) * phi[3] + 6.0 * last * phi[4]
+    return l * phi[0] + t / T * of
+
+
+@_inline
+def slid(n, l, a, b, v, R, T, G, phi):
+    """Direction and velocity of slip at b, from those at a. v, R: cubics. phi: room."""
     t, mid, off = b - a, 0.5 * (a + b), GAUSS * (b - a)
-    v_a, v_b = at(v, a), at(v, b)
-    rho_1, rho_2 = at(R, mid - off), at(R, mid + off)
-    fell = one = two = begun = 0.0
-    if T > 0.0:
-        fell, one, two = decays(G * t / T)
-        begun = l * fell + t / T * (along(v_a, n) - slope(R, a)) * (one - two)
-        l_b = begun + t / T * two * (along(v_b, n) - slope(R, b))
-        rho_1 += T * (l + (0.5 - GAUSS) * (l_b - l))
-        rho_2 += T * (l + (0.5 + GAUSS) * (l_b - l))
+    v_1, v_2, R_1, R_2 = at(v, mid - off), at(v, mid + off), at(R, mid - off), at(R, mid + off)
     tiny = 1e-300
-    n = turned(n, at(v, mid - off) / max(rho_1, tiny), at(v, mid + off) / max(rho_2, tiny), t)
-    pulls = along(v_b, n) - slope(R, b)
-    if T > 0.0:
-        return n, begun + t / T * two * pulls
-    return n, pulls / G
+    if T == 0.0:
+        n = turned(n, v_1 / max(R_1, tiny), v_2 / max(R_2, tiny), t)
+        return n, (along(at(v, b), n) - slope(R, b)) / G
+    fill_phi(G * t / T, phi)
+    c_a, d_a = pull_of(n, l, a, v, R, T, t)
+    r_a, n_b, l_b, r_b = (c_a - G * l) / T * t, n, l, 0.0
+    l_b = driven(l, c_a, d_a, c_a + d_a * t, d_a, t, T, phi)
+    r_b = (c_a + d_a * t - G * l_b) / T * t
+    for _ in range(2):
+        l_1 = (0.5 + GAUSS) * l + (0.5 - GAUSS) * l_b
+        l_2 = (0.5 - GAUSS) * l + (0.5 + GAUSS) * l_b
+        if G * t < T:  # the cubic of values and slopes at the nodes of Gauss's rule
+            bend, tilt = (r_a - r_b) / 12.0, (r_a + r_b - 2.0 * (l_b - l)) * GAUSS / 6.0
+            l_1, l_2 = l_1 + bend + tilt, l_2 + bend - tilt
+        n_b = turned(n, v_1 / max(R_1 + T * l_1, tiny), v_2 / max(R_2 + T * l_2, tiny), t)
+        c_b, d_b = pull_of(n_b, l_b, b, v, R, T, t)
+        l_b = driven(l, c_a, d_a, c_b, d_b, t, T, phi)
+        r_b = (c_b - G * l_b) / T * t
+    return n_b, l_b
 
 
 @_inline
-def slides(n, l, t, v, R, T, G):
+def slides(n, l, t, v, R, T, G, phi):
     """Slip over a time t."""
-    n_m, l_m = slid(n, l, 0.0, 0.5 * t, v, R, T, G)
-    n_1, l_1 = slid(n_m, l_m, 0.5 * t, t, v, R, T, G)
+    n_m, l_m = slid(n, l, 0.0, 0.5 * t, v, R, T, G, phi)
+    n_1, l_1 = slid(n_m, l_m, 0.5 * t, t, v, R, T, G, phi)
     return Slip(n_m, l_m, n_1, l_1)
 
 
@@ -188,15 +209,43 @@ def excess(x, y, R, t):
 
 
 @_inline
+def leaves(x, y, R, t):
+    """Rate of the square of a force less that of its disc."""
+    return at(x, t) * slope(x, t) + at(y, t) * slope(y, t) - at(R, t) * slope(R, t)
+
+
+@_inline
+def nearer(low, high, f_low, f_high, mid, f, side):
+    """The bracket of a zero after a look at mid, by regula falsi (the Illinois method)."""
+    if (f < 0.0) == (f_low < 0.0):
+        return mid, high, f, f_high * (0.5 if side < 0 else 1.0), -1
+    return low, mid, f_low * (0.5 if side > 0 else 1.0), f, 1
+
+
+@_inline
 def until_slip(x, y, R, t, tol):
     """When the force (x, y) of a spring that sticks leaves the disc R, all cubics; t if it does not."""
-    low, high = 0.0, 0.5 * t
-    if excess(x, y, R, high) <= tol:
-        low, high = high, t
-        if excess(x, y, R, high) <= tol:
+    high = 0.0
+    for half in range(2):
+        low, high = high, 0.5 * (half + 1) * t
+        if excess(x, y, R, high) > tol:
+            break
+        f_low, f_high, side = leaves(x, y, R, low), leaves(x, y, R, high), 0
+        if f_low > 0.0 and f_high < 0.0:  # nearest to the rim in between
+            a, b, mid = low, high, low
+            for _ in range(MOST_HALVINGS):
+                mid = (a * f_high - b * f_low) / (f_high - f_low)
+                f = leaves(x, y, R, mid)
+                if f == 0.0 or b - a <= 1e-9 * t:
+                    break
+                a, b, f_low, f_high, side = nearer(a, b, f_low, f_high, mid, f, side)
+            if excess(x, y, R, mid) > tol:
+                high = mid
+                break
+        if half == 1:
             return t
-    f_low, f_high, side = min(excess(x, y, R, low), 0.0), excess(x, y, R, high), 0
-    for _ in range(MOST_HALVINGS):  # regula falsi (Illinois)
+    f_low, f_high, side = min(excess(x, y, R, low), -0.0), excess(x, y, R, high), 0
+    for _ in range(MOST_HALVINGS):
         if high - low <= 1e-15 * t:
             break
         mid = (low * f_high - high * f_low) / (f_high - f_low)
@@ -226,13 +275,13 @@ def sum_of(x, i, of):
 @_inline
 def arms_after(x, i, p, p_fast, q, t, k, keep, tools, arms):
     """What the arms of x[:, i], held on p t + q t² for a time t, come to: the sums of rho_j x_j and of rho_j x_j/theta_j,
-    and of the latter at half of the time. Fast arms, of theta_j < t, are held on p_fast t + q t²; their sum at half of
+    and of the latter at half of the time. Fast arms, of theta_j < h, are held on p_fast t + q t²; their sum at half of
     the time is taken as half of its change. keep: whether x is to be what it comes to.
     """
     of, half = tools.held[k], tools.held[k + 2]
     one = two = middle = 0.0
     for j in range(arms.rho.size):
-        before, rate, is_fast = x[1 + j, i], arms.rate[j], arms.rate[j] * t > 1.0
+        before, rate, is_fast = x[1 + j, i], arms.rate[j], arms.rate[j] * tools.h > 1.0
         first = p_fast if is_fast else p
         after = before * of[0, j] + first * of[1, j] + q * of[2, j]
         mid = before * half[0, j] + first * half[1, j] + q * half[2, j]
@@ -251,7 +300,7 @@ def arms_give(t, k, tools, arms):
     """
     per, back = t, 0.0
     for j in range(arms.rho.size):
-        if arms.rate[j] * t > 1.0:
+        if arms.rate[j] * tools.h > 1.0:
             back += arms.rho[j] * arms.rate[j] * tools.held[k, 2, j] / (2.0 * t)
         else:
             per += arms.rho[j] * tools.held[k, 1, j]
@@ -334,7 +383,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                     g, R_0 = complex(fx.v_0, fy.v_0), max(R.a, 0.0)
                     v_0 = G * x_1 + 2.0 * T * x_2 - a_0
                     rho = abs(g)
-                    n = g / rho if rho > tol else v_0 / max(abs(v_0), 1e-300)
+                    n = g / rho if rho > TOUCHING * h * abs(v_0) else v_0 / max(abs(v_0), 1e-300)
                     ahead = along(v_0, n) - R.b
                     if begins:  # in which mode
                         mode = STICK
@@ -381,7 +430,8 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                                 per, back = arms_give(u, k, tools, arms)
                                 gives = 1.0 / G
                                 if T > 0.0:
-                                    gives = 0.5 * u / T * decays(0.5 * G * u / T)[2]
+                                    fill_phi(0.5 * G * u / T, tools.one)
+                                    gives = 0.5 * u / T * tools.one[2]
                                 for _ in range(MOST_RETURNS):
                                     _, a_x, m_x = arms_after(
                                         e_x, i, p.real, rate_0.real, q.real, u, k, False, tools, arms
@@ -394,7 +444,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                                         v_0, 2.0 * G * x_2 - (4.0 * m - a) / u, (4.0 * m - 2.0 * a) / (u * u), 0.0j
                                     )
                                     known = gives * back * of.l
-                                    of = slides(n, l, u, v, R, T, G)
+                                    of = slides(n, l, u, v, R, T, G, tools.one)
                                     of = Slip(of.n_m, of.l_m, of.n, (of.l - known) / (1.0 - gives * back))
                                     q = (top - of.l * of.n - rate_0) / (2.0 * u)
                                     b_x, _, _ = arms_after(
@@ -406,7 +456,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                                     trial = (max(at(R, u), 0.0) + T * of.l) * of.n - T * top
                                     p = (trial - complex(e_x[0, i] + b_x, e_y[0, i] + b_y)) / per - q * u
                             else:
-                                of = slides(n, l, u, v, R, T, G)
+                                of = slides(n, l, u, v, R, T, G, tools.one)
                             if zeros > 1:  # slip and stick hold here alike
                                 break
                             if turn == 0:
