@@ -38,7 +38,7 @@ from mdr.friction.friction_data import FrictionData, read_friction_data
 from mdr.friction.fit import fit
 from mdr.studies import Quantity, Study, read_study, sweep
 
-from mdr import indenters, materials
+from mdr import half_space, indenters, materials
 from mdr.case import in_plane as _in_plane
 from mdr.case import motion as _motion
 
@@ -62,6 +62,7 @@ __all__ = [
     "critical_velocity",
     "fit",
     "full_slip_critical_velocity",
+    "half_space",
     "holding_band",
     "indent",
     "laws",

@@ -1,5 +1,6 @@
-"""The command line: `mdr velocity`, `run`, `curve`, `measure`, `verdict` and `fit` of a case file, `mdr sweep` of a
-study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
+"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict` and `fit` of a case file, `mdr
+sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to begin with, `mdr completion` for
+the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -20,7 +21,7 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, velocity
+from mdr.commands import begin, completion, curve, explore, fit, judge, run, sweep, three_dimensions, velocity
 from mdr.commands.arguments import NEGATIVE, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
@@ -38,6 +39,8 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
      run.add_options),
     ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation", read_case,
      curve.add_options),
+    ("half-space", three_dimensions.half_space, "one velocity in three dimensions: friction with its errors, and a map",
+     read_case, three_dimensions.add_options),
     ("measure", judge.measure, "critical velocity from simulation alone", read_case, judge.add_accuracy_of_bracket),
     ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", read_case,
      judge.add_options),

@@ -76,7 +76,11 @@ SIGNATURES = {
     "Study.to_xarray": "",
     "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
     "measure_critical_velocity": 'case, direction=1, *, start="full_slip", limit_s=None, accuracy=1e-05',
-    "verdict": "case, *, within=0.01, limit_s=None, accuracy=1e-05",
+    "verdict": "case, *, within=0.01, limit_s=None, accuracy=1e-05, three_dimensions=False",
+    "half_space.slide": "case, v_0, *, cells=None, steps_per_period=None, n_periods=None, coupled=True, "
+    'start="full_slip", limit_s=None',
+    "half_space.curve": "case, v_0, *, cells=None, steps_per_period=None, n_periods=None, coupled=True, "
+    'start="full_slip", limit_s=None',
 }
 RECORDS = {
     "SlidingRun": "cof cof_error settled kind why stick_share mean_F_x mean_F_z energy_balance t u_x F_x F_z x state",
@@ -85,6 +89,9 @@ RECORDS = {
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",
+    "half_space.HalfSpaceRun": "cof cof_y cof_error grid_error step_error cycle_error settled kind why stick_share "
+    "mean_F_x mean_F_y mean_F_z v_0 mu_0 coupled cells steps_per_period n_periods x y t pressure q_x q_y stick",
+    "half_space.HalfSpaceCurve": "v_0 cof cof_y cof_error grid_error step_error cycle_error settled",
     "friction.verdict.Verdict": "eq_15 full_slip measured deviation holds why within",
 }
 
@@ -157,7 +164,7 @@ def test_a_folder_that_was_never_installed_has_no_version(monkeypatch):
 
 
 def test_import_is_light():
-    heavy = ["matplotlib", "tqdm", "scipy.optimize", "scipy.integrate", "scipy.io", "dask", "xarray"]
+    heavy = ["matplotlib", "tqdm", "scipy.optimize", "scipy.integrate", "scipy.fft", "scipy.io", "dask", "xarray"]
     heavy += ["mdr.plots", "mdr.__main__"]  # numba itself brings tomllib
     code = f"""
 import sys, mdr

@@ -158,8 +158,8 @@ def end(shape: str, nu: float, mu_0: float, alpha: float, cells: int) -> float:
 
 def _sticks(case: mdr.SlidingContact, v: float, settings: Settings) -> bool:
     judged, half = contact_of(case, settings), settings.steps // 2 + 1
-    depth, x, dt = path(case, v * mdr.critical_velocity(case), settings)
-    steps = judged.march(judged.full_slip(float(depth[0])), depth[:half], x[:half], dt)
+    depth, way, dt = path(case, v * mdr.critical_velocity(case), settings)
+    steps = judged.march(judged.full_slip(float(depth[0])), depth[:half], way[:, :half], dt)
     return any(stuck(judged, step).any() for step in steps)
 
 

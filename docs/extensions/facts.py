@@ -67,11 +67,11 @@ def brief(number: str) -> str:
 
 def makers(cls: type) -> Iterator[str]:
     """Names of what returns a record of this class: public functions, and what other public records hold."""
-    for home in (mdr, mdr.laws):
+    for path, home in (("mdr", mdr), ("mdr.laws", mdr.laws), ("mdr.half_space", mdr.half_space)):
         for name, one in vars(home).items():
             public = name in mdr.__all__ if home is mdr else name[0] != "_"
             if public and inspect.isfunction(one) and _gives(inspect.signature(one).return_annotation, cls):
-                yield f"mdr.{name}" if home is mdr else f"mdr.laws.{name}"
+                yield f"{path}.{name}"
     for name in mdr.__all__:
         one = getattr(mdr, name)
         if inspect.isclass(one) and one is not cls:

@@ -1,6 +1,7 @@
 """The verdict: how good Eq. (15) is, beside the full-slip value and the measured one, and why they differ.
 
-A contact that is shaken in the plane has one for each way of the pull, and a sentence on what it does at rest.
+A contact that is shaken in the plane has one for each way of the pull, and a sentence on what it does at rest. Another
+sentence, if asked for, has what the springs leave out, from one run in three dimensions.
 """
 
 from __future__ import annotations
@@ -16,12 +17,14 @@ from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
+from mdr.half_space import run as half_space
 from mdr.march.march import BUDGET
+from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import between, positive
 from mdr.tools.progress import time_limit
-from mdr.tools.summary import Printed
+from mdr.tools.summary import Printed, with_error
 
 STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
 
@@ -45,6 +48,7 @@ class Verdict(Printed):
     least: float = 0.0  #: 1e-4 of Eq. (1) [m/s]: a velocity below it is not told from zero
     other_way: Verdict | None = None  #: that of the pull the other way, where something shakes in the plane
     at_rest: str = ""  #: what the contact does there without a pull, in a sentence
+    three_dimensions: str = ""  #: how far springs are off at one velocity, in a sentence; empty if it was not asked for
 
     def __post_init__(self) -> None:
         _tolerance(self.within)
@@ -67,9 +71,11 @@ class Verdict(Printed):
                 f"{'no more' if self.holds else 'more'} than the measurement leaves open"
             )
         sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
-        if self.other_way is None:
-            return sentence
-        return f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}."
+        if self.other_way is not None:
+            sentence = f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}."
+        if self.three_dimensions:
+            sentence = f"{sentence.removesuffix('.')}. {self.three_dimensions}"
+        return sentence
 
     def _use(self, measured: float) -> str:
         """How good the formula is, and what to use in its place."""
@@ -100,7 +106,12 @@ class Verdict(Printed):
 
 
 def verdict(
-    case: SlidingContact, *, within: float = Verdict.within, limit_s: float | None = None, accuracy: float = BUDGET
+    case: SlidingContact,
+    *,
+    within: float = Verdict.within,
+    limit_s: float | None = None,
+    accuracy: float = BUDGET,
+    three_dimensions: bool = False,
 ) -> Verdict:
     """How good Eq. (15) is for this contact: its v_c [m/s] beside the full-slip value and the one measured from runs.
 
@@ -115,6 +126,10 @@ def verdict(
         Seconds of computing after which the measurement ends unsettled. None sets no limit.
     accuracy : float
         Of the measurement, as in `measure_critical_velocity`.
+    three_dimensions : bool
+        Also run the half-space once, with coupling, and say how far the springs are off there: at half of the full-slip
+        critical velocity, or of the greatest velocity across the pull where it is shaken across. Takes a rigid pull and
+        an elastic or Kelvin material, and some ten seconds.
 
     Returns
     -------
@@ -128,7 +143,7 @@ def verdict(
     TypeError
         For what is no case or no number.
     ValueError
-        For `within` not between 0 and 1.
+        For `within` not between 0 and 1, and for a case that three dimensions refuse.
 
     Examples
     --------
@@ -142,11 +157,28 @@ def verdict(
     """
     case, within = resolved(case), _tolerance(within)  # before the runs, not after them
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
-        forward = _judged(case, within, limit_s, accuracy)
+        space = _in_three_dimensions(case, accuracy) if three_dimensions else ""
+        forward = replace(_judged(case, within, limit_s, accuracy), three_dimensions=space)
         if not case.is_shaken:
             return forward
         back, rest = _judged(case.mirrored, within, limit_s, accuracy), _at_rest(case)
     return replace(forward, other_way=back, at_rest=rest)
+
+
+def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
+    """How far springs are off, in a sentence. Raises ValueError for what the half-space cannot judge."""
+    across = case.omega * float(np.sum(np.arange(1, case.way_across.size + 1) * np.abs(case.way_across)))
+    full = full_slip_critical_velocity(case)
+    v_0 = (across or (full if 0 < full < np.inf else case.pace)) / 2
+    found, springs = half_space.slide(case, v_0), slide(case, v_0, accuracy=accuracy)
+    off, error = springs.cof - found.cof, springs.cof_error + found.cof_error
+    said = (
+        f"In three dimensions the COF at {v_0:.4g} m/s is {with_error(found.cof, found.cof_error)}, with coupling, and "
+        f"{with_error(springs.cof, springs.cof_error)} by springs"
+    )
+    if abs(off) <= error:
+        return f"{said}: no difference beyond these errors"
+    return f"{said}: springs are too {'high' if off > 0 else 'low'} there by {abs(off) / case.mu_0:.1g} of mu_0"
 
 
 def _at_rest(case: SlidingContact) -> str:

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
-from mdr.half_space.influence import HalfSpace, X, Z
+from mdr.half_space.influence import HalfSpace, Z
 from mdr.half_space.steps import Contact, Step
 from mdr.tools.arrays import Array
+from mdr.tools.progress import Ticker, time_is_over
 
 #: of the grid around the greatest contact; with coupling friction spreads it, by 9 % where beta mu_0 = 0.3: what is cut
 #: off then carries 1e-4 of F_z
@@ -30,23 +31,28 @@ class Settings:
     coupled: bool = True  #: False: without normal-tangential coupling
     transverse: bool = True  #: False: without slip and traction across the pull
     settled: float = 0.0  #: share of mu_0 by which the COF may still be off when the run ends before its last period
+    from_rest: bool = False  #: True: begin without traction in the plane, not from full slip
 
 
 @dataclass(frozen=True)
 class Friction:
-    """Mean forces over the last period, their ratio, and how far that had settled."""
+    """Mean forces over the last period, their ratios, and how far those had settled."""
 
     cof: float
+    cof_y: float  #: of the force across the pull
     mean_F_x: float  #: [N]
+    mean_F_y: float  #: [N]
     mean_F_z: float  #: [N]
-    settling: float  #: what further periods would still change the COF by, were changes to fall as the last two did
+    settling: float  #: what further periods would still change either COF by, were changes to fall as the last two did
     cycles: int  #: periods that were marched
 
     @classmethod
-    def over(cls, F_x: Array, F_z: Array) -> Self:
-        """That of forces (cycles, steps) [N]."""
-        cofs = F_x.sum(axis=1) / F_z.sum(axis=1)
-        return cls(float(cofs[-1]), float(F_x[-1].mean()), float(F_z[-1].mean()), _settling(cofs), len(cofs))
+    def over(cls, F: Array) -> Self:
+        """That of forces (cycles, steps, 3) [N]."""
+        means = F.mean(axis=1)
+        cofs = means[:, :Z] / means[:, Z:]
+        (cof, cof_y), (F_x, F_y, F_z) = cofs[-1].tolist(), means[-1].tolist()
+        return cls(cof, cof_y, F_x, F_y, F_z, max(map(_settling, cofs.T)), len(cofs))
 
 
 @dataclass(frozen=True)
@@ -75,46 +81,57 @@ def last_period(case: SlidingContact, v_0: float, settings: Settings, start: Ste
     Raises NotConverged, and ValueError for what `contact_of` refuses.
     """
     contact = contact_of(case, settings)
-    depth, x, dt = path(case, v_0, settings)
-    state, forces = start or contact.full_slip(float(depth[0])), []
+    depth, way, dt = path(case, v_0, settings)
+    toward = 0.0 if settings.from_rest else np.copysign(1.0, v_0)
+    state, forces = start or contact.full_slip(float(depth[0]), toward), []
+    ticker = Ticker("half-space", parts="steps")
     for _ in range(settings.cycles):
-        steps = tuple(contact.march(state, depth, x, dt))
+        steps = []
+        for step in contact.march(state, depth, way, dt):
+            steps.append(step)
+            ticker.tick()
         state = steps[-1]
         forces.append([contact.forces(step.tractions) for step in steps])
-        F = np.array(forces)
-        friction = Friction.over(F[..., X], F[..., Z])
-        if len(forces) > 2 and friction.settling <= settings.settled * case.mu_0:
+        friction = Friction.over(np.array(forces))
+        if (len(forces) > 2 and friction.settling <= settings.settled * case.mu_0) or time_is_over():
             break
-    return LastPeriod(friction, contact, steps)
+    return LastPeriod(friction, contact, tuple(steps))
 
 
 def contact_of(case: SlidingContact, settings: Settings) -> Contact:
     """The grid that holds the contact at its greatest, and the shape on it; ValueError for what it cannot judge."""
-    if not case.pull.is_rigid or not case.oscillation.knows_depth:
-        raise ValueError("the half-space takes a rigid pull and a given depth: leave [pull] out, and give u_z0")
+    if not case.pull.is_rigid:
+        raise ValueError(f"the half-space takes a rigid pull, got {case.pull!r}: leave [pull] out")
+    if not case.oscillation.knows_depth:
+        raise ValueError(
+            f"the half-space takes a given depth, got {case.oscillation!r}: give u_z0, or mdr.resolved(case), which "
+            "has the depth under the load"
+        )
     if case.material.contact_arms:
-        raise ValueError("the half-space is elastic or Kelvin: choose Elastic, ElasticPair or KelvinVoigt")
+        raise ValueError(
+            f"the half-space is elastic or Kelvin, got {case.material!r}: choose Elastic, ElasticPair or KelvinVoigt"
+        )
     shape, material, cells = case.indenter, case.material, settings.cells
     deepest = float(path(case, 1.0, settings)[0].max())
+    beta = material.dundurs_beta if settings.coupled else 0.0
     h = 2 * MARGIN * float(shape.contact_radius(deepest)) / cells
-    places = (np.arange(cells) - (cells - 1) / 2) * h
-    r = np.hypot(places[:, None], places[None, :])
+    half_space = HalfSpace(cells, h, material.E_star, material.G_star, beta)
+    r = np.hypot(half_space.places[:, None], half_space.places[None, :])
     height = np.full(r.shape, np.inf)  # where the shape has ended
     height[r <= shape.max_radius] = shape.profile_3d(r[r <= shape.max_radius])
-    beta = material.dundurs_beta if settings.coupled else 0.0
-    half_space = HalfSpace(cells, h, material.E_star, material.G_star, beta)
-    return Contact(half_space, height, case.mu_0, material.tau, transverse=settings.transverse)
+    turning = case.moves_across and not material.tau
+    return Contact(half_space, height, case.mu_0, material.tau, transverse=settings.transverse, turning=turning)
 
 
 def path(case: SlidingContact, v_0: float, settings: Settings) -> tuple[Array, Array, float]:
-    """Depth and x of the indenter [m] at the instants of a period, (steps + 1,), from the least depth on; dt [s]."""
+    """Depth (steps + 1,) and x, y (2, steps + 1) [m] of the indenter over a period, from the least depth on; dt [s]."""
     dt = case.period / settings.steps
     i = np.arange(settings.steps + 1)
     phase = 2 * np.pi * i[:-1] / settings.steps
     depth = case.cycle.u_z0 + case.cycle.unit * case.cycle.z(phase)
-    shake = harmonic_sum(case.way, phase)
     at = (int(np.argmin(depth)) + i) % settings.steps
-    return depth[at], v_0 * dt * i + shake[at], dt
+    x, y = (harmonic_sum(harmonics, phase)[at] for harmonics in (case.way, case.way_across))
+    return depth[at], np.stack([v_0 * dt * i + x, y]), dt
 
 
 def stuck(contact: Contact, step: Step) -> NDArray[np.bool_]:

@@ -16,8 +16,8 @@ from enum import IntEnum
 from functools import cached_property
 
 import numpy as np
+import scipy  # loads scipy.fft where it is first used, so that importing this is light
 from numpy.typing import NDArray
-from scipy import fft
 
 from mdr.tools.arrays import Array
 
@@ -48,16 +48,26 @@ class HalfSpace:
     G_star: float
     beta: float = 0.0
 
+    @property
+    def places(self) -> Array:
+        """Centres of the cells along either axis (n,), zero in the middle."""
+        return np.asarray((np.arange(self.n) - (self.n - 1) / 2) * self.h, dtype=np.float64)
+
     @cached_property
     def size(self) -> int:
         """Of the padded grid."""
-        return int(fft.next_fast_len(2 * self.n - 1, real=True))
+        return int(scipy.fft.next_fast_len(2 * self.n - 1, real=True))
 
     @cached_property
-    def spectra(self) -> dict[tuple[Axis, Axis], NDArray[np.complex128]]:
-        """Transforms of the coefficients that are not zero: (i, j) for u_i under q_j."""
+    def spectra(self) -> dict[tuple[Axis, Axis], NDArray[np.complex128] | Array]:
+        """Transforms of the coefficients that are not zero: (i, j) for u_i under q_j.
+
+        Real where i and j are both in the plane or both across it, as coefficients are then even along both axes, or
+        odd along both.
+        """
         kernels = {(i, j): self.coefficients(i, j) for i in Axis for j in Axis}
-        return {pair: fft.rfft2(self._wrapped(kernel)) for pair, kernel in kernels.items() if np.any(kernel)}
+        found = {pair: scipy.fft.rfft2(self._wrapped(kernel)) for pair, kernel in kernels.items() if np.any(kernel)}
+        return {(i, j): one.real.copy() if (i == Z) == (j == Z) else one for (i, j), one in found.items()}
 
     def coefficients(self, i: Axis, j: Axis) -> Array:
         """u_i under unit q_j on the cell in the middle, (2n - 1, 2n - 1) centres of cells, x along the first axis."""
@@ -82,12 +92,14 @@ class HalfSpace:
         pairs = [(a, b) for a, i in enumerate(of) for b, j in enumerate(under) if (i, j) in self.spectra]
         if not pairs:
             return np.zeros((len(of), self.n, self.n))
-        loads = fft.rfft2(tractions, (self.size, self.size))
+        # axis by axis, so that rows that hold zeros alone before, or are not asked for after, are left out
+        loads = scipy.fft.fft(scipy.fft.rfft(tractions, self.size, axis=-1), self.size, axis=-2, overwrite_x=True)
         answers = np.zeros((len(of), *loads.shape[1:]), complex)
         for a, b in pairs:
             answers[a] += self.spectra[of[a], under[b]] * loads[b]
-        shifts: Array = fft.irfft2(answers, (self.size, self.size))
-        return shifts[:, : self.n, : self.n]
+        rows = scipy.fft.ifft(answers, axis=-2, overwrite_x=True)[:, : self.n]
+        shifts: Array = scipy.fft.irfft(rows, self.size, axis=-1)
+        return shifts[:, :, : self.n]
 
     def _wrapped(self, kernel: Array) -> Array:
         """The coefficients around the corner of the padded grid, as a circular convolution takes them."""

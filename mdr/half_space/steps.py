@@ -1,21 +1,31 @@
 """A rigid indenter pressed and pulled over the half-space step by step, every cell with its own history.
 
-Depth and position x along the pull are given at the instants of the steps. In each step the pressure, under the
-tractions, and the tractions, under the pressure, take turns until the forces no longer change. A Kelvin material is
-u + tau u' in the place of u, with u' over the step: as implicit as the rest, of first order in the step.
+Depth and position in the plane, x along the pull and y across, are given at the instants of the steps. In each step the
+pressure, under the tractions, and the tractions, under the pressure, take turns until the forces no longer change. A
+Kelvin material is u + tau u' in the place of u, with u' over the step: as implicit as the rest, of first order in the
+step.
+
+Friction that turns is of first order as well, as traction takes the direction of slip over the whole step. An elastic
+contact that moves across is therefore first taken to the middle of a step; the displacement there, extrapolated to the
+end, is what sticking would ask for at the end, and where traction exceeds its limit cells slip the rest: second order.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.half_space.influence import HalfSpace, X, Y, Z
 from mdr.half_space.normal import NotConverged, pressure
-from mdr.half_space.tangential import traction
-from mdr.tools.arrays import Array
+from mdr.half_space.tangential import stiffness_of, traction
+from mdr.tools.arrays import EXACT, Array
+
+MIDDLE = 10  #: times the tolerance is that of the middle of a step, which lies within the error of the step by far
+FIRST = 1e-4  #: how closely the first turn of a step is solved, which the next ones correct
 
 
 @dataclass(frozen=True)
@@ -44,22 +54,28 @@ class Contact:
     tolerance: float = 1e-6  #: to which forces change no more
     turns: int = 60  #: of pressure and friction in a step, at most
     transverse: bool = True  #: False: tractions and slip along the pull only, as springs have them
+    turning: bool = False  #: True: two stages in a step, of second order where friction turns; tau must be 0
 
     @property
     def cell(self) -> float:
         """Area of a cell."""
         return self.half_space.h**2
 
-    def full_slip(self, depth: float) -> Step:
-        """The state at rest at this depth with all cells at their limit along x, to begin with. Raises NotConverged."""
+    def full_slip(self, depth: float, way: float = 1.0) -> Step:
+        """The state at rest at this depth with all cells at their limit along x, to begin with; way: 1, or -1.
+
+        Zero gives the state without friction. Raises NotConverged.
+        """
         n = self.half_space.n
-        tractions, fine = np.zeros((3, n, n)), self.tolerance * 1e-2
+        tractions = np.zeros((3, n, n))
 
-        def slipping(tractions: Array) -> Array:
-            return np.stack([self.mu_0 * tractions[Z], np.zeros((n, n))])
+        def slipping(tractions: Array, _: float) -> Array:
+            return np.stack([way * self.mu_0 * tractions[Z], np.zeros((n, n))])
 
-        if self._take_turns(tractions, depth - self.shape, slipping, fine):
-            raise NotConverged(f"full slip at a depth of {depth:g} m is not found in {self.turns} turns")
+        if self._take_turns(tractions, depth - self.shape, slipping, self.tolerance * 1e-2):
+            raise NotConverged(
+                f"full slip at a depth of {depth:g} m is not found in {self.turns} turns: start from rest"
+            )
         u = self.half_space.displacement(tractions)
         return Step(tractions, u, np.zeros((2, n, n)))
 
@@ -68,56 +84,105 @@ class Contact:
         total: Array = np.sum(tractions, axis=(1, 2)) * self.cell
         return total
 
-    def march(self, start: Step, depth: Array, x: Array, dt: float) -> Iterator[Step]:
-        """One step after the other: depth and x [m] at the instants, (n_steps + 1,), from that of `start` on."""
-        state = start
+    def march(self, start: Step, depth: Array, way: Array, dt: float) -> Iterator[Step]:
+        """One step after the other: depth (n_steps + 1,) and way (2, n_steps + 1) [m] at the instants, from `start` on.
+
+        From the second step on the tractions are looked for where the last two lead to.
+        """
+        state, before = start, start
         for i in range(1, len(depth)):
-            state = self.step(state, float(depth[i]), float(x[i] - x[i - 1]), dt)
+            guess, moved = 2 * state.tractions - before.tractions, way[:, i] - way[:, i - 1]
+            if self.turning:
+                end = self._two_stages(state, float(depth[i - 1] + depth[i]) / 2, float(depth[i]), moved, guess)
+            else:
+                end = self.step(state, float(depth[i]), moved, dt, guess)
+            state, before = end, state
             yield state
 
-    def step(self, state: Step, depth: float, moved: float, dt: float) -> Step:
-        """The state after one step. Raises NotConverged."""
-        theta = self.tau / dt
-        before = state.displacement
-        tractions, fine = state.tractions.copy(), self.tolerance * 1e-2
-        down = (1 + theta) * (depth - self.shape) - theta * before[Z]  # what C p must be where it touches
-        stick = before[:2] + (1 + theta) * np.array([moved, 0.0])[:, None, None]  # what C q must be where it sticks
+    def _two_stages(self, state: Step, halfway: float, depth: float, moved: Array, guess: Array) -> Step:
+        """The state after a step, by that in its middle at the depth `halfway`; time plays no part."""
+        middle = self.step(state, halfway, moved / 2, 1.0, (state.tractions + guess) / 2, MIDDLE * self.tolerance)
+        onward = replace(middle, displacement=2 * middle.displacement - state.displacement)
+        end = self.step(onward, depth, np.zeros(2), 1.0, 2 * middle.tractions - state.tractions)
+        slip = moved[:, None, None] - (end.displacement - state.displacement)[:2]
+        return replace(end, slip=np.where(end.pressure > 0, slip, 0.0))
 
-        def sticking_or_not(tractions: Array) -> Array:
+    def step(
+        self,
+        state: Step,
+        depth: float,
+        moved: Array,
+        dt: float,
+        guess: Array | None = None,
+        tolerance: float | None = None,
+    ) -> Step:
+        """The state after one step in which the indenter moves by `moved` (2,) [m]. Raises NotConverged.
+
+        guess: tractions (3, n, n) from which on those at the end of the step are looked for; None takes the first ones.
+        tolerance: in the place of that of the contact.
+        """
+        theta, moved = self.tau / dt, np.asarray(moved)[:, None, None]
+        before = state.displacement
+        tractions = (state.tractions if guess is None else guess).copy()
+        down = (1 + theta) * (depth - self.shape) - theta * before[Z]  # what C p must be where it touches
+        stick = before[:2] + (1 + theta) * moved  # what C q must be where it sticks
+        slips = self._at_limit(state.tractions)
+
+        def sticking_or_not(tractions: Array, fine: float) -> Array:
+            nonlocal slips
             asked = stick - self.half_space.displacement(tractions[Z:], (X, Y), (Z,))
             if not self.transverse:
                 asked[Y] = 0.0
-            return traction(self._tangential, asked, self.mu_0 * tractions[Z], tractions[:2], fine)
+            bound, q = self.mu_0 * tractions[Z], tractions[:2]
+            start = np.where(slips, _on_rims(q, bound), q)  # what slips does so under another pressure too
+            found = traction(self._tangential, asked, bound, start, fine, stiff=self._stiff)
+            slips = self._at_limit(np.stack([*found, tractions[Z]]))
+            return found
 
-        if change := self._take_turns(tractions, down, sticking_or_not, self.tolerance):
+        if change := self._take_turns(tractions, down, sticking_or_not, tolerance or self.tolerance):
             raise NotConverged(
-                f"pressure and friction still change the forces by {change:.1e} after {self.turns} turns"
+                f"pressure and friction still change the forces by {change:.1e} after {self.turns} turns: take "
+                "more steps"
             )
         u = (self.half_space.displacement(tractions) + theta * before) / (1 + theta)
-        slip = np.where(tractions[Z] > 0, np.array([moved, 0.0])[:, None, None] - (u - before)[:2], 0.0)
+        slip = np.where(tractions[Z] > 0, moved - (u - before)[:2], 0.0)
         return Step(tractions, u, slip)
 
-    def _take_turns(self, tractions: Array, down: Array, friction: Callable[[Array], Array], tolerance: float) -> float:
+    def _take_turns(
+        self, tractions: Array, down: Array, friction: Callable[[Array, float], Array], tolerance: float
+    ) -> float:
         """Pressure and friction in turns, written into the tractions, until forces change by less than the tolerance.
 
-        They end at once where neither knows of the other. Returns 0, or by what share forces still change after all
-        turns.
+        Early turns are as fine as what the next one will change is large. They end at once where neither knows of the
+        other. Returns 0, or by what share forces still change after all turns.
         """
-        last = np.zeros(3)
+        last, finest = self.forces(tractions), max(tolerance, self.tolerance) * 1e-2
+        fine = FIRST if self.half_space.beta else finest
         for _ in range(self.turns):
             gap = down - self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
-            tractions[Z] = pressure(self._normal, gap, tractions[Z], self.tolerance * 1e-2)
-            tractions[:2] = friction(tractions)
+            tractions[Z] = pressure(self._normal, gap, tractions[Z], fine)
+            tractions[:2] = friction(tractions, fine)
             if not self.half_space.beta:
                 return 0.0
             forces = self.forces(tractions)
             change, scale = np.max(np.abs(forces - last)), np.max(np.abs(forces))
-            if change <= tolerance * scale:
+            if change <= tolerance * scale and fine <= finest:
                 return 0.0
+            fine = max(finest, min(fine, 1e-2 * change / scale if scale else 0.0))
             last = forces
         return float(change / scale)
 
+    def _at_limit(self, tractions: Array) -> NDArray[np.bool_]:
+        """Which cells slip, (n, n), but for rounding."""
+        size = np.hypot(*tractions[:2])
+        limit: NDArray[np.bool_] = (size > 0) & (size >= (1 - EXACT) * self.mu_0 * tractions[Z])
+        return limit
+
     # --- products ---
+
+    @cached_property
+    def _stiff(self) -> float:
+        return stiffness_of(self._tangential, np.zeros((2, self.half_space.n, self.half_space.n)))
 
     def _normal(self, p: Array) -> Array:
         u_z: Array = self.half_space.displacement(p[None], (Z,), (Z,))[0]
@@ -128,3 +193,9 @@ class Contact:
         if not self.transverse:
             u[Y] = 0.0
         return u
+
+
+def _on_rims(q: Array, bound: Array) -> Array:
+    """Tractions (2, n, n) of the same directions at their bound (n, n)."""
+    size = np.hypot(*q)
+    return q * (bound / np.where(size > 0, size, 1.0))

@@ -15,24 +15,30 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import LinearOperator, cg
 
 from mdr.half_space.normal import NotConverged
 from mdr.tools.arrays import EPS, Array
 
 #: to which part of what is left a Newton step is solved: the step is only a direction, which the line search shortens
 CLOSE = 1e-2
+MOST_CG = 1000  #: of its steps
 
 
 def traction(
-    product: Callable[[Array], Array], c: Array, bound: Array, start: Array, tolerance: float, most: int = 200
+    product: Callable[[Array], Array],
+    c: Array,
+    bound: Array,
+    start: Array,
+    tolerance: float,
+    most: int = 200,
+    stiff: float | None = None,
 ) -> Array:
     """The tractions (2, n, n) that satisfy Coulomb's law, and are zero where the bound (n, n) is.
 
     Converged when no cell can be improved by more than tolerance times the greatest bound, in units of traction.
-    Raises NotConverged after `most` Newton steps.
+    Raises NotConverged after `most` Newton steps. stiff: `stiffness_of` the product, where it is known.
     """
-    stiff = 1 / max(float(np.max(np.abs(product(_delta(c))))), 1e-300)  # traction per displacement of one cell
+    stiff = stiffness_of(product, c) if stiff is None else stiff
     scale = float(np.max(bound))
     if scale == 0:
         return np.zeros_like(c)
@@ -44,15 +50,25 @@ def traction(
         if np.max(off) <= tolerance * scale:
             return q
         rim, curvature, normal = _rim(q, gradient, bound)
-        step = _newton(product, gradient, rim, curvature, normal, bound > 0, stiff)
+        step = _newton(
+            product,
+            gradient,
+            rim,
+            curvature,
+            normal,
+            bound > 0,
+            stiff,
+            max(CLOSE, 0.1 * tolerance * scale / float(np.max(off))),
+        )
         q, image = _searched(product, q, image, c, step, bound)
     raise NotConverged(f"friction is off by {np.max(off) / scale:.1e} of its bound after {most} steps")
 
 
-def _delta(c: Array) -> Array:
-    one = np.zeros_like(c)
-    one[0, c.shape[1] // 2, c.shape[2] // 2] = 1.0
-    return one
+def stiffness_of(product: Callable[[Array], Array], like: Array) -> float:
+    """Traction on one cell per displacement of it."""
+    one = np.zeros_like(like)
+    one[0, like.shape[1] // 2, like.shape[2] // 2] = 1.0
+    return 1 / max(float(np.max(np.abs(product(one)))), 1e-300)
 
 
 def _into_discs(q: Array, bound: Array) -> Array:
@@ -79,24 +95,34 @@ def _newton(
     normal: Array,
     alive: NDArray[np.bool_],
     stiff: float,
+    close: float,
 ) -> Array:
     """The step along free directions: conjugate gradients on the projected system, scaled by its diagonal."""
+    inside, across = alive.astype(float), np.where(rim, normal, 0.0)
+    scaling = inside / (1 / stiff + curvature)
 
     def free(v: Array) -> Array:
-        out = v - np.where(rim, np.sum(v * normal, axis=0), 0.0) * normal
-        return np.where(alive, out, 0.0)
+        out: Array = v * inside
+        along = across[0] * v[0]
+        along += across[1] * v[1]
+        out -= across * along
+        return out
 
-    def system(v: Array) -> Array:
-        direction = v.reshape(gradient.shape)
-        return np.ravel(free(product(direction)) + curvature * direction)
-
-    def scaled(v: Array) -> Array:
-        return np.ravel(v.reshape(gradient.shape) / (1 / stiff + curvature))
-
-    size = (gradient.size, gradient.size)
-    matrix, diagonal = (LinearOperator(size, matvec=apply, dtype=float) for apply in (system, scaled))
-    step: Array = cg(matrix, -np.ravel(free(gradient)), rtol=CLOSE, M=diagonal)[0]
-    return step.reshape(gradient.shape)
+    left = -free(gradient)
+    step, direction, before = np.zeros_like(left), np.zeros_like(left), np.inf
+    enough = close * float(np.linalg.norm(left))
+    for _ in range(MOST_CG):
+        if np.linalg.norm(left) <= enough:
+            break
+        scaled = scaling * left
+        norm = float(np.vdot(left, scaled))
+        direction = scaled + norm / before * direction
+        before = norm
+        image = free(product(direction)) + curvature * direction
+        along = norm / float(np.vdot(direction, image))
+        step += along * direction
+        left -= along * image
+    return step
 
 
 def _searched(

@@ -107,7 +107,8 @@ def test_every_public_name_is_documented():
     ]
     assert len(set(documented)) == len(documented)
     laws = {f"laws.{name}" for name in mdr.laws.__all__ if isfunction(getattr(mdr.laws, name))}
-    assert {f"mdr.{name}" for name in {*mdr.__all__, *laws} - {"laws"}} <= set(documented)
+    space = {f"half_space.{name}" for name in mdr.half_space.__all__}
+    assert {f"mdr.{name}" for name in {*mdr.__all__, *laws, *space} - {"laws", "half_space"}} <= set(documented)
     for path in documented:
         assert (pkgutil.resolve_name(path).__doc__ or "").strip(), path
 

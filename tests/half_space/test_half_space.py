@@ -109,7 +109,7 @@ def test_what_is_neither_stick_nor_slip_is_not_there():
     case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
     contact = contact_of(case, COARSE)
     depth = 20e-6 + 6e-6 * np.linspace(-1, 1, 5)
-    for step in contact.march(contact.full_slip(14e-6), depth, V * np.arange(5) * 1e-3, 1.0):
+    for step in contact.march(contact.full_slip(14e-6), depth, np.outer([V, 0.0], np.arange(5) * 1e-3), 1.0):
         p, q = step.pressure, step.tractions[:2]
         size, slip = np.hypot(*q), np.hypot(*step.slip)
         assert np.all(p >= 0)

@@ -16,14 +16,15 @@ from mdr.tools.arrays import Array
 
 def of_springs(case: mdr.SlidingContact, v_0: float, settings: Settings) -> Friction:
     """Friction of independent springs in the very steps of `in_three_dimensions`, over all periods."""
-    depth, x, dt = path(case, v_0, settings)
+    depth, (x, _), dt = path(case, v_0, settings)
     depth = np.append(np.tile(depth[:-1], settings.cycles), depth[-1])
     x = np.append(0.0, np.cumsum(np.tile(np.diff(x), settings.cycles)))
     material = case.material
     indenter, radius = case.indenter, float(case.indenter.contact_radius(depth.max()))
     of_material = case.mu_0, material.mindlin_ratio, material.tau
     F_x, F_z = forces(indenter.profile_1d, radius, depth, x, dt, *of_material)
-    return Friction.over(*(material.E_star * F[1:].reshape(settings.cycles, settings.steps) for F in (F_x, F_z)))
+    F = material.E_star * np.stack([F_x, 0 * F_x, F_z], axis=-1)[1:]
+    return Friction.over(F.reshape(settings.cycles, settings.steps, 3))
 
 
 def forces(

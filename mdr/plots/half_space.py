@@ -1,0 +1,143 @@
+"""Figures of friction in three dimensions: the contact seen from above, and the COF over the velocity.
+
+Records are read by attribute only.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mdr.plots.figures import COLOURS, axes_of, edges_of, prefix, style, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+__all__ = ["plot_half_space", "plot_half_space_curve"]
+
+ARROWS = 13  #: along a side, at most
+QUARTERS = (0.25, 0.5, 0.75, 1.0)  #: of the period, the instants that are drawn
+STICK, SLIP = COLOURS[1], "0.72"
+SEEN = 1e-6  #: share of mu_0 from which a COF across is told
+
+
+def plot_half_space(run: Any, instant: float | None = None) -> Figure:
+    """Draw the contact seen from above: pressure as colour, traction as arrows, a line around what sticks.
+
+    Parameters
+    ----------
+    run : HalfSpaceRun
+        The run.
+    instant : float, optional
+        Share of the last period, from 0 to 1, from the least depth on. None draws four instants.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+    """
+    if instant is not None and not 0 <= instant <= 1:
+        raise ValueError(f"instant must lie between 0 and 1, a share of the period, got {instant!r}")
+    shares = QUARTERS if instant is None else (instant,)
+    length, pressure = prefix(run.x, "m"), prefix(run.pressure, "Pa")
+    size = (11.4, 3.5) if instant is None else (5.8, 5.4)
+    with style():
+        fig, panels = subplots(1, len(shares), sharex=True, sharey=True, squeeze=False, figsize=size)
+        for ax, share in zip(panels[0], shares, strict=True):
+            colour = _draw_instant(ax, run, round(share * run.t.size) - 1, length[0], pressure[0])
+            ax.set_title(f"{share:.3g} of the period")
+            ax.set_xlabel(rf"$x$ [{length[1]}], pull $\rightarrow$")
+        panels[0, 0].set_ylabel(f"$y$ [{length[1]}]")
+        fig.colorbar(colour, ax=panels[0], label=f"pressure [{pressure[1]}]", shrink=0.8, pad=0.02)
+        fig.suptitle(_told(run, wide=instant is None), fontsize=10.5)
+    return fig
+
+
+def _told(run: Any, wide: bool) -> str:
+    """What to see, in one line or two."""
+    space = " " if wide else "\n"
+    across = f", {run.cof_y / run.mu_0:.3f} across" if abs(run.cof_y) > SEEN * run.mu_0 else ""
+    return (
+        f"Mean friction over $\\mu_0$: {run.cof / run.mu_0:.3f}{across}. Arrows: traction on the surface."
+        f"{space}Inside the orange line cells stick, hatched cells slip."
+    )
+
+
+def _draw_instant(ax: Axes, run: Any, step: int, length: float, pressure: float) -> Any:
+    """One instant, lengths and pressures in the units of these factors; returns what the colour bar belongs to."""
+    x, y = run.x * length, run.y * length
+    p, stick = run.pressure[step], run.stick[step]
+    touching = p > 0
+    colour = ax.pcolormesh(
+        edges_of(x), edges_of(y), np.where(touching, pressure * p, np.nan).T,
+        cmap="Blues", vmin=0, vmax=1.5 * pressure * run.pressure.max(), rasterized=True,
+    )  # fmt: skip
+    if np.any(touching & ~stick):
+        hatch = ax.contourf(
+            x, y, (touching & ~stick).T.astype(float), levels=[0.5, 1.5], colors="none", hatches=["////"]
+        )
+        hatch.set_edgecolor(SLIP)
+        hatch.set_linewidth(0.0)
+    if stick.any():
+        ax.contour(x, y, stick.T.astype(float), levels=[0.5], colors=STICK, linewidths=1.8)
+    _arrows(ax, x, y, run.q_x[step], run.q_y[step], touching, run.mu_0 * run.pressure.max())
+    ax.set_aspect("equal")
+    return colour
+
+
+def _arrows(
+    ax: Axes, x: NDArray[Any], y: NDArray[Any], q_x: NDArray[Any], q_y: NDArray[Any], where: NDArray[Any], most: float
+) -> None:
+    """Every few cells one arrow, its middle in the cell, one scale in all panels."""
+    every = -(-x.size // ARROWS)
+    some = np.zeros_like(where)
+    first = (x.size // 2) % every  # so that a row runs through the middle
+    some[first::every, first::every] = True
+    some &= where
+    along, across = np.meshgrid(x, y, indexing="ij")
+    scale = most / (2.2 * every * (x[1] - x[0]))
+    ax.quiver(
+        along[some], across[some], q_x[some], q_y[some],
+        angles="xy", scale_units="xy", scale=scale, width=0.008, pivot="middle", color="0.1", zorder=3,
+    )  # fmt: skip
+
+
+def plot_half_space_curve(curve: Any, ax: Axes | None = None) -> Axes:
+    """Draw the COF over the pulling velocity with its error bars, and the COF across where there is one.
+
+    Parameters
+    ----------
+    curve : HalfSpaceCurve
+        What is drawn.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw. None makes a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where it was drawn.
+    """
+    factor, unit = prefix(curve.v_0, "m/s")
+    order = np.argsort(curve.v_0)
+    v, settled = factor * curve.v_0[order], curve.settled[order]
+    with style():
+        ax = axes_of(ax)
+        parts = {"along the pull": curve.cof}
+        if np.any(np.abs(curve.cof_y) > SEEN * curve.mu_0):
+            parts["across the pull"] = curve.cof_y
+        for colour, (name, cof) in zip(COLOURS, parts.items(), strict=False):
+            mu = cof[order]
+            ax.errorbar(v, mu, curve.cof_error[order], color=colour, capsize=2, label=name)
+            ax.plot(v[settled], mu[settled], "o", color=colour, markersize=4.5)
+            ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=5)
+        if not settled.all():
+            ax.plot([], [], "o", mfc="white", mec="0.3", label="not settled")
+        for level in {curve.mu_0, np.copysign(curve.mu_0, v[0])}:
+            ax.axhline(level, color="0.75", linewidth=0.8, zorder=0)
+        ax.set(xlabel=rf"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
+        if len(ax.get_legend_handles_labels()[0]) > 1:
+            ax.legend(frameon=True, edgecolor="none")
+    return ax

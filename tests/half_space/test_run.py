@@ -1,0 +1,241 @@
+"""mdr.half_space.slide and curve: friction with its errors against closed forms, and what they refuse and say."""
+
+import pickle
+from dataclasses import replace
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+import mdr
+from mdr.half_space import NotConverged, friction, run, slide
+from mdr.half_space.friction import Settings, in_three_dimensions
+from mdr.half_space.run import SETTLED
+from validation.half_space.benchmarks import share_of_error
+
+BALL = mdr.SlidingContact(
+    mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.3), 0.3, mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
+)
+UNIT = BALL.unit_velocity
+ALONG = replace(
+    BALL, oscillation=mdr.ConstantDepth(20e-6), shake=mdr.InPlaneOscillation(omega=300.0, du_x=10e-6, phi_x=0.3)
+)
+ACROSS = replace(ALONG, shake=mdr.InPlaneOscillation(omega=300.0, du_y=6e-6))
+FEW = {"cells": 9, "steps_per_period": 12}
+
+
+def without_coupling(case, nu=0.0):
+    """The case on a body that springs know exactly where nu = 0, if coupling is left out."""
+    return replace(case, material=mdr.Elastic(E=3e6, nu=nu))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return slide(ACROSS, 0.3 * UNIT, **FEW)
+
+
+@pytest.mark.parametrize("v", [0.2, 0.6])
+def test_a_shake_along_the_pull_has_the_friction_of_the_springs(v):
+    """An incompressible body knows no coupling; slip across, which springs lack, is left out here."""
+    case = without_coupling(ALONG, nu=0.5)
+    settings = Settings(cells=27, steps=100, cycles=2, transverse=False)
+    found = in_three_dimensions(case, v * UNIT, settings)
+    assert abs(found.cof - mdr.cof_curve(case, [v * UNIT]).cof[0]) < 5e-4 * case.mu_0
+    assert abs(found.cof_y) < 1e-9 * case.mu_0
+
+
+def test_slip_across_lowers_friction_a_little_under_a_shake_along_the_pull():
+    case = without_coupling(ALONG, nu=0.5)
+    found = slide(case, 0.6 * UNIT, cells=21, steps_per_period=50)
+    off = mdr.cof_curve(case, [0.6 * UNIT]).cof[0] - found.cof
+    assert abs(off) < 1e-3 * case.mu_0 + found.cof_error  # 7.7e-4 on 61 x 61 cells in 200 steps
+    assert found.settled
+
+
+@pytest.mark.parametrize(
+    ("name", "v"), [("normal", 0.05), ("along", 0.6), ("cone, along", 0.6), ("punch", 0.05), ("Kelvin, both", 0.2)]
+)
+def test_the_error_bounds_what_contacts_in_closed_form_are_off_by(name, v):
+    assert share_of_error(name, v, 17, 32) <= 1
+
+
+def test_a_coarser_run_across_the_pull_is_off_by_less_than_its_error():
+    """No closed form: against more steps and cells."""
+    coarse = slide(ACROSS, 0.3 * UNIT, cells=9, steps_per_period=18)
+    fine = in_three_dimensions(ACROSS, 0.3 * UNIT, Settings(cells=17, steps=48, cycles=3))
+    assert abs(coarse.cof - fine.cof) < coarse.cof_error
+
+
+def test_across_the_pull_the_other_way_is_the_mirror_image(found):
+    back = slide(ACROSS, -0.3 * UNIT, **FEW)
+    assert_allclose(back.cof, -found.cof, atol=found.cycle_error + back.cycle_error + 1e-6)
+    assert 0 < found.cof < 0.3
+    assert abs(slide(ACROSS, 0, start="rest", n_periods=1, **FEW).cof) < 1e-6  # by symmetry
+
+
+def test_shakes_along_the_pull_and_across_it_change_places():
+    """Without a pull, from rest: the square grid is its own image."""
+    shakes = ({"du_x": 9e-6, "phi_x": 0.4, "du_y": 3e-6}, {"du_y": 9e-6, "phi_y": 0.4, "du_x": 3e-6})
+    cases = (replace(BALL, shake=mdr.InPlaneOscillation(omega=300.0, **shake)) for shake in shakes)
+    along, across = (slide(case, 0.0, start="rest", n_periods=1, **FEW) for case in cases)
+    assert abs(along.mean_F_x) > 1e-2 * along.mean_F_z
+    scale = 1e-6 * along.mean_F_z  # to which the turns of pressure and friction are solved
+    assert_allclose([along.mean_F_x, along.mean_F_y], [across.mean_F_y, across.mean_F_x], atol=scale)
+    assert_allclose(along.q_x, across.q_y.swapaxes(1, 2), atol=1e-5 * along.pressure.max())
+
+
+def test_a_fast_pull_slips_all_over_without_a_shake_across():
+    found = slide(without_coupling(BALL), 3 * UNIT, coupled=False, **FEW)
+    assert (found.kind, found.stick_share, found.settled) == ("full slip", 0.0, True)
+    assert_allclose(found.cof, 0.3, rtol=1e-9)
+
+
+def test_both_starts_end_alike(found):
+    rest = slide(ACROSS, 0.3 * UNIT, start="rest", **FEW)
+    assert_allclose(found.cof, rest.cof, atol=found.cycle_error + rest.cycle_error)
+
+
+@pytest.mark.parametrize(
+    ("case", "coupled"), [(BALL, True), (ACROSS, True), (ACROSS, False)], ids=["normal", "across", "uncoupled"]
+)
+def test_the_tolerance_of_a_step_is_fine_enough_for_the_slowest_pull(case, coupled, monkeypatch):
+    """Halved, it changes the COF by less than the least error that is ever stated."""
+    v_0, contact_of, found = 1e-3 * UNIT, friction.contact_of, []
+    settings = Settings(cells=11, steps=16, cycles=4, coupled=coupled)
+    for share in (1.0, 0.5):
+
+        def tighter(*given, share=share):
+            contact = contact_of(*given)
+            return replace(contact, tolerance=share * contact.tolerance)
+
+        monkeypatch.setattr(friction, "contact_of", tighter)
+        found.append(in_three_dimensions(case, v_0, settings).cof)
+    least = run._least(case, Settings(cells=101, steps=1000))
+    assert abs(found[0] - found[1]) < 0.1 * sum(least.values())
+
+
+# --- the record ---
+
+
+def test_the_fields_of_the_last_period_have_its_forces(found):
+    cell = (found.x[1] - found.x[0]) ** 2
+    for field, mean in ((found.q_x, "mean_F_x"), (found.q_y, "mean_F_y"), (found.pressure, "mean_F_z")):
+        assert field.shape == (12, 9, 9)
+        assert_allclose(cell * field.sum(axis=(1, 2)).mean(), getattr(found, mean), atol=1e-12 * found.mean_F_z)
+    assert_allclose(found.cof, found.mean_F_x / found.mean_F_z, rtol=1e-12)
+    limit = found.mu_0 * found.pressure
+    assert np.all(np.hypot(found.q_x, found.q_y) <= limit * (1 + 1e-9))
+    assert_array_equal(found.stick, (found.pressure > 0) & (np.hypot(found.q_x, found.q_y) < limit * (1 - 1e-5)))
+    assert 0 < found.stick_share < 1
+    assert_allclose(found.t[-1], ACROSS.period)
+
+
+def test_the_error_is_the_sum_of_its_parts(found):
+    assert_allclose(found.cof_error, found.grid_error + found.step_error + found.cycle_error)
+    assert 0 < found.cof_error < 0.3
+
+
+def test_a_run_prints_compares_and_is_kept(found, tmp_path):
+    for word in ("COF across", "grid", "step", "cycle", "9 x 9 cells"):
+        assert word in str(found)
+    assert pickle.loads(pickle.dumps(found)) == found
+    found.to_csv(tmp_path / "run.csv")
+    table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
+    assert table.dtype.names[1:] == ("F_x_N", "F_y_N", "F_z_N")
+    assert_allclose(table["F_x_N"].mean(), found.mean_F_x)
+
+
+def test_a_run_draws_itself(found):
+    mpl.use("Agg")
+    assert len(found.plot().axes) == 5  # four instants, and the colours
+    one = found.plot(0.5)
+    assert len(one.axes) == 2
+    assert "Arrows: traction" in one.get_suptitle()
+    with pytest.raises(ValueError, match="instant must lie between 0 and 1"):
+        found.plot(1.5)
+
+
+def test_a_curve_is_made_of_runs(found, tmp_path):
+    curve = mdr.half_space.curve(ACROSS, [0.3 * UNIT, -0.3 * UNIT, 0.9 * UNIT], n_periods=2, **FEW)
+    assert curve.settled.shape == (3,)
+    assert_allclose(curve.cof[:2], [found.cof, -found.cof], atol=curve.cycle_error[:2].max() + SETTLED)
+    assert curve.cof[2] > curve.cof[0] > 0
+    assert_allclose(curve.cof_error, curve.grid_error + curve.step_error + curve.cycle_error)
+    curve.to_csv(tmp_path / "curve.csv")
+    assert (tmp_path / "curve.csv").read_text().startswith("v_0 [m/s],cof [-],cof_y [-],cof_error [-]")
+    assert "3 velocities" in str(curve)
+    mpl.use("Agg")
+    assert curve.plot().get_xlabel().startswith("pulling velocity")
+
+
+def test_a_number_of_periods_is_kept_to():
+    one = slide(ACROSS, 0.3 * UNIT, n_periods=1, **FEW)
+    assert (one.n_periods, one.settled, one.cof_error) == (1, False, 0.6)  # 2 mu_0: nothing is known
+    assert "raise n_periods" in one.why
+    assert slide(ACROSS, 0.3 * UNIT, n_periods=2, **FEW).n_periods == 2
+
+
+def test_a_time_limit_ends_a_run_unsettled():
+    found = slide(ACROSS, 0.3 * UNIT, limit_s=1e-9, **FEW)
+    assert (found.settled, found.n_periods, found.kind) == (False, 1, "unsettled")
+    assert "raise limit_s" in found.why
+    assert_allclose(found.cof_error, 2 * 0.3)
+
+
+# --- refusals ---
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"pull": mdr.SpringPull(k_x=1e4)}, r"takes a rigid pull, got SpringPull.*leave \[pull\] out"),
+        ({"material": mdr.StandardLinearSolid(1e6, 1e6, 1e-3, 0.3)}, "is elastic or Kelvin, got .*choose Elastic"),
+        ({"oscillation": mdr.LoadOscillation(0.03, 0.01, 300.0)}, r"takes a given depth, got .*mdr.resolved\(case\)"),
+    ],
+)
+def test_what_the_half_space_cannot_judge_is_refused_by_name(change, words):
+    case = replace(BALL, **change)
+    with pytest.raises(ValueError, match=words):
+        slide(case, 1e-4)
+    with pytest.raises(ValueError, match=words):
+        mdr.verdict(case, three_dimensions=True) if "oscillation" not in change else slide(case, 1e-4)
+
+
+def test_a_load_is_resolved_first():
+    case = mdr.resolved(replace(BALL, oscillation=mdr.LoadOscillation(0.03, 0.005, 300.0)))
+    found = slide(case, 0.3 * UNIT, **FEW)
+    assert_allclose(found.mean_F_z, 0.03, rtol=0.03)  # of springs, which leave out coupling and cells
+
+
+@pytest.mark.parametrize(
+    ("knobs", "words"),
+    [
+        ({"v_0": -1e-4}, "v_0 must be positive"),
+        ({"v_0": 0}, "v_0 must be positive"),
+        ({"v_0": np.nan}, "v_0 must be a finite number"),
+        ({"cells": 7}, "cells must be at least 8"),
+        ({"steps_per_period": 7}, "steps_per_period must be at least 8"),
+        ({"n_periods": 0}, "n_periods must be at least 1"),
+        ({"start": "full"}, 'start must be "full_slip" or "rest"'),
+        ({"limit_s": 0}, "limit_s must be positive"),
+    ],
+)
+def test_arguments_out_of_range_are_refused(knobs, words):
+    with pytest.raises(ValueError, match=words):
+        slide(BALL, **{"v_0": 1e-4, **knobs})
+
+
+def test_arguments_of_a_wrong_kind_are_refused():
+    for wrong in (lambda: slide("case", 1e-4), lambda: slide(BALL, "1e-4"), lambda: slide(BALL, 1e-4, coupled=1)):
+        with pytest.raises(TypeError):
+            wrong()
+    with pytest.raises(ValueError, match="must be a list of velocities"):
+        mdr.half_space.curve(BALL, [])
+
+
+def test_a_step_that_does_not_converge_has_its_own_error(monkeypatch):
+    contact_of = friction.contact_of
+    monkeypatch.setattr(friction, "contact_of", lambda *given: replace(contact_of(*given), turns=1))
+    with pytest.raises(NotConverged, match="in 1 turns"):
+        slide(BALL, 1e-4, **FEW)

@@ -1,0 +1,113 @@
+"""A contact that is pulled along x and then along y at a constant depth: friction as a vector with a memory."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from mdr.half_space.influence import X, Y, Z
+from mdr.half_space.steps import Contact
+from validation.half_space.benchmarks import body
+
+MU = 0.3
+
+
+def paraboloid(n, nu):
+    """R = d = a = E* = 1."""
+    half_space, r = body(n, nu, 2 * 1.06)
+    return Contact(half_space, r**2 / 2, MU)
+
+
+def turned(contact, first, then, steps=8):
+    """Forces (3,) after a path along x and one along y, each in units of mu_0 kappa d, and before the turn."""
+    unit = MU * contact.half_space.E_star / contact.half_space.G_star / steps
+    start = contact.full_slip(1.0, way=0.0)
+    way = np.zeros((2, 2 * steps + 1))
+    way[0] = first * unit * np.minimum(np.arange(2 * steps + 1), steps)
+    way[1] = then * unit * np.maximum(np.arange(2 * steps + 1) - steps, 0)
+    ends = list(contact.march(start, np.ones(2 * steps + 1), way, 1.0))
+    return contact.forces(ends[-1].tractions), contact.forces(ends[steps - 1].tractions), ends
+
+
+def test_two_stages_are_of_second_order_where_friction_turns():
+    contact, s = paraboloid(11, 0.3), np.linspace(0, 1, 65)
+    way = MU * np.stack([np.sin(4 * s), 1 - np.cos(4 * s)])
+    start, F = contact.full_slip(1.0), {}
+    for turning in (False, True):
+        for every in (1, 4, 8):
+            some = way[:, ::every]
+            *_, end = replace(contact, turning=turning).march(start, np.ones(some.shape[1]), some, 1.0)
+            F[turning, every] = contact.forces(end.tractions)
+    off = {key: np.max(np.abs(one - F[True, 1])) / (MU * one[Z]) for key, one in F.items()}
+    assert off[True, 4] < off[True, 8] / 2.5
+    assert off[True, 4] < off[False, 4] / 5
+    assert np.all(np.hypot(*end.tractions[:2]) <= MU * end.pressure * (1 + 1e-9))
+
+
+def stiffness(contact):
+    """Of the full contact: the force along x of a way so short that next to nothing slips."""
+    start, way = contact.full_slip(1.0, way=0.0), 1e-4 * MU
+    end = contact.step(start, 1.0, np.array([way, 0.0]), 1.0)
+    return float((contact.forces(end.tractions) - contact.forces(start.tractions))[X]) / way
+
+
+def test_the_stiffness_before_slip_is_mindlins():
+    assert_allclose(stiffness(paraboloid(41, 0.3)), 2 * paraboloid(41, 0.3).half_space.G_star, rtol=0.02)  # 2 G* a
+
+
+def test_a_small_turn_is_elastic():
+    """Across the slip nothing slips at first, for a body in which tractions shift the surface along themselves."""
+    contact, way = paraboloid(25, 0.0), 1e-4
+    F, before, _ = turned(contact, 0.5, way)
+    assert_allclose((F - before)[Y], stiffness(contact) * way * MU, rtol=0.03)  # little slips at the edge
+    assert abs((F - before)[X]) < 0.03 * (F - before)[Y]
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3])
+def test_a_long_second_path_turns_the_force_into_it(nu):
+    F, _, _ = turned(paraboloid(17, nu), 0.6, 12.0, steps=24)
+    assert_allclose(np.hypot(F[X], F[Y]), MU * F[Z], rtol=2e-3)
+    assert abs(F[X]) < 0.01 * F[Y]
+
+
+def test_paths_turned_by_ninety_degrees_turn_the_force():
+    contact, d = paraboloid(15, 0.2), np.ones(9)
+    way = np.stack([np.linspace(0, 0.2, 9), 0.1 * np.linspace(0, 1, 9) ** 2])
+    start = contact.full_slip(1.0, way=0.0)
+    one = list(contact.march(start, d, way, 1.0))[-1]
+    two = list(contact.march(start, d, np.stack([-way[1], way[0]]), 1.0))[-1]  # x -> y, y -> -x
+    F, turned_F = (contact.forces(step.tractions) for step in (one, two))
+    assert_allclose(turned_F, [-F[Y], F[X], F[Z]], rtol=1e-5, atol=1e-7)
+
+
+def test_a_finer_grid_has_the_same_force():
+    coarse, fine = (turned(paraboloid(n, 0.3), 0.5, 0.5)[0] for n in (15, 31))
+    assert_allclose(coarse / coarse[Z], fine / fine[Z], rtol=0.01)  # cells^(-3/2)
+
+
+def test_the_path_by_another_way():
+    """Coulomb's law cell by cell, in turns, on a dense matrix, without coupling: Gauss and Seidel's method."""
+    contact = paraboloid(9, 0.3)
+    body = contact.half_space
+    contact = Contact(type(body)(body.n, body.h, body.E_star, body.G_star), contact.shape, MU)
+    n, at = body.n, np.arange(body.n)
+    rows = at[:, None, None, None] - at[:, None] + n - 1, at[:, None, None] - at + n - 1
+
+    def matrix(i, j):
+        return body.coefficients(i, j)[rows].reshape(n * n, n * n)
+
+    C = np.block([[matrix(X, X), matrix(X, Y)], [matrix(Y, X), matrix(Y, Y)]])
+    _, _, ends = turned(contact, 0.5, 0.5, steps=3)
+    p = ends[0].pressure.ravel()
+    cells = np.flatnonzero(p > 0)
+    unit = MU * body.E_star / body.G_star / 3
+    q = np.zeros(2 * n * n)
+    for end, moved in zip(ends, 3 * [(0.5 * unit, 0.0)] + 3 * [(0.0, 0.5 * unit)], strict=True):
+        asked = C @ q + np.repeat(moved, n * n)
+        for _ in range(400):
+            for k in cells:
+                both = [k, k + n * n]
+                new = q[both] + (asked[both] - C[both] @ q) / C[k, k]
+                q[both] = new * min(1.0, MU * p[k] / np.hypot(*new))
+        assert_allclose(end.tractions[:2].ravel(), q, atol=1e-5 * MU * p.max())
