@@ -55,7 +55,7 @@ SIGNATURES = {
     "InPlaneOscillation": 'omega, du_x=0.0, phi_x=0.0, du_y=0.0, phi_y=0.0, at="tool"',
     "InPlaneMotion": 'omega, x_cos=(), x_sin=(), y_cos=(), y_sin=(), at="tool"',
     "RigidPull": "",
-    "SpringPull": "k_x, m=0.0, c_x=0.0",
+    "SpringPull": "k_x, m=0.0, c_x=0.0, k_y=None, c_y=None",
     "SlidingContact": "indenter, material, mu_0, oscillation, pull=RigidPull(), shake=None",
     "partial_slip": "indenter, material, mu_0, u_z0, u_x",
     "critical_velocity": "case, direction=1",

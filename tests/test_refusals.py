@@ -69,8 +69,7 @@ HOSTILE = {
     "_invertible": [*POSITIVE, (1e-320, FieldError, "beyond the range of floats")],
     "_end": [one for one in POSITIVE if one[0] is not None],
     "amplitudes": ENTRIES,
-    "_no_amplitude": [*NUMBER, (1e-9, FieldError, "must be zero: motion across the pull")],
-    "_no_amplitudes": [*ENTRIES, ([0.0, 1e-9], FieldError, "must be zero: motion across the pull")],
+    "_or_none": [one for one in POSITIVE if one[0] is not None],
     "column": ROW,
     "radii": [(3, FieldTypeError, "must be a sequence of radii"), ([-1.0], FieldError, "be positive"),
               ("tip", FieldTypeError, "must be")],
@@ -92,11 +91,11 @@ FIELDS = [(record, field) for record in RECORDS for field in fields(record)]
 NAMES = [f"{record.__name__}.{field.name}" for record, field in FIELDS]
 #: what the physics allows to be zero, to have a sign, or to have bounds of its own; every other number is positive
 NOT_NEGATIVE = {"KelvinVoigt.tau", "Prony.tau", "Prony.E_inf", "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
-                "LoadOscillation.m_z", "InPlaneOscillation.du_x", "SpringPull.m", "SpringPull.c_x",
+                "LoadOscillation.m_z", "InPlaneOscillation.du_x", "InPlaneOscillation.du_y", "SpringPull.m", "SpringPull.c_x",
                 "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
 SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}
 BOUNDED = {"theta": "_slope_angle", "nu": "poisson_ratio", "nu_1": "poisson_ratio", "nu_2": "poisson_ratio"}
-OWN = {"Ellipsoid.k": "_invertible", "InPlaneOscillation.du_y": "_no_amplitude"}
+OWN = {"Ellipsoid.k": "_invertible", "SpringPull.k_y": "_or_none", "SpringPull.c_y": "_or_none"}
 
 
 def sound(record):

@@ -122,8 +122,8 @@ class SpringPull(Pull):
         default=None,
         metadata=facts("N/m", "stiffness across the pull; none guides the body", _or_none, label="stiffness $k_y$"),
     )
-    c_y: float = field(
-        default=0.0, metadata=facts("N s/m", "damping across the pull", not_negative, label="damping $c_y$")
+    c_y: float | None = field(
+        default=None, metadata=facts("N s/m", "damping across the pull", _or_none, label="damping $c_y$")
     )
 
     def __post_init__(self) -> None:
@@ -143,4 +143,4 @@ class SpringPull(Pull):
     @property
     def across(self) -> tuple[float, float, float]:
         """m [kg], c_y [N s/m], k_y [N/m]."""
-        return (0.0, 0.0, np.inf) if self.k_y is None else (self.m, self.c_y, self.k_y)
+        return (0.0, 0.0, np.inf) if self.k_y is None else (self.m, self.c_y or 0.0, self.k_y)

@@ -68,7 +68,8 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
 
         v_c = omega |mu_0 (kappa + K_z H) du_z -+ X|
 
-    Alone it has v_c = omega abs(X), which knows neither shape nor depth nor material.
+    Alone it has v_c = omega abs(X), which knows neither shape nor depth nor material. Shaken across the pull a contact
+    has full friction at no velocity, and v_c is infinite.
 
     Examples
     --------
@@ -82,7 +83,7 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     """
     case = at_rest(case).pulled(direction)
     u_n, X_n = _depth_harmonics(case), case.way
-    if not (np.isfinite(u_n).all() and np.isfinite(X_n).all()):
+    if case.moves_across or not (np.isfinite(u_n).all() and np.isfinite(X_n).all()):
         return float("inf")
     size = max(u_n.size, X_n.size)
     u_n, X_n = (np.pad(values, (0, size - values.size)) for values in (u_n, X_n))

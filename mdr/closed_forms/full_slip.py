@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
 from mdr.case.motion import LoadOscillation
+from mdr.closed_forms.across import is_across_alone, static_across
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, has_closed_form
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials.operator import Rheology
@@ -223,11 +224,14 @@ def static_cof(case: SlidingContact) -> float:
     0.322
     """
     case = resolved(case)
+    if case.moves_across and is_across_alone(case):
+        return static_across(case)
     if case.is_shaken:
         if not has_closed_form(case):
             raise ValueError(
-                "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull "
-                "on an elastic or Kelvin material: ask holding_band(case), or cof_curve(case, [0])"
+                "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull, "
+                "along the pull on an elastic or Kelvin material, across it at a constant depth: ask holding_band(case), "
+                "or cof_curve(case, [0])"
             )
         return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):

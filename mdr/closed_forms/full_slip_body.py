@@ -57,7 +57,8 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     float
         v_c [m/s]. Negative where friction is full at any pull in this direction, and some way into the other one, as
         of a shaken contact that is lost in part of the period. Infinite on an undamped resonance, k_x = m (n omega)²
-        with a harmonic F_n that is not zero. Infinite too for a body without mass and damper whose contact is lost and
+        with a harmonic F_n that is not zero. Infinite where something shakes the contact across the pull, as friction
+        is full at no velocity then. Infinite too for a body without mass and damper whose contact is lost and
         touches again with a jump of F_N' (a Kelvin material, unless the tip is sharp): for an instant its velocity has
         no bound.
 
@@ -94,7 +95,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     0.000516 m/s
     """
     case = resolved(case).pulled(direction)
-    if not np.isfinite(case.way).all():
+    if case.moves_across or not np.isfinite(case.way).all():
         return np.inf
     rates = _slip_rates(case)
     touches, leaves = contact_ends(case)

@@ -23,7 +23,7 @@ from mdr.tools.checks import positive
 from mdr.tools.fields import Facts, Rule, facts_of
 
 STEPS = 200  #: of a slider: as many as it has pixels
-HIDDEN = ("du_y", "phi_y", "y_cos", "y_sin")  #: across the pull, where nothing may move
+HIDDEN = ("k_y", "c_y")  #: of a body that is not guided across: files and scripts have them
 
 
 @dataclass(frozen=True)

@@ -129,5 +129,6 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
         "m": m,
         "c_x": 2 * SMALL * float(np.sqrt(k_x * m)),
         "du_x": case.mu_0 * kappa * depth / 2,
+        "du_y": case.mu_0 * kappa * depth / 2,
     }
     return {name: float(f"{size:.2g}") for name, size in sizes.items()} | {"omega": case.omega}

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
@@ -34,6 +35,7 @@ from mdr.tools.summary import Summarised, Summary, number, span
 
 FOLLOWED_ERROR = 5e-6  #: of the static limit over mu_0, of a force that is followed spring by spring
 SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
+SLOW_ACROSS = (1e-3, 1e-2)  #: the same of one that is shaken across, which comes to rest by ever smaller slips
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
@@ -264,6 +266,10 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     A body with mass, or arms, end a run at rest wherever they came to within the band of a shaken contact; there two
     slow runs tell the limit, to which friction falls like a power of the velocity between 2/3 and 1.
     """
+    if case.moves_across:
+        if is_across_alone(case):
+            return static_cof(case), EXACT * case.mu_0, True, 1.0, ""
+        return _slow_limit(friction(case, np.array(SLOW_ACROSS) * case.pace))
     if not case.is_shaken:
         error = FOLLOWED_ERROR if case.material.contact_arms else EXACT
         return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, ""

@@ -47,6 +47,12 @@ FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever
 MANY = 4  #: times the first steps, from which on a run from full slip begins in the state of one of so few
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
+#: why a contact that is shaken across has no critical velocity
+ACROSS = (
+    "shaken across the pull, friction is less than mu_0 at every velocity, as its direction follows that of slip: what "
+    "is missing falls like 1/v_0² (mdr.laws.lost_across)"
+)
+
 
 @dataclass(frozen=True)
 class MeasuredVelocity(Summarised):
@@ -151,6 +157,8 @@ def measure_critical_velocity(
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
     half_width = max(2 * accuracy_of(accuracy), NARROWEST)  # accuracy is a quarter of the width
     search = _Search(resolved(case).pulled(direction), start, half_width)
+    if search.case.moves_across:
+        return MeasuredVelocity(None, None, None, "none", ACROSS)
     with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
         try:
             return search.measure()

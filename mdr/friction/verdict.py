@@ -12,10 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.across import is_across_alone, lost_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
+from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.friction.measured_velocity import HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
+from mdr.friction.measured_velocity import ACROSS, HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space
 from mdr.march.march import BUDGET
@@ -206,6 +208,9 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
     found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.pace
     deviation: float | None = None
     holds: bool | None
+    if case.moves_across:  # both closed forms say so too
+        why = "; ".join([across(case), *_left_out(case)])
+        return Verdict(eq_15, full, None, None, True, why, found, formula_of(case), within, least)
     if found.v_c is None:
         holds = None if found.kind == "unsettled" else _holds_without_velocity(case, eq_15, full)
     elif not np.isfinite(eq_15):
@@ -221,6 +226,24 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         reasons.append(found.why)
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
+
+
+def across(case: SlidingContact) -> str:
+    """What takes the place of a critical velocity where a contact is shaken across its way."""
+    fastest = case.omega * float(np.arange(1, case.way_across.size + 1) @ np.abs(case.way_across))
+    said = ACROSS
+    if is_across_alone(case):
+        rest = static_cof(case)
+        from scipy.optimize import brentq
+
+        ten = brentq(lambda v: lost_across(case, v) - 0.01, 0.01 * fastest, 100 * fastest)
+        said += (
+            f"; at rest it holds {rest:.4g} of the load, and springs stick for part of the period"
+            if rest
+            else "; at rest it holds nothing, as every spring slips in every period"
+        )
+        said += f"; friction is back to 1 % of mu_0 from about {ten:.3g} m/s on"
+    return f"{said}; the greatest velocity across is {fastest:.3g} m/s"
 
 
 def _tolerance(within: float) -> float:

@@ -15,9 +15,10 @@ from mdr.march.stepper import MarchState, Stepper
 from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
-TURNS = 40  #: of Newton's method; springs at slow pulls meet kinks in a dozen
+TURNS = 60  #: of Newton's method; springs at slow pulls meet kinks in a dozen
 PUSH = 1e-6  #: displacement that tells the derivative, over the greatest compression
 FLAT = 1e-9  #: share of itself by which a spring is taken to forget in a period, where it forgets nothing
+SHORTER, SHORTEST = 0.25, 0.01  #: shares of a step that is no gain, which are tried
 BEFORE = 0.01  #: part of the tolerance at which it ends
 
 
@@ -28,26 +29,30 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
     roots = np.sqrt(np.tile(np.r_[1.0, scaled.rheology.rho], scaled.ways))[:, None]
     farthest = float(start.s[0].max())
     x = _inside(stepper, start.e.copy(), start)
-    before, last = np.full(n, np.inf), x
+    before, part = np.full(n, np.inf), np.ones(n)
+    last = after = x
+    step = np.zeros_like(x)
     for _ in range(TURNS):
         if time_is_over():
             return None
         image = _marched(stepper, x, start)
-        moved = image - x
-        change = np.linalg.norm(roots * moved, axis=0)
+        change = np.linalg.norm(roots * (image - x), axis=0)
         worse = ~(change <= before)
-        if worse.any():  # go on from where it was marched to
-            x = np.where(worse, last, x)
+        if worse.any():  # less of that step, and at last none: on to where it was marched to
+            part = np.where(worse, SHORTER * part, 1.0)
+            shorter = np.where(part >= SHORTEST, _inside(stepper, last + part * step, start), after)
+            x = np.where(worse, shorter, x)
             image = _marched(stepper, x, start)
-            moved = image - x
-            change = np.linalg.norm(roots * moved, axis=0)
+            change = np.where(worse & (part < SHORTEST), before, np.linalg.norm(roots * (image - x), axis=0))
+            part = np.where(part < SHORTEST, 1.0, part)
         turn = np.empty((n, len(x), len(x)))
         for k in range(len(x)):
             push = np.zeros_like(x)
             push[k] = np.where(x[k] > 0, -PUSH, PUSH) * farthest
             turn[:, :, k] = ((_marched(stepper, x + push, start) - image) / push[k]).T
-        left = (1 + FLAT) * np.eye(len(x)) - turn
-        step = np.linalg.solve(left, moved.T[:, :, None])[:, :, 0].T
+        moved = image - x
+        last, after, before = x, image, change
+        step = np.linalg.solve((1 + FLAT) * np.eye(len(x)) - turn, moved.T[:, :, None])[:, :, 0].T
         off = float(np.linalg.norm(roots * step, axis=0) @ w) / stepper.mean_F_z
         if not np.isfinite(off):
             return None
@@ -56,9 +61,7 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
             state, periods = stepper.advance(state, 1)
             cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
             return Orbit(state, periods, Settling(cof, 2 * off, True, "periodic", gain=1.0, across=cof_y))
-        length = np.linalg.norm(step, axis=0)
-        step *= np.minimum(1.0, 2 * farthest / np.maximum(length, 1e-300))
-        before, last = change, image
+        step *= np.minimum(1.0, 2 * farthest / np.maximum(np.linalg.norm(step, axis=0), 1e-300))
         x = _inside(stepper, x + step, start)
     return None
 

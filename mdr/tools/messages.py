@@ -15,13 +15,16 @@ def offer(word: str, known: Sequence[str]) -> str:
 
 def nearest(word: str, known: Sequence[str]) -> str | None:
     """The known name that is spelt most like the word, or that alone begins with it."""
-    from difflib import get_close_matches
+    from difflib import SequenceMatcher, get_close_matches
 
     folded = {one.casefold(): one for one in known}
     word = word.casefold()[:99]
     begun = [one for one in folded if word and one.startswith(word)]
-    found = begun if len(begun) == 1 else get_close_matches(word, folded, n=1)
-    return folded[found[0]] if found else None
+    if len(begun) == 1:
+        return folded[begun[0]]
+    close = [one for one in folded if one in get_close_matches(word, folded, n=3)]
+    found = max(close, key=lambda one: SequenceMatcher(None, one, word).ratio(), default="")  # of equals the first
+    return folded[found] if found else None
 
 
 def short(text: str, longest: int = 60) -> str:

@@ -204,7 +204,7 @@ def creeping(case, load, e_share, n_periods):
     state, _ = stepper.advance(state, 5 * n_periods)  # until it rests, but for a swing within the period
     before = state.body[Y]
     state, _ = stepper.advance(state, n_periods)
-    return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.drive.x_dot).max()
+    return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.drive.along.x_dot).max()
 
 
 @pytest.mark.parametrize(
@@ -226,7 +226,7 @@ def test_inside_the_band_nothing_creeps_and_outside_it_does(case, side):
     assert drift > 1e-4
     # friction at this velocity and the damper together carry the load
     scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 512, lump=False)
-    velocity = -inward * drift * np.abs(scaled.drive.x_dot).max()
+    velocity = -inward * drift * np.abs(scaled.drive.along.x_dot).max()
     carried = mdr.slide(case, velocity * scaled.units.speed).cof + MU_0 * DAMPING * velocity / scaled.normal.mean
     assert carried == pytest.approx(outside, abs=0.03 * width)
 

@@ -10,7 +10,7 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march import loop, periodic_orbit
+from mdr.march import orbit_loop, periodic_orbit
 from mdr.march.march import MOST_ACCURATE, Resolution, march
 
 RNG = np.random.default_rng(11)

@@ -1,5 +1,5 @@
 """Laws that the paper does not have: where Eq. (1) and Eq. (15) end, how large their error is, what v_c is beyond, and
-what becomes of friction where the contact is shaken along its way.
+what becomes of friction where the contact is shaken in the plane.
 
 They were derived here, and each is tested beside runs or beside the full-slip condition by a claim of the report
 (`python -m validation`), named in brackets at its end. "Eq. (n)" alone is the paper, see mdr/closed_forms/paper.py.
@@ -34,6 +34,7 @@ Body, finite amplitude
     the depth at the edge of the contact. The receptance turns each harmonic of q into a motion of the body.
 """
 
+from mdr.closed_forms.across import held_across, lost_across, rigid_across
 from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
 from mdr.closed_forms.laws.bodies import (
     LeastOverDepth,
@@ -72,15 +73,18 @@ __all__ = [
     "first_order",
     "half_a_blow",
     "harmonic_share",
+    "held_across",
     "held_under_shake",
     "late_return",
     "least_over_depth",
     "load_error",
     "lock_in",
+    "lost_across",
     "lost_under_shake",
     "onset",
     "radial_rub",
     "resonance_residue",
+    "rigid_across",
     "rigid_shake",
     "rise_of_lost_punch",
     "slow_limit",
