@@ -91,8 +91,8 @@ FIELDS = [(record, field) for record in RECORDS for field in fields(record)]
 NAMES = [f"{record.__name__}.{field.name}" for record, field in FIELDS]
 #: what the physics allows to be zero, to have a sign, or to have bounds of its own; every other number is positive
 NOT_NEGATIVE = {"KelvinVoigt.tau", "Prony.tau", "Prony.E_inf", "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
-                "LoadOscillation.m_z", "InPlaneOscillation.du_x", "InPlaneOscillation.du_y", "SpringPull.m", "SpringPull.c_x",
-                "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
+                "LoadOscillation.m_z", "InPlaneOscillation.du_x", "InPlaneOscillation.du_y", "SpringPull.m",
+                "SpringPull.c_x", "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
 SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}
 BOUNDED = {"theta": "_slope_angle", "nu": "poisson_ratio", "nu_1": "poisson_ratio", "nu_2": "poisson_ratio"}
 OWN = {"Ellipsoid.k": "_invertible", "SpringPull.k_y": "_or_none", "SpringPull.c_y": "_or_none"}

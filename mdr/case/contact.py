@@ -88,13 +88,13 @@ class SlidingContact(Summarised):
                 "shake",
             )
         _ = self.repeats  # refuses frequencies in no ratio
-        if self.moves_across and self.shake is not None and self.shake.at == "pull":
-            if np.isinf(self.pull.across[2]) and not self.pull.is_rigid:
-                raise FieldError(
-                    "the pulling point is shaken across, and the body is guided there, so that nothing moves: give the "
-                    'pull a stiffness k_y, or shake at = "tool"',
-                    "shake",
-                )
+        guided = np.isinf(self.pull.across[2]) and not self.pull.is_rigid
+        if self.shake is not None and self.shake.at == "pull" and self.moves_across and guided:
+            raise FieldError(
+                "the pulling point is shaken across, and the body is guided there, so that nothing moves: give the "
+                'pull a stiffness k_y, or shake at = "tool"',
+                "shake",
+            )
         object.__setattr__(self, "oscillation", self.oscillation.on(self.indenter, self.material))
         if self.oscillation.knows_depth:
             if not self.u_z_max > 0:

@@ -1,9 +1,9 @@
 """The imposed motion in the plane, besides the pull: u_x(t) = v_0 t + x(t), u_y(t) = y(t), periodic with zero mean.
 
-Along the pull it is called longitudinal, across it transverse. Where it acts matters once a body hangs on a spring. At the tool, between body and indenter (a piezo; to shake the
-half-space is the same with the sign turned), the indenter stands at the body's place plus x. At the pull, the far end
-of the pulling spring is shaken, and without friction the body answers harmonic n by (k_x + i n omega c_x) H(n omega)
-X_n.
+Along the pull it is called longitudinal, across it transverse. Where it acts matters once a body hangs on a spring. At
+the tool, between body and indenter (a piezo; to shake the half-space is the same with the sign turned), the indenter
+stands at the body's place plus x and y. At the pull, the far end of the pulling spring is shaken, and without friction
+the body answers harmonic n by (k_x + i n omega c_x) H(n omega) X_n, and likewise across.
 """
 
 from __future__ import annotations

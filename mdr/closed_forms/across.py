@@ -17,8 +17,9 @@ NODES = 64  #: of Gauss's rule on a piece of the contact; the integrand ends lik
 def rigid_across(r: float) -> float:
     """mu/mu_0 [-] of a contact that is shaken across by far more than its springs yield: (2/pi) r/q K(1/q²).
 
-    q² = 1 + r², K the complete elliptic integral of the parameter m: the mean cosine of the direction of slip. The limit
-    of eta = du_y/(mu_0 kappa u_z0) -> infinity at constant depth. It comes to 1 at no r, and is 1 - 1/(4 r²) for r >> 1.
+    q² = 1 + r², K the complete elliptic integral of the parameter m: the mean cosine of the direction of slip. The
+    limit of eta = du_y/(mu_0 kappa u_z0) -> infinity at constant depth. It comes to 1 at no r, and is 1 - 1/(4 r²) for
+    r >> 1.
 
     Parameters
     ----------

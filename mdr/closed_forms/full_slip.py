@@ -230,8 +230,8 @@ def static_cof(case: SlidingContact) -> float:
         if not has_closed_form(case):
             raise ValueError(
                 "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull, "
-                "along the pull on an elastic or Kelvin material, across it at a constant depth: ask holding_band(case), "
-                "or cof_curve(case, [0])"
+                "along the pull on an elastic or Kelvin material, across it at a constant depth: ask "
+                "holding_band(case), or cof_curve(case, [0])"
             )
         return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):

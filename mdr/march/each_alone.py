@@ -29,14 +29,15 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
     roots = np.sqrt(np.tile(np.r_[1.0, scaled.rheology.rho], scaled.ways))[:, None]
     farthest = float(start.s[0].max())
     x = _inside(stepper, start.e.copy(), start)
-    before, part = np.full(n, np.inf), np.ones(n)
+    before: Array = np.full(n, np.inf)
+    part = np.ones(n)
     last = after = x
     step = np.zeros_like(x)
     for _ in range(TURNS):
         if time_is_over():
             return None
         image = _marched(stepper, x, start)
-        change = np.linalg.norm(roots * (image - x), axis=0)
+        change: Array = np.asarray(np.linalg.norm(roots * (image - x), axis=0))
         worse = ~(change <= before)
         if worse.any():  # less of that step, and at last none: on to where it was marched to
             part = np.where(worse, SHORTER * part, 1.0)

@@ -6,11 +6,12 @@ extension e (a vector), R = L[s] and the law L of the material. Normal motion is
 * *stick*: e goes with the top, L[e] is known (law.py), until its length comes to R;
 * *slip*: with the trial force g = L[e] + T (x' - e') of a dashpot that would stick, x' the velocity of the top,
 
-      g = (R + T l) n,   T l' + G l = v.n - R',   n' (R + T l) = v - (v.n) n,   v = G x' + T x'' - sum rho_j e_j/theta_j
+      g = (R + T vel) n,    T vel' + G vel = v.n - R',    n' (R + T vel) = v - (v.n) n,
+      v = G x' + T x'' - sum rho_j e_j/theta_j
 
-  with the direction n of slip and force, the slip velocity l >= 0, and the modulus at once G = 1 + sum rho_j. This is
+  with the direction n of slip and force, the slip velocity vel >= 0, and the modulus at once G = 1 + sum rho_j. This is
   Coulomb's law and L, nothing else; it is the clipped trial force of a Kelvin spring, and for T = 0 the end of an
-  elastic spring that is dragged on a leash of length R, a tractrix. Slip ends where l comes to zero.
+  elastic spring that is dragged on a leash of length R, a tractrix. Slip ends where vel comes to zero.
 
 On a straight way the turn of n is known, however far it turns and however R changes: half the angle between n and the
 way has a tangent that falls by exp(-way/leash). Any other way is taken as two straight ones, from two Gauss nodes, that
@@ -79,10 +80,10 @@ class LookAcross(NamedTuple):
 class Cubic(NamedTuple):
     """a + b t + c t² + d t³."""
 
-    a: float
-    b: float
-    c: float
-    d: float
+    a: complex  #: real of what is a number
+    b: complex
+    c: complex
+    d: complex
 
 
 class Slip(NamedTuple):
@@ -91,7 +92,7 @@ class Slip(NamedTuple):
     n_m: complex
     l_m: float
     n: complex
-    l: float
+    vel: float
 
 
 @_inline
@@ -150,25 +151,25 @@ def curved(f, t):
 
 
 @_inline
-def pull_of(n, l, t, v, R, T, span):
+def pull_of(n, vel, t, v, R, T, span):
     """v.n - R' of a spring on a dashpot at a time, and its rate; span: of the time it is to serve for."""
-    v_t, rho = at(v, t), max(at(R, t) + T * l, 1e-300)
+    v_t, rho = at(v, t), max(at(R, t) + T * vel, 1e-300)
     across = v_t.imag * n.real - v_t.real * n.imag
     turning = across * across * rho / (rho * rho + across * across * span * span)  # where it turns at once, less
     return along(v_t, n) - slope(R, t), along(slope(v, t), n) + turning - 2.0 * curved(R, t)
 
 
 @_inline
-def driven(l, c_0, d_0, c_1, d_1, t, T, phi):
-    """l after a time t in which T l' + G l is the cubic of these values and slopes; phi of law.py, of G t/T."""
+def driven(vel, c_0, d_0, c_1, d_1, t, T, phi):
+    """vel after a time t in which T l' + G vel is the cubic of these values and slopes; phi of law.py, of G t/T."""
     step, first = c_1 - c_0, d_0 * t
     last = first + d_1 * t - 2.0 * step
     of = c_0 * phi[1] + first * phi[2] + 2.0 * (step - first - last) * phi[3] + 6.0 * last * phi[4]
-    return l * phi[0] + t / T * of
+    return vel * phi[0] + t / T * of
 
 
 @_inline
-def slid(n, l, a, b, v, R, T, G, phi):
+def slid(n, vel, a, b, v, R, T, G, phi):
     """Direction and velocity of slip at b, from those at a. v, R: cubics. phi: room."""
     t, mid, off = b - a, 0.5 * (a + b), GAUSS * (b - a)
     v_1, v_2, R_1, R_2 = at(v, mid - off), at(v, mid + off), at(R, mid - off), at(R, mid + off)
@@ -177,27 +178,27 @@ def slid(n, l, a, b, v, R, T, G, phi):
         n = turned(n, v_1 / max(R_1, tiny), v_2 / max(R_2, tiny), t)
         return n, (along(at(v, b), n) - slope(R, b)) / G
     fill_phi(G * t / T, phi)
-    c_a, d_a = pull_of(n, l, a, v, R, T, t)
-    r_a, n_b, l_b, r_b = (c_a - G * l) / T * t, n, l, 0.0
-    l_b = driven(l, c_a, d_a, c_a + d_a * t, d_a, t, T, phi)
+    c_a, d_a = pull_of(n, vel, a, v, R, T, t)
+    r_a, n_b, l_b, r_b = (c_a - G * vel) / T * t, n, vel, 0.0
+    l_b = driven(vel, c_a, d_a, c_a + d_a * t, d_a, t, T, phi)
     r_b = (c_a + d_a * t - G * l_b) / T * t
     for _ in range(2):
-        l_1 = (0.5 + GAUSS) * l + (0.5 - GAUSS) * l_b
-        l_2 = (0.5 - GAUSS) * l + (0.5 + GAUSS) * l_b
+        l_1 = (0.5 + GAUSS) * vel + (0.5 - GAUSS) * l_b
+        l_2 = (0.5 - GAUSS) * vel + (0.5 + GAUSS) * l_b
         if G * t < T:  # the cubic of values and slopes at the nodes of Gauss's rule
-            bend, tilt = (r_a - r_b) / 12.0, (r_a + r_b - 2.0 * (l_b - l)) * GAUSS / 6.0
+            bend, tilt = (r_a - r_b) / 12.0, (r_a + r_b - 2.0 * (l_b - vel)) * GAUSS / 6.0
             l_1, l_2 = l_1 + bend + tilt, l_2 + bend - tilt
         n_b = turned(n, v_1 / max(R_1 + T * l_1, tiny), v_2 / max(R_2 + T * l_2, tiny), t)
         c_b, d_b = pull_of(n_b, l_b, b, v, R, T, t)
-        l_b = driven(l, c_a, d_a, c_b, d_b, t, T, phi)
+        l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)
         r_b = (c_b - G * l_b) / T * t
     return n_b, l_b
 
 
 @_inline
-def slides(n, l, t, v, R, T, G, phi):
+def slides(n, vel, t, v, R, T, G, phi):
     """Slip over a time t."""
-    n_m, l_m = slid(n, l, 0.0, 0.5 * t, v, R, T, G, phi)
+    n_m, l_m = slid(n, vel, 0.0, 0.5 * t, v, R, T, G, phi)
     n_1, l_1 = slid(n_m, l_m, 0.5 * t, t, v, R, T, G, phi)
     return Slip(n_m, l_m, n_1, l_1)
 
@@ -274,9 +275,9 @@ def sum_of(x, i, of):
 
 @_inline
 def arms_after(x, i, p, p_fast, q, t, k, keep, tools, arms):
-    """What the arms of x[:, i], held on p t + q t² for a time t, come to: the sums of rho_j x_j and of rho_j x_j/theta_j,
-    and of the latter at half of the time. Fast arms, of theta_j < h, are held on p_fast t + q t²; their sum at half of
-    the time is taken as half of its change. keep: whether x is to be what it comes to.
+    """What the arms of x[:, i], held on p t + q t² for a time t, come to: the sums of rho_j x_j, of rho_j x_j/theta_j,
+    and of the latter at half of the time. Fast arms, of theta_j < h, are held on p_fast t + q t², and their sum changes
+    evenly. keep: whether x is to be what it comes to.
     """
     of, half = tools.held[k], tools.held[k + 2]
     one = two = middle = 0.0
@@ -390,7 +391,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                         if (rho >= R_0 - tol and ahead > 0.0) or (T > 0.0 and rho > R_0 + tol):
                             mode = SLIP
                     begins = False
-                    l = max(rho - R_0, 0.0) / T if T > 0.0 else max(ahead, 0.0) / G
+                    vel = max(rho - R_0, 0.0) / T if T > 0.0 else max(ahead, 0.0) / G
                     last = True
                     if mode == STICK:
                         until = until_slip(cubic(fx, u), cubic(fy, u), R, u, tol)
@@ -420,12 +421,12 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                         stuck += w[i] * u
                         when += w[i] * u * (begun + 0.5 * u)
                     else:
-                        low, high, l_low, l_high, side = 0.0, u, l, 0.0, 0
+                        low, high, l_low, l_high, side = 0.0, u, vel, 0.0, 0
                         for turn in range(MOST_HALVINGS):
                             # the slip over a time u, of which the memory of arms is part
-                            top, rate_0 = x_1 + 2.0 * x_2 * u, x_1 - l * n
+                            top, rate_0 = x_1 + 2.0 * x_2 * u, x_1 - vel * n
                             p, q, v = rate_0, 0.0j, Cubic(v_0, 2.0 * G * x_2, 0.0j, 0.0j)
-                            of = Slip(n, l, n, l)
+                            of = Slip(n, vel, n, vel)
                             if arms is not None:
                                 per, back = arms_give(u, k, tools, arms)
                                 gives = 1.0 / G
@@ -443,40 +444,40 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                                     v = Cubic(
                                         v_0, 2.0 * G * x_2 - (4.0 * m - a) / u, (4.0 * m - 2.0 * a) / (u * u), 0.0j
                                     )
-                                    known = gives * back * of.l
-                                    of = slides(n, l, u, v, R, T, G, tools.one)
-                                    of = Slip(of.n_m, of.l_m, of.n, (of.l - known) / (1.0 - gives * back))
-                                    q = (top - of.l * of.n - rate_0) / (2.0 * u)
+                                    known = gives * back * of.vel
+                                    of = slides(n, vel, u, v, R, T, G, tools.one)
+                                    of = Slip(of.n_m, of.l_m, of.n, (of.vel - known) / (1.0 - gives * back))
+                                    q = (top - of.vel * of.n - rate_0) / (2.0 * u)
                                     b_x, _, _ = arms_after(
                                         e_x, i, -q.real * u, rate_0.real, q.real, u, k, False, tools, arms
                                     )
                                     b_y, _, _ = arms_after(
                                         e_y, i, -q.imag * u, rate_0.imag, q.imag, u, k, False, tools, arms
                                     )
-                                    trial = (max(at(R, u), 0.0) + T * of.l) * of.n - T * top
+                                    trial = (max(at(R, u), 0.0) + T * of.vel) * of.n - T * top
                                     p = (trial - complex(e_x[0, i] + b_x, e_y[0, i] + b_y)) / per - q * u
                             else:
-                                of = slides(n, l, u, v, R, T, G, tools.one)
+                                of = slides(n, vel, u, v, R, T, G, tools.one)
                             if zeros > 1:  # slip and stick hold here alike
                                 break
                             if turn == 0:
-                                if of.l >= 0.0:
+                                if of.vel >= 0.0:
                                     break
                                 if of.l_m < 0.0:
                                     high, l_high = 0.5 * u, of.l_m
                                 else:
-                                    l_high = of.l
+                                    l_high = of.vel
                                 last = False
                             else:
-                                if of.l < 0.0:
-                                    high, l_high = u, of.l
+                                if of.vel < 0.0:
+                                    high, l_high = u, of.vel
                                     l_low *= 0.5 if side > 0 else 1.0
                                     side = 1
                                 else:
-                                    low, l_low = u, of.l
+                                    low, l_low = u, of.vel
                                     l_high *= 0.5 if side < 0 else 1.0
                                     side = -1
-                            if (high - low <= 1e-14 * h and u == high) or l_low <= 0.0 or of.l == 0.0:
+                            if (high - low <= 1e-14 * h and u == high) or l_low <= 0.0 or of.vel == 0.0:
                                 break
                             u = (low * l_high - high * l_low) / (l_high - l_low)
                             if high - low <= 1e-14 * h or not (low < u < high):
@@ -489,7 +490,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                         else:
                             zeros = 0
                         if u > 0.0:
-                            l_1 = max(of.l, 0.0) if last else 0.0
+                            l_1 = max(of.vel, 0.0) if last else 0.0
                             R_m, R_1 = max(at(R, 0.5 * u), 0.0), max(at(R, u), 0.0)
                             trial = (R_1 + T * l_1) * of.n - T * top
                             if arms is None:
@@ -501,9 +502,9 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                                     lost_on_parabola(e_x, i, p.real, q.real, u, T, arms)
                                     + lost_on_parabola(e_y, i, p.imag, q.imag, u, T, arms)
                                 )
-                                of_slip = R_0 * l + 4.0 * R_m * max(of.l_m, 0.0) + R_1 * l_1
+                                of_slip = R_0 * vel + 4.0 * R_m * max(of.l_m, 0.0) + R_1 * l_1
                                 look.sums[FRICTION_LOSS] += w[i] * u / 6.0 * of_slip
-                                look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], l, l_1)
+                                look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], vel, l_1)
                             if arms is not None:
                                 b_x, _, _ = arms_after(e_x, i, p.real, rate_0.real, q.real, u, k, True, tools, arms)
                                 b_y, _, _ = arms_after(e_y, i, p.imag, rate_0.imag, q.imag, u, k, True, tools, arms)

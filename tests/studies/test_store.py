@@ -178,7 +178,7 @@ OTHER = replace(BODY, indenter=SHAPES[1], material=mdr.Elastic(3e6, 0.5), oscill
         ({"axes": {"mu_0": AXES["mu_0"]}}, "axes.indenter is in the store only"),
         ({"axes": {**AXES, "T": [1.0]}}, "axes.T is in this call only"),
         ({"axes": dict(reversed(AXES.items()))}, 'order of axes is ["mu_0", "indenter"] there and ["ind'),
-        ({"case": BODY}, "case.pull is RigidPull() there and SpringPull(k_x=20000.0, m=0.1, c_x=4.0, k_y=null, c_y=null) here"),
+        ({"case": BODY}, "case.pull is RigidPull() there and SpringPull(k_x=20000.0, m=0.1, c_x=4.0, k_y=null, c_"),
         ({"quantities": ["v_c"]}, 'quantities is ["v_c", "static_cof"] there and ["v_c"] here'),
         ({"quantities": [mdr.Quantity("own", "m", depth)]}, 'there and [{"name": "own", "unit": "m", "meaning": "",'),
         ({"n_springs": 64, "steps_per_period": 64}, "n_springs is null there and 64 here; steps_per_period is null"),
