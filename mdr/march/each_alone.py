@@ -37,14 +37,14 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
         if time_is_over():
             return None
         image = _marched(stepper, x, start)
-        change: Array = np.asarray(np.linalg.norm(roots * (image - x), axis=0))
+        change = _length(roots * (image - x))
         worse = ~(change <= before)
         if worse.any():  # less of that step, and at last none: on to where it was marched to
             part = np.where(worse, SHORTER * part, 1.0)
             shorter = np.where(part >= SHORTEST, _inside(stepper, last + part * step, start), after)
             x = np.where(worse, shorter, x)
             image = _marched(stepper, x, start)
-            change = np.where(worse & (part < SHORTEST), before, np.linalg.norm(roots * (image - x), axis=0))
+            change = np.where(worse & (part < SHORTEST), before, _length(roots * (image - x)))
             part = np.where(part < SHORTEST, 1.0, part)
         turn = np.empty((n, len(x), len(x)))
         for k in range(len(x)):
@@ -53,8 +53,9 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
             turn[:, :, k] = ((_marched(stepper, x + push, start) - image) / push[k]).T
         moved = image - x
         last, after, before = x, image, change
-        step = np.linalg.solve((1 + FLAT) * np.eye(len(x)) - turn, moved.T[:, :, None])[:, :, 0].T
-        off = float(np.linalg.norm(roots * step, axis=0) @ w) / stepper.mean_F_z
+        left = (1 + FLAT) * np.eye(len(x)) - turn
+        step = np.asarray(np.linalg.solve(left, moved.T[:, :, None])[:, :, 0].T, dtype=float)
+        off = float(_length(roots * step) @ w) / stepper.mean_F_z
         if not np.isfinite(off):
             return None
         if off <= BEFORE * stepper.tolerance:
@@ -62,9 +63,14 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
             state, periods = stepper.advance(state, 1)
             cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
             return Orbit(state, periods, Settling(cof, 2 * off, True, "periodic", gain=1.0, across=cof_y))
-        step *= np.minimum(1.0, 2 * farthest / np.maximum(np.linalg.norm(step, axis=0), 1e-300))
+        step *= np.minimum(1.0, 2 * farthest / np.maximum(_length(step), 1e-300))
         x = _inside(stepper, x + step, start)
     return None
+
+
+def _length(x: Array) -> Array:
+    """Of the vector of each spring."""
+    return np.asarray(np.sqrt((x**2).sum(axis=0)))
 
 
 def _marched(stepper: Stepper, x: Array, like: MarchState) -> Array:
