@@ -122,6 +122,12 @@ def since(f, t):
 
 
 @_inline
+def size_of(a):
+    """Length of a vector; the library's `abs` guards against overflow, and takes several times as long."""
+    return np.sqrt(a.real * a.real + a.imag * a.imag)
+
+
+@_inline
 def along(a, b):
     """Scalar product of two vectors, which are complex numbers."""
     return a.real * b.real + a.imag * b.imag
@@ -130,12 +136,17 @@ def along(a, b):
 @_inline
 def dragged(n, boost):
     """The direction n after a straight way, of this vector over the leash: exact."""
-    length = abs(boost)
-    share = 0.5 - length * length / 24.0 if length < 1e-4 else np.tanh(0.5 * length) / length
+    q = 0.25 * (boost.real * boost.real + boost.imag * boost.imag)
+    if q < 0.3:  # half of tanh(x)/x, x² = q, by its continued fraction, to rounding
+        share = 0.5 * (135135.0 + q * (17325.0 + q * (378.0 + q)))
+        share /= 135135.0 + q * (62370.0 + q * (3150.0 + q * 28.0))
+    else:
+        root = np.sqrt(q)
+        share = 0.5 * np.tanh(root) / root
     half = share * boost
-    out = (n + half) * (1.0 + half * n.conjugate())  # over the conjugate of the second, of the same length
-    size = abs(out)
-    return out / size if size > 0.0 else n
+    other = 1.0 + half * n.conjugate()  # as long as n + half
+    size = other.real * other.real + other.imag * other.imag
+    return (n + half) * other * (1.0 / size) if size > 0.0 else n
 
 
 @_inline
@@ -175,7 +186,7 @@ def slid(n, vel, a, b, v, R, T, G, phi):
     v_1, v_2, R_1, R_2 = at(v, mid - off), at(v, mid + off), at(R, mid - off), at(R, mid + off)
     tiny = 1e-300
     if T == 0.0:
-        n = turned(n, v_1 / max(R_1, tiny), v_2 / max(R_2, tiny), t)
+        n = turned(n, v_1 * (1.0 / max(R_1, tiny)), v_2 * (1.0 / max(R_2, tiny)), t)
         return n, (along(at(v, b), n) - slope(R, b)) / G
     fill_phi(G * t / T, phi)
     c_a, d_a = pull_of(n, vel, a, v, R, T, t)
@@ -188,7 +199,7 @@ def slid(n, vel, a, b, v, R, T, G, phi):
         if G * t < T:  # the cubic of values and slopes at the nodes of Gauss's rule
             bend, tilt = (r_a - r_b) / 12.0, (r_a + r_b - 2.0 * (l_b - vel)) * GAUSS / 6.0
             l_1, l_2 = l_1 + bend + tilt, l_2 + bend - tilt
-        n_b = turned(n, v_1 / max(R_1 + T * l_1, tiny), v_2 / max(R_2 + T * l_2, tiny), t)
+        n_b = turned(n, v_1 * (1.0 / max(R_1 + T * l_1, tiny)), v_2 * (1.0 / max(R_2 + T * l_2, tiny)), t)
         c_b, d_b = pull_of(n_b, l_b, b, v, R, T, t)
         l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)
         r_b = (c_b - G * l_b) / T * t
@@ -206,7 +217,7 @@ def slides(n, vel, t, v, R, T, G, phi):
 @_inline
 def excess(x, y, R, t):
     """By how much a force is outside its disc at a time."""
-    return abs(complex(at(x, t), at(y, t))) - at(R, t)
+    return size_of(complex(at(x, t), at(y, t))) - at(R, t)
 
 
 @_inline
@@ -383,8 +394,8 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                             a_0 += arms.rho[j] * arms.rate[j] * complex(e_x[1 + j, i], e_y[1 + j, i])
                     g, R_0 = complex(fx.v_0, fy.v_0), max(R.a, 0.0)
                     v_0 = G * x_1 + 2.0 * T * x_2 - a_0
-                    rho = abs(g)
-                    n = g / rho if rho > TOUCHING * h * abs(v_0) else v_0 / max(abs(v_0), 1e-300)
+                    rho, fast = size_of(g), size_of(v_0)
+                    n = g * (1.0 / rho) if rho > TOUCHING * h * fast else v_0 * (1.0 / max(fast, 1e-300))
                     ahead = along(v_0, n) - R.b
                     if begins:  # in which mode
                         mode = STICK
@@ -494,8 +505,8 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
                             R_m, R_1 = max(at(R, 0.5 * u), 0.0), max(at(R, u), 0.0)
                             trial = (R_1 + T * l_1) * of.n - T * top
                             if arms is None:
-                                q = (top - l_1 * of.n - rate_0) / (2.0 * u)
-                                p = (trial - complex(e_x[0, i], e_y[0, i])) / u - q * u
+                                q = (top - l_1 * of.n - rate_0) * (0.5 / u)
+                                p = (trial - complex(e_x[0, i], e_y[0, i])) * (1.0 / u) - q * u
                             f_0, f_m, f_1 = R_0 * n, R_m * of.n_m, R_1 * of.n
                             if look is not None:
                                 look.sums[SHEAR_VISCOUS] += w[i] * (
@@ -538,7 +549,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
             f = complex(e_x[0, i], e_y[0, i]) + T * last_rate
             if arms is not None:
                 f += complex(sum_of(e_x, i, arms.rho), sum_of(e_y, i, arms.rho))
-            size = abs(f)
+            size = size_of(f)
             f = f * (R_end / size) if size > R_end else f
             l_end = 0.0
         end += w[i] * f
