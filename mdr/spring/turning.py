@@ -256,6 +256,16 @@ def until_slip(x, y, R, t, tol):
                 break
         if half == 1:
             return t
+    if excess(x, y, R, low) > -tol and leaves(x, y, R, low) < 0.0:  # from the rim inward, and out again later
+        part = high - low
+        for _ in range(MOST_HALVINGS):
+            part *= 0.5
+            f = excess(x, y, R, low + part)
+            if f < -tol:
+                low += part
+                break
+            if f > tol:
+                high = low + part
     f_low, f_high, side = min(excess(x, y, R, low), -0.0), excess(x, y, R, high), 0
     for _ in range(MOST_HALVINGS):
         if high - low <= 1e-15 * t:

@@ -1,0 +1,87 @@
+"""A step of springs whose friction turns: a straight way, turned axes, the interval as the limit of the disc."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from mdr.spring.law import law_of
+from mdr.spring.settle import tools_for
+from mdr.spring.step import Path, row
+from mdr.spring.turning import row_turning
+
+LAWS = {"elastic": law_of(0.0), "kelvin": law_of(0.4), "two arms": law_of(0.0, (1.0, 0.5), (1.0, 5.0))}
+H = 0.05
+
+
+def some_springs(law, rng, n=40):
+    """Springs at their depth, stretched within friction; the top is at z = 0 and sinks slowly."""
+    J = 1 if law.arms is None else 1 + law.arms.rho.size
+    gap = -rng.uniform(0.5, 2.0, n)
+    s = np.zeros((J, n))
+    s[0] = -gap
+    e, angle = np.zeros((2 * J, n)), rng.uniform(0, 2 * np.pi, n)
+    size = rng.uniform(0.0, 0.9, n) * s[0]
+    e[0], e[J] = size * np.cos(angle), size * np.sin(angle)
+    return gap, np.full(n, 1 / n), s, e
+
+
+def stepped(law, springs, x, y, h=H, z_1=0.05):
+    """Sums, compressions and extensions after a step on x_1 t + x_2 t², y likewise."""
+    gap, w, s, e = springs
+    s, e, tools = s.copy(), e.copy(), tools_for(law, h)
+    of = row_turning(s, e, gap, w, Path(0.0, z_1, 0.0, *x), *y, law.T, law.modes, law.arms, tools, None)
+    return of, s, e
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_turned_axes_turn_the_answer(law):
+    springs = some_springs(law, np.random.default_rng(1))
+    J = len(springs[2])
+
+    def turned(a, b, angle=0.7):
+        return np.cos(angle) * a - np.sin(angle) * b, np.sin(angle) * a + np.cos(angle) * b
+
+    speed = 10.0 if law.T == 0 else 1.0  # so that some stick and some slip
+    x, y = speed * np.array([0.9, -3.0]), speed * np.array([-1.2, 5.0])
+    of, _, e = stepped(law, springs, x, y)
+    gap, w, s, start = springs
+    there, _, e_there = stepped(law, (gap, w, s, np.concatenate(turned(start[:J], start[J:]))), *turned(x, y))
+    assert_allclose(e_there, np.concatenate(turned(e[:J], e[J:])), atol=1e-13)
+    for one in ("area", "moment", "end"):
+        pair = [getattr(of, f"{one}_{way}") for way in "xy"], [getattr(there, f"{one}_{way}") for way in "xy"]
+        assert_allclose(pair[1], turned(*pair[0]), atol=1e-13)
+
+
+def test_a_straight_way_may_be_split():
+    law = LAWS["elastic"]
+    gap, w, s, e = some_springs(law, np.random.default_rng(2))
+    whole = stepped(law, (gap, w, s, e), (30.0, 0.0), (40.0, 0.0), z_1=0.0)[2]
+    for _ in range(7):
+        e = stepped(law, (gap, w, s, e), (30.0, 0.0), (40.0, 0.0), h=H / 7, z_1=0.0)[2]
+    assert_allclose(e, whole, atol=1e-11)
+
+
+def test_the_end_of_a_leash_is_a_tractrix():
+    law = LAWS["elastic"]
+    springs = np.array([-1.0]), np.ones(1), np.array([[1.0]]), np.array([[np.cos(2.0)], [np.sin(2.0)]])
+    way = 3.0
+    e = stepped(law, springs, (way / H, 0.0), (0.0, 0.0), z_1=0.0)[2][:, 0]
+    # it is pulled back into the disc first, until the chord along the way has been gone through
+    left = way - (-2 * np.cos(2.0))
+    assert np.tan(np.arctan2(e[1], e[0]) / 2) == pytest.approx(np.tan((np.pi - 2.0) / 2) * np.exp(-left), rel=1e-9)
+
+
+@pytest.mark.parametrize(("law", "tolerance"), zip(LAWS.values(), (1e-13, 2e-4, 1e-5), strict=True), ids=LAWS)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_along_one_line_it_is_the_scalar_row(law, tolerance, sign):
+    gap, w, s, e = some_springs(law, np.random.default_rng(3))
+    J = len(s)
+    e[J:] = 0.0
+    of, _, after = stepped(law, (gap, w, s, e), (sign * 20.0, 10.0), (0.0, 0.0))
+    s_1, e_1 = s.copy(), e[:J].copy()
+    path = Path(0.0, 0.05, 0.0, sign * 20.0, 10.0)
+    rate = sign * 20.0 + 20.0 * H
+    known = row(s_1, e_1, gap, w, path, law.T, law.modes, law.arms, tools_for(law, H), 0.05, rate, None)
+    assert_allclose(after[J:], 0.0, atol=1e-15)
+    assert_allclose(after[:J], e_1, atol=tolerance)
+    assert_allclose([of.area_x, of.moment_x, of.end_x], [known[0], known[1], known[4]], atol=tolerance)
