@@ -32,12 +32,12 @@ GROUPS = {
         ("full_slip_motion", "static_cof", "rigid_pull", "spring_pull", "generalisation", "uniqueness", "maps"),
     ),
     "Beyond the paper": (
-        "The whole curve, lost contact, further resonances, and oscillation along the slide.",
-        ("one_curve", "lost_contact", "resonances", "shaken_velocity", "shaken_curves", "drive"),
+        "The whole curve, lost contact, further resonances, and oscillation along the slide and across.",
+        ("one_curve", "lost_contact", "resonances", "shaken_velocity", "shaken_curves", "drive", "shaken_across"),
     ),
     "Three dimensions": (
         "A half-space, solved with no springs at all, shows what independent springs leave out.",
-        ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip"),
+        ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip", "vector_springs"),
     ),
 }
 CLAIMS = tuple(name for _, names in GROUPS.values() for name in names)

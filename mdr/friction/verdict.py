@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.across import is_across_alone, lost_across
+from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.closed_forms.laws.across import lost_across
 from mdr.friction.measured_velocity import ACROSS, HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space

@@ -8,6 +8,7 @@ import pytest
 
 import mdr
 from mdr import laws
+from mdr.closed_forms import across
 
 OMEGA, DEPTH = 314.0, 20e-6
 PUNCH, ELASTIC = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
@@ -24,7 +25,7 @@ def error_of(case):
 
 
 def test_the_examples_run():
-    rooms = laws.rigid_pull, laws.bodies, laws.shaken
+    rooms = laws.rigid_pull, laws.bodies, laws.shaken, laws.across, across
     found = [doctest.testmod(room, extraglobs={"mdr": mdr, "np": np}) for room in rooms]
     assert sum(one.attempted for one in found) > 20
     assert not any(one.failed for one in found)

@@ -10,21 +10,19 @@ is near, and few periods suffice.
 
 from __future__ import annotations
 
-import csv
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 import mdr
 from mdr.half_space.friction import Settings, last_period
-from mdr.tools.provenance import commented, versions
 from validation.cases import E, contact
+from validation.half_space import kept
 from validation.half_space.springs import of_springs
 
-FOLDER = Path(__file__).with_name("tables")
 SETTINGS = Settings(cells=25, steps=40, cycles=30, settled=3e-4)
 SPRING_CYCLES = 40  #: of the springs, which cost nothing
 
@@ -127,30 +125,11 @@ def _marched(points: Sequence[Point], settings: Settings) -> list[tuple[float, f
 
 
 def write(name: str, rows: Sequence[Row], settings: Settings, what: str) -> Path:
-    """Keep rows as FOLDER/name.csv, with what made them in its head."""
-    FOLDER.mkdir(exist_ok=True)
-    path = FOLDER / f"{name}.csv"
+    """Keep rows, see `kept`."""
     cells, steps, cycles = settings.cells, settings.steps, settings.cycles
-    made = f"{what}; {cells} x {cells} cells, {steps} steps a period, {cycles} periods at most"
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.write(commented(made, versions()))
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow([field.name for field in fields(Point)] + [field.name for field in fields(Row)[1:]])
-        for row in rows:
-            values = [*asdict(row.point).values(), *list(asdict(row).values())[1:]]
-            table.writerow([f"{value:.7g}" if isinstance(value, float) else value for value in values])
-    return path
+    return kept.write(name, rows, f"{what}; {cells} x {cells} cells, {steps} steps a period, {cycles} periods at most")
 
 
 def read(name: str) -> list[Row]:
-    """The rows of FOLDER/name.csv."""
-    with (FOLDER / f"{name}.csv").open(newline="", encoding="utf-8") as file:
-        table = csv.DictReader(line for line in file if not line.startswith("#"))
-        return [_row(values) for values in table]
-
-
-def _row(values: dict[str, str]) -> Row:
-    known = [float(values[f.name]) for f in fields(Point)[1:-1]]
-    point = Point(values["shape"], *known, nu_2=float(values["nu_2"]) if values["nu_2"] else None)
-    cof, springs, step, grid, settling = (float(values[f.name]) for f in fields(Row)[1:6])
-    return Row(point, cof, springs, step, grid, settling, int(values["cycles"]), float(values["stick"]))
+    """The rows that are kept."""
+    return kept.read(name, Row)

@@ -34,8 +34,15 @@ Body, finite amplitude
     the depth at the edge of the contact. The receptance turns each harmonic of q into a motion of the body.
 """
 
-from mdr.closed_forms.across import held_across, lost_across, rigid_across
+from mdr.closed_forms.across import held_across
 from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
+from mdr.closed_forms.laws.across import (
+    excess_across,
+    lost_across,
+    rigid_across,
+    steered_across,
+    stiffened_by_coupling,
+)
 from mdr.closed_forms.laws.bodies import (
     LeastOverDepth,
     blow,
@@ -70,6 +77,7 @@ __all__ = [
     "depth_sensitivity",
     "edge_band",
     "elliptic_drive",
+    "excess_across",
     "first_order",
     "half_a_blow",
     "harmonic_share",
@@ -88,6 +96,8 @@ __all__ = [
     "rigid_shake",
     "rise_of_lost_punch",
     "slow_limit",
+    "steered_across",
+    "stiffened_by_coupling",
     "stiffness_exponent",
     "touch_depth",
 ]

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.half_space.friction import Settings, in_three_dimensions
-from validation.half_space import tables
+from validation.half_space import kept, tables
 from validation.half_space.springs import of_springs
 from validation.half_space.tables import Point
 
@@ -31,7 +31,7 @@ def test_a_row_is_what_a_run_by_itself_gives(rows):
 
 
 def test_a_table_is_read_as_it_was_written(rows, tmp_path, monkeypatch):
-    monkeypatch.setattr(tables, "FOLDER", tmp_path / "tables")
+    monkeypatch.setattr(kept, "FOLDER", tmp_path / "tables")
     pair = replace(rows[0], point=replace(rows[0].point, nu_2=0.5))
     path = tables.write("some", [*rows, pair], SETTINGS, "for a test")
     again = tables.read("some")
