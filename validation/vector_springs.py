@@ -375,9 +375,10 @@ def _law_figure(fig, panels, off: dict[str, list[Row]], coupled: Sequence[tuple[
     side.set(xlabel=r"a contact stiffer by $0.36\,\beta^2/\kappa$", ylabel=r"what coupling takes, over $\mu_0$")
     side.set_title("crosses: fitted")
     return (
-        "Left: what a contact shaken across holds at rest; for the flat punch the three agree, for curved faces a half-"
-        "space holds least. Middle: how much springs are too high by, over the law that was fitted to the paraboloid."
-        " Right: what coupling takes beyond that, over that of a stiffer contact; crosses are what it was fitted to."
+        "Left: what a contact shaken across holds at rest, colours as in the middle; flat punch: the three agree,"
+        " for curved faces a half-space holds least. Middle: how much springs are too high by, over the law that was"
+        " fitted to the paraboloid. Right: what coupling takes beyond that, over that of a stiffer contact; crosses are"
+        " what it was fitted to, red is ν = 0."
     )
 
 

@@ -15,10 +15,12 @@ from validation import (
     lost_contact,
     one_curve,
     rigid_pull,
+    shaken_across,
     static_cof,
     transverse_slip,
     uncoupled,
     uniqueness,
+    vector_springs,
 )
 from validation.cases import RADIUS, SHAPES, contact, driven
 from validation.generalisation import finite_amplitude, indentation
@@ -218,3 +220,31 @@ def test_a_wrong_correction_is_seen(monkeypatch):
     assert not any("flat punch" in name for name in missed)  # which has no such term
     assert sum("first-order term C" in name for name in missed) == 3
     assert sum(name.startswith("power") and "1 + C" in name for name in missed) == 2
+
+
+def test_laws_of_a_shake_across_that_are_off_are_seen(monkeypatch):
+    lost, steered = laws.lost_across, laws.steered_across
+    monkeypatch.setattr(laws, "lost_across", lambda case, v_0: 1.01 * lost(case, v_0))
+    monkeypatch.setattr(laws, "steered_across", lambda case, v_0: -steered(case, v_0))
+    missed = [c.name for c in shaken_across._fast_checks(quick=True) if not c.held]
+    missed += [c.name for c in shaken_across._side_checks(True, {}) if not c.held]
+    assert sum("lost friction over its law" in name for name in missed) == 4
+    assert sum("less its law" in name for name in missed) == 2
+
+
+def test_a_contact_at_rest_that_holds_what_it_cannot_is_seen(monkeypatch):
+    """Springs in the place of the surface."""
+    right = laws.held_across
+    monkeypatch.setattr(laws, "held_across", lambda shape, d, reach, surface: right(shape, d, reach))
+    missed = [c.name for c in vector_springs._rest_checks(quick=True) if not c.held]
+    assert sum("twelve periods" in name for name in missed) == 4
+
+
+def test_what_springs_are_too_high_by_counts(monkeypatch):
+    rows = vector_springs.kept.read("across_annuli", vector_springs.Row)
+    off = {shape: [row for row in rows if row.point.shape == shape] for shape in SHAPES}
+    left = {shape: np.array([row.off for row in off[shape]]) for shape in vector_springs.CURVED}  # no law at all
+    monkeypatch.setattr(vector_springs, "FADES", 0.02)
+    missed = [c.name for c in vector_springs._table_checks(off, left) if not c.held]
+    assert sum("less the law" in name for name in missed) == 3
+    assert "constant of the law by least squares" in missed

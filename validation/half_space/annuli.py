@@ -29,7 +29,7 @@ class Annuli(NamedTuple):
 
     r: Array  #: (n,) middles
     area: Array  #: (n,)
-    moved: Array  #: (n, n) displacement in the middle of the first by traction 1 on the second
+    moved: Array  #: (n, n) displacement of the first by traction 1 on the second, made reciprocal (Betti)
 
 
 class Found(NamedTuple):
@@ -45,7 +45,10 @@ def annuli(n: int) -> Annuli:
     """n of them."""
     edges = np.linspace(0, 1, n + 1)
     r = 0.5 * (edges[1:] + edges[:-1])
-    return Annuli(r, np.pi * np.diff(edges**2), np.diff([_disc(r, R) for R in edges], axis=0).T)
+    area, moved = np.pi * np.diff(edges**2), np.diff([_disc(r, R) for R in edges], axis=0).T
+    root = np.sqrt(area)
+    mutual = root[:, None] * moved / root
+    return Annuli(r, area, 0.5 * (mutual + mutual.T) / root[:, None] * root)
 
 
 def _disc(r: Array, R: float) -> Array:
@@ -71,7 +74,6 @@ def friction(p: Array, way: Array, cycles: int, settled: float, start: Array | N
     rings = annuli(p.size)
     root = np.sqrt(rings.area)
     matrix = root[:, None] * rings.moved / root
-    matrix = 0.5 * (matrix + matrix.T)  # but for the annuli's width it is symmetric
     bound = (root * p)[:, None]
 
     def product(q: Array) -> Array:
