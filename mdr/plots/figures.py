@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = [
     "COLOURS",
     "MODES",
+    "around",
     "edges_of",
     "periods_of",
     "plot_curve",
@@ -121,7 +122,8 @@ def plot_curve(
         ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$" if scaled else r"coefficient of friction $\mu$")
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
-        _curve_legend(ax, all(np.all(curve.settled) for curve in curves), both)
+        settled, across = (np.all(curve.settled) for curve in curves), (_across(curve) is not None for curve in curves)
+        _curve_legend(ax, all(settled), both, any(across))
     return ax
 
 
@@ -360,6 +362,10 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
     settled = np.asarray(curve.settled, dtype=bool)
     static = curve.static_cof / scale[1]
     ax.plot(*_line(curve, v, mu, scale[1]), color=colour, label=label, zorder=2)
+    if (cof_y := _across(curve)) is not None:
+        order = np.argsort(v)
+        for way in (order[v[order] < 0], order[v[order] >= 0]):
+            ax.plot(v[way], cof_y[way] / scale[1], color=colour, ls="-.", lw=1.2, zorder=2)
     size = 4.5 if len(v) <= 60 else 3.0
     ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
     ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
@@ -386,13 +392,21 @@ def _line(curve: Any, v: "NDArray[Any]", mu: "NDArray[Any]", scale: float) -> "t
     return np.concatenate([v[back], [0.0, 0.0], v[forward]]), np.concatenate([mu[back], at_rest, mu[forward]])
 
 
-def _curve_legend(ax: "Axes", settled: bool, both: bool) -> None:
-    """Explain the labels given, the static limit, and what a hollow point means where there is one."""
+def _across(curve: Any) -> Any:
+    """The COF across the pull (n_v,), where there is one."""
+    cof_y = getattr(curve, "cof_y", None)
+    return None if cof_y is None or np.all(np.abs(cof_y) <= curve.cof_error) else np.asarray(cof_y)
+
+
+def _curve_legend(ax: "Axes", settled: bool, both: bool, across: bool) -> None:
+    """Explain the labels given, the static limit, and a hollow point and the COF across where there are such."""
     from matplotlib.lines import Line2D
 
     handles, _ = ax.get_legend_handles_labels()
     if not both:
         handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
+    if across:
+        handles.append(Line2D([], [], color="0.3", lw=1.2, ls="-.", label="across the pull"))
     if not settled:
         handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
     if handles:
@@ -404,7 +418,7 @@ def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> Any:
 
     Returns the mesh of the directions of slip, None where slip has but two.
     """
-    from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
+    from matplotlib.colors import BoundaryNorm, ListedColormap
 
     order, t = np.argsort(run.x), periods_of(run)
     every = -(-len(t) // _MAX_COLUMNS)
@@ -416,9 +430,15 @@ def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> Any:
     if getattr(run, "f_y", None) is None:
         return None
     angle = np.degrees(np.arctan2(run.f_y, run.f_x))[::every, order].T
-    around = LinearSegmentedColormap.from_list("around", [((at + 180) / 360, colour) for at, colour in AROUND])
     slips = np.array([name.startswith("slip") for name, _ in MODES])[state]
-    return ax.pcolormesh(*cells, np.where(slips, angle, np.nan), cmap=around, vmin=-180, vmax=180, rasterized=True)
+    return ax.pcolormesh(*cells, np.where(slips, angle, np.nan), cmap=around(), vmin=-180, vmax=180, rasterized=True)
+
+
+def around() -> Any:
+    """The cyclic colour map of directions, from -180 to 180 degrees."""
+    from matplotlib.colors import LinearSegmentedColormap
+
+    return LinearSegmentedColormap.from_list("around", [((at + 180) / 360, colour) for at, colour in AROUND])
 
 
 def _direction_bar(figure: Any, turned: Any, beside: Any) -> None:

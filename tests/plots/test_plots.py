@@ -316,3 +316,11 @@ def test_maps_with_and_without_a_shake_across_have_one_bar():
     assert [len(ax.collections) for ax in fig.axes[:3]] == [1, 2, 2]
     assert len(fig.axes) == 4
     assert [text.get_text() for text in fig.legends[0].get_texts()] == ["free", "stick", "slip"]
+
+
+def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():
+    ax = plots.plot_curve(made_up_curve(cof_y=np.full(6, 0.1)))
+    drawn = [one.get_ydata() for one in ax.lines if one.get_linestyle() == "-."]
+    assert_allclose(np.concatenate(drawn), 0.1 / 0.5)
+    assert legend_texts(ax) == ["static limit", "across the pull"]
+    assert legend_texts(plots.plot_curve(made_up_curve(cof_y=np.full(6, 1e-6)))) == ["static limit"]
