@@ -128,6 +128,17 @@ def lost_across(case: SlidingContact, v_0: float) -> float:
     return float(weight @ (s * lost) / (weight @ s))
 
 
+def full_across(case: SlidingContact, share: float) -> float:
+    """Velocity [m/s] from which such a shake takes no more than a share of mu_0, by `lost_across`; 0 if never more."""
+    from scipy.optimize import brentq
+
+    case = across_alone(case)
+    fastest = case.fastest_across
+    if lost_across(case, 0.01 * fastest) <= share:
+        return 0.0
+    return float(brentq(lambda v: lost_across(case, v) - share, 0.01 * fastest, fastest / np.sqrt(share)))
+
+
 def static_across(case: SlidingContact) -> float:
     """Static friction [-] of such a contact, by `held_across`, on any linear material and for any shake across."""
     case = across_alone(case)
