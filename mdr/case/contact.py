@@ -213,6 +213,11 @@ class SlidingContact(Summarised):
         return self.harmonics_across.size > 0
 
     @property
+    def is_alike_both_ways(self) -> bool:
+        """Whether a pull the other way is its mirror image: nothing shakes along the pull."""
+        return not self.shake_harmonics.any()
+
+    @property
     def way(self) -> NDArray[np.complex128]:
         """X_n [m] of the way that the shake takes the indenter, without friction; infinite on an undamped resonance.
 
@@ -352,13 +357,16 @@ class SlidingContact(Summarised):
         return _half_way(self.harmonics_across, self.mu_0 * self.material.mindlin_ratio * self.working_depth)
 
     @property
+    def fastest_across(self) -> float:
+        """Sum of the velocities [m/s] of the harmonics across the pull: of one harmonic the greatest velocity."""
+        return _fastest(self.omega, self.way_across)
+
+    @property
     def pace(self) -> float:
         """Sum of the velocities [m/s] that oscillation and shake bring about: a scale, no less than any of them."""
         if not self.is_shaken:
             return self.unit_velocity
-        fastest = sum(
-            float(np.sum(self.omega * np.arange(1, way.size + 1) * np.abs(way))) for way in (self.way, self.way_across)
-        )
+        fastest = _fastest(self.omega, self.way) + self.fastest_across
         n_C = np.arange(1, self.cycle.cos.size + 1) * np.abs(self.cycle.harmonics)
         return self.unit_velocity * float(np.sum(n_C)) + fastest
 
@@ -378,6 +386,10 @@ class SlidingContact(Summarised):
         """Whether depth is harmonic and material without arms: as in the paper, the normal force in closed form."""
         prescribed = self.oscillation.knows_depth and self.oscillation.load is None
         return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
+
+
+def _fastest(omega: float, way: NDArray[np.complex128]) -> float:
+    return float(np.sum(omega * np.arange(1, way.size + 1) * np.abs(way)))
 
 
 def _half_way(given: NDArray[np.complex128], reach: float) -> float:

@@ -28,6 +28,11 @@ NO_FIELDS = {
         "amplitude along the pull over the deflection at which springs slip, du_x/(mu_0 kappa u_z0)",
         label=r"amplitude $\chi$",
     ),
+    "eta": facts(
+        "-",
+        "amplitude across the pull over the deflection at which springs slip, du_y/(mu_0 kappa u_z0)",
+        label=r"amplitude across $\eta$",
+    ),
     "omega_0/omega": facts(
         "-", "natural frequency of the body over that of the oscillation", label=r"natural frequency $\omega_0/\omega$"
     ),

@@ -63,10 +63,10 @@ def held_across(indenter: Indenter, d: float, reach: float, *, surface: bool = F
     return of(indenter, d, d - reach, reach) / of(indenter, d, d, 0.0)
 
 
-def static_across(case: SlidingContact) -> float:
+def static_across(case: SlidingContact, surface: bool = False) -> float:
     """Static friction [-] of such a contact, by `held_across`, on any linear material and for any shake across."""
     case = across_alone(case)
-    return case.mu_0 * held_across(case.indenter, case.cycle.u_z0, reach_across(case))
+    return case.mu_0 * held_across(case.indenter, case.cycle.u_z0, reach_across(case), surface=surface)
 
 
 def reach_across(case: SlidingContact) -> float:

@@ -46,7 +46,7 @@ def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     ends = ends_of(case)
     back = ["v_c_back"] if case.is_shaken else []
     values = picked(found, "v_c", "mu_0", "static_cof", *back) | values_of(ends)
-    values |= picked(found, "v_0", "cof", "cof_error", "settled", "stick_share", "why")
+    values |= picked(found, "v_0", "cof", "cof_y", "cof_error", "settled", "stick_share", "why")
     text = "\n".join([*_lines(found, equation_of(case)[0]), *([text_of(ends)] if ends else [])])
     answer(args, values, text, case)
     loose = [why for why, settled in zip(found.why, found.settled, strict=False) if not settled]
@@ -84,13 +84,16 @@ def _highest(text: str) -> Velocity:
 def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:
     """The curve as a table."""
     back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
+    back = " either way" if curve.v_c_back == curve.v_c else back
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
     known = f"mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
     yield f"v_c = {velocity_text(curve.v_c)}{back} by {equation}, {known}"
-    yield f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled"
-    columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled)
-    for v_0, cof, error, stick, settled in zip(*columns, strict=True):
+    cof_y = [""] * curve.v_0.size if curve.cof_y is None else [f"{round(one, 6) + 0.0:17.6f}" for one in curve.cof_y]
+    across = "" if curve.cof_y is None else "  COF across"
+    yield f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled{across}"
+    columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled, cof_y)
+    for v_0, cof, error, stick, settled, aside in zip(*columns, strict=True):
         v_c = curve.v_c_back if v_0 < 0 and curve.v_c_back is not None else curve.v_c  # of the way it is pulled
         ratio = f"{v_0 / v_c:8.4f}" if math.isfinite(v_c) and v_c > 0 else f"{'-':>8}"
-        end = "yes" if settled else "no"
-        yield f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}"
+        end = ("yes" if settled else "no ") + aside
+        yield f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}".rstrip()

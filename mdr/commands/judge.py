@@ -24,6 +24,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {usual})"
     command.add_argument("--within", metavar="share", type=share, default=Verdict.within, help=meaning)
     add_accuracy_of_bracket(command)
+    said = "also say how far off springs are in three dimensions: one more run, of some ten seconds; takes a rigid pull"
+    command.add_argument("--three-dimensions", action="store_true", help=said)
 
 
 def measure(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
@@ -39,15 +41,23 @@ def measure(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
 
 def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Print the sentence and the numbers behind it."""
-    found, ends = mdr.verdict(case, within=args.within, accuracy=args.accuracy), ends_of(case)
-    ways = {"": found} if found.other_way is None else {"\nforward:": found, "\nthe other way:": found.other_way}
+    asked = {"within": args.within, "accuracy": args.accuracy, "three_dimensions": args.three_dimensions}
+    found, ends = mdr.verdict(case, **asked), ends_of(case)
+    back = found.other_way
+    if back is None:
+        ways = {"": found}
+    elif found.same_both_ways:
+        ways = {"\nboth ways:": found}
+    else:
+        ways = {"\nforward:": found, "\nthe other way:": back}
     told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()} | (
         {"\nat rest:": ends} if ends else {}
     )
     text = "\n".join([str(found), *(line for head, rows in told.items() for line in (head, text_of(rows)) if line)])
     values = values_of(_judged(found, *equation_of(case)))
-    if found.other_way is not None:
-        values |= {"other_way": values_of(told["\nthe other way:"]), "at_rest": found.at_rest, **values_of(ends)}
+    if back is not None:
+        values |= {"other_way": values_of(_judged(back, *equation_of(case))), "at_rest": found.at_rest}
+        values |= values_of(ends)
     answer(args, values | {"sentence": str(found)}, text, case)
     known = [one.holds or one.measured is not None for one in ways.values()]
     return Exit.DONE if all(known) else Exit.FAILED  # no v_c on a resonance is an answer

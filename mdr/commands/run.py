@@ -51,8 +51,8 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
 def _values(found: mdr.SlidingRun) -> dict[str, Any]:
     """The numbers of a run, without its arrays."""
     values = picked(
-        found, "v_0", "mu_0", "cof", "cof_error", "settled", "kind", "why", "stick_share", "least_slip", "mean_F_x",
-        "mean_F_z", "n_springs", "steps_per_period", "n_periods",
+        found, "v_0", "mu_0", "cof", "cof_y", "cof_error", "settled", "kind", "why", "stick_share", "least_slip",
+        "mean_F_x", "mean_F_y", "mean_F_z", "n_springs", "steps_per_period", "n_periods",
     )  # fmt: skip
     spent = found.energy_balance
     return values | {"energy_balance": {**asdict(spent), "residual": spent.residual}}

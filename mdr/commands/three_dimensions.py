@@ -18,14 +18,15 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
     add_output(command, "half_space.csv", "half_space.png", "half_space.svg")
     for name, least, most, what in (
-        ("--cells", LEAST_CELLS, 1000, f"along each side of the grid (default: {CELLS})"),
+        ("--cells", LEAST_CELLS, 1000, f"cells along each side of the grid (default: {CELLS})"),
         ("--steps", LEAST_STEPS, 100_000, f"time steps of a period (default: {STEPS})"),
         ("--cycles", 1, 100_000, f"periods (default: until friction has settled, {PERIODS} at most)"),
     ):
         command.add_argument(name, metavar="n", type=whole_number(least, most), help=what)
     command.add_argument("--uncoupled", action="store_true", help="leave out normal-tangential coupling, as springs do")
     command.epilog = (
-        "half_space.csv has the forces over the last period; half_space.png and half_space.svg the contact from above"
+        "Takes a rigid pull and an elastic or Kelvin material, also shaken along or across the pull; some ten seconds."
+        " half_space.csv has the forces over the last period; half_space.png and half_space.svg the contact from above"
         " at four instants: pressure, traction, and what sticks and slips. Times count from the least depth."
     )
 

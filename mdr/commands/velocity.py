@@ -8,10 +8,13 @@ from collections.abc import Callable
 from typing import Any
 
 import mdr
+from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import formula_of
 from mdr.closed_forms.full_slip import mean_normal_force
+from mdr.closed_forms.laws.across import full_across
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
 from mdr.friction.shaken import HoldingBand, band_of_pull
+from mdr.friction.verdict import NEARLY
 from mdr.normal.doubts import edge, frequencies
 
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts
@@ -21,13 +24,14 @@ def velocity(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Print Eq. (15) and what stands beside it."""
     known, kappa, loss = mdr.resolved(case), case.material.mindlin_ratio, float(case.material.loss_tangent(case.omega))
     contact = "kept" if known.keeps_contact else "lost in part of the period"
-    amplitude, shake = "amplitude of the depth over the mean depth, du_z/u_z0", "amplitude of the shake"
+    amplitude = "amplitude of the depth over the mean depth, du_z/u_z0"
+    shake, across = "amplitude of the shake over the deflection at which springs slip", "the same across the pull"
     tangent = "loss tangent of the material at omega; omega tau of a Kelvin body"
-    chi = Told("chi", known.chi, "chi", f"{known.chi:.6g}", f"{shake} over the deflection at which springs slip")
+    groups = [("chi", known.chi, shake), *([("eta", known.eta, across)] if case.moves_across else [])]
     told = [
         *_velocities(case),
         Told("alpha", known.alpha, "alpha", f"{known.alpha:.6g}", amplitude),
-        *([chi] if case.is_shaken else []),
+        *(Told(name, value, name, f"{value:.6g}", meaning) for name, value, meaning in groups if case.is_shaken),
         Told("T", case.T),
         *([] if case.is_shaken else [Told("loss_tangent", loss, "loss", f"{loss:.6g}", tangent)]),
         Told("mindlin_ratio", kappa, "kappa", "" if case.is_shaken else f"{kappa:.6g}", "E*/G*, Mindlin ratio"),
@@ -47,6 +51,8 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
     )
     full = f"critical velocity{' forward' if case.is_shaken else ''}, any amplitude, {HARMONICS}"
     told = [Told("equation", equation)]
+    if case.moves_across:
+        return [*told, *_across(case), Told("mu_0", case.mu_0), *ends_of(case)]
     for key, solve, name, meaning in (
         ("v_c", mdr.critical_velocity, *forward),
         ("full_slip", mdr.full_slip_critical_velocity, "full slip", full),
@@ -59,6 +65,21 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}"
         told.append(Told("static_cof", static, "static COF", f"{static:.6g}", rest))
     return [*told, Told("mu_0", case.mu_0), *ends_of(case)]
+
+
+def _across(case: mdr.SlidingContact) -> list[Told]:
+    """What a contact has that is shaken across: no critical velocity, and where friction is nearly full."""
+    fastest, known = case.fastest_across, mdr.resolved(case)
+    told = [
+        told_velocity("v_c", math.inf, "v_c", "critical velocity either way, shaken across the pull"),
+        *(Told(key, math.inf) for key in ("v_c_back", "full_slip", "full_slip_back")),
+        Told("fastest_across", fastest, "across", f"{fastest:.6g} m/s", "greatest velocity of the shake across"),
+    ]
+    if is_across_alone(known):
+        full, most = full_across(known, NEARLY), f"{100 - 100 * NEARLY:g} %"
+        meaning = f"velocity from which friction is at least {most} of mu_0 (mdr.laws.lost_across)"
+        told.append(Told("nearly_full", full, most, f"{full:.6g} m/s", meaning))
+    return told
 
 
 def told_velocity(key: str, v: float | None, name: str, meaning: str) -> Told:

@@ -13,7 +13,7 @@ import panel as pn
 from mdr.case.contact import SlidingContact
 from mdr.explorer import look
 from mdr.explorer.board import Board
-from mdr.explorer.figures import FORCES_LEGEND, SPRINGS_LEGEND, Figures, curve_legend
+from mdr.explorer.figures import Figures, curve_legend, forces_legend, springs_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
@@ -31,7 +31,8 @@ class Page:
 
     def __init__(self, state: State, refusal: str = "") -> None:
         self.state, self.document, self.loaded = state, pn.state.curdoc, False
-        self.alert, self.status, self.numbers, self.said, self.legend = (look.html() for _ in range(5))
+        self.alert, self.status, self.numbers, self.said = (look.html() for _ in range(4))
+        self.legends = {legend: look.html() for legend in (curve_legend, springs_legend, forces_legend)}
         self.figures, self.keep, self.board = Figures(), Keep(self._load), Board(state, self.attempt)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
@@ -44,14 +45,15 @@ class Page:
         """All of it."""
         judge = pn.widgets.Button(name="Judge the closed form by simulation", button_type="primary", margin=(6, 5))
         judge.on_click(self._judge)
+        curve, springs, forces = self.legends.values()
         body = pn.Column(
-            look.area("curve", look.heading("Friction over velocity"), self.legend, self.figures.curve, self.status),
+            look.area("curve", look.heading("Friction over velocity"), curve, self.figures.curve, self.status),
             self.board.view,
             look.area("numbers", self.numbers, judge, self.said),
             look.area(
                 "springs",
-                look.heading("The springs over a period"), look.html(SPRINGS_LEGEND, look.SMALL), self.figures.springs,
-                look.heading("The forces over a period"), look.html(FORCES_LEGEND, look.SMALL), self.figures.forces,
+                look.heading("The springs over a period"), springs, self.figures.springs,
+                look.heading("The forces over a period"), forces, self.figures.forces,
             ),
             self.keep.view, stylesheets=[look.LAYOUT], **look.WIDE,
         )  # fmt: skip
@@ -111,7 +113,8 @@ class Page:
     def _draw(self, picture: Picture) -> None:
         self.keep.picture = picture
         self.figures.show(picture)
-        self.legend.object = f'<span style="{look.SMALL}">{curve_legend(picture)}</span>'
+        for legend, pane in self.legends.items():
+            pane.object = f'<span style="{look.SMALL}">{legend(picture)}</span>'
         self.numbers.object = look.table(picture.numbers) + "".join(map(look.doubted, picture.doubts))
         self._tell(BOUNDED if picture.curve else FIRST_SIGHT)
 

@@ -1,4 +1,4 @@
-"""What is computed of a state: first a curve without a bound on its error, then one with; the forces and springs.
+"""What is computed of a state: a curve without a bound on its error, then one with, then what is held at rest.
 
 Both come of the same functions as everywhere, with few points and a coarse accuracy, to be there at once.
 """
@@ -6,6 +6,7 @@ Both come of the same functions as everywhere, with few points and a coarse accu
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,11 +22,13 @@ from mdr.march.march import LEAST_ACCURATE
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import plausibility, resolved
-from mdr.plots import edges_of, prefix
+from mdr.plots import MODES, edges_of, prefix
+from mdr.spring.contact_modes import SLIP
 from mdr.tools.arrays import Array
 from mdr.tools.progress import silent, time_limit
 
 RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
+DIRECTIONS = 72  #: of slip that have their own colours, shaken across
 PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
 
 
@@ -44,8 +47,15 @@ class Picture:
 
     @property
     def springs(self) -> NDArray[np.uint8]:
-        """Modes (n_springs, n_t) of the springs from the middle to `reach`, in equal rows."""
+        """Modes (n_springs, n_t) of the springs from the middle to `reach`, in equal rows.
+
+        Shaken across, a slip is not SLIP but one of `DIRECTIONS` from len(MODES) on, from -180 degrees.
+        """
         x, state = np.asarray(self.run.x), np.asarray(self.run.state)
+        if self.run.f_y is not None:
+            turns = np.arctan2(self.run.f_y, np.asarray(self.run.f_x)) / (2 * np.pi) + 0.5
+            which = len(MODES) + np.minimum(DIRECTIONS * turns, DIRECTIONS - 1).astype(np.uint8)
+            state = np.where(state == SLIP, which, state)
         order, rows = np.argsort(x), (np.arange(x.size) + 0.5) / x.size * self.reach
         return state[:, order[np.searchsorted(edges_of(x[order])[1:-1], rows)]].T
 
@@ -67,16 +77,20 @@ class Picture:
         a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
         end = "" if run.settled else ", not settled"
         rows = [("v_c", with_prefix(self.v_c, "m/s"), "critical velocity in closed form")]
-        if self.v_c_back is not None:
+        if known.moves_across:
+            rows = [("v_c", "infinite", "shaken across, friction is full at no velocity")]
+        elif self.v_c_back is not None:
             rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
         else:
             rows.append(("COF at rest", f"{self.cof[0]:.4g}", "limit of friction as v_0 → 0"))
         if self.band is not None:
             held = "mean F_x over F_z at rest, under a rigid pull that stands still"
             rows.append(("band", f"{self.band.low:.4g} to {self.band.high:.4g}", held))
+        aside = run.cof_y if abs(run.cof_y) > run.cof_error else 0.0
         return [
             *rows,
             ("COF at v_0", f"{run.cof:.4g} ± {run.cof_error:.1g}{end}", "mean F_x over mean F_z of the run"),
+            *([("COF across", f"{aside:.4g}", "mean F_y over mean F_z of the run")] if known.moves_across else []),
             ("stick", f"{100 * run.stick_share:.3g} %", "share of contact time, weighted by force"),
             ("F_z", with_prefix(run.mean_F_z, "N"), "mean load"),
             ("a", with_prefix(a, "m"), "contact radius at the mean depth"),
@@ -96,8 +110,12 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
     yield first
     with silent(watch), time_limit(PATIENCE):
         curve = cof_curve(case, v_0, accuracy=LEAST_ACCURATE)
-        second = replace(first, cof=curve.cof, curve=curve, band=holding_band(case) if case.is_shaken else None)
+        second = replace(first, cof=curve.cof, curve=curve)
     yield second
+    if case.is_shaken:
+        with silent(watch), time_limit(PATIENCE), suppress(ValueError):  # it is not known where no run settles in time
+            second = replace(second, band=holding_band(case))
+        yield second
 
 
 def velocities_of(state: State) -> Array:

@@ -48,7 +48,7 @@ class CofCurve(Summarised, ArrayRecord):
 
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
-    cof_error: Array  #: bound on its numerical error [-]
+    cof_error: Array  #: bound on its numerical error, and on that of cof_y [-]
     settled: NDArray[np.bool_]  #: whether the run settled
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
     v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
@@ -59,6 +59,7 @@ class CofCurve(Summarised, ArrayRecord):
     static_cof_back: float | None = (
         None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
     )
+    cof_y: Array | None = None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
 
     def _summary(self) -> Summary:
         n, settled = self.v_0.size, int(self.settled.sum())
@@ -68,6 +69,7 @@ class CofCurve(Summarised, ArrayRecord):
             f"CofCurve at {n} velocities, {span(self.v_0, 'm/s')}",
             [
                 ("COF", span(self.cof), f"of mu_0 = {self.mu_0:.6g}"),
+                *([] if self.cof_y is None else [("across", span(self.cof_y), "mean F_y over mean F_z")]),
                 ("error", span(self.cof_error), "bound on the numerical error of the COF"),
                 ("settled", f"{settled} of {n}", ""),
                 *(("why", why, "") for why in list(reasons)[:MOST_TOLD]),
@@ -97,7 +99,7 @@ class CofCurve(Summarised, ArrayRecord):
         return plot_curve(self, ax, absolute=absolute)
 
     def to_csv(self, path: str | Path) -> None:
-        """Write v_0, cof, cof_error, settled and stick_share as CSV, with units in the header.
+        """Write v_0, cof, cof_error, settled and stick_share as CSV, with units in the header; cof_y where it is known.
 
         Parameters
         ----------
@@ -115,7 +117,8 @@ class CofCurve(Summarised, ArrayRecord):
             What `to_csv` writes.
         """
         columns = {"v_0 [m/s]": self.v_0, "cof [-]": self.cof, "cof_error [-]": self.cof_error}
-        return csv_text(columns | {"settled": self.settled.astype(int), "stick_share [-]": self.stick_share})
+        columns |= {"settled": self.settled.astype(int), "stick_share [-]": self.stick_share}
+        return csv_text(columns | ({} if self.cof_y is None else {"cof_y [-]": self.cof_y}))
 
 
 def cof_curve(
@@ -191,15 +194,17 @@ def cof_curve(
     is_closed = method is None and has_closed_form(case)
     runs = partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
     friction: Friction = _closed_form if is_closed else runs
-    cof, error, settled, sticks, why = _both_ways(case, asked, friction)
+    cof, error, settled, sticks, why, cof_y = _both_ways(case, asked, friction)
     if not is_closed:  # a static limit in closed form judges no run
         wrong = disordered(asked, cof, error, settled & ((asked != 0) | case.is_shaken))
         why[wrong] = (
             "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
         )
         settled = settled & ~wrong
-    back = None
-    if case.is_shaken and np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
+    static, back = float(cof[np.argmax(asked == 0)]), None
+    if np.any(velocities < 0) and case.is_alike_both_ways:
+        back = -static
+    elif np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
         back = -float(_at_rest(case.mirrored, friction)[0])
     n = velocities.size
     return CofCurve(
@@ -210,10 +215,11 @@ def cof_curve(
         stick_share=sticks[:n],
         v_c=critical_velocity(case),
         mu_0=case.mu_0,
-        static_cof=float(cof[np.argmax(asked == 0)]),
+        static_cof=static,
         why=tuple(why[:n].tolist()),
         v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
         static_cof_back=back,
+        cof_y=cof_y[:n] if case.moves_across else None,
     )
 
 
@@ -225,19 +231,26 @@ class Columns(NamedTuple):
     settled: NDArray[np.bool_]
     sticks: Array
     why: NDArray[np.object_]
+    cof_y: Array
 
     @classmethod
     def exact(cls, cof: Array, error: Array, sticks: Array) -> Columns:
-        """Of what did not have to settle."""
-        return cls(cof, error, np.ones(cof.shape, dtype=bool), sticks, np.full(cof.shape, "", dtype=object))
+        """Of what did not have to settle, and moves along the pull alone."""
+        why = np.full(cof.shape, "", dtype=object)
+        return cls(cof, error, np.ones(cof.shape, dtype=bool), sticks, why, np.zeros(cof.shape))
 
 
-Point = tuple[float, float, bool, float, str]  #: a row of the columns
+Point = tuple[float, float, bool, float, str, float]  #: a row of the columns
 Friction = Callable[[SlidingContact, Array], Columns]  #: of a pull forward, at rising velocities
 
 
 def _both_ways(case: SlidingContact, v_0: Array, friction: Friction) -> Columns:
     """Friction at velocities of either sign: of the mirror image of the contact for the other way."""
+    if case.is_alike_both_ways and np.any(v_0 < 0):
+        sizes, places = np.unique(np.abs(v_0), return_inverse=True)
+        cof, error, settled, sticks, why, cof_y = _from_rest_on(case, sizes, friction)
+        sign = np.where(v_0 < 0, -1.0, 1.0)
+        return Columns(sign * cof[places], error[places], settled[places], sticks[places], why[places], cof_y[places])
     columns = Columns.exact(*np.empty((3, v_0.size)))
     for one, side, where in ((case, 1.0, v_0 >= 0), (case.mirrored, -1.0, v_0 < 0)):
         if not where.any():
@@ -268,15 +281,15 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     """
     if case.moves_across:
         if is_across_alone(case):
-            return static_cof(case), EXACT * case.mu_0, True, 1.0, ""
+            return static_cof(case), EXACT * case.mu_0, True, 1.0, "", 0.0
         return _slow_limit(friction(case, np.array(SLOW_ACROSS) * case.pace))
     if not case.is_shaken:
         error = FOLLOWED_ERROR if case.material.contact_arms else EXACT
-        return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, ""
+        return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, "", 0.0
     if case.material.contact_arms or case.pull.coefficients[0] > 0:
         return _slow_limit(friction(case, np.array(SLOW) * case.pace))
-    cof, error, settled, sticks, why = (column[0] for column in friction(case, np.zeros(1)))
-    return cof, error, settled, sticks, "" if settled else why  # a start at one end of the band ends there
+    cof, error, settled, sticks, why, _ = (column[0] for column in friction(case, np.zeros(1)))
+    return cof, error, settled, sticks, "" if settled else why, 0.0  # a start at one end of the band ends there
 
 
 def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
@@ -290,10 +303,11 @@ def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
 
 def _slow_limit(runs: Columns) -> Point:
     """The limit of runs at velocities SLOW, ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
-    slower, faster = runs.cof
-    apart = faster - slower
-    bound = runs.error[0] + (runs.error[0] + runs.error[1]) / 6 + 0.15 * abs(apart)
-    return slower - apart / 6, bound, bool(runs.settled.all()), runs.sticks[0], runs.why[0] or runs.why[1]
+    (slower, faster), (slow_y, fast_y) = runs.cof, runs.cof_y
+    apart, aside = faster - slower, fast_y - slow_y
+    bound = runs.error[0] + (runs.error[0] + runs.error[1]) / 6 + 0.15 * max(abs(apart), abs(aside))
+    settled, why = bool(runs.settled.all()), runs.why[0] or runs.why[1]
+    return slower - apart / 6, bound, settled, runs.sticks[0], why, slow_y - aside / 6
 
 
 def _runs(
@@ -302,9 +316,10 @@ def _runs(
     """One run for each velocity."""
     velocities = progress(v_0.tolist(), "COF curve", "velocities")
     runs = list(slides(case, velocities, n_springs, steps_per_period, accuracy))
-    cof, error, sticks = (np.array([getattr(run, key) for run in runs]) for key in ("cof", "cof_error", "stick_share"))
+    of_runs = ("cof", "cof_error", "stick_share", "cof_y")
+    cof, error, sticks, cof_y = (np.array([getattr(run, key) for run in runs]) for key in of_runs)
     settled = np.array([run.settled for run in runs], dtype=bool)
-    return Columns(cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object))
+    return Columns(cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object), cof_y)
 
 
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:

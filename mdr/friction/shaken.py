@@ -14,9 +14,10 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
+from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import cof_curve
-from mdr.march.march import MOST_ACCURATE
+from mdr.march.march import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
@@ -98,7 +99,9 @@ def holding_band(case: SlidingContact) -> HoldingBand:
 @remembered(maxsize=16)  # a command asks for it more than once
 def band_of_pull(case: SlidingContact) -> HoldingBand:
     """Both limits of friction at rest of a case of known depth, under its own pull; ValueError as in `holding_band`."""
-    forward, back = (cof_curve(one, [0.0]) for one in (case, case.mirrored))
+    accuracy = LEAST_ACCURATE if case.moves_across else BUDGET  # where two slow runs tell the limit, no more is known
+    forward = cof_curve(case, [0.0], accuracy=accuracy)
+    back = forward if case.is_alike_both_ways else cof_curve(case.mirrored, [0.0], accuracy=accuracy)
     if not (forward.settled.all() and back.settled.all()):
         why = (forward.why[0] or back.why[0]).partition(": raise")[0]
         more = "more periods may tell, mdr.slide(case, 0.0, n_periods=...)"
@@ -182,6 +185,8 @@ def no_load_velocity(case: SlidingContact) -> float:
 def _free(case: SlidingContact) -> float:
     if not np.isfinite(case.pace):
         raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
+    if is_across_alone(case):
+        return 0.0  # both ways are alike
     low = SLOW * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
     if side == 0:  # zero load lies between the two: is it held?

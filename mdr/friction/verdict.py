@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.across import is_across_alone
+from mdr.closed_forms.across import is_across_alone, static_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.closed_forms.laws.across import lost_across
+from mdr.closed_forms.laws.across import full_across
 from mdr.friction.measured_velocity import ACROSS, HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space
@@ -29,7 +29,8 @@ from mdr.tools.checks import between, positive
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed, with_error
 
-STRONG = 0.02  #: Dundurs' beta, or lambda of coupling.py where its effect was computed, from which it is said
+NEARLY = 0.01  #: share of mu_0 that a fast slide still lacks, shaken across, where friction is called full again
+STRONG = 0.02  #: of what springs leave out (beta, lambda, static friction over mu_0), from which it is said
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,24 @@ class Verdict(Printed):
         """True if ``|deviation| <= within``; None without a measured v_c or a finite formula."""
         return None if self.deviation is None else abs(self.deviation) <= self.within
 
+    @property
+    def same_both_ways(self) -> bool:
+        """Whether all that is said of the pull forward is said of that the other way too."""
+        return self.other_way is not None and self._sentence == self.other_way._sentence
+
     def __str__(self) -> str:
+        sentence = self._sentence
+        if self.same_both_ways:
+            sentence = f"Both ways: {sentence}. {self.at_rest}."
+        elif self.other_way is not None:
+            sentence = f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}."
+        if self.three_dimensions:
+            sentence = f"{sentence.removesuffix('.')}. {self.three_dimensions}"
+        return sentence
+
+    @property
+    def _sentence(self) -> str:
+        """That on one way."""
         found = self.measurement
         if self.measured is None:
             said = self._unmeasured()
@@ -73,12 +91,7 @@ class Verdict(Printed):
                 f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the difference is "
                 f"{'no more' if self.holds else 'more'} than the measurement leaves open"
             )
-        sentence = f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
-        if self.other_way is not None:
-            sentence = f"Forward: {sentence}. The other way: {self.other_way}. {self.at_rest}."
-        if self.three_dimensions:
-            sentence = f"{sentence.removesuffix('.')}. {self.three_dimensions}"
-        return sentence
+        return f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
 
     def _use(self, measured: float) -> str:
         """How good the formula is, and what to use in its place."""
@@ -170,9 +183,8 @@ def verdict(
 
 def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
     """How far springs are off, in a sentence. Raises ValueError for what the half-space cannot judge."""
-    across = case.omega * float(np.sum(np.arange(1, case.way_across.size + 1) * np.abs(case.way_across)))
     full = full_slip_critical_velocity(case)
-    v_0 = (across or (full if 0 < full < np.inf else case.pace)) / 2
+    v_0 = (case.fastest_across or (full if 0 < full < np.inf else case.pace)) / 2
     found, springs = half_space.slide(case, v_0), slide(case, v_0, accuracy=accuracy)
     off, error = springs.cof - found.cof, springs.cof_error + found.cof_error
     said = (
@@ -231,20 +243,26 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
 
 def across(case: SlidingContact) -> str:
     """What takes the place of a critical velocity where a contact is shaken across its way."""
-    fastest = case.omega * float(np.arange(1, case.way_across.size + 1) @ np.abs(case.way_across))
     said = ACROSS
     if is_across_alone(case):
-        rest = static_cof(case)
-        from scipy.optimize import brentq
-
-        ten = brentq(lambda v: lost_across(case, v) - 0.01, 0.01 * fastest, 100 * fastest)
+        rest, surface, full = static_cof(case), static_across(case, surface=True), full_across(case, NEARLY)
         said += (
             f"; at rest it holds {rest:.4g} of the load, and springs stick for part of the period"
             if rest
             else "; at rest it holds nothing, as every spring slips in every period"
         )
-        said += f"; friction is back to 1 % of mu_0 from about {ten:.3g} m/s on"
-    return f"{said}; the greatest velocity across is {fastest:.3g} m/s"
+        if rest - surface > STRONG * case.mu_0:
+            said += (
+                f"; springs hold too much there: by Coulomb's law in every point of the surface {surface:.4g}, as slow "
+                "slides in three dimensions tell too (mdr.laws.excess_across)"
+            )
+        within = f"within {100 * NEARLY:g} % of mu_0"
+        said += (
+            f"; friction is {within} from about {full:.3g} m/s on"
+            if full
+            else f"; friction is {within} at any velocity"
+        )
+    return f"{said}; the greatest velocity across is {case.fastest_across:.3g} m/s"
 
 
 def _tolerance(within: float) -> float:

@@ -97,9 +97,9 @@ class SlidingRun(Summarised, ArrayRecord):
                 *([("why", self.why, "")] if self.why else []),
                 ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),
                 *(
-                    []
-                    if not self.cof_y
-                    else [("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z")]
+                    [("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z")]
+                    if abs(self.cof_y) > self.cof_error
+                    else []
                 ),
                 ("mean F_x", number(self.mean_F_x, "N"), "tangential force, which holds the indenter back"),
                 ("mean F_z", number(self.mean_F_z, "N"), "normal force"),
@@ -150,6 +150,8 @@ class SlidingRun(Summarised, ArrayRecord):
 
     def plot(self) -> Any:
         """Draw what was recorded: the mode of every spring over time, and the forces below.
+
+        Shaken across, a spring that slips has the colour of its direction of slip.
 
         Returns
         -------

@@ -1,9 +1,10 @@
 """A case with other values at some of its paths: fields first, then the dimensionless groups in their order.
 
 A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, chi =
-du_x/(mu_0 kappa u_z0) shake.du_x, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega
-pull.m. Or it is what a rig is set to: load [N] sets F_z0, or of a prescribed depth u_z0, at which this load rests;
-frequency [Hz] sets omega of all that moves; and tan_delta = omega tau sets material.tau.
+du_x/(mu_0 kappa u_z0) shake.du_x, eta = du_y/(mu_0 kappa u_z0) shake.du_y, T = omega tau material.tau, k_x/k_xc
+pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m. Or it is what a rig is set to: load [N] sets F_z0, or of a
+prescribed depth u_z0, at which this load rests; frequency [Hz] sets omega of all that moves; and tan_delta = omega tau
+sets material.tau.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
 refers to is solved for under a load, which is why this stands beside the normal problem.
@@ -28,6 +29,7 @@ from mdr.tools.checks import not_negative, positive
 GROUPS = {
     "alpha": "oscillation.du_z",
     "chi": "shake.du_x",
+    "eta": "shake.du_y",
     "T": "material.tau",
     "k_x/k_xc": "pull.k_x",
     "omega_0/omega": "pull.m",
@@ -101,13 +103,9 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         contact = _with(contact, "T", tan_delta / _one_omega("tan_delta", contact.oscillation, contact.shake))
     if "T" in settings:
         contact = _with(contact, "T", settings["T"] / contact.omega)
-    if "chi" in settings:
-        contact = _with(contact, "chi", 1.0)  # until the depth is known that it refers to
-        if not np.isfinite(unit := at_rest(contact).chi):
-            raise ValueError(
-                "chi: the contact has no mean depth u_z0 > 0, which chi = du_x/(mu_0 kappa u_z0) refers to"
-            )
-        contact = _with(contact, "chi", settings["chi"] / unit)
+    for group, way in (("chi", "du_x"), ("eta", "du_y")):
+        if group in settings:
+            contact = _shaken_by(contact, group, way, settings[group])
     if "k_x/k_xc" in settings:
         contact = _with(contact, "k_x/k_xc", settings["k_x/k_xc"] * _stiffness(contact))
     if "omega_0/omega" in settings:
@@ -136,8 +134,8 @@ def _group(case: SlidingContact, path: str) -> float:
     if path == "omega_0/omega":
         return case.pull.omega_0 / case.omega
     known = at_rest(case)
-    if path == "chi":
-        return known.chi
+    if path in ("chi", "eta"):
+        return float(getattr(known, path))
     return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
 
 
@@ -175,6 +173,18 @@ def _with(contact: SlidingContact, group: str, value: float) -> SlidingContact:
     record = getattr(contact, slot)
     _require_field(group, record, field)
     return replace(contact, **{slot: replace(record, **{field: value})})
+
+
+def _shaken_by(contact: SlidingContact, group: str, way: str, value: float) -> SlidingContact:
+    """The contact with an amplitude of its shake, over the deflection at which springs slip."""
+    if value == 0:
+        return _with(contact, group, 0.0)
+    contact = _with(contact, group, 1.0)  # until the depth is known that it refers to
+    if not np.isfinite(unit := _group(contact, group)):
+        raise ValueError(
+            f"{group}: the contact has no mean depth u_z0 > 0, which {group} = {way}/(mu_0 kappa u_z0) refers to"
+        )
+    return _with(contact, group, value / unit)
 
 
 def _stiffness(contact: SlidingContact) -> float:

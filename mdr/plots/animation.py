@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.plots.figures import COLOURS, MODES, mode_patches, periods_of, plot_forces, prefix, style
+from mdr.plots.leashes import Leashes
 from mdr.tools.checks import count
 from mdr.tools.progress import progress
 
@@ -40,6 +41,10 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
     behind as far as they are sheared (exaggerated). Their colour is their state: a spring that sticks is sheared
     further by the pull, one that slips holds the limit. Below: the tangential force and its limit mu_0 F_z, with the
     instant shown.
+
+    Of a run that is shaken across the picture above is the plane seen from above, and moves with the pull. The indenter
+    drags the feet of its springs behind it. A foot that sticks stands still in the plane; one that slips is drawn
+    towards the indenter. Of an elastic material circles show how far a spring can be stretched before it slips.
 
     Parameters
     ----------
@@ -78,7 +83,7 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
         canvas: Any = FigureCanvasAgg(fig)
         above, below = fig.subplots(2, 1, height_ratios=(2, 1))
         fig.suptitle(_title(run) if title is None else title)
-        parts = (_Springs(above, run), _Force(below, run))
+        parts = (_Springs(above, run) if run.f_y is None else Leashes(above, run), _Force(below, run))
         canvas.draw()  # all but what moves
         still = canvas.copy_from_bbox(fig.bbox)
         pictures = []
@@ -153,11 +158,12 @@ class _Force:
         self.ax, self.t = ax, periods_of(run)
         self.now = ax.axvline(0, color=COLOURS[1], linewidth=1.2, animated=True)
         (self.dot,) = ax.plot([], [], "o", color=COLOURS[1], zorder=3, animated=True)
-        self.F_x = run.F_x * prefix(np.concatenate([run.F_x, run.mu_0 * run.F_z]), "N")[0]
+        per = prefix(np.concatenate([run.F_x, run.mu_0 * run.F_z]), "N")[0]
+        self.forces = np.stack([one * per for one in (run.F_x, run.F_y) if one is not None], axis=1)
 
     def show(self, k: int) -> None:
         """Mark the instant k of the record."""
         self.now.set_xdata([self.t[k]] * 2)
-        self.dot.set_data([self.t[k]], [self.F_x[k]])
+        self.dot.set_data([self.t[k]] * self.forces.shape[1], self.forces[k])
         for artist in (self.now, self.dot):
             self.ax.draw_artist(artist)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = [
     "COLOURS",
     "MODES",
+    "around",
     "edges_of",
     "periods_of",
     "plot_curve",
@@ -38,7 +39,8 @@ __all__ = [
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
-
+#: colours of the direction of slip, from -180 degrees on; that along the pull is the colour of slip
+AROUND = ((-180, "#CC79A7"), (-90, "#D55E00"), (0, "#F0B93A"), (90, "#009E73"), (135, "#56B4E9"), (180, "#CC79A7"))
 
 _MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
@@ -120,7 +122,8 @@ def plot_curve(
         ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$" if scaled else r"coefficient of friction $\mu$")
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
-        _curve_legend(ax, all(np.all(curve.settled) for curve in curves), both)
+        settled, across = (np.all(curve.settled) for curve in curves), (_across(curve) is not None for curve in curves)
+        _curve_legend(ax, all(settled), both, any(across))
     return ax
 
 
@@ -160,6 +163,9 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
 def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
     """Draw the mode of every spring, free, stick or slip, over time and position.
 
+    Of a run that is shaken across, the colour of a spring that slips is the direction of slip, which is that of its
+    force.
+
     Parameters
     ----------
     run : SlidingRun
@@ -174,8 +180,10 @@ def plot_spring_map(run: Any, ax: "Axes | None" = None) -> "Axes":
     """
     with style():
         ax = axes_of(ax)
-        _draw_map(ax, run, prefix(_recorded(run).x, "m"))
-        patches = mode_patches(run.state)
+        turned = _draw_map(ax, run, prefix(_recorded(run).x, "m"))
+        if turned is not None:
+            _direction_bar(ax.figure, turned, ax)
+        patches = mode_patches(run.state, slip=turned is None)
         ax.legend(handles=patches, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.2)
     return ax
 
@@ -189,14 +197,17 @@ def plot_spring_maps(runs: Sequence[Any], labels: Sequence[str]) -> "Figure":
     with style():
         size = (max(3.4, 1.2 + 2.4 * len(runs)), 3.4)
         fig, axes = subplots(1, len(runs), sharex=True, sharey=True, squeeze=False, figsize=size)
-        for ax, run, label in zip(axes[0], runs, labels, strict=True):
-            _draw_map(ax, run, unit)
+        turned = [_draw_map(ax, run, unit) for ax, run in zip(axes[0], runs, strict=True)]
+        for ax, label in zip(axes[0], labels, strict=True):
             ax.set_title(label)
             ax.label_outer()
             ax.locator_params(axis="x", nbins=3)
         layout: Any = fig.get_layout_engine()
         layout.set(w_pad=0.07)  # the last number of one time axis stands beside the first of the next
-        fig.legend(handles=mode_patches(*(run.state for run in runs)), loc="outside lower center", ncols=4)
+        if directed := [one for one in turned if one is not None]:
+            _direction_bar(fig, directed[0], axes[0])
+        handles = mode_patches(*(run.state for run in runs), slip=len(directed) < len(runs))
+        fig.legend(handles=handles, loc="outside lower center", ncols=4)
     return fig
 
 
@@ -204,24 +215,27 @@ def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
     """Tangential force and its limit mu_0 F_z against time; the shaded gap is the friction that is missing.
 
     Its share of the area under the limit, named in the legend, is 1 − mean F_x/(mu_0 mean F_z). Where the force turns,
-    as under a shake in the plane, both limits are drawn and the mean is named instead.
+    as under a shake in the plane, both limits are drawn and the mean is named instead. Shaken across, F_y is drawn too.
     """
     t = periods_of(_recorded(run))
-    limit, F_x = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x)
+    limit, F_x, F_y = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x), getattr(run, "F_y", None)
     factor, unit = prefix(np.concatenate([F_x, limit]), "N")
     mean = run.mean_F_x / (run.mu_0 * run.mean_F_z)
-    turns = float(F_x.min()) < -1e-9 * float(limit.max())
+    turns = F_y is not None or float(F_x.min()) < -1e-9 * float(limit.max())
     with style():
         ax = axes_of(ax)
         if turns:
             ax.fill_between(t, -limit * factor, limit * factor, color="0.9", linewidth=0)
-            ax.axhline(run.mean_F_x * factor, color="0.4", lw=1, ls="--", label=rf"mean, {mean:.3g} $\mu_0F_z$")
+            of = "mean" if F_y is None else "mean $F_x$"
+            ax.axhline(run.mean_F_x * factor, color="0.4", lw=1, ls="--", label=rf"{of}, {mean:.3g} $\mu_0F_z$")
             ax.plot(t, -limit * factor, color="0.6")
         else:
             gap = f"{100 * (1 - mean):.3g} % missing" if mean < 1 - 1e-6 else "nothing missing"
             ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
         ax.plot(t, limit * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
         ax.plot(t, F_x * factor, color="k", label="$F_x$")
+        if F_y is not None:
+            ax.plot(t, F_y * factor, color=COLOURS[0], label="$F_y$")
         ax.set(xlabel="time [periods]", ylabel=f"force [{unit}]", xlim=_span(t))
         ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, columnspacing=1.3, handlelength=1.5)
     return ax
@@ -348,6 +362,10 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
     settled = np.asarray(curve.settled, dtype=bool)
     static = curve.static_cof / scale[1]
     ax.plot(*_line(curve, v, mu, scale[1]), color=colour, label=label, zorder=2)
+    if (cof_y := _across(curve)) is not None:
+        order = np.argsort(v)
+        for way in (order[v[order] < 0], order[v[order] >= 0]):
+            ax.plot(v[way], cof_y[way] / scale[1], color=colour, ls="-.", lw=1.2, zorder=2)
     size = 4.5 if len(v) <= 60 else 3.0
     ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
     ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
@@ -374,42 +392,68 @@ def _line(curve: Any, v: "NDArray[Any]", mu: "NDArray[Any]", scale: float) -> "t
     return np.concatenate([v[back], [0.0, 0.0], v[forward]]), np.concatenate([mu[back], at_rest, mu[forward]])
 
 
-def _curve_legend(ax: "Axes", settled: bool, both: bool) -> None:
-    """Explain the labels given, the static limit, and what a hollow point means where there is one."""
+def _across(curve: Any) -> Any:
+    """The COF across the pull (n_v,), where there is one."""
+    cof_y = getattr(curve, "cof_y", None)
+    return None if cof_y is None or np.all(np.abs(cof_y) <= curve.cof_error) else np.asarray(cof_y)
+
+
+def _curve_legend(ax: "Axes", settled: bool, both: bool, across: bool) -> None:
+    """Explain the labels given, the static limit, and a hollow point and the COF across where there are such."""
     from matplotlib.lines import Line2D
 
     handles, _ = ax.get_legend_handles_labels()
     if not both:
         handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
+    if across:
+        handles.append(Line2D([], [], color="0.3", lw=1.2, ls="-.", label="across the pull"))
     if not settled:
         handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
     if handles:
         ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
 
 
-def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> None:
-    """Colours of the modes over time and position, positions in the unit (factor, name)."""
+def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> Any:
+    """Colours of the modes over time and position, positions in the unit (factor, name).
+
+    Returns the mesh of the directions of slip, None where slip has but two.
+    """
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     order, t = np.argsort(run.x), periods_of(run)
     every = -(-len(t) // _MAX_COLUMNS)
-    ax.pcolormesh(
-        edges_of(t[::every]),
-        _boundaries(np.asarray(run.x)[order]) * unit[0],
-        np.asarray(run.state)[::every, order].T,
-        cmap=ListedColormap([colour for _, colour in MODES]),
-        norm=BoundaryNorm(np.arange(5) - 0.5, 4),
-        rasterized=True,
-    )
+    cells = edges_of(t[::every]), _boundaries(np.asarray(run.x)[order]) * unit[0]
+    state = np.asarray(run.state)[::every, order].T
+    modes, norm = ListedColormap([colour for _, colour in MODES]), BoundaryNorm(np.arange(5) - 0.5, 4)
+    ax.pcolormesh(*cells, state, cmap=modes, norm=norm, rasterized=True)
     ax.set(xlabel="time [periods]", ylabel=f"position of the spring $x$ [{unit[1]}]", xlim=_span(t))
+    if getattr(run, "f_y", None) is None:
+        return None
+    angle = np.degrees(np.arctan2(run.f_y, run.f_x))[::every, order].T
+    slips = np.array([name.startswith("slip") for name, _ in MODES])[state]
+    return ax.pcolormesh(*cells, np.where(slips, angle, np.nan), cmap=around(), vmin=-180, vmax=180, rasterized=True)
 
 
-def mode_patches(*states: Any) -> list[Any]:
-    """Legend entries of the modes that occur in arrays of modes."""
+def around() -> Any:
+    """The cyclic colour map of directions, from -180 to 180 degrees."""
+    from matplotlib.colors import LinearSegmentedColormap
+
+    return LinearSegmentedColormap.from_list("around", [((at + 180) / 360, colour) for at, colour in AROUND])
+
+
+def _direction_bar(figure: Any, turned: Any, beside: Any) -> None:
+    """Colour bar of the direction of slip."""
+    bar = figure.colorbar(turned, ax=beside, ticks=range(-180, 181, 90), aspect=16, pad=0.02)
+    bar.set_label("direction of slip [°]\n0 along the pull, 90 across")
+
+
+def mode_patches(*states: Any, slip: bool = True) -> list[Any]:
+    """Legend entries of the modes that occur in arrays of modes; slip: also of those that slip."""
     from matplotlib.patches import Patch
 
     seen = np.unique(np.concatenate([np.unique(state) for state in states]))
-    return [Patch(fc=MODES[m][1], ec="0.6", lw=0.5, label=MODES[m][0]) for m in seen]
+    shown = [MODES[m] for m in seen if slip or not MODES[m][0].startswith("slip")]
+    return [Patch(fc=colour, ec="0.6", lw=0.5, label=name) for name, colour in shown]
 
 
 def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:

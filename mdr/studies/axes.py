@@ -8,6 +8,7 @@ the velocity:
     tan_delta       at this frequency        sets material.tau
     alpha           du_z/u_z0                sets oscillation.du_z
     chi             du_x/(mu_0 kappa u_z0)   sets shake.du_x
+    eta             du_y/(mu_0 kappa u_z0)   sets shake.du_y
     T               omega tau                sets material.tau
     k_x/k_xc        over the contact's       sets pull.k_x
     omega_0/omega   sqrt(k_x/m)/omega        sets pull.m

@@ -78,6 +78,10 @@ class _Attribute:
         return getattr(self.known(case) if self.known else case if curve is None else curve, self.name)
 
 
+def _cof_y(case: SlidingContact, curve: CofCurve) -> Array:
+    return np.zeros(curve.v_0.shape) if curve.cof_y is None else curve.cof_y
+
+
 def _mean_F_x(case: SlidingContact, curve: CofCurve) -> Array:
     return curve.cof * mean_normal_force(case)
 
@@ -106,6 +110,7 @@ CATALOGUE: dict[str, Quantity] = {
         Quantity("T", "-", _Attribute("T"), "omega tau of the long-time branch"),
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
         CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction"),
+        CurveQuantity("cof_y", "-", _cof_y, "the same across the pull, mean F_y over mean F_z"),
         CurveQuantity("cof_error", "-", _Attribute("cof_error"), "bound on the numerical error of cof"),
         CurveQuantity("stick_share", "-", _Attribute("stick_share"), "force-weighted share of contact time in stick"),
         CurveQuantity("settled", "-", _Attribute("settled"), "1 where the run settled, else 0"),

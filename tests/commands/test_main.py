@@ -297,7 +297,7 @@ def test_measure(capsys, monkeypatch, found, status):
 
 
 def test_verdict(capsys, monkeypatch):
-    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy: MadeUpVerdict())
+    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: MadeUpVerdict())
     assert main(["verdict", EXAMPLE]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "Eq. (15) is good: one element",
@@ -317,7 +317,7 @@ def test_verdict(capsys, monkeypatch):
 def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(capsys, monkeypatch):
     found = MadeUpVerdict()
     found.eq_15, found.deviation = 1e-9, 3e3
-    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy: found)
+    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: found)
     assert main(["verdict", EXAMPLE]) == 0
     assert "deviation  +3.000e+03  measured less Eq. (15), over 1e-4 of Eq. (1)" in capsys.readouterr().out
 
@@ -330,7 +330,7 @@ def test_the_deviation_from_a_formula_that_vanishes_is_over_another_velocity(cap
 def test_a_tolerance_is_a_share_or_a_percentage(capsys, monkeypatch, options, within):
     asked = []
 
-    def judged(case, within, accuracy):
+    def judged(case, within, accuracy, three_dimensions):
         asked.append(within)
         return MadeUpVerdict()
 
@@ -344,7 +344,7 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
     found = MadeUpVerdict()
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
     found.good = None
-    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy: found)
+    monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: found)
     assert main(["verdict", EXAMPLE]) == status
     assert "good       undefined" in capsys.readouterr().out
     assert main(["verdict", EXAMPLE, "--json"]) == status
@@ -439,7 +439,7 @@ def test_a_command_in_no_encoding_is_kept_all_the_same(punch, tmp_path):
     ids=["refused", "memory", "interrupt"],
 )  # fmt: skip
 def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status, message):
-    def fail(case, within, accuracy):
+    def fail(case, within, accuracy, three_dimensions):
         raise failure
 
     monkeypatch.setattr("mdr.verdict", fail)
@@ -521,3 +521,51 @@ def test_a_multiple_of_v_c_the_other_way_is_of_that_ways_own(capsys, punch):
     assert main(["run", punch, "--json", "--accuracy", "1e-3", "--v-0", "-0.5v_c"]) == 0
     told = strict_json(capsys.readouterr().out)
     assert told["v_0"] == pytest.approx(-0.5 * mdr.critical_velocity(case, -1), rel=1e-12)
+
+
+@pytest.fixture
+def across(tmp_path):
+    """A contact that is shaken across the pull and up and down."""
+    depth = mdr.NormalOscillation(u_z0=20e-6, du_z=10e-6, omega=300.0)
+    shake = mdr.InPlaneOscillation(omega=300.0, du_y=10e-6)
+    case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
+    path = tmp_path / "across.toml"
+    path.write_text(write_case(case), encoding="utf-8")
+    return str(path)
+
+
+def test_velocity_of_a_shake_across_has_its_group_and_what_stands_in_the_place_of_v_c(capsys, across):
+    case = read_case(across)
+    assert main(["velocity", "--json", across]) == 0
+    told = strict_json(capsys.readouterr().out)
+    assert told["eta"] == pytest.approx(10e-6 / (0.4 * case.material.mindlin_ratio * 20e-6))
+    assert (told["v_c"], told["v_c_back"], told["fastest_across"]) == ("inf", "inf", pytest.approx(3e-3))
+    assert "nearly_full" not in told  # a law of a constant depth
+    alone = replace(case, oscillation=mdr.ConstantDepth(u_z0=20e-6))
+    Path(across).write_text(write_case(alone), encoding="utf-8")
+    assert main(["velocity", "--json", across]) == 0
+    full = strict_json(capsys.readouterr().out)["nearly_full"]
+    assert mdr.laws.lost_across(alone, full) == pytest.approx(0.01)
+
+
+def test_a_verdict_that_is_the_same_both_ways_is_said_once(capsys, across):
+    assert main(["verdict", across]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("Both ways: ")
+    assert said.count("Shaken across the pull") == said.count("full slip") == 1
+    assert "the other way:" not in said
+
+
+def test_the_cof_across_is_told_and_written(tmp_path, capsys, across):
+    assert main(["run", "--json", "--accuracy", "1e-3", "--v-0", "1e-3", across]) == 0
+    run = strict_json(capsys.readouterr().out)
+    assert run["cof_y"] == pytest.approx(run["mean_F_y"] / run["mean_F_z"])
+    assert run["cof_y"] > 0.01
+    command = ["curve", across, "--accuracy", "1e-3", "--v-0", "-1e-3", "1e-3", "-o", str(tmp_path)]
+    assert main(command) == 0
+    out = capsys.readouterr().out
+    assert "infinite, friction is full at none either way by" in out
+    rows = [line.split() for line in out.splitlines() if line.strip().startswith(("-0.001", "0.001"))]
+    assert [float(row[-1]) for row in rows] == pytest.approx([run["cof_y"]] * 2, abs=2e-3)
+    assert float(rows[0][2]) == -float(rows[1][2])
+    assert "cof_y [-]" in (tmp_path / "curve.csv").read_text(encoding="utf-8")

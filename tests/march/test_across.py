@@ -101,3 +101,4 @@ def test_no_velocity_is_critical():
     found = mdr.verdict(case)
     assert found.measured is None
     assert "lost_across" in str(found)
+    assert str(mdr.verdict(contact(0.005))).count("within 1 % of mu_0 at any velocity") == 1

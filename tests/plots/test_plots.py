@@ -282,3 +282,45 @@ def test_a_figure_is_saved_beside_its_script(tmp_path):
     plt.close(figure)
     assert path == tmp_path / "figures" / "some_shape_more.png"
     assert path.stat().st_size > 0
+
+
+def shaken_across():
+    """Two periods of three springs whose forces turn once in a period; the inner one sticks at first."""
+    run = made_up_run()
+    turn = 2 * np.pi * np.arange(64)[:, None] / 32 + np.zeros(3)
+    run.state[:8, 0] = STICK
+    run.f_x, run.f_y = np.cos(turn), np.sin(turn)
+    run.F_y = 0.3 * run.F_z
+    return run
+
+
+def test_shaken_across_the_colour_of_a_slip_is_its_direction():
+    run = shaken_across()
+    above, below, bar = plots.plot_run(run).axes
+    modes, turned = above.collections
+    drawn = turned.get_array()
+    slips = run.state.T >= SLIP
+    assert_array_equal(~np.ma.getmaskarray(drawn), slips)
+    assert_allclose(drawn[slips], np.degrees(np.arctan2(run.f_y, run.f_x)).T[slips])
+    ends = turned.cmap([0.0, 1.0, 0.5])
+    assert_allclose(ends[0], ends[1])  # it closes
+    assert_allclose(ends[2], matplotlib.colors.to_rgba(plots.MODES[SLIP][1]), atol=0.01)
+    assert_array_equal(modes.get_array(), run.state.T)
+    assert legend_texts(above) == ["free", "stick"]
+    assert "0 along the pull, 90 across" in bar.get_ylabel()
+    assert_allclose(line(below, "$F_y$").get_ydata(), run.F_y)
+
+
+def test_maps_with_and_without_a_shake_across_have_one_bar():
+    fig = plots.plot_spring_maps([made_up_run(), shaken_across(), shaken_across()], ["still", "one", "two"])
+    assert [len(ax.collections) for ax in fig.axes[:3]] == [1, 2, 2]
+    assert len(fig.axes) == 4
+    assert [text.get_text() for text in fig.legends[0].get_texts()] == ["free", "stick", "slip"]
+
+
+def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():
+    ax = plots.plot_curve(made_up_curve(cof_y=np.full(6, 0.1)))
+    drawn = [one.get_ydata() for one in ax.lines if one.get_linestyle() == "-."]
+    assert_allclose(np.concatenate(drawn), 0.1 / 0.5)
+    assert legend_texts(ax) == ["static limit", "across the pull"]
+    assert legend_texts(plots.plot_curve(made_up_curve(cof_y=np.full(6, 1e-6)))) == ["static limit"]

@@ -54,3 +54,17 @@ def test_a_shaken_case_varies_its_shake_and_is_pulled_both_ways():
     assert np.all(np.diff(other["cof"]) > 0)
     with pytest.raises(ValueError, match=r"chi and shake\.du_x set the same"):
         read_axes(case, {"chi": [0.5], "shake.du_x": [1e-6]})
+
+
+def test_a_shake_across_is_varied_by_its_amplitude_or_by_eta():
+    shake, depth = mdr.InPlaneOscillation(omega=300.0, du_y=1e-5), mdr.ConstantDepth(u_z0=20e-6)
+    case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
+    by_group = mdr.sweep(case, {"eta": [0.28, 0.6, 2.0]}, quantities=("static_cof",))
+    assert np.allclose(
+        by_group["static_cof"], [0.4 * 0.96, 0.4 * 0.8, 0.0], atol=1e-12
+    )  # sqrt(1 - eta²) of a flat face
+    reach = 0.4 * case.material.mindlin_ratio * 20e-6
+    by_field = mdr.sweep(case, {"shake.du_y": [0.6 * reach]}, quantities=("static_cof",))
+    assert np.allclose(by_field["static_cof"], by_group["static_cof"][1])
+    with pytest.raises(ValueError, match=r"eta and shake\.du_y set the same"):
+        read_axes(case, {"eta": [0.5], "shake.du_y": [1e-6]})

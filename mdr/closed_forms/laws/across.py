@@ -210,3 +210,14 @@ def stiffened_by_coupling(material: Material) -> float:
     """
     instance("material", material, Material)
     return float(STIFFER * material.dundurs_beta**2 / material.mindlin_ratio)
+
+
+def full_across(case: SlidingContact, share: float) -> float:
+    """Velocity [m/s] from which such a shake takes no more than a share of mu_0, by `lost_across`; 0 if never more."""
+    from scipy.optimize import brentq
+
+    case = across_alone(case)
+    fastest = case.fastest_across
+    if lost_across(case, 0.01 * fastest) <= share:
+        return 0.0
+    return float(brentq(lambda v: lost_across(case, v) - share, 0.01 * fastest, fastest / np.sqrt(share)))
