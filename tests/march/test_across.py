@@ -102,3 +102,42 @@ def test_no_velocity_is_critical():
     assert found.measured is None
     assert "lost_across" in str(found)
     assert str(mdr.verdict(contact(0.005))).count("within 1 % of mu_0 at any velocity") == 1
+
+
+MATERIALS = {
+    "elastic": mdr.Elastic(3e6, 0.5),
+    "Kelvin": mdr.KelvinVoigt(3e6, 0.5, 0.4 / OMEGA),
+    "arms": mdr.Prony(3e6, ((3e6, 1 / OMEGA), (1.5e6, 5 / OMEGA)), 0.5),
+}
+
+
+@pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+def test_hardly_shaken_across_it_is_the_scalar_run(material):
+    case = contact(1e-9, material=material, du_x=8e-6, phi_x=0.7)
+    plain = replace(case, shake=replace(case.shake, du_y=0.0))
+    one, other = (mdr.slide(each, 2e-3, n_springs=32, steps_per_period=4096, accuracy=1e-8) for each in (case, plain))
+    assert one.cof == pytest.approx(other.cof, abs=1e-10 * MU_0)
+    assert other.cof < 0.95 * MU_0
+
+
+def test_at_rest_it_is_a_shake_along_seen_from_the_side():
+    vibration = mdr.NormalOscillation(DEPTH, 6e-6, OMEGA)
+    across = contact(1.5, oscillation=vibration)
+    along = replace(across, shake=mdr.InPlaneOscillation(OMEGA, du_x=across.shake.du_y))
+    side, front = (mdr.slide(one, 0.0, start="rest", n_springs=48, steps_per_period=256) for one in (across, along))
+    assert side.cof_y == pytest.approx(front.cof, abs=1e-12)
+    assert abs(front.cof) > 0.01
+    assert side.cof == 0.0
+
+
+def test_a_body_without_mass_is_the_limit_of_light_ones():
+    """What a small mass changes is of its order: half of it changes half as much."""
+    case = contact(0.8, oscillation=mdr.NormalOscillation(DEPTH, 5e-6, OMEGA), at="pull", pull=BODY)
+    runs = [
+        mdr.slide(replace(case, pull=replace(BODY, m=m)), 1e-3, n_springs=32, steps_per_period=256)
+        for m in (2e-3, 1e-3, 0.0)
+    ]
+    heavy, half, light = np.array([(run.cof, run.cof_y) for run in runs]) / MU_0
+    assert all(run.settled for run in runs)
+    assert np.abs(half - light).max() < 0.6 * np.abs(heavy - light).max() < 0.02
+    assert np.abs(half - light).max() > 1e-5
