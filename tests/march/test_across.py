@@ -67,6 +67,16 @@ def test_the_mirror_image_keeps_the_force_across():
     assert abs(ahead.cof_y) > 0.01
 
 
+@pytest.mark.parametrize("du_x", [0.0, 3e-6])
+def test_a_curve_has_the_forces_across_of_its_runs_both_ways(du_x):
+    case = contact(0.5, du_x=du_x, phi_x=0.7, oscillation=mdr.NormalOscillation(DEPTH, 5e-6, OMEGA))
+    v_0 = np.array([-1e-3, 1e-3, 2e-3])
+    curve, runs = mdr.cof_curve(case, v_0, accuracy=1e-4), [mdr.slide(case, v) for v in v_0]
+    assert_allclose(curve.cof, [run.cof for run in runs], rtol=0, atol=1e-4 * MU_0)
+    assert_allclose(curve.cof_y, [run.cof_y for run in runs], rtol=0, atol=1e-4 * MU_0)
+    assert (curve.cof_y[0] == curve.cof_y[1]) == case.is_alike_both_ways == (du_x == 0)
+
+
 @pytest.mark.parametrize("at", ["tool", "pull"])
 def test_energies_close_along_and_across(at):
     case = contact(0.8, du_x=3e-6, at=at, pull=BODY)
