@@ -122,8 +122,7 @@ def claim(effort: str) -> Claim:
         f" oscillation ({ALPHA:g} of the depth), springs have the force across to {_to_the_side(cells):.3f} of μ_0.",
         verdict="holds if the contact is flat, or the slide not slow",
         sentence="Shaken across, springs are exact under a flat punch and good for fast slides; at rest a paraboloid"
-        " holds up to 0.13 of μ_0 less than they say, by a closed form, as Coulomb's law does not hold in every point"
-        " of the surface.",
+        " holds up to 0.13 of μ_0 less, as Coulomb's law does not hold in every point of the surface.",
         checks=(
             *_rest_checks(effort == "quick"),
             *_table_checks(off, left),
