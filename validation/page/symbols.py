@@ -42,6 +42,7 @@ SYMBOLS = (
     ("\\Delta u_x, \\varphi_x", "amplitude and phase of an oscillation along the pull", "m, rad"),
     ("X", "that part of it which reaches the indenter", "m"),
     ("\\chi", "its relative amplitude, Δu_x/(μ_0 κ u_z0)", ""),
+    ("\\Delta u_y, \\eta", "amplitude across the pull, and Δu_y/(μ_0 κ u_z0)", "m, –"),
     ("A", "amplitude of depth and way together, |μ_0 κ Δu_z ∓ X|", "m"),
     ("D", "distance of two motions of one contact, in energy", "J"),
     ("\\lambda", "radial velocity of the surface at the edge over that of Eq. (1), 2|β|/(π μ_0 κ)", ""),
