@@ -30,6 +30,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "con
 GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
 TINY = 1e-300  #: of a leash
+SHORT = 1.0  #: square of a way over the leash that counts as short
 
 
 class Cubic(NamedTuple):
@@ -42,12 +43,13 @@ class Cubic(NamedTuple):
 
 
 class Slip(NamedTuple):
-    """Direction and velocity of slip at the middle and at the end of a time."""
+    """Slip over a time."""
 
-    n_m: complex
+    n: complex  #: direction at its end
+    vel: float  #: velocity there
+    area: complex  #: of the force
+    moment: complex
     l_m: float
-    n: complex
-    vel: float
 
 
 @_inline
@@ -71,6 +73,20 @@ def slope(f, t):
 
 
 @_inline
+def point(f, t):
+    """Value of a cubic of vectors."""
+    a, b, c, d = f
+    return complex(a.real + t * (b.real + t * (c.real + t * d.real)), a.imag + t * (b.imag + t * (c.imag + t * d.imag)))
+
+
+@_inline
+def velocity(f, t):
+    """Slope of a cubic of vectors."""
+    _, b, c, d = f
+    return complex(b.real + t * (2.0 * c.real + 3.0 * t * d.real), b.imag + t * (2.0 * c.imag + 3.0 * t * d.imag))
+
+
+@_inline
 def since(f, t):
     """The same cubic from a time on."""
     return Cubic(at(f, t), slope(f, t), f.c + 3.0 * f.d * t, f.d)
@@ -89,35 +105,65 @@ def along(a, b):
 
 
 @_inline
+def scaled(r, a):
+    """A number times a vector: numba's product takes the number for a vector too."""
+    return complex(r * a.real, r * a.imag)
+
+
+@_inline
+def cross(a, b):
+    """Vector product of two vectors."""
+    return a.real * b.imag - a.imag * b.real
+
+
+@_inline
+def times(n, cos, sin):
+    """A direction turned by an angle."""
+    return complex(cos * n.real - sin * n.imag, cos * n.imag + sin * n.real)
+
+
+@_inline
 def straight(n, boost):
     """The direction n after a straight way, of this vector over the leash: exact."""
+    root = 0.5 * size_of(boost)
+    half = scaled(0.5 * np.tanh(root) / max(root, TINY), boost)
+    x, y = 1.0 + along(half, n), cross(n, half)
+    size = x * x + y * y
+    return times(n, (x * x - y * y) / size, 2.0 * x * y / size) if size > 0.0 else n
+
+
+@_inline
+def parts(boost):
+    """tanh(x)/x of a short way, 2 x long, by its continued fraction: numerator and denominator."""
     q = 0.25 * (boost.real * boost.real + boost.imag * boost.imag)
-    if q < 0.3:  # half of tanh(x)/x, x² = q, by its continued fraction, to rounding
-        share = 0.5 * (135135.0 + q * (17325.0 + q * (378.0 + q)))
-        share /= 135135.0 + q * (62370.0 + q * (3150.0 + q * 28.0))
-    else:
-        root = np.sqrt(q)
-        share = 0.5 * np.tanh(root) / root
-    half = share * boost
-    other = 1.0 + half * n.conjugate()  # as long as n + half
-    size = other.real * other.real + other.imag * other.imag
-    return (n + half) * other * (1.0 / size) if size > 0.0 else n
+    return 945.0 + q * (105.0 + q), 945.0 + q * (420.0 + q * 15.0)
 
 
 @_inline
-def turned(n, v_1, v_2, rho_1, rho_2, t):
+def twice(n, a, b):
+    """The direction n after two short straight ways; the same, with one division."""
+    (of_a, per_a), (of_b, per_b) = parts(a), parts(b)
+    a, b = scaled(0.5 * of_a, a), scaled(0.5 * of_b, b)
+    both = scaled(per_b, a) + scaled(per_a, b)
+    x, y = per_a * per_b + along(a, b) + along(both, n), cross(a, b) + cross(n, both)
+    per = 1.0 / (x * x + y * y)
+    return times(n, per * (x * x - y * y), per * 2.0 * x * y)
+
+
+@_inline
+def turned(n, v_1, v_2, rho_1, rho_2, t, short):
     """The direction n after a time t, under these ways a time and on these leashes at the two nodes of Gauss's rule."""
-    b_1, b_2 = v_1 * (t / max(rho_1, TINY)), v_2 * (t / max(rho_2, TINY))
-    return straight(straight(n, EARLY * b_1 + LATE * b_2), LATE * b_1 + EARLY * b_2)
+    b_1, b_2 = scaled(t / max(rho_1, TINY), v_1), scaled(t / max(rho_2, TINY), v_2)
+    a, b = scaled(EARLY, b_1) + scaled(LATE, b_2), scaled(LATE, b_1) + scaled(EARLY, b_2)
+    return twice(n, a, b) if short else straight(straight(n, a), b)
 
 
 @_inline
-def driving(n, vel, t, v, R, T, span):
-    """v.n - R' of a spring on a dashpot at a time, and its rate; span: of the time it is to serve for."""
-    v_t, rho = at(v, t), max(at(R, t) + T * vel, TINY)
-    across = v_t.imag * n.real - v_t.real * n.imag
+def driving(n, vel, v, v_dot, R, R_dot, R_bend, T, span):
+    """v.n - R' of a spring on a dashpot, and its rate; span: of the time it is to serve for."""
+    rho, across = max(R + T * vel, TINY), cross(v, n)
     turning = across * across * rho / (rho * rho + across * across * span * span)  # where it turns at once, less
-    return along(v_t, n) - slope(R, t), along(slope(v, t), n) + turning - 2.0 * (R.c + 3.0 * t * R.d)
+    return along(v, n) - R_dot, along(v_dot, n) + turning - R_bend
 
 
 @_inline
@@ -130,34 +176,73 @@ def driven(vel, c_0, d_0, c_1, d_1, t, T, phi):
 
 
 @_inline
-def slid(n, vel, a, b, v, R, T, G):
-    """Direction and velocity of slip at b, from those at a. v, R: cubics."""
-    t, mid, off = b - a, 0.5 * (a + b), GAUSS * (b - a)
-    v_1, v_2, R_1, R_2 = at(v, mid - off), at(v, mid + off), at(R, mid - off), at(R, mid + off)
-    if T == 0.0:
-        n = turned(n, v_1, v_2, R_1, R_2, t)
-        return n, (along(at(v, b), n) - slope(R, b)) / G
-    phi = phi_of(G * t / T)
-    c_a, d_a = driving(n, vel, a, v, R, T, t)
-    r_a, n_b = (c_a - G * vel) / T * t, n
+def slid(n, vel, t, v, R, T, G, phi, viscous, short):
+    """Direction and velocity of slip after a time t. v, R: cubics. phi: of law.py, of G t/T."""
+    early, late = (0.5 - GAUSS) * t, (0.5 + GAUSS) * t
+    v_1, v_2, R_1, R_2 = point(v, early), point(v, late), at(R, early), at(R, late)
+    v_b, R_dot = point(v, t), slope(R, t)
+    if not viscous:
+        n = turned(n, v_1, v_2, R_1, R_2, t, short)
+        return n, (along(v_b, n) - R_dot) / G
+    v_dot, R_b, bend, per = velocity(v, t), at(R, t), 2.0 * (R.c + 3.0 * t * R.d), t / T
+    c_a, d_a = driving(n, vel, v.a, v.b, R.a, R.b, 2.0 * R.c, T, t)
     l_b = driven(vel, c_a, d_a, c_a + d_a * t, d_a, t, T, phi)
-    r_b = (c_a + d_a * t - G * l_b) / T * t
-    for _ in range(2):
-        l_1 = (0.5 + GAUSS) * vel + (0.5 - GAUSS) * l_b
-        l_2 = (0.5 - GAUSS) * vel + (0.5 + GAUSS) * l_b
-        if G * t < T:  # the cubic of values and slopes at the nodes of Gauss's rule
-            bend, tilt = (r_a - r_b) / 12.0, (r_a + r_b - 2.0 * (l_b - vel)) * GAUSS / 6.0
-            l_1, l_2 = l_1 + bend + tilt, l_2 + bend - tilt
-        n_b = turned(n, v_1, v_2, R_1 + T * l_1, R_2 + T * l_2, t)
-        c_b, d_b = driving(n_b, l_b, b, v, R, T, t)
+    r_a, r_b = per * (c_a - G * vel), per * (c_a + d_a * t - G * l_b)
+    curved, n_b = 1.0 if G * t < T else 0.0, n
+    for _ in range(2):  # the cubic of values and slopes at the nodes of Gauss's rule
+        mean, tilt = 0.5 * (vel + l_b) + curved / 12.0 * (r_a - r_b), GAUSS * (l_b - vel)
+        tilt += curved * GAUSS / 6.0 * (2.0 * (l_b - vel) - r_a - r_b)
+        n_b = turned(n, v_1, v_2, R_1 + T * (mean - tilt), R_2 + T * (mean + tilt), t, short)
+        c_b, d_b = driving(n_b, l_b, v_b, v_dot, R_b, R_dot, bend, T, t)
         l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)
-        r_b = (c_b - G * l_b) / T * t
+        r_b = per * (c_b - G * l_b)
     return n_b, l_b
 
 
 @_inline
-def slides(n, vel, t, v, R, T, G):
-    """Slip over a time t."""
-    n_m, l_m = slid(n, vel, 0.0, 0.5 * t, v, R, T, G)
-    n_1, l_1 = slid(n_m, l_m, 0.5 * t, t, v, R, T, G)
-    return Slip(n_m, l_m, n_1, l_1)
+def turning(n, vel, v, R, R_dot, T, viscous):
+    """Force of a spring that slips, and its rate."""
+    turn = cross(n, v) * (R / max(R + T * vel, TINY) if viscous else 1.0)
+    return scaled(R, n), complex(R_dot * n.real - turn * n.imag, R_dot * n.imag + turn * n.real)
+
+
+@_inline
+def over(f_0, g_0, f_1, g_1, t):
+    """Area and moment over a time of the cubic with these values and rates at its ends."""
+    area = scaled(0.5 * t, f_0 + f_1) + scaled(t * t / 12.0, g_0 - g_1)
+    moment = scaled(0.15 * t * t, f_0) + scaled(0.35 * t * t, f_1)
+    return area, moment + scaled(t * t * t / 30.0, g_0) - scaled(t * t * t / 20.0, g_1)
+
+
+@_inline
+def is_short(v, rho, t):
+    """Whether a way is short beside the leash."""
+    return along(v, v) * (t * t) < SHORT * (rho * rho)
+
+
+@_inline
+def slides(n, vel, t, v, R, T, G, midway):
+    """Slip over a time t. midway: whether its velocity in the middle is asked for."""
+    v_1, R_0, R_m, R_1 = point(v, t), max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
+    short = is_short(v.a, R_0 + T * vel, t) and is_short(v_1, R_1, t)
+    f_0, g_0 = turning(n, vel, v.a, R_0, R.b, T, T > 0.0)
+    n_m, l_m, n_1, l_1, R_dot = n, vel, n, vel, slope(R, t)
+    for half in range(2):
+        if half == 0 and short and not midway:
+            continue
+        u = t if half == 1 and short else 0.5 * t
+        phi = phi_of(G * u / T) if T > 0.0 else (1.0, 1.0, 0.5, 0.0, 0.0)
+        if half == 1 and not short:
+            n_1, l_1, v, R = n_m, l_m, since(v, u), since(R, u)
+        else:
+            n_1, l_1 = n, vel
+        n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short)
+        if half == 0:
+            n_m, l_m = n_1, l_1
+    f_1, g_1 = turning(n_1, l_1, v_1, R_1, R_dot, T, T > 0.0)
+    if short:
+        area, moment = over(f_0, g_0, f_1, g_1, t)
+    else:  # Simpson's rule
+        f_m = scaled(R_m, n_m)
+        area, moment = scaled(t / 6.0, f_0 + scaled(4.0, f_m) + f_1), scaled(t * t / 6.0, scaled(2.0, f_m) + f_1)
+    return Slip(n_1, l_1, area, moment, l_m)

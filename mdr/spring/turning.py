@@ -44,6 +44,7 @@ from mdr.spring.step import (
     plus,
     relax,
 )
+from mdr.spring.whole import TOUCHING, Whole, whole
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -53,7 +54,6 @@ _LENT = {"_nrt": False}
 _inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST, **_LENT)
 
 MOST_HALVINGS = 60  #: in the search for the end of a mode
-TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
 
 
@@ -311,13 +311,13 @@ def arms_give(t, k, G, T, tools, arms):
 
 
 @_inline
-def slip_over(e_0, e, i, top, start, R, t, k, G, T, arms, tools):
+def slip_over(e_0, e, i, top, start, R, t, k, midway, G, T, arms, tools):
     """Slip over a time, and the way on which it takes the end of the spring: a parabola with the true rates at both
     ends, shifted so that the force is. The memory of arms and their slip are brought in line with each other.
     """
     rate_0, rate_1 = top.p - start.vel * start.n, top.p + 2.0 * t * top.q
     v, way = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Way(rate_0, 0.0j)
-    of, per, back, turns, others = Slip(start.n, start.vel, start.n, start.vel), t, 0.0, 1, 0.0j
+    of, per, back, turns, others = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), t, 0.0, 1, 0.0j
     if arms is not None:
         per, back = arms_give(t, k, G, T, tools, arms)
         turns = MOST_RETURNS
@@ -328,9 +328,9 @@ def slip_over(e_0, e, i, top, start, R, t, k, G, T, arms, tools):
             b, c = (4.0 * mid - last) * (1.0 / t), (4.0 * mid - 2.0 * last) * (1.0 / (t * t))
             v = Cubic(start.v, 2.0 * G * top.q - b, c, 0.0j)
         known = back * of.vel
-        of = slides(start.n, start.vel, t, v, R, T, G)
+        of = slides(start.n, start.vel, t, v, R, T, G, midway)
         if arms is not None:
-            of = Slip(of.n_m, of.l_m, of.n, (of.vel - known) / (1.0 - back))
+            of = Slip(of.n, (of.vel - known) / (1.0 - back), of.area, of.moment, of.l_m)
         q = (rate_1 - of.vel * of.n - rate_0) * (0.5 / t)
         if arms is not None:
             others, _, _ = remembered(e, i, -t * q, rate_0, q, k, False, tools, arms)
@@ -343,14 +343,14 @@ def slip_over(e_0, e, i, top, start, R, t, k, G, T, arms, tools):
 def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look):
     """Slip from now on, for as long as it lasts: until its velocity falls below zero. forced: it lasts in any case."""
     lasts, b = True, Bracket(0.0, t, start.vel, 0.0, 0)
-    of, way = Slip(start.n, start.vel, start.n, start.vel), Way(0.0j, 0.0j)
+    of, way = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Way(0.0j, 0.0j)
     for turn in range(MOST_HALVINGS):
-        of, way = slip_over(e_0, e, i, top, start, R, t, k, G, T, arms, tools)
+        of, way = slip_over(e_0, e, i, top, start, R, t, k, look is not None, G, T, arms, tools)
         if turn == 0:
             if forced or of.vel >= 0.0:
                 break
             lasts = False
-            b = Bracket(0.0, 0.5 * t, start.vel, of.l_m, 0) if of.l_m < 0.0 else Bracket(0.0, t, start.vel, of.vel, 0)
+            b = Bracket(0.0, t, start.vel, of.vel, 0)
         else:
             b = nearer(b, t, of.vel)
         if (b.high - b.low <= 1e-14 * h and t == b.high) or b.f_low <= 0.0 or of.vel == 0.0:
@@ -364,7 +364,7 @@ def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look)
     if not lasts and b.f_low <= 0.0 and b.low == 0.0:  # it does not slip at all
         return Stretch(e_0, 0.0, False, 0.0j, 0.0, 0.0j, 0.0j)
     vel, R_0, R_m, R_1 = max(of.vel, 0.0) if lasts else 0.0, max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
-    f_0, f_m, f_1 = R_0 * start.n, R_m * of.n_m, R_1 * of.n
+    f_1 = R_1 * of.n
     if look is not None:
         lost = lost_on_parabola(e.x, i, way.p.real, way.q.real, t, T, arms)
         look.sums[SHEAR_VISCOUS] += w * (lost + lost_on_parabola(e.y, i, way.p.imag, way.q.imag, t, T, arms))
@@ -375,7 +375,7 @@ def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look)
     if arms is not None:
         others, _, _ = remembered(e, i, way.p, top.p - start.vel * start.n, way.q, k, True, tools, arms)
         end -= others
-    return Stretch(end, t, lasts, f_1, vel, t / 6.0 * (f_0 + 4.0 * f_m + f_1), t * t / 6.0 * (2.0 * f_m + f_1))
+    return Stretch(end, t, lasts, f_1, vel, of.area, of.moment)
 
 
 # --- a step ---
@@ -496,21 +496,35 @@ def stuck_at(e_0, e, i, rate, limit, T, arms):
     return f * (limit / size) if size > limit else f
 
 
-@compiled(error_model="numpy", nogil=True, fastmath=_FAST, **_LENT)
+@compiled(error_model="numpy", nogil=True, fastmath=_FAST)
 def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
     """All springs over a step, as `row` of step.py, with a way y_1 t + y_2 t² across the pull too.
 
     e: (2 (1 + J), n) extensions and arms along the pull, then those across. look: None or LookAcross.
     """
+    made, did = np.empty(4 * gap.size), Whole(0.0j, 0.0j, 0.0j, 0.0)
+    if look is None and arms is None:
+        did = whole(s[0], e[0], e[1], gap, w, path, y_1, y_2, tools.h, T, modes, made)
+    else:
+        made[:] = 0.0
+    return events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did)
+
+
+@inner(error_model="numpy", fastmath=_FAST, **_LENT)
+def events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did):
+    """The springs that are left, from event to event."""
     h, J, G = tools.h, s.shape[0], glassy(arms)
     ext = Pair(e[:J], e[J:])
     if arms is not None:
         fill(0.5 * h, None, arms, tools, 2)
-    area = moment = end = 0.0 + 0.0j
-    stuck = when = sticking = 0.0
+    area, moment, end, sticking = did
+    stuck, when = h * sticking, 0.5 * h * h * sticking
     least = np.inf
     z_2, way_p, way_q = path.z_2, complex(path.x_1, y_1), complex(path.x_2, y_2)
     for i in range(gap.size):
+        if made[4 * i + 3] != 0.0:
+            s[0, i], e[0, i], e[1, i] = made[4 * i + 0], made[4 * i + 1], made[4 * i + 2]
+            continue
         tol = ROUNDING * (1.0 + abs(gap[i]))
         z_0, z_1, t, done, k = path.z_0 - gap[i], path.z_1, h, 0.0, 0
         mode, f, R, vel = FREE, 0.0j, 0.0, 0.0
