@@ -200,18 +200,22 @@ def slid(n, vel, t, v, R, T, G, phi, viscous, short):
 
 
 @_inline
-def turning(n, vel, v, R, R_dot, T, viscous):
-    """Force of a spring that slips, and its rate."""
-    turn = cross(n, v) * (R / max(R + T * vel, TINY) if viscous else 1.0)
-    return scaled(R, n), complex(R_dot * n.real - turn * n.imag, R_dot * n.imag + turn * n.real)
+def turning(n, vel, v, v_dot, R, R_dot, R_bend, T, G):
+    """Force R n of a spring that slips, its rate, and the rate of that."""
+    per = 1.0 / max(R + T * vel, TINY)
+    ahead, turn = along(n, v), per * cross(n, v)  # n' = turn i n
+    aside = 2.0 * R_dot * turn + R * per * (cross(n, v_dot) - turn * (2.0 * ahead - G * vel))
+    f = scaled(R, n)
+    return f, times(n, R_dot, R * turn), times(n, R_bend - R * turn * turn, aside)
 
 
 @_inline
-def over(f_0, g_0, f_1, g_1, t):
-    """Area and moment over a time of the cubic with these values and rates at its ends."""
-    area = scaled(0.5 * t, f_0 + f_1) + scaled(t * t / 12.0, g_0 - g_1)
-    moment = scaled(0.15 * t * t, f_0) + scaled(0.35 * t * t, f_1)
-    return area, moment + scaled(t * t * t / 30.0, g_0) - scaled(t * t * t / 20.0, g_1)
+def over(f_0, f_1, t):
+    """Area and moment over a time of the polynomial with these values, rates and second derivatives at its ends."""
+    (a, b, c), (d, e, f) = f_0, f_1
+    area = scaled(0.5 * t, a + d) + scaled(t * t / 10.0, b - e) + scaled(t * t * t / 120.0, c + f)
+    moment = scaled(1.0 / 7.0, a) + scaled(5.0 / 14.0, d) + scaled(4.0 / 105.0 * t, b) - scaled(13.0 / 210.0 * t, e)
+    return area, scaled(t * t, moment + scaled(t * t / 280.0, c) + scaled(t * t / 210.0, f))
 
 
 @_inline
@@ -225,8 +229,9 @@ def slides(n, vel, t, v, R, T, G, midway):
     """Slip over a time t. midway: whether its velocity in the middle is asked for."""
     v_1, R_0, R_m, R_1 = point(v, t), max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
     short = is_short(v.a, R_0 + T * vel, t) and is_short(v_1, R_1, t)
-    f_0, g_0 = turning(n, vel, v.a, R_0, R.b, T, T > 0.0)
-    n_m, l_m, n_1, l_1, R_dot = n, vel, n, vel, slope(R, t)
+    f_0 = turning(n, vel, v.a, v.b, R_0, R.b, 2.0 * R.c, T, G)
+    n_m, l_m, n_1, l_1 = n, vel, n, vel
+    v_dot, R_dot, R_bend = velocity(v, t), slope(R, t), 2.0 * (R.c + 3.0 * t * R.d)
     for half in range(2):
         if half == 0 and short and not midway:
             continue
@@ -239,10 +244,13 @@ def slides(n, vel, t, v, R, T, G, midway):
         n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short)
         if half == 0:
             n_m, l_m = n_1, l_1
-    f_1, g_1 = turning(n_1, l_1, v_1, R_1, R_dot, T, T > 0.0)
+    f_1 = turning(n_1, l_1, v_1, v_dot, R_1, R_dot, R_bend, T, G)
     if short:
-        area, moment = over(f_0, g_0, f_1, g_1, t)
+        area, moment = over(f_0, f_1, t)
     else:  # Simpson's rule
         f_m = scaled(R_m, n_m)
-        area, moment = scaled(t / 6.0, f_0 + scaled(4.0, f_m) + f_1), scaled(t * t / 6.0, scaled(2.0, f_m) + f_1)
+        area, moment = (
+            scaled(t / 6.0, f_0[0] + scaled(4.0, f_m) + f_1[0]),
+            scaled(t * t / 6.0, scaled(2.0, f_m) + f_1[0]),
+        )
     return Slip(n_1, l_1, area, moment, l_m)

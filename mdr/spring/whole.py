@@ -81,9 +81,9 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         ahead = along(v.a, n) - R.b
         vel = max(out, 0.0) / T if viscous else max(ahead, 0.0)
         n_1, l_1 = slid(n, vel, h, v, R, T, 1.0, phi, viscous, True)
-        f_0, g_0 = turning(n, vel, v.a, R.a, R.b, T, viscous)
-        f_1, g_1 = turning(n_1, l_1, last, R_1, R_dot, T, viscous)
-        area, moment = over(f_0, g_0, f_1, g_1, h)
+        f_0 = turning(n, vel, v.a, v.b, R.a, R.b, 2.0 * z_2, T, 1.0)
+        f_1 = turning(n_1, l_1, last, v.b, R_1, R_dot, 2.0 * z_2, T, 1.0)
+        area, moment = over(f_0, f_1, h)
         begins = ((out >= -tol) & (ahead > 0.0)) | (viscous & (out > tol))
         short = is_short(v.a, R.a + T * vel, h) & is_short(last, R_1, h)
         slips = touches & begins & (l_1 >= 0.0) & short & (rho > TOUCHING * h * fast)
@@ -96,8 +96,8 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         area_y += w_i * (held.imag if sticks else (area.imag if slips else 0.0))
         moment_x += w_i * (lever.real if sticks else (moment.real if slips else 0.0))
         moment_y += w_i * (lever.imag if sticks else (moment.imag if slips else 0.0))
-        end_x += w_i * (f.real if sticks else (f_1.real if slips else 0.0))
-        end_y += w_i * (f.imag if sticks else (f_1.imag if slips else 0.0))
+        end_x += w_i * (f.real if sticks else (f_1[0].real if slips else 0.0))
+        end_y += w_i * (f.imag if sticks else (f_1[0].imag if slips else 0.0))
         sticking += w_i if sticks else 0.0
         e_1 = scaled(R_1 + T * l_1, n_1) - scaled(T, top)
         e_1 = e + go if sticks else e_1
