@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
-from mdr.spring.law import N_PHI, fill_phi
+from mdr.spring.law import N_PHI, fill_phi, phi_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -152,11 +152,10 @@ def lost_on_parabola(x, i, p, q, t, T, arms):
     """What dashpot and arms of x[:, i] turn into heat over a time in which it is held on p t + q t²."""
     lost = T * t * (p * p + 2.0 * p * q * t + 4.0 / 3.0 * q * q * t * t)
     if arms is not None:
-        values = np.empty(N_PHI)
         for j in range(arms.rho.size):
             for g in range(OF_DECAYS.shape[0]):
                 u = t * OF_DECAYS[g, 0]
-                fill_phi(u * arms.rate[j], values)
-                y = x[1 + j, i] * values[0] + u * (p * values[1] + 2.0 * q * u * values[2])
+                zero, one, two, _, _ = phi_of(u * arms.rate[j])
+                y = x[1 + j, i] * zero + u * (p * one + 2.0 * q * u * two)
                 lost += t * OF_DECAYS[g, 1] * arms.rho[j] * arms.rate[j] * y * y
     return lost

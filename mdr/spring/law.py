@@ -62,23 +62,27 @@ def law_of(T: float, rho: tuple[float, ...] = (), theta: tuple[float, ...] = ())
 
 
 @njit(error_model="numpy")
-def fill_phi(r, values):  # type: ignore[no-untyped-def]
-    """Fill values (5,) with phi_0 ... phi_4 of r >= 0: from the exponential, or from a series where r is small."""
+def phi_of(r):  # type: ignore[no-untyped-def]
+    """phi_0 ... phi_4 of r >= 0: from the exponential, or from a series where r is small."""
     if r > 1.0:
-        values[0] = np.exp(-r)
-        values[1] = (1.0 - values[0]) / r
-        values[2] = (1.0 - values[1]) / r
-        values[3] = (0.5 - values[2]) / r
-        values[4] = (1.0 / 6.0 - values[3]) / r
-        return
-    total = 0.0
+        zero = np.exp(-r)
+        one = (1.0 - zero) / r
+        two = (1.0 - one) / r
+        three = (0.5 - two) / r
+        return zero, one, two, three, (1.0 / 6.0 - three) / r
+    four = 0.0
     for k in range(OF_SERIES.size):
-        total = OF_SERIES[k] - r * total
-    values[4] = total
-    values[3] = 1.0 / 6.0 - r * total
-    values[2] = 0.5 - r * values[3]
-    values[1] = 1.0 - r * values[2]
-    values[0] = 1.0 - r * values[1]
+        four = OF_SERIES[k] - r * four
+    three = 1.0 / 6.0 - r * four
+    two = 0.5 - r * three
+    one = 1.0 - r * two
+    return 1.0 - r * one, one, two, three, four
+
+
+@njit(error_model="numpy")
+def fill_phi(r, values):  # type: ignore[no-untyped-def]
+    """Fill values (5,) with them."""
+    values[0], values[1], values[2], values[3], values[4] = phi_of(r)
 
 
 def _modes(T: float, rho: Array, theta: Array) -> Modes:

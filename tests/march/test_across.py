@@ -105,6 +105,26 @@ def test_a_guided_body_cannot_be_shaken_across_at_its_pull():
         mdr.SpringPull(k_x=2e4, c_y=1.0)
 
 
+@pytest.mark.parametrize(
+    "material",
+    [mdr.Elastic(3e6, 0.5), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.Prony(3e6, ((3e6, 3e-3), (1.5e6, 0.016)), 0.5)],
+    ids=["elastic", "Kelvin", "arms"],
+)
+@pytest.mark.parametrize(("eta", "v"), [(1.0, 6.0), (0.8, 0.4)], ids=["slip", "stick and slip"])
+def test_halved_steps_lower_the_error_by_its_order(material, eta, v):
+    motion = mdr.NormalOscillation(DEPTH, 0.3 * DEPTH, OMEGA)
+    case = contact(eta, mdr.FlatPunch(a=1e-3), material, oscillation=motion, du_x=3e-6, phi_x=0.4)
+
+    def forces(steps):
+        run = mdr.slide(case, v * MU_0 * material.mindlin_ratio * DEPTH * OMEGA, steps_per_period=steps, n_springs=32)
+        return np.array([run.cof, run.cof_y]) / MU_0
+
+    fine = forces(1024)
+    far, near = (np.abs(forces(steps) - fine).max() for steps in (32, 128))
+    assert near < 1e-6
+    assert np.log2(far / near) / 2 > 1.9  # four where nothing happens within a step
+
+
 def test_no_velocity_is_critical():
     case = contact(0.5)
     assert np.isinf([mdr.critical_velocity(case), mdr.full_slip_critical_velocity(case)]).all()

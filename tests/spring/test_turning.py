@@ -52,6 +52,43 @@ def test_turned_axes_turn_the_answer(law):
         assert_allclose(pair[1], turned(*pair[0]), atol=1e-13)
 
 
+def a_period(law, springs, angle, n_steps=24):
+    """A period that is turned by an angle: areas of the force and extensions at its end, both turned back; and after
+    each step the shares of springs that stick and that do not touch.
+    """
+    gap, w, s, e = springs
+    s, e, J, h = s.copy(), e.copy(), len(s), 2 * np.pi / n_steps
+    turn, tools, areas = np.exp(1j * angle), tools_for(law, h), []
+    shares = []
+    start = (e[:J] + 1j * e[J:]) * turn
+    e[:J], e[J:] = start.real, start.imag
+    way = [0.4, 0.8j, 0.3 + 0.2j]  # pull, shake, and its second harmonic
+
+    def rate(t):
+        return turn * (way[0] + way[1] * np.cos(t) + 2 * way[2] * np.cos(2 * t + 1))
+
+    for k in range(n_steps):
+        t = k * h
+        x, z = [rate(u) for u in (t, t + h)], [np.cos(u) for u in (t, t + h)]
+        q, z_2 = (x[1] - x[0]) / (2 * h), (z[1] - z[0]) / (2 * h)
+        path = Path(np.sin(t), (np.sin(t + h) - np.sin(t)) / h - z_2 * h, z_2, x[0].real, q.real)
+        of = row_turning(s, e, gap, w, path, x[0].imag, q.imag, law.T, law.modes, law.arms, tools, None)
+        areas.append(complex(of.area_x, of.area_y))
+        shares.append((of.sticking, np.mean(s[0] > np.sin(t + h) - gap + 1e-9)))
+    return np.array(areas) / turn, (e[:J] + 1j * e[J:]) / turn, np.array(shares)
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_turned_axes_turn_a_period_with_all_events(law):
+    springs = some_springs(law, np.random.default_rng(4))
+    areas, e, shares = a_period(law, springs, 0.0)
+    assert (np.ptp(shares, axis=0) > 0.05).all()  # some stick and slip, some leave and touch
+    for angle in (0.5, np.pi / 2, 4.0):
+        turned, e_turned, _ = a_period(law, springs, angle)
+        assert_allclose(turned, areas, atol=1e-12)
+        assert_allclose(e_turned, e, atol=1e-12)
+
+
 def test_a_straight_way_may_be_split():
     law = LAWS["elastic"]
     gap, w, s, e = some_springs(law, np.random.default_rng(2))

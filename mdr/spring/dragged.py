@@ -1,0 +1,256 @@
+"""The slip of a spring whose friction is a vector: which way it turns, and how fast it slips.
+
+With the trial force g = L[e] + T (x' - e') of a dashpot that would stick, x' the velocity of the top,
+
+    g = (R + T vel) n,    T vel' + G vel = v.n - R',    n' (R + T vel) = v - (v.n) n,
+    v = G x' + T x'' - sum rho_j e_j/theta_j
+
+with the direction n of slip and force, the slip velocity vel >= 0, the disc R = L[s] and the modulus at once
+G = 1 + sum rho_j. This is Coulomb's law and L, nothing else; it is the clipped trial force of a Kelvin spring, and for
+T = 0 the end of an elastic spring that is dragged on a leash of length R, a tractrix.
+
+On a straight way the turn of n is known, however far it turns and however R changes: half the angle between n and the
+way has a tangent that falls by exp(-way/leash). Any other way is taken as two straight ones, from two Gauss nodes, that
+together are of fourth order (a commutator-free Magnus method, Blanes & Moan 2006). Vectors are complex numbers, and
+nothing knows of the axes.
+"""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mdr.spring.law import phi_of
+from mdr.tools.jit import inner
+
+_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
+
+GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
+EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
+TINY = 1e-300  #: of a leash
+SHORT = 1.0  #: square of a way over the leash that counts as short
+
+
+class Cubic(NamedTuple):
+    """a + b t + c t² + d t³, a number or a vector."""
+
+    a: complex
+    b: complex
+    c: complex
+    d: complex
+
+
+class Slip(NamedTuple):
+    """Slip over a time."""
+
+    n: complex  #: direction at its end
+    vel: float  #: velocity there
+    area: complex  #: of the force
+    moment: complex
+    l_m: float
+
+
+@_inline
+def cubic(f, t):
+    """The cubic with the values and slopes of Ends over a time t."""
+    mean = (f.v_1 - f.v_0) * (1.0 / t)
+    c = (3.0 * mean - 2.0 * f.d_0 - f.d_1) * (1.0 / t)
+    return Cubic(f.v_0, f.d_0, c, (f.d_0 + f.d_1 - 2.0 * mean) * (1.0 / (t * t)))
+
+
+@_inline
+def at(f, t):
+    """Value of a cubic."""
+    return f.a + t * (f.b + t * (f.c + t * f.d))
+
+
+@_inline
+def slope(f, t):
+    """Slope of a cubic."""
+    return f.b + t * (2.0 * f.c + 3.0 * t * f.d)
+
+
+@_inline
+def point(f, t):
+    """Value of a cubic of vectors."""
+    a, b, c, d = f
+    return complex(a.real + t * (b.real + t * (c.real + t * d.real)), a.imag + t * (b.imag + t * (c.imag + t * d.imag)))
+
+
+@_inline
+def velocity(f, t):
+    """Slope of a cubic of vectors."""
+    _, b, c, d = f
+    return complex(b.real + t * (2.0 * c.real + 3.0 * t * d.real), b.imag + t * (2.0 * c.imag + 3.0 * t * d.imag))
+
+
+@_inline
+def since(f, t):
+    """The same cubic from a time on."""
+    return Cubic(at(f, t), slope(f, t), f.c + 3.0 * f.d * t, f.d)
+
+
+@_inline
+def size_of(a):
+    """Length of a vector; the library's `abs` guards against overflow, and takes several times as long."""
+    return np.sqrt(a.real * a.real + a.imag * a.imag)
+
+
+@_inline
+def along(a, b):
+    """Scalar product of two vectors."""
+    return a.real * b.real + a.imag * b.imag
+
+
+@_inline
+def scaled(r, a):
+    """A number times a vector: numba's product takes the number for a vector too."""
+    return complex(r * a.real, r * a.imag)
+
+
+@_inline
+def cross(a, b):
+    """Vector product of two vectors."""
+    return a.real * b.imag - a.imag * b.real
+
+
+@_inline
+def times(n, cos, sin):
+    """A direction turned by an angle."""
+    return complex(cos * n.real - sin * n.imag, cos * n.imag + sin * n.real)
+
+
+@_inline
+def straight(n, boost):
+    """The direction n after a straight way, of this vector over the leash: exact."""
+    root = 0.5 * size_of(boost)
+    half = scaled(0.5 * np.tanh(root) / max(root, TINY), boost)
+    x, y = 1.0 + along(half, n), cross(n, half)
+    size = x * x + y * y
+    return times(n, (x * x - y * y) / size, 2.0 * x * y / size) if size > 0.0 else n
+
+
+@_inline
+def parts(boost):
+    """tanh(x)/x of a short way, 2 x long, by its continued fraction: numerator and denominator."""
+    q = 0.25 * (boost.real * boost.real + boost.imag * boost.imag)
+    return 945.0 + q * (105.0 + q), 945.0 + q * (420.0 + q * 15.0)
+
+
+@_inline
+def twice(n, a, b):
+    """The direction n after two short straight ways; the same, with one division."""
+    (of_a, per_a), (of_b, per_b) = parts(a), parts(b)
+    a, b = scaled(0.5 * of_a, a), scaled(0.5 * of_b, b)
+    both = scaled(per_b, a) + scaled(per_a, b)
+    x, y = per_a * per_b + along(a, b) + along(both, n), cross(a, b) + cross(n, both)
+    per = 1.0 / (x * x + y * y)
+    return times(n, per * (x * x - y * y), per * 2.0 * x * y)
+
+
+@_inline
+def turned(n, v_1, v_2, rho_1, rho_2, t, short):
+    """The direction n after a time t, under these ways a time and on these leashes at the two nodes of Gauss's rule."""
+    b_1, b_2 = scaled(t / max(rho_1, TINY), v_1), scaled(t / max(rho_2, TINY), v_2)
+    a, b = scaled(EARLY, b_1) + scaled(LATE, b_2), scaled(LATE, b_1) + scaled(EARLY, b_2)
+    return twice(n, a, b) if short else straight(straight(n, a), b)
+
+
+@_inline
+def driving(n, vel, v, v_dot, R, R_dot, R_bend, T, span):
+    """v.n - R' of a spring on a dashpot, and its rate; span: of the time it is to serve for."""
+    rho, across = max(R + T * vel, TINY), cross(v, n)
+    turning = across * across * rho / (rho * rho + across * across * span * span)  # where it turns at once, less
+    return along(v, n) - R_dot, along(v_dot, n) + turning - R_bend
+
+
+@_inline
+def driven(vel, c_0, d_0, c_1, d_1, t, T, phi):
+    """vel after a time t in which T l' + G vel is the cubic of these values and slopes; phi of law.py, of G t/T."""
+    step, first = c_1 - c_0, d_0 * t
+    last = first + d_1 * t - 2.0 * step
+    of = c_0 * phi[1] + first * phi[2] + 2.0 * (step - first - last) * phi[3] + 6.0 * last * phi[4]
+    return vel * phi[0] + t / T * of
+
+
+@_inline
+def slid(n, vel, t, v, R, T, G, phi, viscous, short):
+    """Direction and velocity of slip after a time t. v, R: cubics. phi: of law.py, of G t/T."""
+    early, late = (0.5 - GAUSS) * t, (0.5 + GAUSS) * t
+    v_1, v_2, R_1, R_2 = point(v, early), point(v, late), at(R, early), at(R, late)
+    v_b, R_dot = point(v, t), slope(R, t)
+    if not viscous:
+        n = turned(n, v_1, v_2, R_1, R_2, t, short)
+        return n, (along(v_b, n) - R_dot) / G
+    v_dot, R_b, bend, per = velocity(v, t), at(R, t), 2.0 * (R.c + 3.0 * t * R.d), t / T
+    c_a, d_a = driving(n, vel, v.a, v.b, R.a, R.b, 2.0 * R.c, T, t)
+    l_b = driven(vel, c_a, d_a, c_a + d_a * t, d_a, t, T, phi)
+    r_a, r_b = per * (c_a - G * vel), per * (c_a + d_a * t - G * l_b)
+    curved, n_b = 1.0 if G * t < T else 0.0, n
+    for _ in range(2):  # the cubic of values and slopes at the nodes of Gauss's rule
+        mean, tilt = 0.5 * (vel + l_b) + curved / 12.0 * (r_a - r_b), GAUSS * (l_b - vel)
+        tilt += curved * GAUSS / 6.0 * (2.0 * (l_b - vel) - r_a - r_b)
+        n_b = turned(n, v_1, v_2, R_1 + T * (mean - tilt), R_2 + T * (mean + tilt), t, short)
+        c_b, d_b = driving(n_b, l_b, v_b, v_dot, R_b, R_dot, bend, T, t)
+        l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)
+        r_b = per * (c_b - G * l_b)
+    return n_b, l_b
+
+
+@_inline
+def turning(n, vel, v, v_dot, R, R_dot, R_bend, T, G):
+    """Force R n of a spring that slips, its rate, and the rate of that."""
+    per = 1.0 / max(R + T * vel, TINY)
+    ahead, turn = along(n, v), per * cross(n, v)  # n' = turn i n
+    aside = 2.0 * R_dot * turn + R * per * (cross(n, v_dot) - turn * (2.0 * ahead - G * vel))
+    f = scaled(R, n)
+    return f, times(n, R_dot, R * turn), times(n, R_bend - R * turn * turn, aside)
+
+
+@_inline
+def over(f_0, f_1, t):
+    """Area and moment over a time of the polynomial with these values, rates and second derivatives at its ends."""
+    (a, b, c), (d, e, f) = f_0, f_1
+    area = scaled(0.5 * t, a + d) + scaled(t * t / 10.0, b - e) + scaled(t * t * t / 120.0, c + f)
+    moment = scaled(1.0 / 7.0, a) + scaled(5.0 / 14.0, d) + scaled(4.0 / 105.0 * t, b) - scaled(13.0 / 210.0 * t, e)
+    return area, scaled(t * t, moment + scaled(t * t / 280.0, c) + scaled(t * t / 210.0, f))
+
+
+@_inline
+def is_short(v, rho, t):
+    """Whether a way is short beside the leash."""
+    return along(v, v) * (t * t) < SHORT * (rho * rho)
+
+
+@_inline
+def slides(n, vel, t, v, R, T, G, midway):
+    """Slip over a time t. midway: whether its velocity in the middle is asked for."""
+    v_1, R_0, R_m, R_1 = point(v, t), max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
+    short = is_short(v.a, R_0 + T * vel, t) and is_short(v_1, R_1, t)
+    f_0 = turning(n, vel, v.a, v.b, R_0, R.b, 2.0 * R.c, T, G)
+    n_m, l_m, n_1, l_1 = n, vel, n, vel
+    v_dot, R_dot, R_bend = velocity(v, t), slope(R, t), 2.0 * (R.c + 3.0 * t * R.d)
+    for half in range(2):
+        if half == 0 and short and not midway:
+            continue
+        u = t if half == 1 and short else 0.5 * t
+        phi = phi_of(G * u / T) if T > 0.0 else (1.0, 1.0, 0.5, 0.0, 0.0)
+        if half == 1 and not short:
+            n_1, l_1, v, R = n_m, l_m, since(v, u), since(R, u)
+        else:
+            n_1, l_1 = n, vel
+        n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short)
+        if half == 0:
+            n_m, l_m = n_1, l_1
+    f_1 = turning(n_1, l_1, v_1, v_dot, R_1, R_dot, R_bend, T, G)
+    if short:
+        area, moment = over(f_0, f_1, t)
+    else:  # Simpson's rule
+        f_m = scaled(R_m, n_m)
+        area, moment = (
+            scaled(t / 6.0, f_0[0] + scaled(4.0, f_m) + f_1[0]),
+            scaled(t * t / 6.0, scaled(2.0, f_m) + f_1[0]),
+        )
+    return Slip(n_1, l_1, area, moment, l_m)
