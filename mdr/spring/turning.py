@@ -353,10 +353,12 @@ def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look)
             b = Bracket(0.0, t, start.vel, of.vel, 0)
         else:
             b = nearer(b, t, of.vel)
-        if (b.high - b.low <= 1e-14 * h and t == b.high) or b.f_low <= 0.0 or of.vel == 0.0:
+        if (b.high - b.low <= 1e-14 * h and t == b.high) or b.f_low <= 0.0 or abs(of.vel) <= 1e-14 * start.vel:
             break
         t = between(b)
-        if b.high - b.low <= 1e-14 * h or not (b.low < t < b.high):
+        if not b.low < t < b.high:
+            t = 0.5 * (b.low + b.high)
+        if b.high - b.low <= 1e-14 * h:
             t = b.high
         k = 1
         if arms is not None:

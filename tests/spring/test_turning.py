@@ -122,3 +122,14 @@ def test_along_one_line_it_is_the_scalar_row(law, tolerance, sign):
     assert_allclose(after[J:], 0.0, atol=1e-15)
     assert_allclose(after[:J], e_1, atol=tolerance)
     assert_allclose([of.area_x, of.moment_x, of.end_x], [known[0], known[1], known[4]], atol=tolerance)
+
+
+def test_slip_ends_where_the_top_turns_back_whatever_is_across():
+    """A spring that slips back is stuck from the turn on, also where next to nothing moves across."""
+    rng, law = np.random.default_rng(4), LAWS["elastic"]
+    for _ in range(300):
+        across, turn, bend = 10 ** rng.uniform(-12, -4), rng.uniform(0.1, 0.9) * H, rng.uniform(0.1, 3.0)
+        e = np.array([[-1.0], [across * rng.uniform(-1, 1)]])
+        springs = np.array([-1.0]), np.array([1.0]), np.ones((1, 1)), e / np.hypot(*e)
+        end = stepped(law, springs, (-2 * bend * turn, bend), (across * rng.uniform(-1, 1), 0.0), z_1=0.0)[2]
+        assert end[0, 0] == pytest.approx(-1 + bend * (H - turn) ** 2, abs=1e-8)  # of the square of the way across
