@@ -108,7 +108,7 @@ def test_the_end_of_a_leash_is_a_tractrix():
     assert np.tan(np.arctan2(e[1], e[0]) / 2) == pytest.approx(np.tan((np.pi - 2.0) / 2) * np.exp(-left), rel=1e-9)
 
 
-@pytest.mark.parametrize(("law", "tolerance"), zip(LAWS.values(), (1e-13, 2e-4, 1e-5), strict=True), ids=LAWS)
+@pytest.mark.parametrize(("law", "tolerance"), list(zip(LAWS.values(), (1e-13, 2e-4, 1e-5), strict=True)), ids=LAWS)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_along_one_line_it_is_the_scalar_row(law, tolerance, sign):
     gap, w, s, e = some_springs(law, np.random.default_rng(3))
