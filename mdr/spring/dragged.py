@@ -11,8 +11,9 @@ T = 0 the end of an elastic spring that is dragged on a leash of length R, a tra
 
 On a straight way the turn of n is known, however far it turns and however R changes: half the angle between n and the
 way has a tangent that falls by exp(-way/leash). Any other way is taken as two straight ones, from two Gauss nodes, that
-together are of fourth order (a commutator-free Magnus method, Blanes & Moan 2006). Vectors are complex numbers, and
-nothing knows of the axes.
+together are of fourth order (a commutator-free Magnus method, Blanes & Moan 2006). The area of the force follows from
+its values and rates at both ends, or from Simpson's rule where the way is longer than the leash. Vectors are complex
+numbers, and nothing knows of the axes.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -31,6 +32,7 @@ GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of t
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
 TINY = 1e-300  #: of a leash
 SHORT = 1.0  #: square of a way over the leash that counts as short
+NO_PHI = (1.0, 1.0, 0.5, 0.0, 0.0)  #: in the place of phi where nothing is viscous
 
 
 class Cubic(NamedTuple):
@@ -232,25 +234,17 @@ def slides(n, vel, t, v, R, T, G, midway):
     f_0 = turning(n, vel, v.a, v.b, R_0, R.b, 2.0 * R.c, T, G)
     n_m, l_m, n_1, l_1 = n, vel, n, vel
     v_dot, R_dot, R_bend = velocity(v, t), slope(R, t), 2.0 * (R.c + 3.0 * t * R.d)
-    for half in range(2):
-        if half == 0 and short and not midway:
-            continue
-        u = t if half == 1 and short else 0.5 * t
-        phi = phi_of(G * u / T) if T > 0.0 else (1.0, 1.0, 0.5, 0.0, 0.0)
+    for half in range(1 if short and not midway else 0, 2):
+        u, n_1, l_1 = t if half == 1 and short else 0.5 * t, n, vel
         if half == 1 and not short:
             n_1, l_1, v, R = n_m, l_m, since(v, u), since(R, u)
-        else:
-            n_1, l_1 = n, vel
+        phi = phi_of(G * u / T) if T > 0.0 else NO_PHI
         n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short)
         if half == 0:
             n_m, l_m = n_1, l_1
     f_1 = turning(n_1, l_1, v_1, v_dot, R_1, R_dot, R_bend, T, G)
-    if short:
-        area, moment = over(f_0, f_1, t)
-    else:  # Simpson's rule
-        f_m = scaled(R_m, n_m)
-        area, moment = (
-            scaled(t / 6.0, f_0[0] + scaled(4.0, f_m) + f_1[0]),
-            scaled(t * t / 6.0, scaled(2.0, f_m) + f_1[0]),
-        )
+    area, moment = over(f_0, f_1, t)
+    if not short:  # Simpson's rule
+        f_m, end = scaled(4.0 * R_m, n_m), f_1[0]
+        area, moment = scaled(t / 6.0, f_0[0] + f_m + end), scaled(t * t / 6.0, scaled(0.5, f_m) + end)
     return Slip(n_1, l_1, area, moment, l_m)

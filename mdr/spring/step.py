@@ -144,8 +144,8 @@ def zero_of_parabola(f, t, tol, a, b, c):
 @_inline
 def force(x, p, q, T, t):
     """Area and moment of L[x + p t + q t²] over a time, without arms."""
-    area = t * (x + t * (p / 2.0 + t * q / 3.0))
-    moment = t * t * (x / 2.0 + t * (p / 3.0 + t * q / 4.0))
+    area = t * (x + t * (0.5 * p + t * (1.0 / 3.0) * q))
+    moment = t * t * (0.5 * x + t * ((1.0 / 3.0) * p + t * 0.25 * q))
     dx = t * (p + q * t)
     return area + T * dx, moment + T * (t * (x + dx) - area)
 

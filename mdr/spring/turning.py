@@ -504,11 +504,10 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
 
     e: (2 (1 + J), n) extensions and arms along the pull, then those across. look: None or LookAcross.
     """
-    made, did = np.empty(4 * gap.size), Whole(0.0j, 0.0j, 0.0j, 0.0)
-    if look is None and arms is None:
-        did = whole(s[0], e[0], e[1], gap, w, path, y_1, y_2, tools.h, T, modes, made)
-    else:
-        made[:] = 0.0
+    made, did = np.zeros(4 * gap.size), Whole(0.0j, 0.0j, 0.0j, 0.0)
+    if look is None:  # noqa: SIM102 - numba leaves out what comes after one such condition, not after two
+        if arms is None:
+            did = whole(s[0], e[0], e[1], gap, w, path, y_1, y_2, tools.h, T, modes, made)
     return events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did)
 
 

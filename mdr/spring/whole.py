@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.dragged import (
+    NO_PHI,
     Cubic,
     along,
     at,
@@ -53,7 +54,7 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
     p, q = complex(path.x_1, y_1), complex(path.x_2, y_2)
     v = Cubic(complex(p.real + 2.0 * T * q.real, p.imag + 2.0 * T * q.imag), scaled(2.0, q), 0.0j, 0.0j)
     last, fast = point(v, h), size_of(v.a)
-    phi = phi_of(h / T) if viscous else (1.0, 1.0, 0.5, 0.0, 0.0)
+    phi = phi_of(h / T) if viscous else NO_PHI
     base = Cubic(path.z_0 + T * z_1, z_1 + 2.0 * T * z_2, z_2, 0.0)
     R_dot, middle = slope(base, h), -0.5 * base.b / z_2 if z_2 > 0.0 else 0.0
     lowest = min(base.a, at(base, h))
