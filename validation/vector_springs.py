@@ -45,9 +45,10 @@ SIZES, SLOWER = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 4.0), (1.6, 0.8, 0.4, 0.2, 0.1,
 FASTER = (1.6, 0.8, 0.4, 0.2, 0.1, 0.05, 0.025)
 ANNULI, CELLS, STEPS = 40, 31, 60
 MU_0, NU = 0.3, 0.3
+MIXED = ((0.5, 0.1), (0.9, 0.02), (1.5, 0.4))  #: eta and v at which springs have many directions
 ALPHA = 0.3  #: du_z/u_z0 of contacts that are pushed to the side
 ALLOWED = 0.03  #: of mu_0, what the law may be off by without coupling
-ALLOWED_COUPLED = 0.01  #: and what is said of coupling
+ALLOWED_COUPLED = 0.015  #: and what is said of coupling
 
 
 def columns(name: str) -> list[list[Point]]:
@@ -94,7 +95,7 @@ def claim(effort: str) -> Claim:
     left = {shape: np.array([row.off - law(row.point) for row in off[shape]]) for shape in CURVED}
     far = max(float(np.abs(one).max()) for one in left.values())
     rms = max(float(np.sqrt(np.mean(one**2))) for one in left.values())
-    beyond = _surface_excess("paraboloid", 0.5, 0.1, effort == "quick")
+    beyond = max(_surface_excess("paraboloid", *one, effort == "quick") for one in MIXED)
     coupled = _coupled(cells, exact, effort == "quick")
     return Claim(
         name="vector_springs",
@@ -117,9 +118,11 @@ def claim(effort: str) -> Claim:
         " springs of different directions follow one another, the traction that belongs to them comes to"
         f" {beyond:.2f} μ_0 p. The law of the difference, fitted to the paraboloid, leaves {far:.3f} of μ_0 at most on"
         f" all three ({rms:.3f} in the mean square). ν does not matter without coupling. With it the contact is stiffer"
-        " along its surface by about 0.36 β^2/κ, which tells what coupling adds to"
-        f" {max(abs(found - said) for _, found, said in coupled):.3f} of μ_0. Pushed to the side by a normal"
-        f" oscillation ({ALPHA:g} of the depth), springs have the force across to {_to_the_side(cells):.3f} of μ_0.",
+        " along its surface by about 0.36 β^2/κ (less under a flat punch), which tells what coupling takes, up to"
+        f" {max(found for _, found, _ in coupled):.3f} of μ_0, to"
+        f" {max(abs(found - said) for _, found, said in coupled):.3f}. Pushed to the side by a normal"
+        f" oscillation ({ALPHA:g} of the depth), springs have the force across to {_to_the_side(cells):.3f} of μ_0"
+        " from v = 0.1 on.",
         verdict="holds if the contact is flat, or the slide not slow",
         sentence="Shaken across, springs are exact under a flat punch and good for fast slides; at rest a paraboloid"
         " holds up to 0.13 of μ_0 less, as Coulomb's law does not hold in every point of the surface.",
@@ -129,7 +132,7 @@ def claim(effort: str) -> Claim:
             *_again_checks(exact, effort),
             *_cell_checks(cells, exact, coupled),
             *_side_checks(cells),
-            *_surface_checks(beyond, effort == "quick"),
+            *_surface_checks(beyond),
         ),
         figures=(_figure(off), _law_figure(off, coupled), _surface_figure()),
         equations=(
@@ -171,23 +174,22 @@ def _to_the_side(rows: Iterable[Row]) -> float:
 
 
 def _rest_checks(quick: bool) -> Checks:
-    """The closed form at rest is a state that lasts, and what is above it does not."""
+    """The closed form at rest is a state that lasts, and where others end."""
     n = 24 if quick else 48
     for shape, eta in product(("paraboloid", "cone"), (0.3, 0.6)):
         rings, case = annuli(n), SHAPES[shape]
         p = pressure(case, RADIUS, DEPTH, n)
-        radius = RADIUS / float(case.contact_radius(DEPTH)) * float(case.contact_radius((1 - eta) * DEPTH)) / RADIUS
+        stuck = float(case.contact_radius((1 - eta) * DEPTH)) / RADIUS
         inside = np.minimum(case.pressure(RADIUS * rings.r, (1 - eta) * DEPTH, 1.0) * RADIUS / DEPTH, p)
-        along = np.where(rings.r < radius, np.sqrt(inside * (2 * p - inside)), 0.0)
+        along = np.where(rings.r < stuck, np.sqrt(inside * (2 * p - inside)), 0.0)
         start = (np.sqrt(rings.area) * np.stack([along, 0 * p]))[:, :, None]
         phase = 2 * np.pi * np.arange(n + 1) / n
         way = np.stack([0 * phase, eta * np.sin(phase)])
-        stays = friction(p, way, 12, 0.0, start).cof.real
-        above = friction(p, way, 12, 0.0).cof.real
         known, where = _held(shape, eta, True), f"{shape}, η = {eta:g}"
-        name = f"load over μ_0 F_N left of the state of the closed form after twelve periods at rest: {where}"
-        yield Check(name, stays, known, 0.25 / n, "an annulus more or less that sticks")
-        yield Check.at_least(f"the same from full slip, over the closed form: {where}", above / known, 1.0, "it falls")
+        for what, cycles, begin in (("its own state", 12, start), ("full slip", 48, None)):
+            name = f"load over μ_0 F_N after {cycles} periods at rest from {what}, less the closed form: {where}"
+            found = friction(p, way, cycles, 0.0, begin).cof.real
+            yield Check(name, found - known, 0.0, 0.25 / n, "an annulus more or less that sticks")
 
 
 def _table_checks(off: dict[str, list[Row]], left: dict[str, Array]) -> Checks:
@@ -253,13 +255,19 @@ def _cell_checks(cells: Sequence[Row], exact: Sequence[Row], coupled: Sequence[t
         ("ν = 0.3, μ_0 = 0.3, fitted", _is_fitted),
         ("μ_0 = 0.1 and 0.6", lambda p: p.shape == "paraboloid" and p.mu_0 != MU_0),
         ("ν = 0", lambda p: p.nu == 0),
-        ("other shapes", lambda p: p.shape != "paraboloid"),
+        ("flat punch", lambda p: p.shape == "flat punch"),
+        ("cone and r^4", lambda p: p.shape in ("cone", "r^4")),
     ):
         own_pairs = [(row, found, said) for row, found, said in coupled if some(row.point)]
         if own_pairs:
             worst = max((found - said for _, found, said in own_pairs), key=abs)
             name = f"what coupling takes over μ_0, less the law: {what}, worst of {len(own_pairs)}"
             yield Check(name, worst, 0.0, ALLOWED_COUPLED, "errors of cells, and the fit")
+            left = float(
+                np.sqrt(np.mean([(a - b) ** 2 for _, a, b in own_pairs]) / np.mean([a**2 for _, a, _ in own_pairs]))
+            )
+            name = f"what the law leaves of it, in the mean square: {what}"
+            yield Check.at_most(name, left, 0.85 if what == "flat punch" else 0.5, "nothing at all would leave 1")
             most = max(found for _, found, _ in own_pairs)
             yield Check.at_least(f"the greatest of it: {what}", most, 0.002, "seen above its errors")
 
@@ -283,20 +291,26 @@ def _is_fitted(point: Point) -> bool:
 
 
 def _coupled(cells: Sequence[Row], exact: Sequence[Row], quick: bool) -> list[tuple[Row, float, float]]:
-    """Rows with coupling at a constant depth, what it takes over mu_0 beyond what is off without, and what is said."""
+    """Rows with coupling at a constant depth, what it takes over mu_0 beyond what is off without, and what is said.
+
+    Rows at velocities for which nothing is known without coupling are left out; a punch is one spring there.
+    """
     without = {(row.point.shape, row.point.eta, row.point.v): row.off for row in exact}
-    without |= {
-        (r.point.shape, r.point.eta, r.point.v): r.off for r in cells if not r.point.coupled and not r.point.alpha
-    }
+    without |= {(r.point.shape, r.point.eta, r.point.v): r.off for r in cells if _is_plain(r.point)}
+    without |= {("flat punch", row.point.eta, row.point.v): 0.0 for row in cells}
     rows = [row for row in cells if row.point.coupled and not row.point.alpha]
     rows = [row for row in rows if (row.point.shape, row.point.eta, row.point.v) in without]
     rows = [row for row in rows if not quick or row.point.v in (0.1, 0.8)]
     return [(r, r.off - without[r.point.shape, r.point.eta, r.point.v], by_coupling(r)) for r in rows]
 
 
-def _surface_checks(beyond: float, quick: bool) -> Checks:
-    name = "greatest traction of springs on the surface over μ_0 p: paraboloid, η = 0.5, v = 0.1"
-    yield Check.at_least(name, beyond, 1.05, "Coulomb's law fails there")
+def _is_plain(point: Point) -> bool:
+    return not point.coupled and not point.alpha
+
+
+def _surface_checks(beyond: float) -> Checks:
+    name = "greatest traction of springs on the surface over μ_0 p: paraboloid"
+    yield Check.at_least(name, beyond, 1.1, "Coulomb's law fails there")
     flat = _surface_excess("flat punch", 0.5, 0.1, True)
     yield Check.at_most("the same under a flat punch", flat, 1 + 1e-9, "all springs have one direction")
 

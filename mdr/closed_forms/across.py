@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from scipy.optimize import brentq
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import peak
@@ -14,7 +17,7 @@ from mdr.tools.checks import instance, not_negative, positive
 NODES = 64  #: of Gauss's rule on a piece of the contact; the integrand ends like a root, which its map removes
 
 
-def held_across(indenter: Indenter, d: float, reach: float, *, surface: bool = False) -> float:
+def held_across(indenter: Indenter, d: float, d_y: float, *, surface: bool = False) -> float:
     """Static friction [-] of a contact of constant depth that is shaken across, over mu_0.
 
     A spring at g can be deflected by mu_0 kappa (d - g), of which the shake takes du_y across, so that along the way
@@ -22,11 +25,11 @@ def held_across(indenter: Indenter, d: float, reach: float, *, surface: bool = F
 
         integral of sqrt((d - g)² - d_y²) over that of d - g,   d_y = du_y/(mu_0 kappa)
 
-    For a flat face sqrt(1 - (d_y/d)²). The limit v_0 -> 0 of runs; zero from d_y = d on. On a material with memory a
-    harmonic shake counts abs(E*(omega))/E* times as much.
+    For a flat face sqrt(1 - (d_y/d)²). The limit v_0 -> 0 of runs; zero once the deepest spring slips, from d_y = d on
+    but under a hollow face. On a material with memory a harmonic shake counts abs(E*(omega))/E* times as much.
 
     Springs of different directions do not obey Coulomb's law in every point of the surface. There the shake takes
-    mu_0 [p(d) - p(d - d_y)] of mu_0 p (Jäger, Ciavarella), and what ever slips across holds nothing::
+    mu_0 [p(d) - p(d - d_y)] of mu_0 p (Jäger, Ciavarella), and a point that slips across in a period holds nothing::
 
         mean over the contact at d - d_y of sqrt(p(d)² - [p(d) - p(d - d_y)]²) over that of p(d)
 
@@ -39,15 +42,20 @@ def held_across(indenter: Indenter, d: float, reach: float, *, surface: bool = F
         Shape of the contact.
     d : float
         Depth [m].
-    reach : float
-        d_y [m].
+    d_y : float
+        du_y/(mu_0 kappa) [m].
     surface : bool
-        True: by Coulomb's law in every point of the surface. False: in every spring, as runs have it.
+        True: by Coulomb's law in every point of the surface. False: in every spring, as in runs.
 
     Returns
     -------
     float
         The load over mu_0 F_N [-].
+
+    Raises
+    ------
+    ValueError
+        For the surface under a hollow face.
 
     Examples
     --------
@@ -56,20 +64,21 @@ def held_across(indenter: Indenter, d: float, reach: float, *, surface: bool = F
     [0.69, 0.5644]
     """
     instance("indenter", indenter, Indenter)
-    d, reach = positive("d", d, "depth in m"), not_negative("reach", reach, "du_y/(mu_0 kappa) in m")
-    if reach >= d:
-        return 0.0
-    of = _on_surface if surface else _over_contact
-    return of(indenter, d, d - reach, reach) / of(indenter, d, d, 0.0)
+    d, d_y = positive("d", d, "depth in m"), not_negative("d_y", d_y, "du_y/(mu_0 kappa) in m")
+    if not surface:
+        return _by_springs(indenter, d, d_y) / _by_springs(indenter, d, 0.0)
+    if indenter.least_depth > 0:
+        raise ValueError(f"the surface under a hollow face is not known, got {indenter!r}: take surface=False")
+    return _on_surface(indenter, d, d - d_y) / _on_surface(indenter, d, d) if d_y < d else 0.0
 
 
 def static_across(case: SlidingContact, surface: bool = False) -> float:
     """Static friction [-] of such a contact, by `held_across`, on any linear material and for any shake across."""
     case = across_alone(case)
-    return case.mu_0 * held_across(case.indenter, case.cycle.u_z0, reach_across(case), surface=surface)
+    return case.mu_0 * held_across(case.indenter, case.cycle.u_z0, extent_across(case), surface=surface)
 
 
-def reach_across(case: SlidingContact) -> float:
+def extent_across(case: SlidingContact) -> float:
     """d_y [m] of a case: half of what a spring that sticks is deflected by between its ends, over mu_0 kappa."""
     n_omega = case.omega * np.arange(1, case.way_across.size + 1)
     borne = case.way_across * np.asarray(case.material.dynamic_modulus(n_omega)) / case.material.E_star
@@ -97,24 +106,31 @@ def pulled_rigidly(case: SlidingContact) -> SlidingContact:
     return resolved(case)
 
 
-def _over_contact(indenter: Indenter, d: float, depth: float, lost: float) -> float:
-    """Integral of sqrt((d - g)² - lost²) over the contact at a smaller depth, at whose edge it is zero."""
-    x, weight = places(indenter, depth)
+def _by_springs(indenter: Indenter, d: float, d_y: float) -> float:
+    """Integral of sqrt((d - g)² - d_y²) over the springs for which d - g > d_y, whose edges are found first."""
+    a = float(indenter.contact_radius(d))
+
+    def spare(x: float) -> float:
+        return d - d_y - float(indenter.profile_1d(x))
+
+    x = np.union1d(np.linspace(0, a, NODES), [kink for kink in indenter.kinks if kink < a])
+    at = np.array([spare(one) for one in x])
+    edges = [brentq(spare, x[i], x[i + 1]) for i in np.flatnonzero(at[:-1] * at[1:] < 0)] if d_y else []
+    x, weight = places(indenter, a, edges)
     s = np.maximum(d - indenter.profile_1d(x), 0.0)
-    return float(weight @ np.sqrt(np.maximum(s * s - lost * lost, 0.0)))
+    return float(weight @ np.sqrt(np.maximum(s * s - d_y * d_y, 0.0)))
 
 
-def _on_surface(indenter: Indenter, d: float, depth: float, _: float) -> float:
+def _on_surface(indenter: Indenter, d: float, depth: float) -> float:
     """Integral over the contact at a smaller depth of sqrt(p(depth) [2 p(d) - p(depth)]) r, p pressures over E*."""
-    r, weight = places(indenter, depth)
+    r, weight = places(indenter, float(indenter.contact_radius(depth)))
     most, stuck = (indenter.pressure(r, one, 1.0) for one in (d, depth))
     return float(weight @ (r * np.sqrt(stuck * np.maximum(2 * most - stuck, 0.0))))
 
 
-def places(indenter: Indenter, depth: float) -> tuple[Array, Array]:
-    """Nodes and weights over the contact at a depth, between its kinks; crowded to both ends of each piece."""
-    a = float(indenter.contact_radius(depth))
-    ends = np.array([0.0, *(kink for kink in indenter.kinks if kink < a), a])
+def places(indenter: Indenter, a: float, edges: Sequence[float] = ()) -> tuple[Array, Array]:
+    """Nodes and weights over the contact of radius a, between kinks and edges; crowded to both ends of each piece."""
+    ends = np.unique([0.0, *(kink for kink in indenter.kinks if kink < a), *edges, a])
     u, w = np.polynomial.legendre.leggauss(NODES)
     u = 0.5 * (1 + u)
     place, share = u * u * (3 - 2 * u), 3 * w * u * (1 - u)

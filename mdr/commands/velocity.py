@@ -78,7 +78,8 @@ def _across(case: mdr.SlidingContact) -> list[Told]:
     if is_across_alone(known):
         full, most = full_across(known, NEARLY), f"{100 - 100 * NEARLY:g} %"
         meaning = f"velocity from which friction is at least {most} of mu_0 (mdr.laws.lost_across)"
-        told.append(Told("nearly_full", full, most, f"{full:.6g} m/s", meaning))
+        if math.isfinite(full):
+            told.append(Told("nearly_full", full, most, f"{full:.6g} m/s", meaning))
     return told
 
 

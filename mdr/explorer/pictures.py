@@ -78,7 +78,7 @@ class Picture:
         end = "" if run.settled else ", not settled"
         rows = [("v_c", with_prefix(self.v_c, "m/s"), "critical velocity in closed form")]
         if known.moves_across:
-            rows = [("v_c", "infinite", "shaken across, friction is full at no velocity")]
+            rows = [("v_c", "infinite", "shaken across, friction is below mu_0 at every velocity")]
         elif self.v_c_back is not None:
             rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
         else:

@@ -17,7 +17,7 @@ from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
 from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.closed_forms.laws.across import full_across
+from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
 from mdr.friction.measured_velocity import ACROSS, HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space
@@ -118,7 +118,9 @@ class Verdict(Printed):
             return f"cannot be judged: {full}, against {self.eq_15:.6g} m/s by the formula"
         if self.holds is None:
             return f"cannot be judged: no critical velocity was found, against {self.eq_15:.6g} m/s"
-        return f"{'holds' if self.holds else 'fails'}: no critical velocity, against {self.eq_15:.6g} m/s"
+        if self.holds:
+            return "holds: no critical velocity, as it says"
+        return f"fails: no critical velocity, against {self.eq_15:.6g} m/s"
 
 
 def verdict(
@@ -192,7 +194,8 @@ def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
         f"{with_error(springs.cof, springs.cof_error)} by springs"
     )
     if abs(off) <= error:
-        return f"{said}: no difference beyond these errors"
+        slower = "; slower slides differ" if is_across_alone(case) else ""
+        return f"{said}: no difference beyond these errors{slower}"
     return f"{said}: springs are too {'high' if off > 0 else 'low'} there by {abs(off) / case.mu_0:.1g} of mu_0"
 
 
@@ -245,7 +248,8 @@ def across(case: SlidingContact) -> str:
     """What takes the place of a critical velocity where a contact is shaken across its way."""
     said = ACROSS
     if is_across_alone(case):
-        rest, surface, full = static_cof(case), static_across(case, surface=True), full_across(case, NEARLY)
+        rest, full = static_cof(case), full_across(case, NEARLY)
+        surface = rest if case.indenter.least_depth > 0 else static_across(case, surface=True)
         said += (
             f"; at rest it holds {rest:.4g} of the load, and springs stick for part of the period"
             if rest
@@ -253,15 +257,11 @@ def across(case: SlidingContact) -> str:
         )
         if rest - surface > STRONG * case.mu_0:
             said += (
-                f"; springs hold too much there: by Coulomb's law in every point of the surface {surface:.4g}, as slow "
-                "slides in three dimensions tell too (mdr.laws.excess_across)"
+                f"; that is too much: by Coulomb's law in every point of the surface it holds {surface:.4g} of the "
+                "load, and slow slides have less friction too (mdr.laws.excess_across)"
             )
-        within = f"within {100 * NEARLY:g} % of mu_0"
-        said += (
-            f"; friction is {within} from about {full:.3g} m/s on"
-            if full
-            else f"; friction is {within} at any velocity"
-        )
+        where = f"from about {full:.3g} m/s on" if full else "at any velocity"
+        said += f"; friction is within {100 * NEARLY:g} % of mu_0 {where}" if np.isfinite(full) else ""
     return f"{said}; the greatest velocity across is {case.fastest_across:.3g} m/s"
 
 
@@ -311,7 +311,11 @@ def _left_out(case: SlidingContact) -> Iterator[str]:
     """The part of the sentence about normal-tangential coupling, where it matters."""
     beta, rub = case.material.dundurs_beta, radial_rub(case)
     left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
-    if case.is_shaken:
+    if is_across_alone(case):
+        stiffer = stiffened_by_coupling(case.material)
+        if stiffer > STRONG:
+            yield f"{left_out} it acts like a contact stiffer along its surface by {100 * stiffer:.2g} %"
+    elif case.is_shaken:
         if abs(beta) > STRONG and case.oscillation.omega:
             yield f"{left_out} friction is lower than here, by how much under a shake was not computed"
     elif unlike(case):
