@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import brentq
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import peak
@@ -108,6 +107,8 @@ def pulled_rigidly(case: SlidingContact) -> SlidingContact:
 
 def _by_springs(indenter: Indenter, d: float, d_y: float) -> float:
     """Integral of sqrt((d - g)² - d_y²) over the springs for which d - g > d_y, whose edges are found first."""
+    from scipy.optimize import brentq
+
     a = float(indenter.contact_radius(d))
 
     def spare(x: float) -> float:

@@ -309,7 +309,7 @@ def test_on_resonance_the_verdict_names_the_pole_and_the_coupling():
     assert verdict.holds, "no critical velocity, and the formula says so"
     assert "undamped natural frequency" in verdict.why
     assert "normal-tangential coupling" in verdict.why
-    assert "no critical velocity, against inf m/s" in str(verdict)
+    assert "no critical velocity, as it says" in str(verdict)
 
 
 def test_loss_of_contact_is_said():
