@@ -77,7 +77,7 @@ def claim(effort: str) -> Claim:
                 "fast",
                 r"1 - \frac{\mu}{\mu_0} \to \langle \frac{1}{4} \sum_n \frac{|n \omega Y_n|^2}{|v_0 + i n \omega"
                 r" \mu_0 \kappa s/E^*_n|^2} \rangle",
-                "Mean over the springs by their force; Y_n harmonics of y, E*_n dynamic over long-time modulus.",
+                "Mean over the springs by their force; Y_n harmonics of y, the modulus is dynamic over long-time.",
             ),
             Equation(
                 "aside",
