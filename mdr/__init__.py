@@ -29,6 +29,7 @@ from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.march.run import SlidingRun
 from mdr.spring.contact_modes import State
 from mdr.march.slide import slide
+from mdr.element.contact_element import ContactElement
 from mdr.friction.surface_fields import surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
@@ -47,6 +48,7 @@ from mdr.tools.version import __version__ as __version__
 __all__ = [
     "CaseFileError",
     "CofCurve",
+    "ContactElement",
     "FrictionData",
     "PlausibilityWarning",
     "Quantity",
