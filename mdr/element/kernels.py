@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import N_PHI, Law
-from mdr.spring.step import Path, Tools, fill, press
+from mdr.spring.step import Path, Tools, fill, press, row
 from mdr.spring.turning import row_turning
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
@@ -132,3 +132,98 @@ def steps(states, us, h, contact, forces, tangents):
                     near[k, 0], near[k, 1], near[k, 2] = of.F_x, of.F_y, of.F_z
                 v[j] = us[b, j] / unit[j]
                 tangents[b, :, j] = force * (4.0 * near[0] - near[1] - 3.0 * now) / (2.0 * side * unit[j])
+
+
+MOST_TRIALS = 100  #: of a depth under a load
+BALANCED = 1e-13  #: share of the greatest load to which a load is met
+
+
+@_inline
+def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial, since):
+    """Depth at the end of a step from z at which the springs carry a load: Newton's method within a bracket.
+
+    Begins at z + ahead. scale: of loads. Where springs with a dashpot touch, the force jumps, and the load lies between.
+    """
+    h, low, high, x, wider = tools.h, -np.inf, np.inf, z + ahead, LEAST
+    for _ in range(MOST_TRIALS):
+        trial[:] = s
+        rate = (x - z) / h
+        press(trial, contact.gap, contact.w, Path(z, rate, 0.0, 0.0, 0.0), T, modes, arms, tools, since)
+        F_z, pressed = carried(trial, contact.w, since, rate, T, arms)
+        off = F_z - load
+        if abs(off) <= BALANCED * scale:
+            break
+        low, high = (low, x) if off > 0.0 else (x, high)
+        if high - low <= 1e-15 * (1.0 + abs(x)):
+            break
+        stiff, after = pressed * (1.0 + T / h), x + wider
+        if arms is not None:
+            for j in range(arms.rho.size):
+                stiff += pressed * arms.rho[j] * tools.held[0, 1, j] / h
+        if stiff > 0.0:
+            after = x - off / stiff
+        else:  # nothing touches
+            wider *= 2.0
+        x = after if low < after < high else 0.5 * (low + high)
+    return x
+
+
+@_jit
+def follow(s, e, u, t, x, y, depth, load, parts, contact, out):
+    """Follow a record through its samples, straight from one to the next; s (1 + J, n), e and u (3,), the scaled
+    position, are changed.
+
+    t, x (n_t,): instants [s], scaled way. y: the way across, or None for springs e (1 + J, n) with the step along one
+    line. depth (n_t,): scaled, filled where there is a load (n_t,). parts: of an interval. out (n_t, 6): of Straight,
+    the areas over the interval that ends there; row 0 is left alone.
+    """
+    T, modes, arms = contact.law
+    tools, viscous = tools_of(1.0, modes, arms), modes is not None
+    trial, since, v = np.empty_like(s), np.empty(s.shape[1]), np.empty(3)
+    scale, rate = load.max() if load.size > 0 else 1.0, 0.0
+    for k in range(1, t.size):
+        dt = (t[k] - t[k - 1]) / parts
+        h = dt if viscous else 1.0
+        if h != tools.h:
+            tools = Tools(
+                h, tools.held, tools.decay, tools.modes, tools.work, tools.one, tools.more, tools.excess
+            )
+            fill(h, modes, arms, tools, 0)
+        out[k, 3] = out[k, 4] = out[k, 5] = 0.0
+        for part in range(parts):
+            share = (part + 1) / parts
+            v[0] = x[k - 1] + share * (x[k] - x[k - 1])
+            if y is not None:
+                v[1] = y[k - 1] + share * (y[k] - y[k - 1])
+            if load.size > 0:
+                under = load[k - 1] + share * (load[k] - load[k - 1])
+                ahead = rate * h if under > 0.0 else 0.0
+                v[2] = depth_under(under, scale, s, u[2], ahead, contact, T, modes, arms, tools, trial, since)
+                rate = (v[2] - u[2]) / h
+            else:
+                v[2] = depth[k - 1] + share * (depth[k] - depth[k - 1])
+            if y is None:
+                of = along(s, e, u, v, contact, T, modes, arms, tools, trial, since)
+            else:
+                of = straight(s, e, u, v, contact, T, modes, arms, tools, trial, since)
+            u[0], u[1], u[2] = v[0], v[1], v[2]
+            out[k, 0], out[k, 1], out[k, 2] = of.F_x, of.F_y, of.F_z
+            out[k, 3] += dt / h * of.area_x
+            out[k, 4] += dt / h * of.area_y
+            out[k, 5] += dt / h * of.area_z
+        if load.size > 0:
+            depth[k] = u[2]
+
+
+@_inline
+def along(s, e, u, v, contact, T, modes, arms, tools, trial, since):
+    """As `straight`, of springs e (1 + J, n) that are moved along one line alone."""
+    h = tools.h
+    path = Path(u[2], (v[2] - u[2]) / h, 0.0, (v[0] - u[0]) / h, 0.0)
+    trial[:] = s
+    area_z, _ = press(trial, contact.gap, contact.w, path, T, modes, arms, tools, since)
+    area, _, _, _, end, _, _ = row(
+        s, e, contact.gap, contact.w, path, T, modes, arms, tools, path.z_1, path.x_1, None
+    )
+    F_z, _ = carried(s, contact.w, since, path.z_1, T, arms)
+    return Straight(end, 0.0, F_z, area, 0.0, area_z)
