@@ -168,26 +168,49 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial,
     return x
 
 
+SOON = 1e-6  #: of an interval, after which the force is looked at that a dashpot has at its start
+
+
+@_inline
+def longer(tools, h, modes, arms):
+    """The same room filled for a step of another length."""
+    tools = Tools(h, tools.held, tools.decay, tools.modes, tools.work, tools.one, tools.more, tools.excess)
+    fill(h, modes, arms, tools, 0)
+    return tools
+
+
 @_jit
-def follow(s, e, u, t, x, y, depth, load, parts, contact, out):
-    """Follow a record through its samples, straight from one to the next; s (1 + J, n), e and u (3,), the scaled
+def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
+    """Follow a record from sample to sample, of the numbers start to stop; s (1 + J, n), e and u (3,), the scaled
     position, are changed.
 
     t, x (n_t,): instants [s], scaled way. y: the way across, or None for springs e (1 + J, n) with the step along one
     line. depth (n_t,): scaled, filled where there is a load (n_t,). parts: of an interval. out (n_t, 6): of Straight,
-    the areas over the interval that ends there; row 0 is left alone.
+    the areas over the interval that ends there. With a dashpot the force jumps where the velocity does: at a sample of a
+    given depth stands the mean of both sides.
     """
     T, modes, arms = contact.law
     tools, viscous = tools_of(1.0, modes, arms), modes is not None
     trial, since, v = np.empty_like(s), np.empty(s.shape[1]), np.empty(3)
     scale, rate = load.max() if load.size > 0 else 1.0, 0.0
-    for k in range(1, t.size):
+    s_near, e_near = np.empty_like(s), np.empty_like(e)
+    for k in range(start + 1, stop + 1):
         dt = (t[k] - t[k - 1]) / parts
         h = dt if viscous else 1.0
         if h != tools.h:
-            tools = Tools(
-                h, tools.held, tools.decay, tools.modes, tools.work, tools.one, tools.more, tools.excess
-            )
+            tools = longer(tools, h, modes, arms)
+        if T > 0.0 and load.size == 0 and k > 1:
+            s_near[:], e_near[:] = s, e
+            v[0], v[2] = u[0] + SOON * (x[k] - x[k - 1]), u[2] + SOON * (depth[k] - depth[k - 1])
+            soon = longer(tools, SOON * (t[k] - t[k - 1]), modes, arms)
+            if y is None:
+                of = along(s_near, e_near, u, v, contact, T, modes, arms, soon, trial, since)
+            else:
+                v[1] = u[1] + SOON * (y[k] - y[k - 1])
+                of = straight(s_near, e_near, u, v, contact, T, modes, arms, soon, trial, since)
+            out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.F_x)
+            out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.F_y)
+            out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.F_z)
             fill(h, modes, arms, tools, 0)
         out[k, 3] = out[k, 4] = out[k, 5] = 0.0
         for part in range(parts):
