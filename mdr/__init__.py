@@ -30,7 +30,7 @@ from mdr.march.run import SlidingRun
 from mdr.spring.contact_modes import State
 from mdr.march.slide import slide
 from mdr.element.contact_element import ContactElement
-from mdr.element.record import slide_record
+from mdr.element.record import SlideRecord, slide_record
 from mdr.friction.surface_fields import surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
@@ -54,6 +54,7 @@ __all__ = [
     "PlausibilityWarning",
     "Quantity",
     "RigidPull",
+    "SlideRecord",
     "SlidingContact",
     "SlidingRun",
     "SpringArray",

@@ -52,7 +52,7 @@ class ContactElement(Record):
     >>> state = element.at_rest(u=(0.0, 0.0, 20e-6))
     >>> F, state = element.step(state, 1e-3, (1e-6, 0.0, 20e-6))
     >>> print(F.round(5))
-    [0.00162 0.      0.03373]
+    [0.00166 0.      0.03373]
     """
 
     indenter: Indenter = field(metadata=facts("", "shape", rule=None))
@@ -109,7 +109,8 @@ class ContactElement(Record):
         """Force [N] at the end of a step, and the new state; for many contacts at once too.
 
         The indenter moves on a straight line from the last position to u. This is exact for piecewise linear motion of
-        an elastic contact in one direction, and of second order in the step otherwise.
+        an elastic contact in one direction, and of second order in the step otherwise. The force of a dashpot, tau > 0,
+        is that of the velocity in the step.
 
         Parameters
         ----------
@@ -213,8 +214,8 @@ class ContactElement(Record):
     def _states(self, state: ArrayLike) -> Array:
         states = finite_array("state", state)
         if states.ndim not in (1, 2) or states.shape[-1] != self.n_state:
-            what = f"state must have the shape ({self.n_state},) or (m, {self.n_state})"
-            raise FieldError(f"{what} of this element, got {states.shape}: take that of its at_rest() or step()", "state")
+            what = f"state must have the shape ({self.n_state},) or (m, {self.n_state}) of this element"
+            raise FieldError(f"{what}, got {states.shape}: take that of its at_rest() or step()", "state")
         return states
 
     def _positions(self, u: ArrayLike) -> Array:

@@ -82,15 +82,24 @@ def carried(s, w, since, rate, T, arms):
 
 
 @_inline
-def straight(s, e, u, v, contact, T, modes, arms, tools, trial, since):
-    """The springs s, e after a straight line from the scaled position u to v (3,); trial, since: room to work in."""
+def straight(s, e, u, v, across, contact, T, modes, arms, tools, trial, since):
+    """The springs s, e after a straight line from the scaled position u to v (3,); trial, since: room to work in.
+
+    across: None for springs e (1 + J, n) that move along x alone.
+    """
     h = tools.h
     path = Path(u[2], (v[2] - u[2]) / h, 0.0, (v[0] - u[0]) / h, 0.0)
     trial[:] = s
     area_z, _ = press(trial, contact.gap, contact.w, path, T, modes, arms, tools, since)
-    of = row_turning(s, e, contact.gap, contact.w, path, (v[1] - u[1]) / h, 0.0, T, modes, arms, tools, None)
+    if across is None:
+        z_1, x_1 = path.z_1, path.x_1
+        area, _, _, _, end, _, _ = row(s, e, contact.gap, contact.w, path, T, modes, arms, tools, z_1, x_1, None)
+        ends, areas = (end, 0.0), (area, 0.0)
+    else:
+        of = row_turning(s, e, contact.gap, contact.w, path, (v[1] - u[1]) / h, 0.0, T, modes, arms, tools, None)
+        ends, areas = (of.end_x, of.end_y), (of.area_x, of.area_y)
     F_z, _ = carried(s, contact.w, since, path.z_1, T, arms)
-    return Straight(of.end_x, of.end_y, F_z, of.area_x, of.area_y, area_z)
+    return Straight(ends[0], ends[1], F_z, areas[0], areas[1], area_z)
 
 
 @_jit
@@ -111,7 +120,7 @@ def steps(states, us, h, contact, forces, tangents):
         if tangents.size > 0:
             before[:] = springs
         s, e = springs[: parts * n].reshape(parts, n), springs[parts * n :].reshape(2 * parts, n)
-        of = straight(s, e, u, v, contact, T, modes, arms, tools, trial, since)
+        of = straight(s, e, u, v, unit, contact, T, modes, arms, tools, trial, since)
         now = np.array([of.F_x, of.F_y, of.F_z])
         forces[b], moved = force * now, (us[b] - states[b, :3]) / h
         area = np.array([of.area_x, of.area_y, of.area_z])
@@ -128,7 +137,7 @@ def steps(states, us, h, contact, forces, tangents):
                     ahead[:] = before
                     s, e = ahead[: parts * n].reshape(parts, n), ahead[parts * n :].reshape(2 * parts, n)
                     v[j] = us[b, j] / unit[j] + (k + 1) * side
-                    of = straight(s, e, u, v, contact, T, modes, arms, tools, trial, since)
+                    of = straight(s, e, u, v, unit, contact, T, modes, arms, tools, trial, since)
                     near[k, 0], near[k, 1], near[k, 2] = of.F_x, of.F_y, of.F_z
                 v[j] = us[b, j] / unit[j]
                 tangents[b, :, j] = force * (4.0 * near[0] - near[1] - 3.0 * now) / (2.0 * side * unit[j])
@@ -142,7 +151,7 @@ BALANCED = 1e-13  #: share of the greatest load to which a load is met
 def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial, since):
     """Depth at the end of a step from z at which the springs carry a load: Newton's method within a bracket.
 
-    Begins at z + ahead. scale: of loads. Where springs with a dashpot touch, the force jumps, and the load lies between.
+    Begins at z + ahead. scale: of loads. With a dashpot the force jumps where a spring touches, maybe over the load.
     """
     h, low, high, x, wider = tools.h, -np.inf, np.inf, z + ahead, LEAST
     for _ in range(MOST_TRIALS):
@@ -186,7 +195,7 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
 
     t, x (n_t,): instants [s], scaled way. y: the way across, or None for springs e (1 + J, n) with the step along one
     line. depth (n_t,): scaled, filled where there is a load (n_t,). parts: of an interval. out (n_t, 6): of Straight,
-    the areas over the interval that ends there. With a dashpot the force jumps where the velocity does: at a sample of a
+    the areas over the interval that ends there. With a dashpot the force jumps where the velocity does; at a sample of
     given depth stands the mean of both sides.
     """
     T, modes, arms = contact.law
@@ -203,11 +212,9 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
             s_near[:], e_near[:] = s, e
             v[0], v[2] = u[0] + SOON * (x[k] - x[k - 1]), u[2] + SOON * (depth[k] - depth[k - 1])
             soon = longer(tools, SOON * (t[k] - t[k - 1]), modes, arms)
-            if y is None:
-                of = along(s_near, e_near, u, v, contact, T, modes, arms, soon, trial, since)
-            else:
+            if y is not None:
                 v[1] = u[1] + SOON * (y[k] - y[k - 1])
-                of = straight(s_near, e_near, u, v, contact, T, modes, arms, soon, trial, since)
+            of = straight(s_near, e_near, u, v, y, contact, T, modes, arms, soon, trial, since)
             out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.F_x)
             out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.F_y)
             out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.F_z)
@@ -225,10 +232,7 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
                 rate = (v[2] - u[2]) / h
             else:
                 v[2] = depth[k - 1] + share * (depth[k] - depth[k - 1])
-            if y is None:
-                of = along(s, e, u, v, contact, T, modes, arms, tools, trial, since)
-            else:
-                of = straight(s, e, u, v, contact, T, modes, arms, tools, trial, since)
+            of = straight(s, e, u, v, y, contact, T, modes, arms, tools, trial, since)
             u[0], u[1], u[2] = v[0], v[1], v[2]
             out[k, 0], out[k, 1], out[k, 2] = of.F_x, of.F_y, of.F_z
             out[k, 3] += dt / h * of.area_x
@@ -236,17 +240,3 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
             out[k, 5] += dt / h * of.area_z
         if load.size > 0:
             depth[k] = u[2]
-
-
-@_inline
-def along(s, e, u, v, contact, T, modes, arms, tools, trial, since):
-    """As `straight`, of springs e (1 + J, n) that are moved along one line alone."""
-    h = tools.h
-    path = Path(u[2], (v[2] - u[2]) / h, 0.0, (v[0] - u[0]) / h, 0.0)
-    trial[:] = s
-    area_z, _ = press(trial, contact.gap, contact.w, path, T, modes, arms, tools, since)
-    area, _, _, _, end, _, _ = row(
-        s, e, contact.gap, contact.w, path, T, modes, arms, tools, path.z_1, path.x_1, None
-    )
-    F_z, _ = carried(s, contact.w, since, path.z_1, T, arms)
-    return Straight(end, 0.0, F_z, area, 0.0, area_z)

@@ -171,8 +171,8 @@ def slide_record(
     Notes
     -----
     Elastic bodies that move along one line at given depths are followed exactly between samples, others in steps of
-    second order. A load is met at each step by Newton's method. With a dashpot the force of a row of springs jumps where
-    one of them touches; where a load lies within such a jump, F_z is next to it.
+    second order. A load is met at each step by Newton's method. With a dashpot the force jumps where a spring touches;
+    where a load lies within such a jump, F_z is next to it. The force at a sample of depth is the mean of both sides.
 
     Examples
     --------
@@ -182,7 +182,7 @@ def slide_record(
     >>> shaken = 20e-6 + 2e-6 * np.cos(300 * t)
     >>> found = mdr.slide_record(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, t, 1e-4 * t, u_z=shaken)
     >>> print(f"{found.cof:.2f}")
-    0.31
+    0.23
     """
     instance("indenter", indenter, Indenter)
     instance("material", material, Material)
@@ -204,7 +204,9 @@ def slide_record(
         depth = _static(indenter, material, load)
     deepest, least = float(depth.max()), float(depth.min())
     if not deepest > 0:
-        raise FieldError(f"the indenter never touches: the greatest u_z is {deepest:.6g} m", "u_z")
+        raise FieldError(
+            f"the indenter never touches: the greatest depth is {deepest:.6g} m", "u_z" if F_z is None else "F_z"
+        )
     least = least if SAME * deepest < least < (1 - SAME) * deepest and material.tau == 0 else 0.0
     motion = _Motion(t, x, y if np.ptp(y) > 0 else None, depth, load)
     exact = load is None and motion.y is None and not (material.tau > 0 or material.contact_arms)
@@ -215,7 +217,8 @@ def slide_record(
     ]
     best = found[0] if exact else found[-1]
     if load is not None and material.tau > 0:  # the error of its steps falls with their length
-        best = _Followed(*(2 * one - two for one, two in zip(best[:3], found[0][:3], strict=True)), best.energy)
+        F, area, u = (2 * one - two for one, two in zip(best[:3], found[0][:3], strict=True))
+        best = _Followed(np.asarray(F), np.asarray(area), np.asarray(u), best.energy)
     if not best.area[:, 2].sum() > 0:
         raise ValueError("the indenter carries no force in this record: raise u_z or F_z")
     (cof, cof_y), error = best.cof, sum(float(np.abs(one.cof - found[0].cof).max()) for one in found[1:])
@@ -300,7 +303,8 @@ def _static(indenter: Indenter, material: Material, load: Array) -> Array:
     if not material.E_star > 0:
         raise FieldError("E_inf = 0: under a load such a half-space flows without end", "material")
     depth = np.zeros(load.shape)
-    depth[load > 0] = static_depths(indenter, material.E_star, load[load > 0])
+    if load.any():
+        depth[load > 0] = static_depths(indenter, material.E_star, load[load > 0])
     return depth
 
 
