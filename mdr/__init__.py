@@ -29,6 +29,8 @@ from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.march.run import SlidingRun
 from mdr.spring.contact_modes import State
 from mdr.march.slide import slide
+from mdr.element.contact_element import ContactElement
+from mdr.element.record import SlideRecord, slide_record
 from mdr.friction.surface_fields import surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
@@ -47,10 +49,12 @@ from mdr.tools.version import __version__ as __version__
 __all__ = [
     "CaseFileError",
     "CofCurve",
+    "ContactElement",
     "FrictionData",
     "PlausibilityWarning",
     "Quantity",
     "RigidPull",
+    "SlideRecord",
     "SlidingContact",
     "SlidingRun",
     "SpringArray",
@@ -79,6 +83,7 @@ __all__ = [
     "resolved",
     "rig",
     "slide",
+    "slide_record",
     "static_cof",
     "static_depth",
     "static_load",

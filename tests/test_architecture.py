@@ -23,7 +23,7 @@ ORDER = (
     ("case", "spring"),
     ("normal",),
     ("files",),
-    ("closed_forms", "half_space", "march"),
+    ("closed_forms", "element", "half_space", "march"),
     ("friction",),
     ("studies",),
     ("plots",),

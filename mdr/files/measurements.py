@@ -1,4 +1,4 @@
-"""Measurements in CSV files: points of a profile, force over depth, dynamic moduli.
+"""Measurements in CSV files: points of a profile, force over depth, dynamic moduli, recorded motion.
 
 Each file has a header that names its columns and their units (`mdr.tools.csv_table`); `units` gives those that a header
 lacks, `columns` what it calls a column. Friction over velocity is read in `mdr.friction.friction_data`.
@@ -35,6 +35,13 @@ MODULI = (
     Column("tan_delta", ("tan(delta)", "tan δ", "tan(δ)", "loss tangent", "loss factor", "damping"), needed=False),
     Column("G'", ("shear storage modulus",), "Pa", needed=False),
     Column("G''", ("shear loss modulus",), "Pa", needed=False),
+)
+MOTION = (
+    Column("t", ("time",), "s"),
+    Column("u_x", ("x",), "m"),
+    Column("u_y", ("y",), "m", needed=False),
+    Column("u_z", ("z", "depth"), "m", needed=False),
+    Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
 )
 
 
@@ -109,6 +116,11 @@ def read_moduli(
     _require_rows(table, loss >= 0, "loss must not be negative")
     order = np.argsort(found["omega"], kind="stable")
     return DynamicModuli(found["omega"][order], stretch * storage[order], stretch * loss[order])
+
+
+def read_motion(path: str | PathLike[str]) -> dict[str, Array]:
+    """Recorded motion in SI, as `slide_record` takes it: t, u_x, and u_y, u_z and F_z where the file has them."""
+    return read_table(path, MOTION).values
 
 
 def profile_points(

@@ -561,7 +561,7 @@ def relax(x, i, k, modes, arms, tools):
             x[j, i] = of_modes(j, k, tools, modes)
 
 
-@_call
+@compiled(error_model="numpy", nogil=True, fastmath=_FAST, _nrt=False)
 def press(s, gap, w, path, T, modes, arms, tools, since):
     """The normal part alone, in which friction has no part: sums of area and moment of the normal forces.
 

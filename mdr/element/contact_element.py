@@ -1,0 +1,252 @@
+"""The contact as a force element with memory, for multibody, finite-element and control programs.
+
+A step takes a state and the position of the indenter at its end, and answers force and new state. Nothing is kept
+elsewhere: a state is one array of numbers that the host copies, compares, stores and rolls back. In a step the indenter
+moves on a straight line, on which the springs go by the step of the library (mdr/spring/turning.py).
+
+The work that was done on the contact is summed from the area of the force over each step, and what the springs store
+is known from the state. The difference is what friction and material have turned into heat.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.case.contact import SlidingContact
+from mdr.case.motion import NormalOscillation
+from mdr.element.kernels import N_HEAD, Contact, steps
+from mdr.indenters.base import Indenter
+from mdr.materials.base import Material
+from mdr.normal.spring_grid import nodes
+from mdr.normal.springs import MIN_SPRINGS
+from mdr.spring.law import law_of
+from mdr.tools.arrays import SAME, Array
+from mdr.tools.checks import FieldError, count, finite_array, not_negative, positive
+from mdr.tools.fields import Record, check_fields, facts
+
+NO_TANGENT = np.empty((0, 3, 3))
+
+
+def _springs(name: str, value: Any, note: str = "") -> int:
+    return count(name, value, MIN_SPRINGS)
+
+
+@dataclass(frozen=True)
+class ContactElement(Record):
+    """A contact that answers force [N] and new state for each step of a host's own motion.
+
+    Keep the new state only when your step is accepted: a step changes nothing but what it returns.
+
+    A state is one array: the last position u [m], the work done on the contact so far [J], then compressions s of the
+    springs over u_z_max, extensions e_x and e_y over mu_0 kappa u_z_max, each with its Maxwell arms; see `state_names`.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> element = mdr.ContactElement(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, u_z_max=40e-6)
+    >>> state = element.at_rest(u=(0.0, 0.0, 20e-6))
+    >>> F, state = element.step(state, 1e-3, (1e-6, 0.0, 20e-6))
+    >>> print(F.round(5))
+    [0.00166 0.      0.03373]
+    """
+
+    indenter: Indenter = field(metadata=facts("", "shape", rule=None))
+    material: Material = field(metadata=facts("", "half-space, with a long-time modulus", rule=None))
+    mu_0: float = field(metadata=facts("-", "local coefficient of friction", example=0.5))
+    u_z_max: float = field(kw_only=True, metadata=facts("m", "greatest depth that a step may go to", example=40e-6))
+    n_springs: int = field(
+        kw_only=True, default=256, metadata=facts("-", "springs at x > 0, each for a pair; at least 16", _springs)
+    )
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        at = contact_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
+        object.__setattr__(self, "_contact", at)
+
+    @property
+    def n_state(self) -> int:
+        """Numbers of a state."""
+        return N_HEAD + 3 * self._rows * self._row.gap.size
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """A name for each number of a state, such as "u_x" and "e_x[17]"; of an arm "e_x_1[17]"."""
+        rows = [f"{name}_{j}" if j else name for name in ("s", "e_x", "e_y") for j in range(self._rows)]
+        return "u_x", "u_y", "u_z", "work", *(f"{name}[{i}]" for name in rows for i in range(self._row.gap.size))
+
+    def at_rest(self, u: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
+        """State of a contact that rests at a position, relaxed and without force in the plane.
+
+        Parameters
+        ----------
+        u : array_like of float, shape (3,) or (m, 3)
+            Position x, y and depth z [m]; at z <= 0 nothing touches.
+
+        Returns
+        -------
+        ndarray, shape (n_state,) or (m, n_state)
+            The state, or one for each position.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For what is no position, or deeper than u_z_max.
+        """
+        u = self._positions(u)
+        state = np.zeros((*u.shape[:-1], self.n_state))
+        state[..., :3] = u
+        n = self._row.gap.size
+        state[..., N_HEAD : N_HEAD + n] = np.maximum(u[..., 2:] / self._row.length_z - self._row.gap, 0)
+        state[..., 3] = self.stored(state)
+        return state
+
+    def step(self, state: ArrayLike, dt: float, u: ArrayLike, tangent: bool = False) -> tuple[Array, ...]:
+        """Force [N] at the end of a step, and the new state; for many contacts at once too.
+
+        The indenter moves on a straight line from the last position to u. This is exact for piecewise linear motion of
+        an elastic contact in one direction, and of second order in the step otherwise. The force of a dashpot, tau > 0,
+        is that of the velocity in the step.
+
+        Parameters
+        ----------
+        state : array_like of float, shape (n_state,) or (m, n_state)
+            The state at the start; it is not changed.
+        dt : float
+            Length of the step [s], of all contacts. Without meaning for an elastic contact, where it may be 0.
+        u : array_like of float, shape (3,) or (m, 3)
+            Position x, y and depth z at the end of the step [m]; at z <= 0 the contact is open.
+        tangent : bool
+            Whether dF/du is asked for too; it costs seven times as much.
+
+        Returns
+        -------
+        F : ndarray, shape (3,) or (m, 3)
+            F_x, F_y against the motion of the indenter, F_z that presses it into the half-space [N].
+        state : ndarray, shape (n_state,) or (m, n_state)
+            The state at the end of the step.
+        K : ndarray, shape (3, 3) or (m, 3, 3)
+            With `tangent` alone: K[i, j] = dF_i/du_j [N/m] at fixed state and dt. Not symmetric, as slip follows the
+            depth. Where springs switch, the derivative on the side of the motion.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For NaN, shapes that do not fit, the state of another element, a depth beyond u_z_max, dt < 0, and dt = 0 of
+            a viscous contact.
+
+        Notes
+        -----
+        K is a one-sided difference of second order of the step itself, its error some 1e-9 of the stiffness.
+        """
+        states, us = self._states(state), self._positions(u)
+        if us.shape[:-1] != states.shape[:-1]:
+            raise FieldError(f"u must have the shape {(*states.shape[:-1], 3)} of this state, got {us.shape}", "u")
+        dt, h = not_negative("dt", dt, "length of a step in s"), 1.0
+        if self._is_viscous:
+            h = positive("dt", dt, "length of a step in s; the force of a viscous contact depends on it")
+        if not isinstance(tangent, bool):
+            raise TypeError(f"tangent must be True or False, got {tangent!r}")
+        answer, flat = np.array(states, order="C"), np.array(us, order="C").reshape(-1, 3)
+        F, K = np.empty(flat.shape), np.empty((len(flat), 3, 3)) if tangent else NO_TANGENT
+        steps(answer.reshape(-1, self.n_state), flat, h, self._row, F, K)
+        if not (math.isfinite(F.sum()) and (K is NO_TANGENT or math.isfinite(K.sum()))):
+            raise ValueError(f"the force is beyond the range of floats: dt = {dt:g} s is too short, or u too far away")
+        return (F.reshape(us.shape), answer, K.reshape(*us.shape, 3)) if tangent else (F.reshape(us.shape), answer)
+
+    def stored(self, state: ArrayLike) -> Array:
+        """Elastic energy [J] of the springs.
+
+        Parameters
+        ----------
+        state : array_like of float, shape (n_state,) or (m, n_state)
+            The state.
+
+        Returns
+        -------
+        ndarray, shape () or (m,)
+            The energy.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For the state of another element.
+        """
+        return stored(self._row, self._states(state)[..., N_HEAD:])
+
+    def dissipated(self, state: ArrayLike) -> Array:
+        """Energy [J] that friction and material have turned into heat since the contact was at rest.
+
+        Parameters
+        ----------
+        state : array_like of float, shape (n_state,) or (m, n_state)
+            The state.
+
+        Returns
+        -------
+        ndarray, shape () or (m,)
+            The energy: work less what is stored.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For the state of another element.
+        """
+        return np.asarray(self._states(state)[..., 3] - self.stored(state))
+
+    @property
+    def _row(self) -> Contact:
+        return cast(Contact, vars(self)["_contact"])
+
+    @property
+    def _rows(self) -> int:
+        arms = self._row.law.arms
+        return 1 if arms is None else 1 + arms.rho.size
+
+    @property
+    def _is_viscous(self) -> bool:
+        return self._row.law.modes is not None
+
+    def _states(self, state: ArrayLike) -> Array:
+        states = finite_array("state", state)
+        if states.ndim not in (1, 2) or states.shape[-1] != self.n_state:
+            what = f"state must have the shape ({self.n_state},) or (m, {self.n_state}) of this element"
+            raise FieldError(f"{what}, got {states.shape}: take that of its at_rest() or step()", "state")
+        return states
+
+    def _positions(self, u: ArrayLike) -> Array:
+        us = finite_array("u", u, "m")
+        if us.ndim not in (1, 2) or us.shape[-1] != 3:
+            raise FieldError(f"u must have the shape (3,) or (m, 3), x, y and depth z in m, got {us.shape}", "u")
+        deepest = float(us[..., 2].max(initial=0.0))
+        if deepest > self.u_z_max * (1 + SAME):
+            raise FieldError(f"u_z = {deepest:.6g} m is deeper than u_z_max = {self.u_z_max:.6g} m: raise u_z_max", "u")
+        return us
+
+
+def contact_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> Contact:
+    """The springs for depths up to `deepest` [m], cut where contact is lost at `least`; refuses what no case takes."""
+    oscillation = NormalOscillation((deepest + least) / 2, (deepest - least) / 2, 1.0)
+    case = SlidingContact(indenter, material, mu_0, oscillation)
+    _, gap, width, _ = nodes(indenter, case.cycle, case.kept_gap, n, alike=False)
+    gap, total = (gap + oscillation.u_z0) / deepest, float(width.sum())
+    w = width / total
+    if gap.max() == gap.min():  # a flat face: one spring stands for all
+        gap, w = gap[:1], np.ones(1)
+    rheology, length_x = case.rheology, mu_0 * material.mindlin_ratio * deepest
+    law = law_of(rheology.T, rheology.rho, rheology.theta)
+    return Contact(
+        gap, w, law, length_x, deepest, material.G_star * total * length_x, material.E_star * total * deepest
+    )
+
+
+def stored(row: Contact, springs: Array) -> Array:
+    """Elastic energy [J] of springs (..., 3 (1 + J) n)."""
+    ratios = np.ones(1) if row.law.arms is None else np.concatenate([[1.0], row.law.arms.rho])
+    squares = (springs.reshape(*springs.shape[:-1], 3, ratios.size, row.gap.size) ** 2 @ row.w) @ ratios
+    units = np.array([row.force_z * row.length_z, *2 * [row.force_x * row.length_x]])
+    return np.asarray(0.5 * squares @ units)

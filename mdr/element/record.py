@@ -1,0 +1,316 @@
+"""Friction of a contact that moves as it was recorded: any way in the plane, any depth or load.
+
+Between samples the motion is linear, and the springs go on it by the step of the library. For depth and way along one
+line on an elastic body this is exact. Otherwise the record is followed twice, with one and with two steps between
+samples; and in each case once more with half of the springs. The differences bound the error of the friction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.element.contact_element import contact_of, stored
+from mdr.element.kernels import Contact, follow
+from mdr.indenters.base import Indenter
+from mdr.materials.base import Material
+from mdr.normal.load_control import static_depths
+from mdr.normal.springs import MIN_SPRINGS
+from mdr.tools.arrays import EXACT, SAME, Array
+from mdr.tools.checks import FieldError, count, finite_array, instance, positive
+from mdr.tools.csv_table import csv_text
+from mdr.tools.progress import Ticker
+from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary, number, span, with_error
+
+SPRINGS = 256  #: where none are asked for
+AT_ONCE = 2**24  #: springs times steps between two looks at the clock
+
+
+@dataclass(frozen=True)
+class RecordEnergy:
+    """Energies [J] over a record: plane_work + normal_work = lost + stored_change."""
+
+    plane_work: float  #: of the motion in the plane, F_x u_x' + F_y u_y'
+    normal_work: float  #: F_z u_z'
+    stored_change: float  #: elastic energy of the springs
+
+    @property
+    def lost(self) -> float:
+        """Energy [J] that friction and material turn into heat."""
+        return self.plane_work + self.normal_work - self.stored_change
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SlideRecord(Summarised, ArrayRecord):
+    """Outcome of slide_record(), in SI. Forces are those at the samples, means those of the exact area in between."""
+
+    cof: float  #: mean F_x over mean F_z [-]
+    cof_y: float  #: mean F_y over mean F_z [-]
+    cof_error: float  #: bound on the numerical error of both: step and springs [-]
+    mean_F_z: float  #: [N]
+    energy_balance: RecordEnergy  #: of the whole record
+    mu_0: float  #: local coefficient of friction [-]
+    n_springs: int  #: springs at x >= 0, each for the pair +x, -x
+    t: Array  #: (n_t,) instants [s]
+    u_x: Array  #: (n_t,) position [m]
+    u_y: Array  #: (n_t,) [m]
+    u_z: Array  #: (n_t,) depth [m]
+    F_x: Array  #: (n_t,) tangential force, against the motion of the indenter [N]
+    F_y: Array  #: (n_t,) [N]
+    F_z: Array  #: (n_t,) normal force [N]
+    running_cof: Array  #: (n_t,) mean F_x over mean F_z up to each sample [-]; NaN before the first contact
+
+    def _summary(self) -> Summary:
+        spent = self.energy_balance
+        return Summary(
+            f"SlideRecord of {self.t.size} samples, {number(self.t[-1] - self.t[0], 's')}",
+            [
+                ("COF", with_error(self.cof, self.cof_error), f"mean F_x/mean F_z; mu_0 = {number(self.mu_0)}"),
+                ("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z"),
+                ("depth", span(self.u_z, "m"), ""),
+                ("F_x", span(self.F_x, "N"), ""),
+                ("F_y", span(self.F_y, "N"), ""),
+                ("F_z", span(self.F_z, "N"), f"mean {number(self.mean_F_z, 'N')}"),
+                ("energy", number(spent.lost, "J"), "lost by friction and material"),
+                ("springs", str(self.n_springs), ""),
+            ],
+        )
+
+    def table(self) -> str:
+        """The text of the CSV file.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes.
+        """
+        names = {"t": "s", "u_x": "m", "u_y": "m", "u_z": "m", "F_x": "N", "F_y": "N", "F_z": "N", "running_cof": "-"}
+        return csv_text({f"{name} [{unit}]": getattr(self, name) for name, unit in names.items()})
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write time, position, forces and running COF as CSV, with units in the header.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+        """
+        Path(path).write_text(self.table(), encoding="utf-8")
+
+    def plot(self) -> Any:
+        """Draw position, forces and running COF over time.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+        from mdr.plots.records import plot_slide_record
+
+        return plot_slide_record(self)
+
+
+def slide_record(
+    indenter: Indenter,
+    material: Material,
+    mu_0: float,
+    t: ArrayLike,
+    u_x: ArrayLike,
+    u_y: ArrayLike | None = None,
+    u_z: ArrayLike | None = None,
+    *,
+    F_z: ArrayLike | None = None,
+    n_springs: int | None = None,
+) -> SlideRecord:
+    """Friction [-] of a contact that moves as it was recorded.
+
+    The contact starts at rest at the first sample, relaxed and without force in the plane.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape.
+    material : Material
+        The half-space, with a long-time modulus.
+    mu_0 : float
+        Local coefficient of friction [-].
+    t : array_like of float, shape (n_t,)
+        Instants [s], rising, in steps of any size; at least two.
+    u_x : array_like of float, shape (n_t,)
+        Position of the indenter [m].
+    u_y : array_like of float, shape (n_t,), optional
+        Position across [m]. None: it moves along x alone.
+    u_z : array_like of float, shape (n_t,), or float, optional
+        Depth [m]; at zero and below nothing touches. Give either u_z or F_z.
+    F_z : array_like of float, shape (n_t,), or float, optional
+        Normal force [N], zero or above.
+    n_springs : int, optional
+        Springs at x > 0, at least 32, each for the pair at +x and -x. None takes 256.
+
+    Returns
+    -------
+    SlideRecord
+        Forces at the samples, `cof` with a bound on its numerical error, `running_cof`, energies. What linear motion
+        between samples misses of the true one is not in `cof_error`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For NaN, lists of different lengths, instants that do not rise, both or neither of u_z and F_z, a negative
+        force, a shape that ends before the depth, and a contact that never touches.
+
+    See Also
+    --------
+    slide : a steady pull under a periodic vibration.
+
+    Notes
+    -----
+    Elastic bodies that move along one line at given depths are followed exactly between samples, others in steps of
+    second order. A load is met at each step by Newton's method. With a dashpot the force jumps where a spring touches;
+    where a load lies within such a jump, F_z is next to it. The force at a sample of depth is the mean of both sides.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import mdr
+    >>> t = np.linspace(0, 0.1, 1001)
+    >>> shaken = 20e-6 + 2e-6 * np.cos(300 * t)
+    >>> found = mdr.slide_record(mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, t, 1e-4 * t, u_z=shaken)
+    >>> print(f"{found.cof:.2f}")
+    0.23
+    """
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
+    mu_0 = positive("mu_0", mu_0, "coefficient of friction")
+    n = SPRINGS if n_springs is None else count("n_springs", n_springs, 2 * MIN_SPRINGS)
+    t = finite_array("t", t, "s")
+    if t.ndim != 1 or t.size < 2:
+        raise FieldError(f"t must be a list of two instants or more, got shape {t.shape}", "t")
+    if not np.all(np.diff(t) > 0):
+        k = int(np.argmin(np.diff(t) > 0))
+        raise FieldError(f"t must rise, got {t[k + 1]:.9g} s after {t[k]:.9g} s (sample {k + 1})", "t")
+    if (u_z is None) == (F_z is None):
+        raise ValueError("give either u_z, a record of depth, or F_z, one of force, and not both")
+    x, y = _samples("u_x", u_x, t, "m"), _samples("u_y", 0.0 if u_y is None else u_y, t, "m")
+    if F_z is None:
+        depth, load = _samples("u_z", 0.0 if u_z is None else u_z, t, "m"), None
+    else:
+        load = _samples("F_z", F_z, t, "N")
+        depth = _static(indenter, material, load)
+    deepest, least = float(depth.max()), float(depth.min())
+    if not deepest > 0:
+        raise FieldError(
+            f"the indenter never touches: the greatest depth is {deepest:.6g} m", "u_z" if F_z is None else "F_z"
+        )
+    least = least if SAME * deepest < least < (1 - SAME) * deepest and material.tau == 0 else 0.0
+    motion = _Motion(t, x, y if np.ptp(y) > 0 else None, depth, load)
+    exact = load is None and motion.y is None and not (material.tau > 0 or material.contact_arms)
+    runs = [(n, 1), (n // 2, 1)] if exact else [(n, 1), (n // 2, 1), (n, 2)]
+    ticker = Ticker("slide_record", sum(k * part for k, part in runs) * (t.size - 1), "springs times steps")
+    found = [
+        _followed(motion, contact_of(indenter, material, mu_0, deepest, least, k), part, ticker) for k, part in runs
+    ]
+    best = found[0] if exact else found[-1]
+    if load is not None and material.tau > 0:  # the error of its steps falls with their length
+        F, area, u = (2 * one - two for one, two in zip(best[:3], found[0][:3], strict=True))
+        best = _Followed(np.asarray(F), np.asarray(area), np.asarray(u), best.energy)
+    if not best.area[:, 2].sum() > 0:
+        raise ValueError("the indenter carries no force in this record: raise u_z or F_z")
+    (cof, cof_y), error = best.cof, sum(float(np.abs(one.cof - found[0].cof).max()) for one in found[1:])
+    with np.errstate(invalid="ignore"):
+        running = np.cumsum(best.area[:, 0]) / np.cumsum(best.area[:, 2])
+    running[0] = best.F[0, 0] / best.F[0, 2] if best.F[0, 2] > 0 else np.nan
+    return SlideRecord(
+        cof=float(cof),
+        cof_y=float(cof_y),
+        cof_error=error + EXACT * mu_0,
+        mean_F_z=float(best.area[:, 2].sum() / (t[-1] - t[0])),
+        energy_balance=best.energy,
+        mu_0=mu_0,
+        n_springs=n,
+        t=t,
+        u_x=x,
+        u_y=y,
+        u_z=best.u_z,
+        F_x=best.F[:, 0],
+        F_y=best.F[:, 1],
+        F_z=best.F[:, 2],
+        running_cof=running,
+    )
+
+
+class _Motion(NamedTuple):
+    """A record, (n_t,) each."""
+
+    t: Array
+    x: Array
+    y: Array | None  #: None for motion along one line
+    depth: Array  #: under a load that at which it would rest
+    load: Array | None
+
+
+class _Followed(NamedTuple):
+    """What springs answer to it, in SI."""
+
+    F: Array  #: (n_t, 3)
+    area: Array  #: (n_t, 3) over the interval before each sample
+    u_z: Array  #: (n_t,)
+    energy: RecordEnergy
+
+    @property
+    def cof(self) -> Array:
+        """Mean forces in the plane over that of F_z, (2,)."""
+        area = self.area.sum(axis=0)
+        return np.asarray(area[:2] / area[2] if area[2] > 0 else np.zeros(2))
+
+
+def _followed(motion: _Motion, row: Contact, parts: int, ticker: Ticker) -> _Followed:
+    """The record followed by a row of springs, each interval in so many parts."""
+    t, n, rows = motion.t, row.gap.size, 1 if row.law.arms is None else 1 + row.law.arms.rho.size
+    x, y = motion.x / row.length_x, None if motion.y is None else motion.y / row.length_x
+    depth = motion.depth / row.length_z
+    load = np.empty(0) if motion.load is None else motion.load / row.force_z
+    s, e = np.zeros((rows, n)), np.zeros((rows if y is None else 2 * rows, n))
+    s[0] = np.maximum(depth[0] - row.gap, 0)
+    out, u = np.zeros((t.size, 6)), np.array([x[0], 0.0 if y is None else y[0], depth[0]])
+    out[0, 2] = row.w @ s[0]
+    first = _stored(row, s, e)
+    chunk = max(AT_ONCE // (n * parts), 1)
+    for k in range(0, t.size - 1, chunk):
+        end = min(k + chunk, t.size - 1)
+        follow(s, e, u, t, x, y, depth, load, parts, row, out, k, end)
+        ticker.tick((end - k) * n * parts)
+    units = np.array([row.force_x, row.force_x, row.force_z])
+    F, area, u_z = out[:, :3] * units, out[:, 3:] * units, motion.depth if motion.load is None else depth * row.length_z
+    rates = (np.diff(one) / np.diff(t) for one in (motion.x, 0 * t if motion.y is None else motion.y, u_z))
+    of_x, of_y, of_z = (float(rate @ one) for rate, one in zip(rates, area[1:].T, strict=True))
+    return _Followed(F, area, u_z, RecordEnergy(of_x + of_y, of_z, _stored(row, s, e) - first))
+
+
+def _stored(row: Contact, s: Array, e: Array) -> float:
+    return float(stored(row, np.concatenate([s, e, np.zeros((3 * len(s) - len(s) - len(e), e.shape[1]))]).ravel()))
+
+
+def _static(indenter: Indenter, material: Material, load: Array) -> Array:
+    """Depths [m] at which loads would rest."""
+    if np.any(load < 0):
+        raise FieldError(f"F_z must not be negative, got {load.min():.6g} N: nothing pulls at the indenter", "F_z")
+    if not material.E_star > 0:
+        raise FieldError("E_inf = 0: under a load such a half-space flows without end", "material")
+    depth = np.zeros(load.shape)
+    if load.any():
+        depth[load > 0] = static_depths(indenter, material.E_star, load[load > 0])
+    return depth
+
+
+def _samples(name: str, values: ArrayLike, t: Array, unit: str) -> Array:
+    """A record of one quantity; a number is one that stays."""
+    samples = finite_array(name, values, unit)
+    if samples.ndim and samples.shape != t.shape:
+        raise FieldError(f"{name} must have the shape {t.shape} of t, got {samples.shape}", name)
+    return np.array(np.broadcast_to(samples, t.shape))

@@ -1,0 +1,36 @@
+"""Figures of recorded motion. Records are read by attribute only."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mdr.plots.figures import COLOURS, prefix, style, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST = 20_000  #: samples that are drawn
+
+
+def plot_slide_record(found: Any) -> Figure:
+    """Draw position, forces and running COF of a SlideRecord over time."""
+    every = slice(None, None, -(-found.t.size // MOST))
+    time, second = prefix(found.t - found.t[0], "s")
+    t = time * found.t[every]
+    panels = (("position", "m", ("u_x", "u_y", "u_z")), ("force", "N", ("F_x", "F_y", "F_z")))
+    with style():
+        fig, axes = subplots(3, 1, sharex=True, figsize=(6.4, 7.2))
+        for ax, (what, unit, names) in zip(axes, panels, strict=False):
+            shown = [(name, getattr(found, name)[every]) for name in names if np.any(getattr(found, name))]
+            factor, symbol = prefix(np.concatenate([values for _, values in shown]), unit)
+            for (name, values), colour in zip(shown, COLOURS, strict=False):
+                ax.plot(t, factor * values, color=colour, label=f"${name}$")
+            ax.set(ylabel=f"{what} [{symbol}]")
+            ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3)
+        axes[2].plot(t, found.running_cof[every], color="k")
+        axes[2].axhline(found.mu_0, color="0.6", lw=1, ls="--")
+        axes[2].set(ylabel="running COF", xlabel=f"time [{second}]")
+        fig.align_ylabels()
+    return fig

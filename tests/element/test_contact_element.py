@@ -1,0 +1,339 @@
+"""The contact as an element: pure steps, energy, invariance, the tangent, and what is refused."""
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+import mdr
+from mdr.element.kernels import N_HEAD
+from mdr.spring.energies import FRICTION_LOSS, N_SUMS, NORMAL_VISCOUS, SHEAR_VISCOUS
+from mdr.spring.settle import tools_for
+from mdr.spring.step import Path
+from mdr.spring.turning import LookAcross, row_turning
+
+BALL, DEPTH, MU_0, DT = mdr.Paraboloid(R=5e-3), 40e-6, 0.5, 1e-3
+ELASTIC = mdr.Elastic(E=3e6, nu=0.5)
+MATERIALS = {
+    "elastic": ELASTIC,
+    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
+    "arms": mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
+}
+every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS.keys())
+REACH = MU_0 * ELASTIC.mindlin_ratio * DEPTH  #: way that brings the deepest spring from rest to slip
+
+
+def element(material=ELASTIC, shape=BALL, n_springs=48):
+    return mdr.ContactElement(shape, material, MU_0, u_z_max=DEPTH, n_springs=n_springs)
+
+
+def walk(n=40, seed=1):
+    """Positions of a motion with turns, reversals and loss of contact."""
+    rng = np.random.default_rng(seed)
+    turn = np.cumsum(rng.normal(0, 0.7, n))
+    way = 0.2 * REACH * np.cumsum(np.stack([np.cos(turn), np.sin(turn)]), axis=1)
+    depth = DEPTH * (0.4 + 0.6 * np.sin(0.5 * np.arange(n) + np.cumsum(rng.normal(0, 0.3, n))))
+    assert depth.min() < 0 < 0.8 * DEPTH < depth.max() <= DEPTH
+    return np.column_stack([*way, depth])
+
+
+def follow(contact, us, state=None, dt=DT):
+    state, forces = contact.at_rest((0, 0, DEPTH / 2)) if state is None else state, []
+    for u in us:
+        F, state = contact.step(state, dt, u)
+        forces.append(F)
+    return np.array(forces), state
+
+
+# --- what it answers ---
+
+
+def test_full_slip_and_stick_have_their_closed_forms():
+    """Stick: k_x u. Slip: mu_0 F_N, for the springs at the depth of the grid's end, where their sum is exact."""
+    contact = element()
+    rest = contact.at_rest((0, 0, DEPTH))
+    F, _ = contact.step(rest, 0.0, (0, 50 * REACH, DEPTH))
+    F_N = BALL.force(DEPTH, ELASTIC.E_star)
+    assert_allclose(F, [0, MU_0 * F_N, F_N], rtol=1e-12, atol=1e-15)
+    flat = element(shape=mdr.FlatPunch(a=1e-3))
+    assert flat.n_state == N_HEAD + 3
+    F, _ = flat.step(flat.at_rest((0, 0, DEPTH)), 0.0, (-0.3 * REACH, 0, DEPTH))
+    assert_allclose(F[0], -0.3 * REACH * 2e-3 * ELASTIC.G_star, rtol=1e-12)
+
+
+def test_partial_slip_is_that_of_the_closed_form():
+    d, way = 0.8 * DEPTH, 0.4 * REACH
+    exact = mdr.partial_slip(BALL, ELASTIC, MU_0, d, way)
+    contact = element(n_springs=256)
+    F, _ = contact.step(contact.at_rest((0, 0, d)), 0.0, (way, 0, d))
+    assert_allclose(F[[0, 2]], [exact.F_x, exact.F_z], rtol=3e-5)  # third order in 1/n, of the jumps at two edges
+
+
+def test_a_straight_piece_in_seven_is_one_piece():
+    contact = element(n_springs=256)
+    us = np.array([[1, 0, 0.7], [-0.5, 0, 0.3], [0.4, 0, 0.9], [1.5, 0, -0.1], [1.2, 0, 0.5]]) * [REACH, REACH, DEPTH]
+    state = other = contact.at_rest((0, 0, DEPTH / 2))
+    for u in us:
+        start = other[:3]
+        F, state = contact.step(state, DT, u)
+        for k in range(1, 8):
+            G, other = contact.step(other, DT, start + k / 7 * (u - start))
+        assert_allclose(G, F, rtol=1e-11, atol=1e-11 * MU_0 * BALL.force(DEPTH, ELASTIC.E_star))
+    assert_allclose(other[N_HEAD:], state[N_HEAD:], atol=1e-11)
+    assert_allclose(contact.dissipated(other), contact.dissipated(state), rtol=1e-10)
+
+
+@every_material
+def test_turned_steps_are_of_second_order(material):
+    """The force at the end of an arc, in 32, 64 and 128 steps."""
+    contact, ends = element(material), []
+    for n in (32, 64, 128):
+        phase = np.linspace(0, 1, n + 1)[1:] * np.pi
+        us = np.column_stack([np.sin(phase) * REACH, (1 - np.cos(phase)) * REACH, DEPTH * (0.5 + 0.2 * np.sin(phase))])
+        # the force is that of the last straight piece: a short one in the direction of the end, the same for all
+        us = np.vstack([us, us[-1] - [1e-3 * REACH, 0, 0]])
+        state = contact.at_rest((0, 0, DEPTH / 2))
+        for k, u in enumerate(us):
+            F, state = contact.step(state, 1e-2 / n if k < n else 1e-6, u)
+        ends.append(F)
+    first, second = np.abs(ends[0] - ends[1]).max(), np.abs(ends[1] - ends[2]).max()
+    assert second < 0.4 * first
+    assert second < 1e-3 * ends[2][2]
+
+
+def test_elastic_contacts_know_no_time():
+    one, two = (follow(element(), walk(), dt=dt)[0] for dt in (0.0, 7.0))
+    assert_array_equal(one, two)
+
+
+@every_material
+def test_a_contact_at_rest_does_not_creep(material):
+    """Held at 0.999 mu_0 F_N for 1e5 steps. What viscous springs do at rest is over before."""
+    contact = element(material, shape=mdr.FlatPunch(a=1e-3))
+    u = np.array([0.999 * MU_0 * ELASTIC.mindlin_ratio * DEPTH / 2, 0, DEPTH / 2])
+    _, state = contact.step(contact.at_rest((0, 0, DEPTH / 2)), 1e3, u)
+    F, state = contact.step(state, 1e3, u)
+    assert 0.9989 < F[0] / (MU_0 * F[2]) < 0.9991
+    held = state
+    for _ in range(100_000):
+        G, held = contact.step(held, 1e-3, u)
+    assert_allclose(G, F, rtol=1e-15)
+    assert_allclose(held, state, rtol=1e-15, atol=1e-300 if material is ELASTIC else 1e-15)
+
+
+def test_an_open_contact_forgets():
+    contact = element(MATERIALS["arms"])
+    _, state = follow(contact, walk(10))
+    F, state = contact.step(state, 1.0, (0, 0, -1e-6))
+    assert_array_equal(F, 0)
+    assert np.abs(state[N_HEAD:]).max() < 1e-12  # a second is two hundred of its relaxation times
+    assert contact.stored(state) < 1e-20
+
+
+# --- a state ---
+
+
+@every_material
+def test_copies_pickles_and_rolled_back_states_continue_bit_for_bit(material):
+    contact, us = element(material), walk()
+    _, half = follow(contact, us[:20])
+    kept = half.copy()
+    forces, end = follow(contact, us[20:], half)
+    follow(contact, us[:20], half)  # rejected
+    assert_array_equal(half, kept)
+    contact, half = pickle.loads(pickle.dumps((contact, half)))
+    again, same = follow(contact, us[20:], half)
+    assert_array_equal(again, forces)
+    assert_array_equal(same, end)
+
+
+@every_material
+def test_a_batch_is_single_calls(material):
+    contact, us = element(material), np.stack([walk(seed=seed) for seed in (1, 11, 13)], axis=1)
+    states = contact.at_rest(np.tile([0, 0, DEPTH / 2], (3, 1)))
+    singles = list(states)
+    for u in us:
+        F, states, K = contact.step(states, DT, u, tangent=True)
+        for b in range(3):
+            f, singles[b], k = contact.step(singles[b], DT, u[b], tangent=True)
+            assert_array_equal(f, F[b])
+            assert_array_equal(k, K[b])
+        assert_array_equal(singles, states)
+    assert_array_equal(contact.dissipated(states), [contact.dissipated(one) for one in singles])
+
+
+def test_names_of_a_state():
+    contact = element(MATERIALS["arms"])
+    names = contact.state_names
+    assert len(set(names)) == len(names) == contact.n_state == N_HEAD + 9 * 48
+    assert (names[:5], names[-1]) == (("u_x", "u_y", "u_z", "work", "s[0]"), "e_y_2[47]")
+
+
+# --- energy and invariance ---
+
+
+@every_material
+def test_what_is_lost_is_what_friction_and_material_take(material):
+    """Work less what is stored, against the losses from their own definitions, by a close look at the same steps."""
+    contact, us = element(material), walk()
+    row, rows = contact._row, contact._rows
+    law, n = row.law, row.gap.size
+    sums, units = np.zeros(N_SUMS), np.array([row.length_x, row.length_x, row.length_z])
+    state = contact.at_rest((0, 0, DEPTH / 2))
+    for u in us:
+        springs, h = state[N_HEAD:].copy(), DT
+        s, e = springs[: rows * n].reshape(rows, n), springs[rows * n :].reshape(2 * rows, n)
+        (x, y, z), start = (u - state[:3]) / units / h, state[:3] / units
+        look = LookAcross(sums, np.zeros(4), *np.zeros((4, n)))
+        row_turning(s, e, row.gap, row.w, Path(start[2], z, 0.0, x, 0.0), y, 0.0, *law, tools_for(law, h), look)
+        before, (_, state) = contact.dissipated(state), contact.step(state, h, u)
+        assert contact.dissipated(state) >= before - 1e-12 * contact.stored(state)
+    unit_x, unit_z = row.force_x * row.length_x, row.force_z * row.length_z
+    lost = unit_x * (sums[FRICTION_LOSS] + sums[SHEAR_VISCOUS]) + unit_z * sums[NORMAL_VISCOUS]
+    # slip that turns by a radian a step: areas of fourth order, losses by Simpson's rule
+    assert_allclose(contact.dissipated(state), lost, rtol=1e-5 if material is ELASTIC else 1e-3)
+
+
+def test_the_loop_of_force_and_way_is_what_is_lost():
+    """Of steady loops in one direction at one depth, by the trapezoidal rule."""
+    contact, n = element(), 4000
+    way = REACH * np.sin(np.linspace(0, 2 * np.pi, n + 1))
+    us = np.column_stack([way, 0 * way, 0 * way + 0.7 * DEPTH])
+    _, state = follow(contact, us)
+    F, end = follow(contact, us, state)
+    loop = np.sum(0.5 * (F[1:, 0] + F[:-1, 0]) * np.diff(way))
+    assert_allclose(contact.dissipated(end) - contact.dissipated(state), loop, rtol=1e-6)
+    assert_allclose(contact.stored(end), contact.stored(state), rtol=1e-12)
+
+
+@every_material
+def test_turned_axes_turn_the_force(material):
+    contact, us, angle = element(material), walk(), 0.7
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    (F, _), (G, _) = follow(contact, us), follow(contact, us @ turn.T)
+    assert_allclose(G, F @ turn.T, rtol=0, atol=1e-12 * np.abs(F).max())
+
+
+# --- the tangent ---
+
+TANGENTS = {
+    "stick": ("elastic", [(0.02, 0.01, 0.5)], 1e-7),
+    "slip along": ("elastic", [(2, 0, 0.5), (3, 0, 0.5)], 1e-7),
+    "slip turned": ("elastic", [(2, 0, 0.5), (2.3, 0.4, 0.5)], 1e-7),
+    "sinks while it slips": ("elastic", [(2, 0, 0.5), (3, 0.2, 0.8)], 1e-7),
+    "Kelvin, stick": ("Kelvin", [(0.05, 0.02, 0.5), (0.06, 0.01, 0.501)], 1e-7),
+    "Kelvin, slip": ("Kelvin", [(2, 0, 0.5), (2.3, 0.4, 0.52)], 1e-7),
+    "arms": ("arms", [(2, 0, 0.5), (2.3, 0.4, 0.52)], 1e-7),
+}
+
+
+@pytest.mark.parametrize(("material", "way", "tol"), TANGENTS.values(), ids=TANGENTS.keys())
+def test_the_tangent_is_that_of_the_force(material, way, tol):
+    """Against central differences of steps 30 times as large, extrapolated; over the stiffness of the contact."""
+    contact, scale = element(MATERIALS[material]), np.array([REACH, REACH, DEPTH])
+    *before, u = np.array(way) * scale
+    _, state = follow(contact, before)
+    _, _, K = contact.step(state, DT, u, tangent=True)
+    known = np.empty((3, 3))
+    for j in range(3):
+        slopes = []
+        for d in (6e-4, 3e-4):
+            d = d * scale * (np.arange(3) == j)
+            slopes.append((contact.step(state, DT, u + d)[0] - contact.step(state, DT, u - d)[0]) / (2 * d[j]))
+        known[:, j] = (4 * slopes[1] - slopes[0]) / 3
+    assert_allclose(K, known, rtol=0, atol=tol * np.abs(K).max())
+
+
+def test_the_tangent_of_stick_and_of_slip_in_closed_form():
+    flat, a = element(shape=mdr.FlatPunch(a=1e-3)), 1e-3
+    rest, k_x, k_z = flat.at_rest((0, 0, DEPTH / 2)), 2 * a * ELASTIC.G_star, 2 * a * ELASTIC.E_star
+    for x, known in ((0.1, np.diag([k_x, k_x, k_z])), (2.0, [[0, 0, MU_0 * k_z], [0, np.nan, 0], [0, 0, k_z]])):
+        K = flat.step(rest, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
+        known = np.array(known)
+        known[np.isnan(known)] = K[1, 1]
+        assert_allclose(K, known, rtol=0, atol=1e-8 * k_z)
+        assert 0 < K[1, 1] <= k_x * (1 + 1e-8)  # a slip that turns stiffens against it
+
+
+def test_where_springs_switch_the_tangent_looks_ahead():
+    """At rest in full slip: on the way of the slip nothing resists."""
+    flat = element(shape=mdr.FlatPunch(a=1e-3))
+    _, state = flat.step(flat.at_rest((0, 0, DEPTH / 2)), 0.0, (2 * REACH, 0, DEPTH / 2))
+    _, back = flat.step(state, 0.0, (-2 * REACH, 0, DEPTH / 2))
+    for slipped, x in ((state, 2), (back, -2)):
+        K = flat.step(slipped, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
+        assert abs(K[0, 0]) < 1e-8 * K[2, 2]
+
+
+# --- what is refused ---
+
+GOOD = (0.0, 0.0, 1e-6)
+HOSTILE = {
+    "NaN": ({"u": (0.0, np.nan, 0.0)}, "finite"),
+    "infinite": ({"u": (np.inf, 0.0, 0.0)}, "finite"),
+    "two numbers": ({"u": (0.0, 0.0)}, "shape"),
+    "a number": ({"u": 1.0}, "shape"),
+    "words": ({"u": ("a", "b", "c")}, "real numbers"),
+    "complex": ({"u": (1j, 0, 0)}, "real numbers"),
+    "None": ({"u": None}, "real numbers"),
+    "ragged": ({"u": ((0, 0), 0, 0)}, "array of numbers"),
+    "too deep": ({"u": (0.0, 0.0, 41e-6)}, "u_z_max"),
+    "a batch for one": ({"u": np.zeros((2, 3))}, "shape"),
+    "far away": ({"u": (1.7e308, 0.0, 1e-6)}, "range of floats"),
+    "dt < 0": ({"dt": -1e-3}, "negative"),
+    "dt NaN": ({"dt": np.nan}, "finite"),
+    "dt of each": ({"dt": np.ones(2)}, "real number"),
+    "dt a word": ({"dt": "1"}, "real number"),
+    "tangent 1": ({"tangent": 1}, "True or False"),
+    "state NaN": ({"state": "nan"}, "finite"),
+    "state of another": ({"state": "other"}, "of this element"),
+    "state of a cube": ({"state": "cube"}, "of this element"),
+    "state None": ({"state": None}, "real numbers"),
+}
+
+
+@pytest.mark.parametrize(("change", "words"), HOSTILE.values(), ids=HOSTILE.keys())
+def test_hostile_steps_are_refused(change, words):
+    contact = element()
+    rest = contact.at_rest(GOOD)
+    states = {
+        "nan": np.where(np.arange(rest.size) == 9, np.nan, rest),
+        "other": element(n_springs=64).at_rest(GOOD),
+        "cube": rest[None, None],
+    }
+    given = {"state": rest, "dt": DT, "u": GOOD} | change
+    if isinstance(given["state"], str):
+        given["state"] = states[given["state"]]
+    with pytest.raises((ValueError, TypeError), match=words):
+        contact.step(**given)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"mu_0": 0.0}, "mu_0"),
+        ({"mu_0": "high"}, "mu_0"),
+        ({"u_z_max": -1e-6}, "u_z_max"),
+        ({"u_z_max": np.nan}, "u_z_max"),
+        ({"n_springs": 4}, "n_springs"),
+        ({"n_springs": 64.0}, "n_springs"),
+        ({"indenter": 1.0}, "indenter"),
+        ({"material": mdr.Elastic}, "material"),
+        ({"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5)}, "E_inf = 0"),
+        ({"indenter": mdr.ConcavePunch(a=1e-3, R=0.1)}, "ring"),
+        ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-4)}, "deeper"),
+    ],
+)
+def test_hostile_elements_are_refused(change, words):
+    with pytest.raises((ValueError, TypeError), match=words):
+        replace(element(), **change)
+
+
+def test_a_viscous_step_needs_time():
+    contact = element(MATERIALS["Kelvin"])
+    with pytest.raises(ValueError, match="dt must be positive"):
+        contact.step(contact.at_rest(GOOD), 0.0, GOOD)
+    with pytest.raises(ValueError, match="u_z_max"):
+        contact.at_rest((0, 0, 1.0))

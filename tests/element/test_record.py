@@ -1,0 +1,232 @@
+"""Friction under a recorded motion: what `slide` has, exact pieces, loads, errors, files and what is refused."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.__main__ import main
+
+BALL, MU_0, OMEGA = mdr.Paraboloid(R=5e-3), 0.5, 314.0
+ELASTIC = mdr.Elastic(E=3e6, nu=0.5)
+KELVIN = mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+ARMS = mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5)
+PERIOD = 2 * np.pi / OMEGA
+
+
+def odd_record(n=60, seed=3):
+    """Uneven steps, pauses, jumps and loss of contact: t, u_x, u_y, u_z."""
+    rng = np.random.default_rng(seed)
+    t = np.cumsum(10 ** rng.uniform(-4, -2, n))
+    moves = rng.random((3, n)) > 0.2
+    x, y = 2e-5 * np.cumsum(moves[:2] * rng.normal(0, 0.5, (2, n)), axis=1)
+    z = 2e-5 * (1 + 1.2 * np.sin(0.3 * np.cumsum(moves[2] * rng.normal(1, 1, n))))
+    assert z.min() < 0 < z.max()
+    return t, x, y, z
+
+
+@pytest.mark.parametrize(
+    ("material", "du_z", "du_y", "v_0"),
+    [(ELASTIC, 28e-6, 0.0, 2.6e-3), (ELASTIC, 28e-6, 6e-6, 1e-3), (KELVIN, 6e-6, 0.0, 1e-3), (ARMS, 28e-6, 6e-6, 1e-3)],
+    ids=["elastic, lost", "elastic, across, lost", "Kelvin, kept", "arms, across, lost"],
+)
+def test_a_harmonic_record_has_the_friction_of_a_run(material, du_z, du_y, v_0):
+    """Over the last of some periods. Chords of 256 steps leave out h²/8 of the amplitude: 4e-5 of the friction."""
+    shake = mdr.InPlaneOscillation(omega=OMEGA, du_y=du_y) if du_y else None
+    case = mdr.SlidingContact(BALL, material, MU_0, mdr.NormalOscillation(20e-6, du_z, OMEGA), shake=shake)
+    steps, n, area = 256, 8, []
+    for periods in (n - 1, n):
+        t = np.arange(periods * steps + 1) * PERIOD / steps
+        u_y = du_y * np.cos(OMEGA * t) if du_y else None
+        found = mdr.slide_record(
+            BALL, material, MU_0, t, v_0 * t, u_y, u_z=20e-6 + du_z * np.cos(OMEGA * t), n_springs=128
+        )
+        area.append(found.mean_F_z * t[-1] * np.array([found.cof, 1]))
+    F_x, F_z = area[1] - area[0]
+    run = mdr.slide(case, v_0, accuracy=1e-4)
+    assert run.settled
+    assert_allclose(F_x / F_z, run.cof, rtol=0, atol=run.cof_error + n * found.cof_error + 4e-5 * MU_0)
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN, ARMS], ids=["elastic", "Kelvin", "arms"])
+@pytest.mark.parametrize("across", [False, True], ids=["along", "across"])
+def test_an_odd_record_is_that_of_an_element(material, across):
+    """A record along one line goes by the scalar step, an element by the vector: they agree."""
+    t, x, y, z = odd_record()
+    y = y if across else None
+    found = mdr.slide_record(BALL, material, MU_0, t, x, y, z, n_springs=64)
+    element = mdr.ContactElement(BALL, material, MU_0, u_z_max=z.max(), n_springs=64)
+    us, parts = np.column_stack([x, 0 * x if y is None else y, z]), 2 if across else 1
+    state = element.at_rest(us[0])
+    for k in range(1, t.size):
+        for part in range(parts):
+            u = us[k - 1] + (part + 1) / parts * (us[k] - us[k - 1])
+            F, state = element.step(state, (t[k] - t[k - 1]) / parts, u)
+        if material is ELASTIC:
+            assert_allclose(F[:2], [found.F_x[k], found.F_y[k]], atol=2e-3 * found.F_z.max())  # its springs: no cut
+            assert_allclose(F[2], found.F_z[k], atol=1e-4 * found.F_z.max())
+    spent, scale = found.energy_balance, float(element.dissipated(state))
+    assert_allclose(spent.lost, scale, rtol=1e-3)
+    assert spent.plane_work + spent.normal_work == pytest.approx(spent.lost + spent.stored_change)
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN, ARMS], ids=["elastic", "Kelvin", "arms"])
+def test_the_error_bounds_what_a_finer_run_changes(material):
+    """The same path, of more samples and springs."""
+    path = odd_record()
+    coarse = mdr.slide_record(BALL, material, MU_0, *path, n_springs=32)
+    at = np.linspace(0, path[0].size - 1, 8 * (path[0].size - 1) + 1)
+    fine = mdr.slide_record(
+        BALL, material, MU_0, *(np.interp(at, np.arange(path[0].size), one) for one in path), n_springs=512
+    )
+    assert abs(coarse.cof - fine.cof) <= coarse.cof_error
+    assert abs(coarse.cof_y - fine.cof_y) <= coarse.cof_error
+    assert fine.cof_error < 0.1 * coarse.cof_error
+    assert coarse.cof_error < 1e-3 * MU_0
+
+
+def twin(t, x, z, cells=2000, parts=40):
+    """The elastic ball in plain NumPy along one line: springs in equal cells that are dragged between the limits
+    mu_0 f_z, and forget where they lift off. COF by the trapezoidal rule, force at the samples.
+    """
+    edge = np.sqrt(BALL.R * z.max())
+    gap, kappa = ((np.arange(cells) + 0.5) * edge / cells) ** 2 / BALL.R, ELASTIC.mindlin_ratio
+    at = np.linspace(0, t.size - 1, parts * (t.size - 1) + 1)
+    t, x, z = (np.interp(at, np.arange(t.size), one) for one in (t, x, z))
+    e, F = np.zeros(cells), [(0.0, 2 * np.maximum(z[0] - gap, 0).mean())]
+    for k in range(1, t.size):
+        before, R = z[k - 1] - gap, np.maximum(z[k] - gap, 0)
+        pressed = np.where(before < 0, R / np.where(before < R, R - before, 1.0), 1.0)  # share of the piece
+        e = np.clip(e + pressed * (x[k] - x[k - 1]), -MU_0 * kappa * R, MU_0 * kappa * R)
+        F.append((2 * e.mean() / kappa, 2 * R.mean()))
+    F = np.array(F) * ELASTIC.E_star * edge
+    area = np.trapezoid(F, t, axis=0)
+    return area[0] / area[1], F[::parts, 0]
+
+
+@pytest.mark.parametrize("seed", range(3, 13))
+def test_ten_odd_records_are_those_of_an_independent_twin(seed):
+    t, x, _, z = odd_record(seed=seed)
+    found = mdr.slide_record(BALL, ELASTIC, MU_0, t, x, u_z=z)
+    cof, F_x = twin(t, x, z)
+    coarse, _ = twin(t, x, z, parts=20)
+    own = abs(cof - coarse) + 1e-5 * MU_0  # its trapezoids, and its cells
+    assert abs(found.cof - cof) <= found.cof_error + own
+    assert own < 2e-3 * MU_0
+    assert_allclose(found.F_x, F_x, rtol=0, atol=1e-4 * MU_0 * found.F_z.max())
+
+
+def test_along_a_line_is_along_any_line():
+    t, x, _, z = odd_record()
+    one, two = mdr.slide_record(BALL, ELASTIC, MU_0, t, x, 0.3, z), mdr.slide_record(BALL, ELASTIC, MU_0, t, 0, x, z)
+    assert_allclose(two.F_y, one.F_x, atol=1e-11 * one.F_z.max())
+    assert_allclose([one.cof_y, two.cof, two.cof_y], [0, 0, one.cof], atol=1e-9)
+    assert one.running_cof[-1] == pytest.approx(one.cof)
+    assert (one.running_cof[~np.isnan(one.running_cof)] <= MU_0 * (1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize(("material", "met"), [(ELASTIC, 1e-12), (KELVIN, 2e-2), (ARMS, 1e-12)])
+def test_a_load_finds_the_depth_that_carries_it(material, met):
+    """A load that rises, holds and falls to zero. With a dashpot a spring that touches makes a jump of its share."""
+    t = np.linspace(0, 0.05, 201)
+    F = 0.05 * np.clip(np.minimum(0.2 + 40 * t, 60 * (0.045 - t)), 0, 1)
+    found = mdr.slide_record(BALL, material, MU_0, t, 2e-6 * np.sin(300 * t), F_z=F, n_springs=64)
+    assert_allclose(found.F_z[1:], F[1:], rtol=0, atol=met * F.max())
+    if material is ELASTIC:
+        at = mdr.static_depth(BALL, material, F.max())
+        assert_allclose(found.u_z.max(), at, rtol=1e-4)
+    else:
+        rest = mdr.static_depth(BALL, material, F.max())
+        assert 0.5 * rest < found.u_z.max() <= rest * (1 + 1e-3)
+
+
+def test_depth_and_load_are_each_others_inverse():
+    t = np.linspace(0, 0.1, 801)
+    z, x = 2e-5 + 1e-5 * np.sin(100 * t), 3e-5 * np.sin(60 * t)
+    for material in (ELASTIC, ARMS):
+        one = mdr.slide_record(BALL, material, MU_0, t, x, u_z=z, n_springs=64)
+        two = mdr.slide_record(BALL, material, MU_0, t, x, F_z=one.F_z, n_springs=64)
+        start = 80 if material is ARMS else 0  # of a load the arms are at rest first
+        assert_allclose(two.u_z[start:], z[start:], rtol=1e-4 if material is ELASTIC else 2e-2)
+        assert_allclose(two.F_x[start:], one.F_x[start:], atol=2e-2 * MU_0 * one.F_z.max())
+
+
+HOSTILE = {
+    "t falls": ({"t": [0, 2, 1]}, "t must rise, got 1 s after 2 s"),
+    "t stands": ({"t": [0, 1, 1]}, "t must rise"),
+    "t NaN": ({"t": [0, np.nan, 2]}, "finite"),
+    "one instant": ({"t": [0], "u_x": [0], "u_z": [1e-6]}, "two instants"),
+    "a table": ({"t": np.zeros((3, 2))}, "two instants"),
+    "x short": ({"u_x": [0, 1e-6]}, "u_x must have the shape"),
+    "x NaN": ({"u_x": [0, np.nan, 0]}, "finite"),
+    "x words": ({"u_x": ["a", "b", "c"]}, "real numbers"),
+    "y long": ({"u_y": [0, 0, 0, 0]}, "u_y must have the shape"),
+    "z infinite": ({"u_z": [0, np.inf, 0]}, "finite"),
+    "never touches": ({"u_z": -1e-6}, "never touches"),
+    "both": ({"F_z": 1.0}, "not both"),
+    "neither": ({"u_z": None}, "not both"),
+    "F_z pulls": ({"u_z": None, "F_z": [0.01, -0.01, 0.01]}, "F_z must not be negative"),
+    "F_z is nothing": ({"u_z": None, "F_z": 0.0}, "never touches"),
+    "too deep": ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-4), "u_z": 1e-6}, "deeper"),
+    "flows": ({"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5)}, "E_inf = 0"),
+    "flows under a load": (
+        {"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5), "u_z": None, "F_z": 1.0},
+        "E_inf = 0",
+    ),
+    "few springs": ({"n_springs": 16}, "n_springs"),
+    "mu_0": ({"mu_0": -0.1}, "mu_0"),
+    "no shape": ({"indenter": None}, "indenter"),
+    "no material": ({"material": 3e6}, "material"),
+}
+
+
+@pytest.mark.parametrize(("change", "words"), HOSTILE.values(), ids=HOSTILE.keys())
+def test_hostile_records_are_refused(change, words):
+    given = {"indenter": BALL, "material": ELASTIC, "mu_0": MU_0, "t": [0, 1, 2], "u_x": [0, 1e-6, 0], "u_z": 1e-6}
+    with pytest.raises((ValueError, TypeError), match=words):
+        mdr.slide_record(**{**given, **change})
+
+
+# --- files ---
+
+
+def written(folder, text):
+    case = mdr.SlidingContact(BALL, ELASTIC, MU_0, mdr.NormalOscillation(20e-6, 2e-6, OMEGA))
+    (folder / "case.toml").write_text(mdr.write_case(case))
+    (folder / "motion.csv").write_text(text)
+    return ["record", str(folder / "motion.csv"), str(folder / "case.toml")]
+
+
+def test_the_command_writes_what_it_prints(tmp_path, capsys):
+    rows = "\n".join(f"{k},{3 * np.sin(k):.6f},20" for k in range(50))
+    line = written(tmp_path, f"t [ms], u_x [um], u_z [um]\n{rows}\n")
+    assert main([*line, "-o", str(tmp_path / "out")]) == 0
+    assert "SlideRecord of 50 samples" in capsys.readouterr().out
+    assert {one.name for one in (tmp_path / "out").iterdir()} == {"record.csv", "record.png", "record.svg"}
+    assert "running_cof [-]" in (tmp_path / "out" / "record.csv").read_text()
+    assert main([*line, "--json"]) == 0
+    assert '"cof_error"' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("t [s], u_x [um]\n0, 1\n1, 2\n", "either u_z"),
+        ("t [s], u_x, u_z [um]\n0, 1, 1\n", "u_x needs a unit"),
+        ("t [s], u_z [um]\n0, 1\n", "names no u_x"),
+        ("t [s], u_x [um], F_z [N]\n0, 1, 1\n0, 2, 1\n", "t must rise"),
+        ("t [s], u_x [um], F_z [N]\n0, 1, 1\n1, 2\n", "no number"),
+        ("", "holds no table"),
+    ],
+)
+def test_hostile_files_are_refused(tmp_path, capsys, text, words):
+    assert main(written(tmp_path, text)) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_a_million_steps_tell_how_far_they_are(monkeypatch, capsys):
+    monkeypatch.setattr("mdr.tools.progress.PATIENCE", 0.0)
+    monkeypatch.setattr("mdr.element.record.AT_ONCE", 32 * 100)
+    t = np.arange(1000.0)
+    mdr.slide_record(BALL, ELASTIC, MU_0, t, 1e-6 * np.sin(t), u_z=1e-5, n_springs=32)
+    assert "slide_record: " in capsys.readouterr().err
