@@ -193,7 +193,7 @@ def test_the_normal_motion_of_a_spring_has_no_friction_in_it(house):
         if isinstance(node, ast.ImportFrom) and node.module == "mdr.spring.step"
         for name in node.names
     }
-    assert used == {"Path", "Tools", "fill", "press"}
+    assert used == {"Path", "Tools", "new_tools", "press"}
     below = ast.parse(known["mdr.spring.step"].read_text(encoding="utf-8"))
     press = next(node for node in below.body if isinstance(node, ast.FunctionDef) and node.name == "press")
     words = {node.id for node in ast.walk(press) if isinstance(node, ast.Name)}

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import NormalOscillation
-from mdr.element.kernels import N_HEAD, Contact, steps
+from mdr.element.kernels import N_HEAD, SpringRow, steps
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.normal.spring_grid import nodes
@@ -65,7 +65,7 @@ class ContactElement(Record):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        at = contact_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
+        at = springs_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
         object.__setattr__(self, "_contact", at)
 
     @property
@@ -121,7 +121,7 @@ class ContactElement(Record):
         u : array_like of float, shape (3,) or (m, 3)
             Position x, y and depth z at the end of the step [m]; at z <= 0 the contact is open.
         tangent : bool
-            Whether dF/du is asked for too; it costs seven times as much.
+            Whether dF/du is asked for too; it costs up to seven times as much.
 
         Returns
         -------
@@ -199,8 +199,8 @@ class ContactElement(Record):
         return np.asarray(self._states(state)[..., 3] - self.stored(state))
 
     @property
-    def _row(self) -> Contact:
-        return cast(Contact, vars(self)["_contact"])
+    def _row(self) -> SpringRow:
+        return cast(SpringRow, vars(self)["_contact"])
 
     @property
     def _rows(self) -> int:
@@ -228,7 +228,7 @@ class ContactElement(Record):
         return us
 
 
-def contact_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> Contact:
+def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> SpringRow:
     """The springs for depths up to `deepest` [m], cut where contact is lost at `least`; refuses what no case takes."""
     oscillation = NormalOscillation((deepest + least) / 2, (deepest - least) / 2, 1.0)
     case = SlidingContact(indenter, material, mu_0, oscillation)
@@ -239,12 +239,12 @@ def contact_of(indenter: Indenter, material: Material, mu_0: float, deepest: flo
         gap, w = gap[:1], np.ones(1)
     rheology, length_x = case.rheology, mu_0 * material.mindlin_ratio * deepest
     law = law_of(rheology.T, rheology.rho, rheology.theta)
-    return Contact(
+    return SpringRow(
         gap, w, law, length_x, deepest, material.G_star * total * length_x, material.E_star * total * deepest
     )
 
 
-def stored(row: Contact, springs: Array) -> Array:
+def stored(row: SpringRow, springs: Array) -> Array:
     """Elastic energy [J] of springs (..., 3 (1 + J) n)."""
     ratios = np.ones(1) if row.law.arms is None else np.concatenate([[1.0], row.law.arms.rho])
     squares = (springs.reshape(*springs.shape[:-1], 3, ratios.size, row.gap.size) ** 2 @ row.w) @ ratios

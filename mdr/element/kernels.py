@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.spring.law import N_PHI, Law
-from mdr.spring.step import Path, Tools, fill, press, row
+from mdr.spring.law import Law
+from mdr.spring.step import Path, new_tools, press, row, tools_of
 from mdr.spring.turning import row_turning
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
@@ -24,9 +24,12 @@ _inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
 N_HEAD = 4  #: numbers of a state before its springs: the last u, and the work
 LEAST, MOST = 1e-7, 1e-5  #: by which a position is moved for a tangent, in scaled form
 SHARE = 1e-3  #: of the motion in a step, between these
+MOST_TRIALS = 100  #: of a depth under a load
+BALANCED = 1e-13  #: share of the greatest load to which a load is met
+SOON = 1e-6  #: of an interval, after which the force is looked at that a dashpot has at its start
 
 
-class Contact(NamedTuple):
+class SpringRow(NamedTuple):
     """A row of n springs, and its units."""
 
     gap: Array  #: (n,) g over the unit of depth
@@ -47,20 +50,6 @@ class Straight(NamedTuple):
     area_x: float  #: over its time
     area_y: float
     area_z: float
-
-
-@_inline
-def tools_of(h, modes, arms):
-    """As `tools_for` of settle.py, made within compiled code."""
-    J = K = 0
-    if arms is not None:
-        J = arms.rho.size
-    if modes is not None:
-        K = modes.mu.size
-    room = np.empty((4, 9, J)), np.empty((4, K)), np.empty(K), np.empty(J + K), np.empty(N_PHI), np.empty((4, K))
-    tools = Tools(h, room[0], room[1], room[2], room[3], room[4], room[5], np.empty((1 + J, 1)))
-    fill(h, modes, arms, tools, 0)
-    return tools
 
 
 @_inline
@@ -109,7 +98,7 @@ def steps(states, us, h, contact, forces, tangents):
     forces (m, 3) [N] is filled, and tangents (m, 3, 3) [N/m] too if it is not empty.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
-    tools, unit = tools_of(h, modes, arms), np.array([contact.length_x, contact.length_x, contact.length_z])
+    tools, unit = new_tools(h, modes, arms), np.array([contact.length_x, contact.length_x, contact.length_z])
     force = np.array([contact.force_x, contact.force_x, contact.force_z])
     parts = (states.shape[1] - N_HEAD) // (3 * n)
     trial, since, before = np.empty((parts, n)), np.empty(n), np.empty(states.shape[1] - N_HEAD)
@@ -143,10 +132,6 @@ def steps(states, us, h, contact, forces, tangents):
                 tangents[b, :, j] = force * (4.0 * near[0] - near[1] - 3.0 * now) / (2.0 * side * unit[j])
 
 
-MOST_TRIALS = 100  #: of a depth under a load
-BALANCED = 1e-13  #: share of the greatest load to which a load is met
-
-
 @_inline
 def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial, since):
     """Depth at the end of a step from z at which the springs carry a load: Newton's method within a bracket.
@@ -177,17 +162,6 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial,
     return x
 
 
-SOON = 1e-6  #: of an interval, after which the force is looked at that a dashpot has at its start
-
-
-@_inline
-def longer(tools, h, modes, arms):
-    """The same room filled for a step of another length."""
-    tools = Tools(h, tools.held, tools.decay, tools.modes, tools.work, tools.one, tools.more, tools.excess)
-    fill(h, modes, arms, tools, 0)
-    return tools
-
-
 @_jit
 def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
     """Follow a record from sample to sample, of the numbers start to stop; s (1 + J, n), e and u (3,), the scaled
@@ -199,7 +173,7 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
     given depth stands the mean of both sides.
     """
     T, modes, arms = contact.law
-    tools, viscous = tools_of(1.0, modes, arms), modes is not None
+    tools, viscous = new_tools(1.0, modes, arms), modes is not None
     trial, since, v = np.empty_like(s), np.empty(s.shape[1]), np.empty(3)
     scale, rate = load.max() if load.size > 0 else 1.0, 0.0
     s_near, e_near = np.empty_like(s), np.empty_like(e)
@@ -207,18 +181,17 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
         dt = (t[k] - t[k - 1]) / parts
         h = dt if viscous else 1.0
         if h != tools.h:
-            tools = longer(tools, h, modes, arms)
+            tools = tools_of(h, modes, arms, tools)
         if T > 0.0 and load.size == 0 and k > 1:
             s_near[:], e_near[:] = s, e
             v[0], v[2] = u[0] + SOON * (x[k] - x[k - 1]), u[2] + SOON * (depth[k] - depth[k - 1])
-            soon = longer(tools, SOON * (t[k] - t[k - 1]), modes, arms)
+            soon = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools)
             if y is not None:
                 v[1] = u[1] + SOON * (y[k] - y[k - 1])
             of = straight(s_near, e_near, u, v, y, contact, T, modes, arms, soon, trial, since)
             out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.F_x)
             out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.F_y)
             out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.F_z)
-            fill(h, modes, arms, tools, 0)
         out[k, 3] = out[k, 4] = out[k, 5] = 0.0
         for part in range(parts):
             share = (part + 1) / parts

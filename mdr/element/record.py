@@ -8,21 +8,20 @@ samples; and in each case once more with half of the springs. The differences bo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.element.contact_element import contact_of, stored
-from mdr.element.kernels import Contact, follow
+from mdr.element.contact_element import springs_of, stored
+from mdr.element.kernels import SpringRow, follow
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.normal.load_control import static_depths
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import EXACT, SAME, Array
 from mdr.tools.checks import FieldError, count, finite_array, instance, positive
-from mdr.tools.csv_table import csv_text
+from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span, with_error
@@ -46,7 +45,7 @@ class RecordEnergy:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SlideRecord(Summarised, ArrayRecord):
+class SlideRecord(Summarised, Tabled, ArrayRecord):
     """Outcome of slide_record(), in SI. Forces are those at the samples, means those of the exact area in between."""
 
     cof: float  #: mean F_x over mean F_z [-]
@@ -82,7 +81,7 @@ class SlideRecord(Summarised, ArrayRecord):
         )
 
     def table(self) -> str:
-        """The text of the CSV file.
+        """Time, position, forces and running COF as CSV.
 
         Returns
         -------
@@ -91,16 +90,6 @@ class SlideRecord(Summarised, ArrayRecord):
         """
         names = {"t": "s", "u_x": "m", "u_y": "m", "u_z": "m", "F_x": "N", "F_y": "N", "F_z": "N", "running_cof": "-"}
         return csv_text({f"{name} [{unit}]": getattr(self, name) for name, unit in names.items()})
-
-    def to_csv(self, path: str | Path) -> None:
-        """Write time, position, forces and running COF as CSV, with units in the header.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The file.
-        """
-        Path(path).write_text(self.table(), encoding="utf-8")
 
     def plot(self) -> Any:
         """Draw position, forces and running COF over time.
@@ -213,7 +202,7 @@ def slide_record(
     runs = [(n, 1), (n // 2, 1)] if exact else [(n, 1), (n // 2, 1), (n, 2)]
     ticker = Ticker("slide_record", sum(k * part for k, part in runs) * (t.size - 1), "springs times steps")
     found = [
-        _followed(motion, contact_of(indenter, material, mu_0, deepest, least, k), part, ticker) for k, part in runs
+        _followed(motion, springs_of(indenter, material, mu_0, deepest, least, k), part, ticker) for k, part in runs
     ]
     best = found[0] if exact else found[-1]
     if load is not None and material.tau > 0:  # the error of its steps falls with their length
@@ -269,7 +258,7 @@ class _Followed(NamedTuple):
         return np.asarray(area[:2] / area[2] if area[2] > 0 else np.zeros(2))
 
 
-def _followed(motion: _Motion, row: Contact, parts: int, ticker: Ticker) -> _Followed:
+def _followed(motion: _Motion, row: SpringRow, parts: int, ticker: Ticker) -> _Followed:
     """The record followed by a row of springs, each interval in so many parts."""
     t, n, rows = motion.t, row.gap.size, 1 if row.law.arms is None else 1 + row.law.arms.rho.size
     x, y = motion.x / row.length_x, None if motion.y is None else motion.y / row.length_x
@@ -292,7 +281,7 @@ def _followed(motion: _Motion, row: Contact, parts: int, ticker: Ticker) -> _Fol
     return _Followed(F, area, u_z, RecordEnergy(of_x + of_y, of_z, _stored(row, s, e) - first))
 
 
-def _stored(row: Contact, s: Array, e: Array) -> float:
+def _stored(row: SpringRow, s: Array, e: Array) -> float:
     return float(stored(row, np.concatenate([s, e, np.zeros((3 * len(s) - len(s) - len(e), e.shape[1]))]).ravel()))
 
 

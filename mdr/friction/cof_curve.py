@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +26,7 @@ from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, finite_array
-from mdr.tools.csv_table import csv_text
+from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
@@ -40,7 +39,7 @@ LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CofCurve(Summarised, ArrayRecord):
+class CofCurve(Summarised, Tabled, ArrayRecord):
     """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
 
     The point v_0 = 0 is the static limit, of a pull ever slower forward.
@@ -98,18 +97,8 @@ class CofCurve(Summarised, ArrayRecord):
 
         return plot_curve(self, ax, absolute=absolute)
 
-    def to_csv(self, path: str | Path) -> None:
-        """Write v_0, cof, cof_error, settled and stick_share as CSV, with units in the header; cof_y where it is known.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The file.
-        """
-        Path(path).write_text(self.table(), encoding="utf-8")
-
     def table(self) -> str:
-        """The text of the CSV file.
+        """Velocities, friction, its error, settled and stick_share as CSV; cof_y where it is known.
 
         Returns
         -------

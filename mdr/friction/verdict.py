@@ -194,7 +194,7 @@ def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
         f"{with_error(springs.cof, springs.cof_error)} by springs"
     )
     if abs(off) <= error:
-        slower = "; slower slides differ" if is_across_alone(case) else ""
+        slower = "; slower slides differ" if _held_too_much(case) > STRONG * case.mu_0 else ""
         return f"{said}: no difference beyond these errors{slower}"
     return f"{said}: springs are too {'high' if off > 0 else 'low'} there by {abs(off) / case.mu_0:.1g} of mu_0"
 
@@ -248,21 +248,27 @@ def across(case: SlidingContact) -> str:
     """What takes the place of a critical velocity where a contact is shaken across its way."""
     said = ACROSS
     if is_across_alone(case):
-        rest, full = static_cof(case), full_across(case, NEARLY)
-        surface = rest if case.indenter.least_depth > 0 else static_across(case, surface=True)
+        rest, full, too_much = static_cof(case), full_across(case, NEARLY), _held_too_much(case)
         said += (
             f"; at rest it holds {rest:.4g} of the load, and springs stick for part of the period"
             if rest
             else "; at rest it holds nothing, as every spring slips in every period"
         )
-        if rest - surface > STRONG * case.mu_0:
+        if too_much > STRONG * case.mu_0:
             said += (
-                f"; that is too much: by Coulomb's law in every point of the surface it holds {surface:.4g} of the "
-                "load, and slow slides have less friction too (mdr.laws.excess_across)"
+                f"; that is too much: by Coulomb's law in every point of the surface it holds {rest - too_much:.4g} of "
+                "the load, and slow slides have less friction too (mdr.laws.excess_across)"
             )
         where = f"from about {full:.3g} m/s on" if full else "at any velocity"
         said += f"; friction is within {100 * NEARLY:g} % of mu_0 {where}" if np.isfinite(full) else ""
     return f"{said}; the greatest velocity across is {case.fastest_across:.3g} m/s"
+
+
+def _held_too_much(case: SlidingContact) -> float:
+    """By how much [-] springs hold more at rest than Coulomb's law in every point allows; 0 where it is not known."""
+    if not is_across_alone(case) or case.indenter.least_depth > 0:
+        return 0.0
+    return static_across(case) - static_across(case, surface=True)
 
 
 def _tolerance(within: float) -> float:

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,7 +23,7 @@ from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Step
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite, finite_array, positive
-from mdr.tools.csv_table import csv_text
+from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import time_is_over, time_limit
 from mdr.tools.records import ArrayRecord
@@ -38,7 +37,7 @@ STARTS = ("full_slip", "rest")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class HalfSpaceRun(Summarised, ArrayRecord):
+class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
     """Outcome of `mdr.half_space.slide`, in SI, with the fields of the last period at the ends of its steps.
 
     Errors bound those of `cof` and of `cof_y`. Axes of fields are instant, x, y.
@@ -90,18 +89,8 @@ class HalfSpaceRun(Summarised, ArrayRecord):
             ],
         )
 
-    def to_csv(self, path: str | Path) -> None:
-        """Write time and forces of the last period as CSV, with units in the header.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The file.
-        """
-        Path(path).write_text(self.table(), encoding="utf-8")
-
     def table(self) -> str:
-        """The text of the CSV file.
+        """Time and forces of the last period as CSV.
 
         Returns
         -------
@@ -131,7 +120,7 @@ class HalfSpaceRun(Summarised, ArrayRecord):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class HalfSpaceCurve(Summarised, ArrayRecord):
+class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
     """Friction in three dimensions over the pulling velocity, arrays of shape (n_v,)."""
 
     v_0: Array  #: pulling velocities [m/s]
@@ -178,18 +167,8 @@ class HalfSpaceCurve(Summarised, ArrayRecord):
 
         return plot_half_space_curve(self, ax)
 
-    def to_csv(self, path: str | Path) -> None:
-        """Write velocities, friction, errors and settled as CSV, with units in the header.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The file.
-        """
-        Path(path).write_text(self.table(), encoding="utf-8")
-
     def table(self) -> str:
-        """The text of the CSV file.
+        """Velocities, friction, errors and settled as CSV.
 
         Returns
         -------

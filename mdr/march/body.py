@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.spring.law import Law, fill_phi
+from mdr.spring.law import Law, phi_of
 from mdr.tools.arrays import Array
 
 RESOLVED = 16  #: steps per oscillation of the body on the contact, from which on it counts as resolved
@@ -85,9 +85,8 @@ def _stuck(law: Law, h: float, area: Array, moment: Array) -> Array:
     T = law.T
     a = np.array([h**2 / 2 + T * h, h**3 / 3 + T * h**2])  # of the area by p and q
     b = np.array([h**3 / 3 + T * h**2 / 2, h**4 / 4 + 2 * T * h**3 / 3])
-    phi = np.empty(5)
     for rho, rate in zip(*(law.arms or ((), ())), strict=True):
-        fill_phi(h * rate, phi)
+        phi = phi_of(h * rate)
         a += rho * np.array([h**2 * phi[2], 2 * h**3 * phi[3]])
         b += rho * np.array([h**3 * (phi[2] - phi[3]), 2 * h**4 * (phi[3] - phi[4])])
     of_ends = np.array([[1 / h, -0.5], [0.0, 0.5 / h]])  # p and q by y and y' at the end

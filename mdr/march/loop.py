@@ -13,7 +13,7 @@ import numpy as np
 
 from mdr.march.body import RATE, Y
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import ROUNDING, Look, Path, Tools, as_they_are, fill, glassy, row
+from mdr.spring.step import ROUNDING, Look, Path, as_they_are, glassy, row, tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -238,9 +238,9 @@ def follow(e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j
     for part in range(first, 2):
         one, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools
         if part == 0:
-            one, now = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0), tools_of(begin, law, tools)
+            one, now = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0), tools_of(begin, law.modes, law.arms, tools)
         elif first == 0:
-            now = tools_of(h - begin, law, tools)
+            now = tools_of(h - begin, law.modes, law.arms, tools)
         put(e, e_0)
         put(s, s_0)
         path, of_area, of_moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, one, law, now)
@@ -372,14 +372,6 @@ def next_place(x, f, most, ends):
     return x - f / most if np.isnan(b) else x + 4.0 * (x - b)
 
 
-@_inner
-def tools_of(h, law, tools):
-    """The tools of another step; the room, and the excess of the step before, are the same."""
-    one = Tools(h, np.empty_like(tools.held), np.empty_like(tools.decay), *tools[3:])
-    fill(h, law.modes, law.arms, one, 0)
-    return one
-
-
 @_inline
 def note(trace, j, part, t, path):
     """Leave the way of the top over a part, 0 or 1, of step j."""
@@ -399,7 +391,7 @@ def look(e, s, springs, motion, law, tools, trace, seen):
                 continue
             now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2)
             if t < h:
-                now, nodes = tools_of(t, law, tools), nodes_of(t, law.modes, law.arms)
+                now, nodes = tools_of(t, law.modes, law.arms, tools), nodes_of(t, law.modes, law.arms)
             path = later(here, t)
             zd, xd = path.z_1, path.x_1
             if part == 1:

@@ -7,7 +7,6 @@ Sign and symbols: F_x > 0 holds back an indenter that is pulled forward [N], F_z
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from mdr.march.stepper import PeriodRecord
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import Array
-from mdr.tools.csv_table import csv_text
+from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, with_error
 
@@ -31,7 +30,7 @@ HOLDS = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SlidingRun(Summarised, ArrayRecord):
+class SlidingRun(Summarised, Tabled, ArrayRecord):
     """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
     A run at v_0 = 0 whose contact holds may come to rest in many states (`kind` "holds"): `cof` is that of one of them,
@@ -113,23 +112,8 @@ class SlidingRun(Summarised, ArrayRecord):
             ],
         )
 
-    def to_csv(self, path: str | Path) -> None:
-        """Write time, position, depth and forces of the recorded periods as CSV, with units in the header.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The file.
-
-        Raises
-        ------
-        ValueError
-            For a run without a record.
-        """
-        Path(path).write_text(self.table(), encoding="utf-8")
-
     def table(self) -> str:
-        """The text of the CSV file.
+        """Time, position, depth and forces of the recorded periods as CSV.
 
         Returns
         -------

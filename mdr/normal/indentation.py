@@ -36,7 +36,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Material
 from mdr.normal.indentation_kernels import Row, force_of
 from mdr.normal.load_control import static_depths
-from mdr.spring.law import N_PHI, Law, fill_phi, law_of
+from mdr.spring.law import N_PHI, Law, law_of, phi_of
 from mdr.spring.settle import tools_for
 from mdr.spring.step import Path, Tools, press
 from mdr.tools.arrays import EPS, EXACT, SAME, Array
@@ -215,10 +215,9 @@ def _from_force(indenter: Indenter, material: Material, t: Array, F_z: Array, n:
 def _lee_radok(material: Material, t: Array, F_z: Array) -> Array:
     """V = ∫ J(t - s) dF_z [m²]: the F_N/E* of an elastic contact of the same radius, while the contact grows."""
     start, rates, times = material._retardation()
-    phi, shares = np.empty((times.size, N_PHI)), np.zeros((t.size, times.size))
+    shares = np.zeros((t.size, times.size))
     for k, dt in enumerate(np.diff(t)):
-        for one, time in zip(phi, times, strict=True):
-            fill_phi(dt / time, one)
+        phi = np.reshape([phi_of(dt / time) for time in times], (times.size, N_PHI))
         shares[k + 1] = shares[k] * phi[:, 0] + dt * (F_z[k] * phi[:, 1] + (F_z[k + 1] - F_z[k]) * phi[:, 2])
     return np.asarray(start * F_z + shares @ rates)
 

@@ -125,7 +125,7 @@ def times(n, cos, sin):
 
 
 @_inline
-def straight(n, boost):
+def turned_straight(n, boost):
     """The direction n after a straight way, of this vector over the leash: exact."""
     root = 0.5 * size_of(boost)
     half = scaled(0.5 * np.tanh(root) / max(root, TINY), boost)
@@ -142,7 +142,7 @@ def parts(boost):
 
 
 @_inline
-def twice(n, a, b):
+def turned_twice(n, a, b):
     """The direction n after two short straight ways; the same, with one division."""
     (of_a, per_a), (of_b, per_b) = parts(a), parts(b)
     a, b = scaled(0.5 * of_a, a), scaled(0.5 * of_b, b)
@@ -157,7 +157,7 @@ def turned(n, v_1, v_2, rho_1, rho_2, t, short):
     """The direction n after a time t, under these ways a time and on these leashes at the two nodes of Gauss's rule."""
     b_1, b_2 = scaled(t / max(rho_1, TINY), v_1), scaled(t / max(rho_2, TINY), v_2)
     a, b = scaled(EARLY, b_1) + scaled(LATE, b_2), scaled(LATE, b_1) + scaled(EARLY, b_2)
-    return twice(n, a, b) if short else straight(straight(n, a), b)
+    return turned_twice(n, a, b) if short else turned_straight(turned_straight(n, a), b)
 
 
 @_inline
@@ -202,7 +202,7 @@ def slid(n, vel, t, v, R, T, G, phi, viscous, short):
 
 
 @_inline
-def turning(n, vel, v, v_dot, R, R_dot, R_bend, T, G):
+def force_and_rates(n, vel, v, v_dot, R, R_dot, R_bend, T, G):
     """Force R n of a spring that slips, its rate, and the rate of that."""
     per = 1.0 / max(R + T * vel, TINY)
     ahead, turn = along(n, v), per * cross(n, v)  # n' = turn i n
@@ -212,7 +212,7 @@ def turning(n, vel, v, v_dot, R, R_dot, R_bend, T, G):
 
 
 @_inline
-def over(f_0, f_1, t):
+def area_and_moment(f_0, f_1, t):
     """Area and moment over a time of the polynomial with these values, rates and second derivatives at its ends."""
     (a, b, c), (d, e, f) = f_0, f_1
     area = scaled(0.5 * t, a + d) + scaled(t * t / 10.0, b - e) + scaled(t * t * t / 120.0, c + f)
@@ -231,7 +231,7 @@ def slides(n, vel, t, v, R, T, G, midway):
     """Slip over a time t. midway: whether its velocity in the middle is asked for."""
     v_1, R_0, R_m, R_1 = point(v, t), max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
     short = is_short(v.a, R_0 + T * vel, t) and is_short(v_1, R_1, t)
-    f_0 = turning(n, vel, v.a, v.b, R_0, R.b, 2.0 * R.c, T, G)
+    f_0 = force_and_rates(n, vel, v.a, v.b, R_0, R.b, 2.0 * R.c, T, G)
     n_m, l_m, n_1, l_1 = n, vel, n, vel
     v_dot, R_dot, R_bend = velocity(v, t), slope(R, t), 2.0 * (R.c + 3.0 * t * R.d)
     for half in range(1 if short and not midway else 0, 2):
@@ -242,8 +242,8 @@ def slides(n, vel, t, v, R, T, G, midway):
         n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short)
         if half == 0:
             n_m, l_m = n_1, l_1
-    f_1 = turning(n_1, l_1, v_1, v_dot, R_1, R_dot, R_bend, T, G)
-    area, moment = over(f_0, f_1, t)
+    f_1 = force_and_rates(n_1, l_1, v_1, v_dot, R_1, R_dot, R_bend, T, G)
+    area, moment = area_and_moment(f_0, f_1, t)
     if not short:  # Simpson's rule
         f_m, end = scaled(4.0 * R_m, n_m), f_1[0]
         area, moment = scaled(t / 6.0, f_0[0] + f_m + end), scaled(t * t / 6.0, scaled(0.5, f_m) + end)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
-from mdr.spring.law import N_PHI, fill_phi, phi_of
+from mdr.spring.law import phi_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -65,7 +65,6 @@ def nodes_of(t, modes, arms):
     while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
         n += 1
     nodes = Nodes(np.empty(n * per), np.empty(n * per), np.empty((n * per, 3, J)), np.empty((n * per, K)))
-    values = np.empty(N_PHI)
     for part in range(n):
         start = 0.0 if part == 0 else t * 0.5 ** (n - part)
         length = t * 0.5 ** (n - 1 - part) - start
@@ -74,7 +73,7 @@ def nodes_of(t, modes, arms):
             nodes.u[g], nodes.weight[g] = u, length * rule[m, 1]
             if arms is not None:
                 for j in range(J):
-                    fill_phi(u * arms.rate[j], values)
+                    values = phi_of(u * arms.rate[j])
                     nodes.phi[g, 0, j], nodes.phi[g, 1, j], nodes.phi[g, 2, j] = (
                         values[0],
                         u * values[1],

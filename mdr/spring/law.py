@@ -79,12 +79,6 @@ def phi_of(r):  # type: ignore[no-untyped-def]
     return 1.0 - r * one, one, two, three, four
 
 
-@njit(error_model="numpy")
-def fill_phi(r, values):  # type: ignore[no-untyped-def]
-    """Fill values (5,) with them."""
-    values[0], values[1], values[2], values[3], values[4] = phi_of(r)
-
-
 def _modes(T: float, rho: Array, theta: Array) -> Modes:
     """Rates, and matrices from modes to state and back, of a spring without force.
 

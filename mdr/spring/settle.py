@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.spring.law import N_PHI, Law
-from mdr.spring.step import Path, Tools, fill, press
+from mdr.spring.law import Law
+from mdr.spring.step import Path, Tools, new_tools, press
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
@@ -39,12 +39,8 @@ class NormalPeriod:
 
 
 def tools_for(law: Law, h: float) -> Tools:
-    """Room to work in, and what a step makes of arms and modes."""
-    J, K = (0 if law.arms is None else law.arms.rho.size), (0 if law.modes is None else law.modes.mu.size)
-    room = np.empty((4, 9, J)), np.empty((4, K)), np.empty(K), np.empty(J + K), np.empty(N_PHI), np.empty((4, K))
-    tools = Tools(h, *room, np.empty((1 + J, 1)))
-    fill(h, law.modes, law.arms, tools, 0)
-    return tools
+    """`new_tools` of a law."""
+    return Tools(*new_tools(float(h), law.modes, law.arms))
 
 
 def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool = False) -> NormalPeriod | None:

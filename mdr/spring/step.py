@@ -27,7 +27,7 @@ import numpy as np
 
 from mdr.spring.contact_modes import FREE, SLIP, SLIP_BACK, STICK
 from mdr.spring.energies import LEAST_SLIP, Nodes, account, nodes_of
-from mdr.spring.law import fill_phi
+from mdr.spring.law import phi_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -61,7 +61,6 @@ class Tools(NamedTuple):
     decay: Array  #: (4, K) exp(-mu_k t) likewise
     modes: Array  #: (K,)
     work: Array  #: (J + K,)
-    one: Array  #: (N_PHI,)
     more: Array  #: (4, K)
     excess: Array  #: (1 + J, 1) at the end of a step: sum of w (e - s) in stick, of -2 w s in slip back
 
@@ -157,8 +156,7 @@ def fill(t, modes, arms, tools, k):
     """
     if arms is not None:
         for j in range(arms.rho.size):
-            fill_phi(t * arms.rate[j], tools.one)
-            one, of, rho = tools.one, tools.held[k], arms.rho[j]
+            one, of, rho = phi_of(t * arms.rate[j]), tools.held[k], arms.rho[j]
             of[0, j], of[1, j], of[2, j] = one[0], t * one[1], 2.0 * t * t * one[2]
             of[3, j], of[4, j], of[5, j] = rho * of[1, j], rho * 0.5 * of[2, j], 2.0 * rho * t * t * t * one[3]
             of[6, j] = rho * t * t * (one[1] - one[2])
@@ -169,6 +167,28 @@ def fill(t, modes, arms, tools, k):
             tools.decay[k, j] = np.exp(-modes.mu[j] * t)
 
 
+@compiled(error_model="numpy", nogil=True, fastmath=_FAST)
+def new_tools(h, modes, arms):
+    """Room to work in, and what a step makes of arms and modes."""
+    J = K = 0
+    if arms is not None:
+        J = arms.rho.size
+    if modes is not None:
+        K = modes.mu.size
+    held, decay, mode, work = np.empty((4, 9, J)), np.empty((4, K)), np.empty(K), np.empty(J + K)
+    tools = Tools(h, held, decay, mode, work, np.empty((4, K)), np.empty((1 + J, 1)))
+    fill(h, modes, arms, tools, 0)
+    return tools
+
+
+@_inner
+def tools_of(h, modes, arms, tools):
+    """The tools of another step; the room, and the excess of the step before, are the same."""
+    one = Tools(h, np.empty_like(tools.held), np.empty_like(tools.decay), *tools[3:])
+    fill(h, modes, arms, one, 0)
+    return one
+
+
 @_inner
 def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
     """First time in (0, t) at which a function falls below zero; infinite for none.
@@ -177,13 +197,13 @@ def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
     curvature of each of these falls towards zero. So what is negative now bounds all that is to come, and a parabola
     lies below the function: it goes on to where that parabola is zero, until it gets no further.
     """
-    work, phi, u = tools.work, tools.one, 0.0
+    work, u = tools.work, 0.0
     for _ in range(MOST_PARABOLAS):
         v, d, bend = a + u * (b + u * c), b + 2.0 * c * u, 2.0 * c
         if arms is not None:
             for j in range(n_arms):
                 rho, rate = arms.rho[j], arms.rate[j]
-                fill_phi(u * rate, phi)
+                phi = phi_of(u * rate)
                 y = work[j] * phi[0] + u * (p * phi[1] + 2.0 * q * u * phi[2])
                 slope = p + 2.0 * q * u - y * rate
                 v, d, bend = v + rho * y, d + rho * slope, bend + rho * min(2.0 * q - slope * rate, 0.0)

@@ -15,15 +15,15 @@ from mdr.spring.dragged import (
     NO_PHI,
     Cubic,
     along,
+    area_and_moment,
     at,
+    force_and_rates,
     is_short,
-    over,
     point,
     scaled,
     size_of,
     slid,
     slope,
-    turning,
 )
 from mdr.spring.law import phi_of
 from mdr.spring.step import ROUNDING
@@ -82,9 +82,9 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         ahead = along(v.a, n) - R.b
         vel = max(out, 0.0) / T if viscous else max(ahead, 0.0)
         n_1, l_1 = slid(n, vel, h, v, R, T, 1.0, phi, viscous, True)
-        f_0 = turning(n, vel, v.a, v.b, R.a, R.b, 2.0 * z_2, T, 1.0)
-        f_1 = turning(n_1, l_1, last, v.b, R_1, R_dot, 2.0 * z_2, T, 1.0)
-        area, moment = over(f_0, f_1, h)
+        f_0 = force_and_rates(n, vel, v.a, v.b, R.a, R.b, 2.0 * z_2, T, 1.0)
+        f_1 = force_and_rates(n_1, l_1, last, v.b, R_1, R_dot, 2.0 * z_2, T, 1.0)
+        area, moment = area_and_moment(f_0, f_1, h)
         begins = ((out >= -tol) & (ahead > 0.0)) | (viscous & (out > tol))
         short = is_short(v.a, R.a + T * vel, h) & is_short(last, R_1, h)
         slips = touches & begins & (l_1 >= 0.0) & short & (rho > TOUCHING * h * fast)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +24,30 @@ from mdr.tools.messages import one_line, short
 from mdr.tools.notation import UNITS, in_unit, is_number, number_in
 
 _HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*))?")
+
+
+class Tabled:
+    """Base of records that write themselves as CSV; they answer `table()`."""
+
+    def table(self) -> str:
+        """The text of the CSV file.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes.
+        """
+        raise NotImplementedError
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write the text of `table()`, with units in the header.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+        """
+        Path(path).write_text(self.table(), encoding="utf-8")
 
 
 class Column(NamedTuple):

@@ -89,7 +89,7 @@ def on_annuli(points: Sequence[Point], n: int, steps: int) -> list[Row]:
     errors = [[abs(other.cof - one.cof) for one, other in zip(fine, others, strict=True)] for others in (wide, halved)]
     cofs = [(one.cof.real, one.cof.imag) for one in fine]
     return [
-        Row(point, *cof, *springs, *error, one.rest)
+        Row(point, *cof, *springs, *error, one.settling)
         for point, cof, *springs, error, one in zip(
             points, cofs, along, across, zip(*errors, strict=False), fine, strict=True
         )

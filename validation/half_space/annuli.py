@@ -36,7 +36,7 @@ class Found(NamedTuple):
     """The last period of a contact."""
 
     cof: complex  #: mean force over mu_0 F_z, along the pull and (imaginary) across
-    rest: float  #: what further periods would change
+    settling: float  #: what further periods would change
     tractions: Array  #: (2, n, 1) at its end, times the root of the area, from which another run may begin
 
 
@@ -82,7 +82,12 @@ def friction(p: Array, way: Array, cycles: int, settled: float, start: Array | N
     def solved(asked: Array, start: Array) -> Array:
         return traction(product, asked, bound, start, FINE, stiff=1 / matrix.diagonal().max())
 
-    q, last, change, rest = np.stack([bound, 0 * bound]) if start is None else start, complex(np.inf), np.inf, np.inf
+    q, last, change, settling = (
+        np.stack([bound, 0 * bound]) if start is None else start,
+        complex(np.inf),
+        np.inf,
+        np.inf,
+    )
     moves = np.diff(way, axis=1).T[:, :, None, None] * root[:, None]
     for _ in range(cycles):
         total = np.zeros(2)
@@ -94,7 +99,7 @@ def friction(p: Array, way: Array, cycles: int, settled: float, start: Array | N
             q = end
         mean = complex(*total) / (len(moves) * float(root @ bound[:, 0]))
         before, change, last = change, abs(mean - last), mean
-        rest = change / max(1 - change / before, 0.1)  # of a geometric series
-        if change and rest <= settled:
+        settling = change / max(1 - change / before, 0.1)  # of a geometric series
+        if change and settling <= settled:
             break
-    return Found(mean, rest, q)
+    return Found(mean, settling, q)

@@ -150,7 +150,7 @@ def excess_across(case: SlidingContact, v_0: float) -> float:
         v_1 = 0.012 sqrt(eta) mu_0 kappa omega u_z0
 
     and 0 from eta = 1 on. The first factor is derived, the second a fit to a paraboloid. From v_0 = 0.005 mu_0 kappa
-    omega u_z0 on it had cone and r^4 of eta < 1 within 0.015 of mu_0; from eta = 1 on springs were off by up to 0.03
+    omega u_z0 on it had cone and r^4 of eta < 1 within 0.02 of mu_0; from eta = 1 on springs were off by up to 0.03
     [vector_springs].
 
     Parameters
