@@ -78,6 +78,8 @@ HOSTILE = {
                ([(1, NAN)], FieldError, "[0] relaxation time must be a finite number")],
     "_place": [("table", FieldError, 'must be "tool"'), (1, FieldTypeError, "must be a word in quotes")],
     "_tip": [("blunt", FieldError, "must be "), (None, FieldError, "must be ")],
+    "_springs": [*((one, FieldTypeError, "must be a whole number") for one in (True, 40.5, "many")),
+                 (15, FieldError, "must be at least 16")],
     "_function": [("r**2", FieldTypeError, "must be a function"), (3, FieldTypeError, "must be a function")],
     "_name": [(3, FieldTypeError, "must be a string")],
 }  # fmt: skip
@@ -102,6 +104,8 @@ def sound(record):
     """Arguments of a record that is right."""
     if record is mdr.SlidingContact:
         return vars(CASE)
+    if record is mdr.ContactElement:
+        return {"indenter": BALL, "material": RUBBER, "mu_0": 0.5, "u_z_max": 4e-5, "n_springs": 32}
     if record is mdr.Profile:
         return {"f": np.square}
     made = example_of(record)
