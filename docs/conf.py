@@ -20,7 +20,6 @@ PAGES = {  #: in the order of the navigation, under their headings
     "Physics": ["claims", "theory", "limits", "glossary"],
     "Teaching": ["springs", "exercises"],
     "Reference": ["questions", "api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
-    "Developers": ["extending"],
 }
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "facts", "equations", "navigation"]

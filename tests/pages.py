@@ -28,7 +28,7 @@ DOCS = ROOT / "docs"
 sys.path.append(str(DOCS / "extensions"))
 from navigation import with_records  # noqa: E402
 
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "EXTENDING.md", *sorted(DOCS.rglob("*.md"))]
 FENCE = re.compile(r"^(`{3,})([^\n`]*)\n(.*?)^\1 *$", re.DOTALL | re.MULTILINE)
 FIGURE = re.compile(r"!\[[^\]]+\]\((?:\.\./)?figures/([\w.-]+)\)")
 RUN = re.compile(r"(\.venv/bin/)?(mdr (?!explore)|sed |python -m validation --quick --only)")  # lines of sh

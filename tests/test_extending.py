@@ -19,7 +19,7 @@ from mdr.files.own_records import _OWN
 ROOT = Path(__file__).parents[1]
 OMEGA = 300.0
 KNOBS = {"n_springs": 32, "steps_per_period": 64}
-GUIDE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
+GUIDE = (ROOT / "EXTENDING.md").read_text(encoding="utf-8")
 CODE = re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)
 PAGE = {"__name__": "page"}
 exec(CODE[0], PAGE)
