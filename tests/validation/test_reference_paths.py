@@ -99,7 +99,7 @@ def test_a_punch_that_turns_goes_on_a_tractrix():
     w = path.u[:, 0] + 1j * path.u[:, 1]
     slips = np.flatnonzero(np.isclose(np.abs(n), 1, rtol=1e-12))
     slips = slips[(slips > 21) & (slips != 31) & np.isin(slips - 1, slips)]
-    assert slips.size > 12
+    assert slips.size > 8
     for k in slips:
         way = w[k] - w[k - 1]
         before, after = (np.tan(np.angle(n[i] / way) / 2) for i in (k - 1, k))
