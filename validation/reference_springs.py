@@ -56,11 +56,6 @@ class Contact(NamedTuple):
             2 * self.E_star * self.size * d if self.shape == "punch" else 4 / 3 * self.E_star * self.size**0.5 * d**1.5
         )
 
-    def depth(self, load: np.ndarray) -> np.ndarray:
-        """Its inverse."""
-        one = self.load(np.array(1.0))
-        return load / one if self.shape == "punch" else (load / one) ** (2 / 3)
-
 
 Springs = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]  #: gaps (n,) -> extensions (rows, n), histories (n,)
 
