@@ -281,3 +281,33 @@ def test_piezo_drive_pushes_by_time_shares_less_the_deflection():
     for drive in (*s.sawtooths, *s.ellipses):
         assert_allclose(drive.thrust[-1], 0, atol=2e-4)  # runs good to 1e-4
         assert rising(drive.thrust[::-1])
+
+
+def test_other_laws_miss_what_springs_meet():
+    s = script("other_laws")
+    assert len(s.errors) == 20
+    for path, (springs, smoothed, dahl, one, rescaled) in s.errors.items():
+        assert springs < 5e-5
+        assert min(smoothed, dahl) > 0.09
+        elastic_punch = path in ("punch_legs", "punch_circle")
+        assert (max(one, rescaled) < 5e-3) == elastic_punch
+    assert_allclose([s.lost["exact"], s.lost["springs"], s.lost["one spring"]], 0, atol=1e-12)
+    assert 0.1 < s.lost["Dahl"] < 0.2
+
+
+def test_implicit_host_is_of_second_order_and_holds_and_rk45_is_not_helped_by_its_tolerance():
+    s = script("host_implicit")
+    order = -np.diff(np.log(s.errors)) / np.diff(np.log(s.per_period))
+    assert_allclose(order[1:], 2, atol=0.15)
+    assert rising(s.errors[::-1])
+    assert s.unbalanced[-1] < 1e-3
+    for n, run in s.runs.items():
+        with_K, at_rest = (len(one) for one in run.newton)
+        assert with_K <= min(4, at_rest), n
+    first, second, *_ = s.runs[12].newton[0]
+    assert second < 1e-3 * first
+    assert abs(s.creep) < 1e-5
+    for rtol in s.tolerances[1:]:
+        way, loss = s.wrong[rtol]
+        assert way > 2 * s.errors[2]
+        assert loss > 0.03
