@@ -51,7 +51,7 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z [-]
     cof_y: float  #: mean F_y over mean F_z [-]
-    cof_error: float  #: bound on the numerical error of both: step and springs [-]
+    cof_error: float  #: estimated bound on the numerical error of both: step and springs [-]
     mean_F_z: float  #: [N]
     energy_balance: RecordEnergy  #: of the whole record
     mu_0: float  #: local coefficient of friction [-]
