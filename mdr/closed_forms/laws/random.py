@@ -91,7 +91,7 @@ def slow_random_loss(b: float) -> float:
     Examples
     --------
     >>> print(f"{mdr.laws.slow_random_loss(0.01):.3f}")
-    2.165
+    2.164
     """
     from scipy.special import ndtr
 
