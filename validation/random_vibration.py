@@ -138,12 +138,12 @@ def claim(effort: str) -> Claim:
         quote="The paper has harmonic oscillations, and Eq. (1) takes their amplitude; a random one has none.",
         range=f"{len(SPECTRA)} Gaussian spectra: a narrow band (a fifth of its frequency), the upper half of a flat"
         " band, all of it, a table that falls from a peak, two bands; flat punch and paraboloid, elastic and Kelvin"
-        f" (T = τ σ_a/σ_v = 1, 3); σ/u_z0 = {SHARE:g} and 0.2; b = v_0/(μ_0 κ σ_v) from {slow[0].series.b[0]:g} to {found[1].series.b[-1]:g}."
-        " Rigid pull, contact kept.",
-        measured="A spring lags behind full slip by the content of a queue that the depth feeds and the pull serves; the"
-        " queue itself, in plain NumPy on the same histories, gives the friction of the runs within their numerical"
-        " error. The law is the mean of ψ, the lag of a sine, over Rayleigh amplitudes. For a narrow band this is plain;"
-        " it also has the limit of fast pulls of any spectrum, as excursions of the rate above v_0/(μ_0 κ) are the"
+        f" (T = τ σ_a/σ_v = 1, 3); σ/u_z0 = {SHARE:g} and 0.2; b = v_0/(μ_0 κ σ_v) from"
+        f" {slow[0].series.b[0]:g} to {found[1].series.b[-1]:g}. Rigid pull, contact kept.",
+        measured="A spring lags behind full slip by the content of a queue that the depth feeds and the pull serves;"
+        " the queue itself, in plain NumPy on the same histories, gives the friction of the runs within their numerical"
+        " error. The law is the mean of ψ, the lag of a sine, over Rayleigh amplitudes. For a narrow band this is"
+        " plain; it also has the limit of fast pulls of any spectrum, as excursions of the rate above v_0/(μ_0 κ) are the"
         " tips of sines of mean frequency σ_a/σ_v. Where it claims 3 %, b^2 > 20 s with s = m_2 m_6/m_4^2 − 1, runs are"
         f" within two standard errors. Slower it loses too little: at b = 1 by {table.ratio[0] - 1:.0%} for the table"
         f" (s = {table.series.density.spread:.2f}) and {two.ratio[1] - 1:.0%} for two bands, at b = 0.3 by"
@@ -152,11 +152,11 @@ def claim(effort: str) -> Claim:
         f" band loses {1 - relaxing.ratio[0]:.0%} less than the law, a paraboloid of σ/u_z0 = 0.2"
         f" {1 - deep.ratio[0]:.0%}. There is no critical velocity: a tenth of the loss at rest is left at b ="
         f" {ends[0]:.2f}, a hundredth at {ends[1]:.2f}, a thousandth at {ends[2]:.2f}. A slow pull finds ever deeper"
-        " troughs in its past: its loss grows as \\sqrt{2 log(1/b)} without end, so that there is no static friction"
+        " troughs in its past: its loss grows as √(2 log(1/b)) without end, so that there is no static friction"
         f" until contact is lost; at b = {slow[0].series.b[0]:g} it is {slow[0].lag[0]:.2f} σ.",
         verdict="holds if b^2 > 20 (m_2 m_6/m_4^2 − 1), and the material is elastic or relaxes fast",
-        sentence="No velocity frees friction of random vibration: the loss fades as e^{−b²/2}/b³, b = v_0/(μ_0 κ σ_v),"
-        " by one law for all spectra; to a slow pull it grows without end.",
+        sentence="No velocity brings full friction: the loss fades as e^{−b²/2}/b^3, b = v_0/(μ_0 κ σ_v), by one law"
+        " for all spectra. A slower and slower pull loses more without end.",
         checks=(
             *_law_checks(found),
             *_queue_checks(wide),
@@ -187,14 +187,14 @@ _EQUATIONS = (
 # --- checks ---
 
 
-def _claimed(found: Found) -> Array:
-    """Velocities for which the law claims 3 %."""
-    return np.asarray(np.array(found.series.b) ** 2 > 20 * found.series.density.spread)
+def claimed(series: Series) -> list[bool]:
+    """Whether the law claims 3 %, at each velocity."""
+    return [b**2 > 20 * series.density.spread for b in series.b]
 
 
 def _law_checks(found: Sequence[Found]) -> Checks:
     for one in found:
-        if not (held := _claimed(one)).any():
+        if not (held := np.array(claimed(one.series))).any():
             continue
         off, where = one.off[held], f"{one.series.where}, b ≥ {np.array(one.series.b)[held][0]:g}"
         name = f"loss less the law in standard errors, worst of {off.size}: {where}"
@@ -276,7 +276,9 @@ def _fail_checks(found: Sequence[Found], relaxing: Found, deep: Found) -> Checks
     slow = [(one, "slow, so deeper troughs than those of a sine") for one in (wide, table, two)]
     for one, why in (*slow, (relaxing, "the surface remembers"), (deep, "of first order in σ/u_z0")):
         where = f"b = {one.series.b[0]:g}: {one.series.where}"
-        yield Check.at_least(f"the law fails, |loss less the law| in standard errors, {where}", abs(one.off[0]), 3.0, why)
+        yield Check.at_least(
+            f"the law fails, |loss less the law| in standard errors, {where}", abs(one.off[0]), 3.0, why
+        )
 
 
 # --- figure ---

@@ -191,10 +191,12 @@ def test_a_slow_random_pull_is_the_mean_of_its_distribution():
     from scipy.integrate import quad
     from scipy.stats import norm
 
+    def below(h, b):
+        return norm.cdf(h) * np.exp(-norm.sf(h) / (b * np.sqrt(2 * np.pi)))
+
     for b in (1e-6, 0.01, 0.3):
-        below = lambda h, b=b: norm.cdf(h) * np.exp(-norm.sf(h) / (b * np.sqrt(2 * np.pi)))  # noqa: E731
-        known = quad(lambda h: 1 - below(h), 0, 20, limit=200)[0] - quad(below, -20, 0)[0]
-        assert laws.slow_random_loss(b) == pytest.approx(known, rel=1e-6)
+        above = quad(lambda h, b=b: 1 - below(h, b), 0, 20, limit=200)[0]
+        assert laws.slow_random_loss(b) == pytest.approx(above - quad(below, -20, 0, args=(b,))[0], rel=1e-6)
     assert laws.slow_random_loss(1e-30) == pytest.approx(np.sqrt(2 * np.log(1e30)), rel=0.05)
 
 
