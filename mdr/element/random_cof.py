@@ -137,7 +137,7 @@ def random_cof(
     -----
     Between samples, 32 of the shortest period, the depth is linear. This error is of second order; every second sample
     tells it, and it is taken off. `cof_error` is what was taken off, and what half of the springs change in the first
-    eight histories. As the histories are the same for all velocities, statistical errors of neighbours have one sign.
+    eight histories that touch. As the histories are the same for all velocities, statistical errors of neighbours have one sign.
 
     Examples
     --------
@@ -157,17 +157,18 @@ def random_cof(
     n, seed = count("n_realisations", n_realisations, LEAST_REALISATIONS), count("seed", seed, 0)
     springs = SPRINGS if n_springs is None else count("n_springs", n_springs, 2 * MIN_SPRINGS)
     drawn = _drawn(case, spectrum, float(velocities.min()))
-    found, coarse, few = np.empty((3, n, velocities.size, 2))
+    found, coarse = np.empty((2, n, velocities.size, 2))
+    few: dict[int, Array] = {}  # of those that touch, with half of the springs
     for k in progress(range(n), "random_cof", "realisations"):
         u_z = depth + spectrum.realisation(drawn.n_t, drawn.dt, seed, k)
         found[k] = _impulses(case, u_z, drawn.dt, velocities, springs)
         coarse[k] = _impulses(case, u_z[::2], 2 * drawn.dt, velocities, springs)
-        if k < LEAST_REALISATIONS:
+        if found[k, 0, 1] > 0 and len(few) < LEAST_REALISATIONS:
             few[k] = _impulses(case, u_z, drawn.dt, velocities, springs // 2)
     if not found[..., 1].any():
         raise ValueError("the indenter never touches in these histories: raise the mean depth or the rms")
-    by_step, some = (found - coarse) / 3, slice(LEAST_REALISATIONS)
-    by_springs = _cof(found[some]) - _cof(few[some])
+    by_step = (found - coarse) / 3
+    by_springs = _cof(found[list(few)]) - _cof(np.array([*few.values()]))
     found += by_step
     cof, along, normal = _cof(found), found[..., 0], found[..., 1]
     return RandomCof(
