@@ -137,7 +137,8 @@ def random_cof(
     -----
     Between samples, 32 of the shortest period, the depth is linear. This error is of second order; every second sample
     tells it, and it is taken off. `cof_error` is what was taken off, and what half of the springs change in the first
-    eight histories that touch. As the histories are the same for all velocities, statistical errors of neighbours have one sign.
+    eight histories that touch. As the histories are the same for all velocities, statistical errors of neighbours have
+    one sign.
 
     Examples
     --------

@@ -84,7 +84,7 @@ def test_a_contact_that_seldom_touches_has_numbers():
     found = mdr.random_cof(case, BAND, UNIT, n_realisations=16, n_springs=32)
     never = np.isnan(found.realisations[:, 0])
     assert 0 < never.sum() < 16
-    assert np.all(found.realisations[~never] <= MU_0 * (1 + 1e-9))
+    assert np.all(found.realisations[~never] <= MU_0 + found.cof_error)  # a step less is extrapolated
     assert np.all(np.isfinite([found.cof, found.standard_error, found.cof_error]))
 
 
