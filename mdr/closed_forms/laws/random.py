@@ -80,7 +80,7 @@ def slow_random_loss(b: float) -> float:
     Parameters
     ----------
     b : float
-        Velocity v_0/(mu_0 kappa sigma_v) [-]. Within 2 % for 0.003 < b < 0.03 and a flat band wider than half of its
+        Velocity v_0/(mu_0 kappa sigma_v) [-]. Within 3 % for 0.003 < b < 0.03 and a flat band wider than half of its
         greatest frequency; a narrow band lags less, one of a fifth by 10 to 20 %.
 
     Returns
