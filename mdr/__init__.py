@@ -9,6 +9,7 @@ from mdr.materials import *
 from mdr.case.motion import *
 from mdr.case.in_plane import *
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.case.spectrum import Spectrum
 from mdr.case.contact import SlidingContact
 from mdr.normal.load_control import static_depth, static_load
 from mdr.normal.resolved import plausibility, resolved
@@ -31,6 +32,7 @@ from mdr.spring.contact_modes import State
 from mdr.march.slide import slide
 from mdr.element.contact_element import ContactElement
 from mdr.element.record import SlideRecord, slide_record
+from mdr.element.random_cof import RandomCof, random_cof
 from mdr.friction.surface_fields import surface_fields
 from mdr.friction.cof_curve import CofCurve, cof_curve
 from mdr.friction.shaken import blocked_cof, holding_band, no_load_velocity
@@ -53,10 +55,12 @@ __all__ = [
     "FrictionData",
     "PlausibilityWarning",
     "Quantity",
+    "RandomCof",
     "RigidPull",
     "SlideRecord",
     "SlidingContact",
     "SlidingRun",
+    "Spectrum",
     "SpringArray",
     "SpringPull",
     "State",
@@ -75,6 +79,7 @@ __all__ = [
     "parse_case",
     "partial_slip",
     "plausibility",
+    "random_cof",
     "read_case",
     "read_friction_data",
     "read_moduli",

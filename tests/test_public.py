@@ -69,6 +69,9 @@ SIGNATURES = {
     "ContactElement": "indenter, material, mu_0, *, u_z_max, n_springs=256",
     "ContactElement.step": "state, dt, u, tangent=False",
     "slide_record": "indenter, material, mu_0, t, u_x, u_y=None, u_z=None, *, F_z=None, n_springs=None",
+    "random_cof": "case, spectrum, v_0, *, n_realisations=64, seed=0, n_springs=None",
+    "Spectrum": "f, density",
+    "Spectrum.band": "rms, f_low, f_high",
     "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None, accuracy=1e-05",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",
@@ -90,6 +93,7 @@ RECORDS = {
     "normal.indentation.Indentation": "t u_z F_z contact_radius",
     "normal.partial_slip.PartialSlip": "F_x F_z stick_radius",
     "SlideRecord": "t u_z F_x F_y F_z cof cof_error running_cof energy_balance",
+    "RandomCof": "v_0 cof standard_error cof_error realisations",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",

@@ -69,6 +69,7 @@ HOSTILE = {
     "_invertible": [*POSITIVE, (1e-320, FieldError, "beyond the range of floats")],
     "_end": [one for one in POSITIVE if one[0] is not None],
     "amplitudes": ENTRIES,
+    "_row": [*ENTRIES, ([-1.0], FieldError, "[0] must not be negative")],
     "_or_none": [one for one in POSITIVE if one[0] is not None],
     "column": ROW,
     "radii": [(3, FieldTypeError, "must be a sequence of radii"), ([-1.0], FieldError, "be positive"),

@@ -34,3 +34,15 @@ def plot_slide_record(found: Any) -> Figure:
         axes[2].set(ylabel="running COF", xlabel=f"time [{second}]")
         fig.align_ylabels()
     return fig
+
+
+def plot_random_cof(found: Any, ax: Any = None) -> Any:
+    """Draw friction of a RandomCof with two standard errors over the velocity."""
+    factor, symbol = prefix(found.v_0, "m/s")
+    with style():
+        if ax is None:
+            _, ax = subplots()
+        ax.errorbar(factor * found.v_0, found.cof, 2 * found.standard_error, fmt="o-", ms=4, capsize=2)
+        ax.axhline(found.mu_0, color="0.6", lw=1, ls="--")
+        ax.set(xlabel=f"pulling velocity $v_0$ [{symbol}]", ylabel=r"coefficient of friction, $\pm 2$ standard errors")
+    return ax

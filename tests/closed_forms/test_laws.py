@@ -9,6 +9,7 @@ import pytest
 import mdr
 from mdr import laws
 from mdr.closed_forms import across
+from mdr.closed_forms.paper import deficit
 
 OMEGA, DEPTH = 314.0, 20e-6
 PUNCH, ELASTIC = mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5)
@@ -25,7 +26,7 @@ def error_of(case):
 
 
 def test_the_examples_run():
-    rooms = laws.rigid_pull, laws.bodies, laws.shaken, laws.across, across
+    rooms = laws.rigid_pull, laws.bodies, laws.shaken, laws.across, laws.random, across
     found = [doctest.testmod(room, extraglobs={"mdr": mdr, "np": np}) for room in rooms]
     assert sum(one.attempted for one in found) > 20
     assert not any(one.failed for one in found)
@@ -166,3 +167,67 @@ def test_the_error_under_load_is_a_maximum():
 def test_what_a_law_does_not_know_is_refused(ask, match):
     with pytest.raises(ValueError, match=match):
         ask()
+
+
+def test_a_narrow_band_loses_what_sines_of_rayleigh_amplitudes_lose():
+    from scipy.integrate import quad
+
+    for b in (0.03, 0.7, 2.0, 7.0):
+        known = quad(lambda x, b=b: x**2 * np.exp(-(x**2) / 2) * deficit(b / x), b, b + 9, epsabs=0, epsrel=1e-9)[0]
+        assert laws.random_loss(b) == pytest.approx(known, rel=1e-8)
+
+
+@pytest.mark.parametrize("T", [0.5, 1.0, 3.0])
+def test_a_dashpot_remembers_the_tops_of_excursions(T):
+    """T times the content at its top, 2 a³/(3 b²), 3 sqrt(pi/2) the mean of a³: a series in 1/b, from three of them."""
+    b = np.array([12.0, 20.0, 34.0])
+    found = [laws.random_loss(x, T) * np.sqrt(2 * np.pi) * x**2 * np.exp(x**2 / 2) / T for x in b]
+    limit = np.linalg.solve(np.vander(1 / b, increasing=True), found)[0]
+    assert limit == pytest.approx(1.0, abs=0.01)  # (0.2/T)^3 and less of the next term
+    assert laws.random_loss(1.0, 1e-9) == pytest.approx(laws.random_loss(1.0), rel=1e-6)
+
+
+def test_a_slow_random_pull_is_the_mean_of_its_distribution():
+    from scipy.integrate import quad
+    from scipy.stats import norm
+
+    def below(h, b):
+        return norm.cdf(h) * np.exp(-norm.sf(h) / (b * np.sqrt(2 * np.pi)))
+
+    for b in (1e-6, 0.01, 0.3):
+        above = quad(lambda h, b=b: 1 - below(h, b), 0, 20, limit=200)[0]
+        assert laws.slow_random_loss(b) == pytest.approx(above - quad(below, -20, 0, args=(b,))[0], rel=1e-6)
+    assert laws.slow_random_loss(1e-30) == pytest.approx(np.sqrt(2 * np.log(1e30)), rel=0.05)
+
+
+def test_the_end_of_random_vibration_is_where_a_share_is_left():
+    at_rest = laws.random_loss(1e-9)
+    assert at_rest == pytest.approx(np.sqrt(np.pi / 2), rel=1e-4)
+    for share, T in ((0.5, 0.0), (1e-3, 0.0), (0.1, 1.0)):
+        assert laws.random_loss(laws.random_end(share, T), T) == pytest.approx(share * np.sqrt(np.pi / 2), rel=1e-8)
+
+
+@pytest.mark.parametrize("T", [0.0, 1.0])
+def test_random_friction_is_that_of_its_lag(T):
+    band = mdr.Spectrum.band(1e-6, 50.0, 60.0)
+    tau = T * band.rms_velocity / band.rms_acceleration
+    case = replace(case_of(), pull=mdr.RigidPull(), material=mdr.KelvinVoigt(E=3e6, nu=0.5, tau=tau))
+    v_0 = 1.2 * case.mu_0 * case.material.mindlin_ratio * band.rms_velocity
+    lag = band.moment(2) / np.sqrt(band.moment(4)) * laws.random_loss(1.2, T)
+    assert laws.random_friction(case, band, v_0) == pytest.approx(0.5 * (1 - lag / DEPTH), rel=1e-12)  # F = k d
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"pull": BODY},
+        {"shake": mdr.InPlaneOscillation(OMEGA, 1e-6)},
+        {"material": mdr.StandardLinearSolid(1e6, 1e6, 1e-3, 0.5)},
+        {"oscillation": mdr.NormalOscillation(-1e-6, 2e-6, OMEGA)},
+    ],
+    ids=lambda change: next(iter(change)),
+)
+def test_random_friction_refuses_what_it_does_not_know(change):
+    case = replace(case_of(), **{"pull": mdr.RigidPull(), **change})
+    with pytest.raises(ValueError, match="use random_cof"):
+        laws.random_friction(case, mdr.Spectrum.band(1e-6, 50.0, 60.0), 1e-3)

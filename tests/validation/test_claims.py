@@ -14,6 +14,7 @@ from validation import (
     judge,
     lost_contact,
     one_curve,
+    random_vibration,
     rigid_pull,
     shaken_across,
     static_cof,
@@ -248,3 +249,36 @@ def test_what_springs_are_too_high_by_counts(monkeypatch):
     missed = [c.name for c in vector_springs._table_checks(off, left) if not c.held]
     assert sum("less the law" in name for name in missed) == 3
     assert "constant of the law by least squares" in missed
+
+
+WIDE = random_vibration.Series("all below", (0.3, 2.0), 64)
+
+
+@pytest.mark.parametrize("wrong", [0.8, 1.2])
+def test_a_law_of_random_vibration_that_is_off_is_seen(monkeypatch, wrong):
+    narrow = random_vibration.Series("narrow band", (1.0,), 32)  # whose standard error is 3 % of the loss
+    assert all(c.held for c in random_vibration._law_checks([random_vibration.follow(narrow)]))
+    right, slow = laws.random_loss, laws.slow_random_loss
+    for room in (laws, laws.random):
+        monkeypatch.setattr(room, "random_loss", lambda *knobs: wrong * right(*knobs))
+    monkeypatch.setattr(laws, "slow_random_loss", lambda b: wrong * slow(b))
+    missed = [c.name for c in random_vibration._law_checks([random_vibration.follow(narrow)]) if not c.held]
+    assert len(missed) == 1
+    assert "loss less the law" in missed[0]
+    assert not any(c.held for c in random_vibration._limit_checks())
+    at_rest = random_vibration.follow(WIDE._replace(b=(0.01, 0.03), n=8))
+    assert not any(c.held for c in random_vibration._slow_checks([at_rest]))
+
+
+def test_a_queue_that_is_off_is_seen(monkeypatch):
+    found, right, mu_0 = random_vibration.follow(WIDE._replace(n=8)), random_vibration.queue, random_vibration.MU_0
+    assert all(c.held for c in random_vibration._queue_checks(found))
+    monkeypatch.setattr(random_vibration, "queue", lambda *knobs: mu_0 - 1.02 * (mu_0 - right(*knobs)))
+    assert not any(c.held for c in random_vibration._queue_checks(found))
+
+
+def test_spectra_claim_as_far_as_their_spread_allows():
+    """A law that claimed less, or all, would pass more easily or not at all."""
+    series = [random_vibration.Series(one, (0.1, 1.0, 1.5, 2.0, 2.5), 8) for one in random_vibration.SPECTRA]
+    first = [random_vibration.claimed(one) for one in series]
+    assert [one.index(True) if any(one) else None for one in first] == [1, 2, 3, None, 4]

@@ -1,5 +1,5 @@
 """Laws that the paper does not have: where Eq. (1) and Eq. (15) end, how large their error is, what v_c is beyond, and
-what becomes of friction where the contact is shaken in the plane.
+what becomes of friction where the contact is shaken in the plane, or at random.
 
 They were derived here, and each is tested beside runs or beside the full-slip condition by a claim of the report
 (`python -m validation`), named in brackets at its end. "Eq. (n)" alone is the paper, see mdr/closed_forms/paper.py.
@@ -57,6 +57,7 @@ from mdr.closed_forms.laws.bodies import (
     resonance_residue,
     stiffness_exponent,
 )
+from mdr.closed_forms.laws.random import random_end, random_friction, random_loss, slow_random_loss
 from mdr.closed_forms.laws.rigid_pull import (
     amplitude_limit,
     edge_band,
@@ -91,11 +92,15 @@ __all__ = [
     "lost_under_shake",
     "onset",
     "radial_rub",
+    "random_end",
+    "random_friction",
+    "random_loss",
     "resonance_residue",
     "rigid_across",
     "rigid_shake",
     "rise_of_lost_punch",
     "slow_limit",
+    "slow_random_loss",
     "steered_across",
     "stiffened_by_coupling",
     "stiffness_exponent",
