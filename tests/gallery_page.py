@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PAGE, PICTURES, SCRIPTS = ROOT / "docs" / "gallery.md", ROOT / "docs" / "figures" / "gallery", ROOT / "geometries"
-PIXELS, COLOURS = 4e5, 32  #: of a picture, about, and how many
+PIXELS, COLOURS = 4e5, 96  #: of a picture, about, and how many
 SYMBOL = re.compile(r"\b\w_\w\b|\b[fg]\([rx]\)")  #: v_c or g(x) in a caption
 
 
