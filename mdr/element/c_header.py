@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from importlib.resources import files
-from textwrap import wrap
+from textwrap import indent, wrap
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -46,7 +46,7 @@ def header(element: ContactElement, name: str, told: str) -> str:
     values |= {
         "NAME": name,
         "VERSION": __version__,
-        "CASE": "\n".join(f" *     {line}".rstrip() for line in told.replace("*/", "* /").splitlines()),
+        "CASE": indent("\n".join(told.replace("*/", "* /").splitlines()), " *     "),
         "HALF": f"{0.5 * element.u_z_max:.6g}",
         "N": str(row.gap.size),
         "U_Z_MAX": numbers(element.u_z_max),
@@ -83,7 +83,7 @@ def _kept(text: str, kept: dict[str, bool]) -> Iterator[str]:
         word, _, rest = line.partition(" ")
         if word == "#if" and rest in kept:
             holds.append(kept[rest])
-        elif word == "#else":
+        elif word == "#else" and holds:
             holds[-1] = not holds[-1]
         elif line == "#endif" and holds:
             holds.pop()
