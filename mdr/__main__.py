@@ -1,6 +1,6 @@
 """The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit` and `export` of a case
-file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to
-begin with, `mdr completion` for the shell.
+file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and
+`mdr case` to begin with, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -60,7 +60,7 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
     ("fit", fit.fit, "parameters of the case from measured friction over velocity", read_said, fit.add_options),
     ("record", record.record, "friction under a recorded motion, from a CSV file and a case file", None,
      record.add_options),
-    ("export", export.export, "the contact as a C header or a co-simulation unit (FMI 2.0), from a case file", read_case,
+    ("export", export.export, "the contact as a C header or a unit for co-simulation (FMI 2.0)", read_case,
      export.add_options),
     ("sweep", sweep.sweep, "a grid of cases, from a study file; the same call goes on after any end", read_study_file,
      sweep.add_options),

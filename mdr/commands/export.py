@@ -58,12 +58,13 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
             write_whole(folder / file, text.encode())
         return complain(f"{path}: {fault}\nwritten are the sources: {', '.join(map(str, written))}", Exit.FAILED)
     values = {"file": str(path), "u_z_max": u_z_max, "n_springs": element.n_springs, "n_state": element.n_state}
-    text = f"{path}: depths up to u_z_max = {u_z_max:.6g} m, {element.n_springs} springs, {element.n_state} numbers of state"
+    size = f"{element.n_springs} springs, {element.n_state} numbers of state"
+    text = f"{path}: depths up to u_z_max = {u_z_max:.6g} m, {size}"
     return answer(args, values, text, case)
 
 
 def told(args: argparse.Namespace, case: mdr.SlidingContact) -> str:
     """The command, and shape, material and mu_0 of the case, a table a line."""
-    tables = mdr.write_case(case).split("\n\n")
-    kept = [one.replace("\n", ", ").replace("],", "]") for one in tables if not one.startswith(("[osc", "[pull", "[sh"))]
+    tables = mdr.write_case(case).rstrip().split("\n\n")
+    kept = [one.replace("]\n", "] ").replace("\n", ", ") for one in tables if one.startswith(("mu_0", "[ind", "[mat"))]
     return "\n".join(shorten(line, TOLD) for line in (args.command, *kept))

@@ -32,7 +32,7 @@ def pointer(typing, address):
 @njit
 def numbers(address, shape):
     """Numbers in memory, as an array of this shape."""
-    return carray(pointer(address), shape, np.float64)
+    return carray(pointer(address), shape, np.float64)  # type: ignore[call-arg]
 
 
 def c_function(row: SpringRow, n_state: int, u_z_max: float) -> Any:
@@ -61,7 +61,7 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float) -> Any:
         after, force = before.copy(), np.empty((1, 3))
         stiff = np.empty((1 if tangent != 0 else 0, 3, 3))
         steps(after, to.copy(), dt if viscous else 1.0, springs, force, stiff)
-        if not (np.isfinite(force).all() and np.isfinite(stiff).all()):
+        if not (np.isfinite(force).all() and np.isfinite(after).all() and np.isfinite(stiff).all()):
             return REFUSED
         numbers(new_state, (1, n_state))[:] = after
         numbers(F, (1, 3))[:] = force

@@ -168,8 +168,10 @@ class ContactElement(Record):
         answer, flat = np.array(states, order="C"), np.array(us, order="C").reshape(-1, 3)
         F, K = np.empty(flat.shape), np.empty((len(flat), 3, 3)) if tangent else NO_TANGENT
         steps(answer.reshape(-1, self.n_state), flat, h, self._row, F, K)
-        if not (math.isfinite(F.sum()) and (K is NO_TANGENT or math.isfinite(K.sum()))):
-            raise ValueError(f"the force is beyond the range of floats: dt = {dt:g} s is too short, or u too far away")
+        if not (math.isfinite(F.sum() + answer[..., 3].sum()) and (K is NO_TANGENT or math.isfinite(K.sum()))):
+            raise ValueError(
+                f"force or work is beyond the range of floats: dt = {dt:g} s is too short, or u too far away"
+            )
         return (F.reshape(us.shape), answer, K.reshape(*us.shape, 3)) if tangent else (F.reshape(us.shape), answer)
 
     def stored(self, state: ArrayLike) -> Array:

@@ -1,6 +1,6 @@
 """The contact as a co-simulation unit of FMI 2.0, which most hosts know: a ZIP file of description, code and sources.
 
-The unit is C code around the header of c_header.py. It is compiled by the compiler that CC names, or one of the machine.
+The unit is C code around the header of c_header.py, compiled by what CC names, or by a compiler of the machine.
 """
 
 from __future__ import annotations
@@ -119,8 +119,8 @@ def description(name: str, mark: str) -> str:
     files = ElementTree.SubElement(unit, "SourceFiles")
     ElementTree.SubElement(files, "File", name=f"{name}_fmu.c")
     units = ElementTree.SubElement(top, "UnitDefinitions")
-    for one, powers in UNITS.items():
-        ElementTree.SubElement(ElementTree.SubElement(units, "Unit", name=one), "BaseUnit", powers)
+    for in_unit, powers in UNITS.items():
+        ElementTree.SubElement(ElementTree.SubElement(units, "Unit", name=in_unit), "BaseUnit", powers)
     variables = ElementTree.SubElement(top, "ModelVariables")
     for k, (variable, in_unit, meaning, causality) in enumerate(VARIABLES):
         given: dict[str, Any] = {"name": variable, "valueReference": str(k), "description": meaning}
@@ -130,8 +130,8 @@ def description(name: str, mark: str) -> str:
     structure = ElementTree.SubElement(top, "ModelStructure")
     for group in ("Outputs", "InitialUnknowns"):
         unknown = ElementTree.SubElement(structure, group)
-        for k, variable in enumerate(VARIABLES):
-            if variable[-1] == "output":
+        for k, (*_, causality) in enumerate(VARIABLES):
+            if causality == "output":
                 ElementTree.SubElement(unknown, "Unknown", index=str(k + 1))
     ElementTree.indent(top)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(top, encoding="unicode") + "\n"

@@ -1,4 +1,4 @@
-"""The contact in C: against the library's own steps, along turned, reversed, tapping and paused ways; and what it refuses."""
+"""The contact in C: the library's own steps, on turned, reversed, tapping and paused ways; and what it refuses."""
 
 import ctypes
 import subprocess
@@ -63,7 +63,9 @@ def built(cc, folder, contact, source, *options, change=lambda text: text):
     (folder / "contact.h").write_text(change(header(contact, "contact", "of a test */ here")), encoding="utf-8")
     (folder / "made.c").write_text(source, encoding="utf-8")
     made = folder / "made"
-    done = subprocess.run([*cc, "-O2", *options, "made.c", "-o", made, "-lm"], cwd=folder, capture_output=True, text=True)
+    done = subprocess.run(
+        [*cc, "-O2", *options, "made.c", "-o", made, "-lm"], cwd=folder, capture_output=True, text=True
+    )
     if any(one.startswith("-fsanitize") for one in options) and "cannot find" in done.stderr:
         pytest.skip("this compiler comes without sanitizers")
     assert done.returncode == 0, done.stderr
@@ -96,7 +98,7 @@ def walk(seed, n=60):
 
 
 def far_off(F, G, contact):
-    """The greatest difference of forces on a path, over mu_0 F_N, or the greatest of a dashpot, whose rounding stays."""
+    """The greatest difference of forces on a path, over mu_0 F_N, or that of a dashpot, whose rounding stays."""
     return np.abs(F - G).max() / max(MU_0 * contact.indenter.force(DEPTH, contact.material.E_star), np.abs(G).max())
 
 
@@ -105,7 +107,7 @@ def far_off(F, G, contact):
 
 @every_material
 def test_steps_are_those_of_the_library(cc, tmp_path, material):
-    """Twenty paths of 60 steps, each on its own state; the tangent is a difference of such forces over 1e-5 at least."""
+    """Twenty paths of 60 steps, each on its own state; the tangent is a difference of such forces."""
     contact = element(material)
     made, worst, of_tangent = library(cc, tmp_path, contact), 0.0, 0.0
     for seed in range(20):
