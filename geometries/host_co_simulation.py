@@ -9,8 +9,8 @@ A force that comes late by about h takes the damping k_c h from the body, with t
 So steps must be short beside 1/omega, omega² = (k + k_c)/m. A host that can take a step back need not know that: where
 F_x changes by more than a share of mu_0 F_z in a step, it sets the unit to the kept state and halves the step.
 
-The answer: the error of the motion falls with h, one percent of the way where omega h is some hundredths. Steps that are
-taken back where the force changes fast reach the same error with fewer calls.
+The answer: the error of the motion is some 0.7 omega h of its way, one percent at omega h = 0.015; from omega h = 0.3 on
+the motion is another one. Steps that are taken back take as many calls for the same error, and no knowledge of omega.
 """
 
 from pathlib import Path
@@ -83,17 +83,17 @@ def figure():
         moved.plot(1e3 * true_t, 1e6 * true_x, "k", label="short steps")
         for i in (5, 8):
             moved.plot(1e3 * fixed[i][0], 1e6 * fixed[i][1], ".-", label=rf"$\omega h = {steps[i]:.2g}$")
-        moved.set(xlabel="time [ms]", ylabel="way of the ball [µm]", title="long steps shake the ball")
+        moved.set(xlabel="time [ms]", ylabel="way of the ball [µm]", title="long steps move another ball")
         off.loglog([calls for *_, calls in fixed], error, "o-", label="equal steps")
         off.loglog([calls for *_, calls in rolled], of_rolled, "s-", label="steps taken back")
-        off.set(xlabel="calls of the unit", ylabel="error of the motion", title="fewer calls for one error")
+        off.set(xlabel="calls of the unit", ylabel="error of the motion", title="as many calls, without knowing omega")
         moved.legend()
         off.legend()
     return fig
 
 
 if __name__ == "__main__":
-    print(f"k_c = {k_c:.0f} N/m, 1/omega = {1e3 / omega:.2f} ms, greatest way {1e6 * true_x.max():.0f} of {1e6 * way:.0f} µm")
+    print(f"k_c = {k_c:.0f} N/m, 1/omega = {1e3 / omega:.2f} ms, way {1e6 * true_x.max():.0f} of {1e6 * way:.0f} µm")
     for name, values, runs, errors in (("omega h", steps, fixed, error), ("share", shares, rolled, of_rolled)):
         for value, (*_, calls), off in zip(values, runs, errors, strict=True):
             print(f"{name} = {value:<7.3g} {calls:6} calls, error {100 * off:.3g} %")
