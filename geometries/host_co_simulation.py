@@ -5,12 +5,12 @@ that `mdr export -o contact.fmu` made knows the contact, and they meet at the en
 
     m u_x'' = -k u_x - F_x,   F_x at the end of the last step.
 
-A force that comes late by about h takes the damping k_c h from the body, with the stiffness k_c of the contact in stick.
-So steps must be short beside 1/omega, omega² = (k + k_c)/m. A host that can take a step back need not know that: where
-F_x changes by more than a share of mu_0 F_z in a step, it sets the unit to the kept state and halves the step.
+A force that comes late by about h takes the damping k_c h from the body, with the stiffness k_c of the contact in
+stick. So steps must be short beside 1/omega, omega² = (k + k_c)/m. A host that can take a step back need not know that:
+where F_x changes by more than a share of mu_0 F_z, it sets the unit to the kept state and halves the step.
 
-The answer: the error of the motion is some 0.7 omega h of its way, one percent at omega h = 0.015; from omega h = 0.3 on
-the motion is another one. Steps that are taken back take as many calls for the same error, and no knowledge of omega.
+The answer: the error of the motion is some 0.7 omega h of its way, one percent at omega h = 0.015; from omega h = 0.3
+on it is another motion. Steps that are taken back come to the same error without knowing omega, with more calls by half.
 """
 
 from pathlib import Path
@@ -86,7 +86,7 @@ def figure():
         moved.set(xlabel="time [ms]", ylabel="way of the ball [µm]", title="long steps move another ball")
         off.loglog([calls for *_, calls in fixed], error, "o-", label="equal steps")
         off.loglog([calls for *_, calls in rolled], of_rolled, "s-", label="steps taken back")
-        off.set(xlabel="calls of the unit", ylabel="error of the motion", title="as many calls, without knowing omega")
+        off.set(xlabel="calls of the unit", ylabel="error of the motion", title=r"more calls, without knowing $\omega$")
         moved.legend()
         off.legend()
     return fig

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import carray, cfunc, float64, int32, intp, njit, types
+from numba import carray, cfunc, float64, int32, intp, njit, types  # type: ignore[attr-defined]
 from numba.extending import intrinsic
 
 from mdr.element.kernels import SpringRow, steps
