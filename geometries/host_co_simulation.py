@@ -10,7 +10,7 @@ stick. So steps must be short beside 1/omega, omega² = (k + k_c)/m. A host that
 where F_x changes by more than a share of mu_0 F_z, it sets the unit to the kept state and halves the step.
 
 The answer: the error of the motion is some 0.7 omega h of its way, one percent at omega h = 0.015; from omega h = 0.3
-on it is another motion. Steps that are taken back come to the same error without knowing omega, with more calls by half.
+on it is another motion. Steps that are taken back know no omega, and take half as many calls more for one error.
 """
 
 from pathlib import Path
