@@ -1,6 +1,6 @@
-"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict` and `fit` of a case file, `mdr
-record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to
-begin with, `mdr completion` for the shell.
+"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit` and `export` of a case
+file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and
+`mdr case` to begin with, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -21,7 +21,20 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import begin, completion, curve, explore, fit, judge, record, run, sweep, three_dimensions, velocity
+from mdr.commands import (
+    begin,
+    completion,
+    curve,
+    explore,
+    export,
+    fit,
+    judge,
+    record,
+    run,
+    sweep,
+    three_dimensions,
+    velocity,
+)
 from mdr.commands.arguments import NEGATIVE, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
@@ -47,6 +60,8 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
     ("fit", fit.fit, "parameters of the case from measured friction over velocity", read_said, fit.add_options),
     ("record", record.record, "friction under a recorded motion, from a CSV file and a case file", None,
      record.add_options),
+    ("export", export.export, "the contact as a C header or a unit for co-simulation (FMI 2.0)", read_case,
+     export.add_options),
     ("sweep", sweep.sweep, "a grid of cases, from a study file; the same call goes on after any end", read_study_file,
      sweep.add_options),
     ("explore", explore.explore, "a page in the browser to try a case with sliders", None, explore.add_options),

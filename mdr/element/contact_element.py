@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import NormalOscillation
+from mdr.element.c_function import c_function
 from mdr.element.kernels import N_HEAD, SpringRow, steps
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
@@ -78,6 +80,18 @@ class ContactElement(Record):
         """A name for each number of a state, such as "u_x" and "e_x[17]"; of an arm "e_x_1[17]"."""
         rows = [f"{name}_{j}" if j else name for name in ("s", "e_x", "e_y") for j in range(self._rows)]
         return "u_x", "u_y", "u_z", "work", *(f"{name}[{i}]" for name in rows for i in range(self._row.gap.size))
+
+    @property
+    def address(self) -> int:
+        """Address of a C function that makes a step of one contact, for programs that compile nothing.
+
+            int step(const double *state, double *new_state, double dt, const double *u, double *F, double *K)
+
+        The new state may take the place of the state. K is NULL, or takes dF_i/du_j in K[3 i + j]. Answers 1, or -1
+        for what `step` refuses, with nothing written. Valid as long as this element is. The first use compiles for some
+        seconds.
+        """
+        return int(self._c_function.address)
 
     def at_rest(self, u: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
         """State of a contact that rests at a position, relaxed and without force in the plane.
@@ -154,8 +168,10 @@ class ContactElement(Record):
         answer, flat = np.array(states, order="C"), np.array(us, order="C").reshape(-1, 3)
         F, K = np.empty(flat.shape), np.empty((len(flat), 3, 3)) if tangent else NO_TANGENT
         steps(answer.reshape(-1, self.n_state), flat, h, self._row, F, K)
-        if not (math.isfinite(F.sum()) and (K is NO_TANGENT or math.isfinite(K.sum()))):
-            raise ValueError(f"the force is beyond the range of floats: dt = {dt:g} s is too short, or u too far away")
+        if not (math.isfinite(F.sum() + answer[..., 3].sum()) and (K is NO_TANGENT or math.isfinite(K.sum()))):
+            raise ValueError(
+                f"force or work is beyond the range of floats: dt = {dt:g} s is too short, or u too far away"
+            )
         return (F.reshape(us.shape), answer, K.reshape(*us.shape, 3)) if tangent else (F.reshape(us.shape), answer)
 
     def stored(self, state: ArrayLike) -> Array:
@@ -197,6 +213,13 @@ class ContactElement(Record):
             For the state of another element.
         """
         return np.asarray(self._states(state)[..., 3] - self.stored(state))
+
+    @cached_property
+    def _c_function(self) -> Any:
+        return c_function(self._row, self.n_state, self.u_z_max)
+
+    def __getstate__(self) -> dict[str, Any]:  # compiled code has an address in one process alone
+        return {name: value for name, value in vars(self).items() if name != "_c_function"}
 
     @property
     def _row(self) -> SpringRow:

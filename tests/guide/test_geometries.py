@@ -13,6 +13,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.element.fmu import NoCompiler, compiler
 
 FOLDER = Path(__file__).parents[2] / "geometries"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.py"))
@@ -22,6 +23,12 @@ loaded = {}
 
 def script(name):
     """The module geometries/<name>.py, run once."""
+    if name == "host_co_simulation":
+        pytest.importorskip("fmpy", reason="fmpy, of the extra export, drives the unit")
+        try:
+            compiler()
+        except NoCompiler as fault:
+            pytest.skip(str(fault))
     if name not in loaded:
         if name == "depths":
             sys.modules["gallery"] = script("gallery")  # it imports the script beside it
@@ -311,3 +318,14 @@ def test_implicit_host_is_of_second_order_and_holds_and_rk45_is_not_helped_by_it
         way, loss = s.wrong[rtol]
         assert way > 2 * s.errors[2]
         assert loss > 0.03
+
+
+def test_host_co_simulation_is_as_good_as_its_steps_are_short():
+    s = script("host_co_simulation")
+    assert_allclose(s.error[:4] / s.steps[:4], 0.7, rtol=0.3)  # first order
+    assert min(s.error[5:]) > 0.3
+    assert rising(s.error)
+    assert rising(s.of_rolled)
+    for (*_, calls), off in zip(s.rolled, s.of_rolled, strict=True):  # within a factor of two of equal steps
+        assert 0.5 < off / np.exp(np.interp(np.log(calls), np.log([c for *_, c in s.fixed[::-1]]),
+                                            np.log(s.error[::-1]))) < 2  # fmt: skip

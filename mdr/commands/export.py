@@ -1,0 +1,70 @@
+"""`mdr export`: the contact of a case as a C header, or as a co-simulation unit."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+from textwrap import shorten
+
+import mdr
+from mdr.commands.arguments import read_as, whole_number
+from mdr.commands.output import Exit, WrongInput, answer, complain
+from mdr.commands.written import require_free
+from mdr.element.c_header import header
+from mdr.element.fmu import NoCompiler, fmu, sources
+from mdr.normal.springs import MIN_SPRINGS
+from mdr.tools.atomic_write import write_whole
+from mdr.tools.checks import positive
+
+SPRINGS = 64  #: where none are asked for: forces to some 1e-3, a step of an elastic contact in about 1 µs
+MOST_SPRINGS = 4096  #: whose state a stack still holds
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,39}")  #: what names in C may begin with
+TOLD = 116  #: letters of a line about the contact
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Where to write, how deep and how fine."""
+    files = "the header, name.h, or the unit, name.fmu; all names in it begin with this one"
+    command.add_argument("-o", "--output", metavar="file", type=Path, required=True, help=files)
+    depth = "greatest depth of a step [m] (default: that of the case)"
+    read = read_as("a depth above zero in m", lambda text: positive("u_z_max", float(text)))
+    command.add_argument("--u-z-max", metavar="m", type=read, help=depth)
+    size = whole_number(MIN_SPRINGS, MOST_SPRINGS)
+    command.add_argument("--n-springs", metavar="n", type=size, default=SPRINGS, help=f"springs (default: {SPRINGS})")
+
+
+def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
+    """Write the header, or the unit; where nothing compiles it, its sources."""
+    path: Path = args.output
+    if path.suffix not in (".h", ".fmu"):
+        raise WrongInput(f"-o {path}: the file must end in .h, a C header, or .fmu, a unit for co-simulation")
+    name, folder = path.stem, path.parent
+    if not NAME.fullmatch(name):
+        raise WrongInput(f"-o {path}: {name!r} must be a word for names in C: at most 40 letters, digits and _")
+    require_free([path])
+    u_z_max = args.u_z_max or mdr.resolved(case).u_z_max
+    element = mdr.ContactElement(case.indenter, case.material, case.mu_0, u_z_max=u_z_max, n_springs=args.n_springs)
+    texts = {path.name: header(element, name, told(args, case))}
+    if path.suffix == ".fmu":
+        texts = sources(element, name, told(args, case))
+    written = [path]
+    try:
+        write_whole(path, texts[path.name].encode() if path.suffix == ".h" else fmu(texts, name))
+    except NoCompiler as fault:
+        written = [folder / file for file in texts]
+        require_free(written)
+        for file, text in texts.items():
+            write_whole(folder / file, text.encode())
+        return complain(f"{path}: {fault}\nwritten are the sources: {', '.join(map(str, written))}", Exit.FAILED)
+    values = {"file": str(path), "u_z_max": u_z_max, "n_springs": element.n_springs, "n_state": element.n_state}
+    size = f"{element.n_springs} springs, {element.n_state} numbers of state"
+    text = f"{path}: depths up to u_z_max = {u_z_max:.6g} m, {size}"
+    return answer(args, values, text, case)
+
+
+def told(args: argparse.Namespace, case: mdr.SlidingContact) -> str:
+    """The command, and shape, material and mu_0 of the case, a table a line."""
+    tables = mdr.write_case(case).rstrip().split("\n\n")
+    kept = [one.replace("]\n", "] ").replace("\n", ", ") for one in tables if one.startswith(("mu_0", "[ind", "[mat"))]
+    return "\n".join(shorten(line, TOLD) for line in (args.command, *kept))

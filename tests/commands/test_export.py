@@ -1,0 +1,80 @@
+"""`mdr export`: files, and what is refused."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import mdr
+from mdr.__main__ import main
+
+EXAMPLE = str(Path(__file__).parents[2] / "docs" / "example.toml")
+
+
+def test_a_header_names_its_case_and_command(tmp_path, capsys):
+    path = tmp_path / "foot.h"
+    assert main(["export", EXAMPLE, "-o", str(path), "--json"]) == 0
+    text, said = path.read_text(encoding="utf-8"), json.loads(capsys.readouterr().out)
+    assert len(text.splitlines()) <= 400
+    assert f"mdr export {EXAMPLE}"[:60] in text
+    assert '[material] model = "KelvinVoigt", E = 3000000.0' in text
+    case = mdr.read_case(EXAMPLE)
+    assert said["u_z_max"] == case.u_z_max  # the greatest depth of the case
+    assert (said["n_springs"], said["n_state"]) == (64, 4 + 3 * 64)
+    assert main(["export", EXAMPLE, "-o", str(path), "--u-z-max", "5e-5", "--n-springs", "16"]) == 0
+    assert "#define FOOT_U_Z_MAX 5e-05" in path.read_text(encoding="utf-8")
+
+
+def test_without_a_compiler_the_sources_come_out(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    assert main(["export", EXAMPLE, "-o", str(tmp_path / "foot.fmu")]) == 1
+    assert "CC" in capsys.readouterr().err
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["foot.h", "foot_fmu.c"]
+
+
+def test_a_load_knows_its_depth(tmp_path, capsys):
+    load = replace(mdr.read_case(EXAMPLE), oscillation=mdr.LoadOscillation(0.02, 0.005, 300.0))
+    case = tmp_path / "load.toml"
+    case.write_text(mdr.write_case(load), encoding="utf-8")
+    assert main(["export", str(case), "-o", str(tmp_path / "a.h"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["u_z_max"] == pytest.approx(mdr.resolved(load).u_z_max)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-o", "contact.txt"], "must end in .h"),
+        (["-o", "contact"], "must end in .h"),
+        (["-o", "2nd.h"], "a word for names in C"),
+        (["-o", "a-b.fmu"], "a word for names in C"),
+        (["-o", "_a.h"], "a word for names in C"),
+        (["-o", "größe.h"], "a word for names in C"),
+        (["-o", "a" * 41 + ".h"], "a word for names in C"),
+        (["-o", "no/such/folder/a.h"], "there is no folder"),
+        (["-o", "a.h", "--u-z-max", "-1e-6"], "a depth above zero"),
+        (["-o", "a.h", "--u-z-max", "nan"], "a depth above zero"),
+        (["-o", "a.h", "--u-z-max", "deep"], "a depth above zero"),
+        (["-o", "a.h", "--n-springs", "2"], "a whole number from 16"),
+        (["-o", "a.h", "--n-springs", "100000"], "a whole number from 16"),
+        ([], "required"),
+    ],
+)
+def test_what_is_refused(tmp_path, monkeypatch, capsys, words, said):
+    monkeypatch.chdir(tmp_path)
+    try:
+        status = main(["export", EXAMPLE, *words])
+    except SystemExit as end:
+        status = end.code
+    assert status == 2
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_arms_are_refused_and_nothing_is_written(tmp_path, capsys):
+    arms = mdr.StandardLinearSolid(E_inf=3e6, E_1=1e6, tau_1=1e-3, nu=0.5)
+    case = tmp_path / "arms.toml"
+    case.write_text(mdr.write_case(replace(mdr.read_case(EXAMPLE), material=arms)), encoding="utf-8")
+    assert main(["export", str(case), "-o", str(tmp_path / "a.fmu")]) != 0
+    assert "not one with Maxwell arms" in capsys.readouterr().err
+    assert [one.name for one in tmp_path.iterdir()] == ["arms.toml"]

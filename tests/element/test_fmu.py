@@ -1,0 +1,179 @@
+"""The co-simulation unit: valid, driven by fmpy, rolled back; without a compiler, and with wrong input."""
+
+from zipfile import ZipFile
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+import mdr
+from mdr.element.fmu import FLAGS, NoCompiler, compiler, fmu, library, sources
+
+fmpy = pytest.importorskip("fmpy", reason="fmpy, of the extra export, drives the unit")
+from fmpy.fmi2 import FMU2Slave  # noqa: E402
+
+DEPTH = 40e-6
+MATERIALS = {"elastic": mdr.Elastic(E=3e6, nu=0.5), "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)}
+REACH = 0.5 * 1.5 * DEPTH
+U, F, LOST = [0, 1, 2], [3, 4, 5], [6]  # value references
+
+
+@pytest.fixture(scope="module", params=MATERIALS)
+def unit(request, tmp_path_factory):
+    """A contact, the path of its unit, and what makes instances of it."""
+    try:
+        compiler()
+    except NoCompiler as fault:
+        pytest.skip(str(fault))
+    contact = mdr.ContactElement(mdr.Paraboloid(R=5e-3), MATERIALS[request.param], 0.5, u_z_max=DEPTH, n_springs=32)
+    path = tmp_path_factory.mktemp("unit") / "pin.fmu"
+    path.write_bytes(fmu(sources(contact, "pin", "a pin"), "pin"))
+    described, open_ones = fmpy.read_model_description(str(path)), []
+    folder = fmpy.extract(str(path), unzipdir=str(path.parent / "unzipped"))
+
+    def instance(u_z=0.5 * DEPTH):
+        one = FMU2Slave(guid=described.guid, unzipDirectory=folder, modelIdentifier="pin", instanceName="one")
+        open_ones.append(one)
+        one.instantiate()
+        one.setupExperiment(startTime=0.0)
+        one.enterInitializationMode()
+        one.setReal(U, [0.0, 0.0, u_z])
+        one.exitInitializationMode()
+        return one
+
+    yield contact, path, instance
+    for one in open_ones:
+        one.freeInstance()
+
+
+def walk(n=30):
+    t = np.arange(1, n + 1)
+    return np.column_stack([REACH * np.sin(0.4 * t), REACH * np.cos(0.7 * t), DEPTH * (0.4 + 0.6 * np.sin(0.9 * t))])
+
+
+def driven(one, us, dt=1e-3):
+    forces = []
+    for k, u in enumerate(us):
+        one.setReal(U, u)
+        one.doStep(k * dt, dt)
+        forces.append(one.getReal(F + LOST))
+    return np.array(forces)
+
+
+def test_it_is_valid_and_holds_its_sources(unit):
+    _, path, _ = unit
+    assert fmpy.validation.validate_fmu(str(path)) == []
+    described = fmpy.read_model_description(str(path), validate=True)
+    can = described.coSimulation
+    assert can.canGetAndSetFMUstate
+    assert can.canSerializeFMUstate
+    assert can.providesDirectionalDerivative
+    assert can.canHandleVariableCommunicationStepSize
+    assert [one.name for one in described.modelVariables] == ["u_x", "u_y", "u_z", "F_x", "F_y", "F_z", "lost"]
+    assert {"sources/pin.h", "sources/pin_fmu.c", "modelDescription.xml"} < set(ZipFile(path).namelist())
+
+
+def test_its_steps_are_those_of_the_library(unit):
+    contact, _, instance = unit
+    one, state, us = instance(), contact.at_rest((0, 0, 0.5 * DEPTH)), walk()
+    G, _ = contact.step(state, 1.0, (0, 0, 0.5 * DEPTH))
+    assert_allclose(one.getReal(F), G, rtol=1e-14)
+    known = []
+    for u in us:
+        G, state = contact.step(state, 1e-3, u)
+        known.append([*G, contact.dissipated(state)])
+    found, known = driven(one, us), np.array(known)
+    assert_allclose(found, known, rtol=0, atol=1e-13 * np.abs(known).max())
+
+
+def test_fmpy_simulates_it(unit):
+    contact, path, _ = unit
+    if contact.material.tau > 0:
+        pytest.skip("its force depends on the length of steps, which fmpy chooses")
+    t = np.arange(31) * 1e-3
+    u = np.vstack([[0, 0, 0.5 * DEPTH], walk()])
+    steps = np.array(list(zip(t, *u.T, strict=True)), dtype=[(name, float) for name in ("time", "u_x", "u_y", "u_z")])
+    found = fmpy.simulate_fmu(str(path), stop_time=0.03, step_size=1e-3, output_interval=1e-3, input=steps,
+                              start_values={"u_z": 0.5 * DEPTH}, output=["F_x", "F_z"])  # fmt: skip
+    state = contact.at_rest((0, 0, 0.5 * DEPTH))
+    for k in range(30):  # in a step it goes to the input at its begin
+        G, state = contact.step(state, 1e-3, u[k])
+        assert_allclose([found["F_x"][k + 1], found["F_z"][k + 1]], G[[0, 2]], rtol=0, atol=1e-10)
+
+
+def test_rolled_back_and_serialised_states_go_on_bit_for_bit(unit):
+    _, _, instance = unit
+    one, us = instance(), walk()
+    driven(one, us[:12])
+    kept, before = one.getFMUState(), one.getReal(U + F + LOST)
+    forces = driven(one, us[12:])
+    one.setFMUState(kept)
+    assert one.getReal(U + F + LOST) == before
+    assert_array_equal(driven(one, us[12:]), forces)
+    other, written = instance(0.0), one.serializeFMUState(kept)
+    read = other.deserializeFMUState(written)
+    other.setFMUState(read)
+    assert_array_equal(driven(other, us[12:]), forces)
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        other.deserializeFMUState(written[:-8])
+    one.freeFMUState(kept)
+    other.freeFMUState(read)
+
+
+def test_directional_derivatives_are_the_tangent_of_the_last_step(unit):
+    contact, _, instance = unit
+    one, state, us = instance(), contact.at_rest((0, 0, 0.5 * DEPTH)), walk(7)
+    driven(one, us)
+    for u in us:
+        _, state, K = contact.step(state, 1e-3, u, tangent=True)
+    rows = np.array([one.getDirectionalDerivative(F, [j], [1.0]) for j in U]).T
+    assert_allclose(rows, K, rtol=0, atol=1e-7 * np.abs(K).max())
+    assert_allclose(one.getDirectionalDerivative([3, 5], U, [1.0, -2.0, 0.5]), K[[0, 2]] @ [1, -2, 0.5],
+                    rtol=0, atol=1e-6 * np.abs(K).max())  # fmt: skip
+
+
+@pytest.mark.parametrize(("u", "dt"), [((0, 0, 2 * DEPTH), 1e-3), ((np.nan, 0, 0), 1e-3), ((0, 0, 0), 0.0)])
+def test_a_step_that_is_refused_is_discarded_and_changes_nothing(unit, u, dt):
+    _, _, instance = unit
+    one, us = instance(), walk(8)
+    driven(one, us[:4])
+    before = one.getReal(F + LOST)
+    one.setReal(U, u)
+    with pytest.raises(fmpy.fmi1.FMICallException) as refusal:
+        one.doStep(4e-3, dt)
+    assert refusal.value.status == 2  # fmi2Discard
+    assert one.getReal(F + LOST) == before
+    other = instance()
+    driven(other, us[:4])
+    assert_array_equal(driven(one, us[4:]), driven(other, us[4:]))
+
+
+def test_wrong_variables_and_wrong_marks_are_refused(unit):
+    _, _, instance = unit
+    one = instance()
+    for call in (lambda: one.setReal([3], [1.0]), lambda: one.getReal([7]),
+                 lambda: one.getDirectionalDerivative([6], [0], [1.0]),
+                 lambda: one.getDirectionalDerivative([3], [4], [1.0])):  # fmt: skip
+        with pytest.raises(fmpy.fmi1.FMICallException):
+            call()
+    one.guid = "{another}"
+    with pytest.raises(Exception, match="instantiate"):
+        one.instantiate()
+
+
+@pytest.mark.parametrize(("cc", "words"), [("no-such-compiler", "cannot be run"), ("false", "failed")])
+def test_what_cannot_be_compiled_says_so(monkeypatch, cc, words):
+    contact = mdr.ContactElement(mdr.FlatPunch(a=1e-3), MATERIALS["elastic"], 0.5, u_z_max=DEPTH)
+    monkeypatch.setenv("CC", cc)
+    with pytest.raises(NoCompiler, match=words):
+        fmu(sources(contact, "pin", ""), "pin")
+    monkeypatch.delenv("CC")
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(NoCompiler, match="install gcc or clang"):
+        compiler()
+
+
+def test_its_sources_compile_without_a_warning(monkeypatch, unit):
+    contact, _, _ = unit
+    monkeypatch.setattr("mdr.element.fmu.FLAGS", (*FLAGS, "-Wall", "-Wextra", "-Werror"))
+    assert library(sources(contact, "pin", "a pin"), "pin")
