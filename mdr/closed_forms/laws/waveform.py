@@ -27,7 +27,7 @@ FIRST = 100  #: pieces of a period, of five samples each, before the first is ha
 NARROWEST = 4e-15  #: piece of a period that is a jump if it is still no parabola
 SHORT = 1e-6  #: of a period; on pieces that are shorter slopes are rounding
 MOST_PIECES = 2**20
-STARTS = 6  #: random ones of a search for the best waveform
+STARTS = 4  #: random ones of a search for the best waveform
 SAMPLES = 512  #: of a waveform during that search
 
 
