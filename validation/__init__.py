@@ -32,8 +32,17 @@ GROUPS = {
         ("full_slip_motion", "static_cof", "rigid_pull", "spring_pull", "generalisation", "uniqueness", "maps"),
     ),
     "Beyond the paper": (
-        "The whole curve, lost contact, further resonances, and oscillation along the slide and across.",
-        ("one_curve", "lost_contact", "resonances", "shaken_velocity", "shaken_curves", "drive", "shaken_across"),
+        "The whole curve, waveforms, lost contact, further resonances, and oscillation along the slide and across.",
+        (
+            "one_curve",
+            "waveforms",
+            "lost_contact",
+            "resonances",
+            "shaken_velocity",
+            "shaken_curves",
+            "drive",
+            "shaken_across",
+        ),
     ),
     "Three dimensions": (
         "A half-space, solved with no springs at all, shows what independent springs leave out.",
