@@ -375,7 +375,7 @@ def _figure(fig, axes, best: tuple[float, Array, Array], N: int) -> str:
     circles(gains, n[:MOST], ran / n[:MOST], COLOURS[1])
     gains.set(title="$v_c$ over that of the sine of", xlabel="harmonics $N$", yscale="log", xlim=(0.5, 12.5))
     gains.legend()
-    v = np.linspace(0, laws.steepest_waveform(N)[0] * 1.05, 90)
+    v = laws.steepest_waveform(N)[0] * 1.05 * np.linspace(0, 1, 90) ** 2
     drawn = {
         r"sine of $\omega$": sine,
         rf"sine of ${N}\omega$": lambda x: sine(N * x),
@@ -388,7 +388,7 @@ def _figure(fig, axes, best: tuple[float, Array, Array], N: int) -> str:
         v, 1 - laws.waveform_loss(chosen, 2 * np.pi * v), color="k", ls="--", label="best at the dotted velocity"
     )
     at = v[-1] * np.array([0.04, 0.15, 0.3, 0.45, 0.65])
-    circles(curves, at, [1 - laws.best_waveform(N, 2 * np.pi * one)[0] for one in at], "k", label="best at each")
+    circles(curves, at, [1 - laws.best_waveform(N, 2 * np.pi * one)[0] for one in at], "k", label="best at each velocity")
     curves.axvline(1.0, color="0.5", lw=1, ls=":")
     curves.set(title=f"flat punch, {N} harmonics", xlabel=r"$v_0/(\mu_0\kappa\omega u_{z0})$", ylabel=r"$\mu/\mu_0$")
     curves.set(xlim=(0, v[-1]), ylim=(0, 1.02))
