@@ -202,8 +202,8 @@ def _shape_checks() -> Checks:
 
 
 def bends(case: mdr.SlidingContact, n_v: int = 16) -> tuple[float, float, float]:
-    """Of COF/mu_0 over equal steps of velocity up to beyond v_c: least rise, greatest convex bend, error."""
-    v_0 = mdr.full_slip_critical_velocity(case) * np.linspace(0.05, 1.05, n_v)
+    """Of COF/mu_0 over equal steps of velocity from rest to beyond v_c: least rise, greatest convex bend, error."""
+    v_0 = mdr.full_slip_critical_velocity(case) * np.linspace(0, 1.05, n_v)
     curve = mdr.cof_curve(case, v_0)
     mu = curve.cof / case.mu_0
     return float(np.diff(mu).min()), float(np.diff(mu, 2).max()), float(curve.cof_error.max() / case.mu_0)
@@ -388,7 +388,9 @@ def _figure(fig, axes, best: tuple[float, Array, Array], N: int) -> str:
         v, 1 - laws.waveform_loss(chosen, 2 * np.pi * v), color="k", ls="--", label="best at the dotted velocity"
     )
     at = v[-1] * np.array([0.04, 0.15, 0.3, 0.45, 0.65])
-    circles(curves, at, [1 - laws.best_waveform(N, 2 * np.pi * one)[0] for one in at], "k", label="best at each velocity")
+    circles(
+        curves, at, [1 - laws.best_waveform(N, 2 * np.pi * one)[0] for one in at], "k", label="best at each velocity"
+    )
     curves.axvline(1.0, color="0.5", lw=1, ls=":")
     curves.set(title=f"flat punch, {N} harmonics", xlabel=r"$v_0/(\mu_0\kappa\omega u_{z0})$", ylabel=r"$\mu/\mu_0$")
     curves.set(xlim=(0, v[-1]), ylim=(0, 1.02))

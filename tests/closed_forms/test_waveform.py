@@ -51,6 +51,15 @@ def test_the_sine_is_that_of_the_rigid_pull():
     expected = [deficit(v) for v in inside]
     np.testing.assert_allclose(laws.waveform_loss(sine, 2 * np.pi * inside), expected, rtol=0, atol=4e-11)
     np.testing.assert_allclose(laws.waveform_loss(sine, [2 * np.pi, 9.0]), 0, atol=4e-11)
+    np.testing.assert_allclose(laws.waveform_loss(sine, [0.3, 1, 3]), [0.87380, 0.64207, 0.22145], atol=5e-6)
+
+
+def test_the_fit_of_the_sine_is_never_low_and_off_by_a_hundredth_and_a_half():
+    """Eq. (37) of M. Popov (2020), which comes without its error."""
+    v = np.linspace(0, 1, 101)
+    off = 0.75 * (1 - v) ** 2 + 0.25 * (1 - v) ** 4 - laws.waveform_loss(sine, 2 * np.pi * v)
+    assert off.min() > -1e-10
+    assert 0.014 < off.max() < 0.015
 
 
 def test_any_waveform_is_its_definition():
@@ -84,11 +93,12 @@ def test_scale_offset_and_shift_drop_out_and_a_frequency_is_a_velocity():
 
 
 def test_every_random_waveform_loses_less_the_faster_and_by_a_convex_law():
-    """As a mean of suprema of functions linear in beta must; 500 of them, saws and smooth ones."""
+    """As a mean of suprema of functions linear in beta must; 490 rows of straight lines, and 10 smooth ones."""
     rng = np.random.default_rng(6)
     beta = np.linspace(0, 30, 31)
-    for _ in range(500):
-        loss = laws.waveform_loss(rng.normal(size=rng.integers(3, 40)) ** 3, beta)
+    lines = [rng.normal(size=rng.integers(3, 40)) ** 3 for _ in range(490)]
+    for w in (*lines, *(series(3, rng) for _ in range(10))):
+        loss = laws.waveform_loss(w, beta)
         assert np.all(np.diff(loss) <= 1e-12)
         assert np.all(np.diff(loss, 2) >= -1e-12)
         assert loss[0] == pytest.approx(1, abs=1e-12)
