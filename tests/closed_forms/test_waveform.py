@@ -88,6 +88,8 @@ def test_scale_offset_and_shift_drop_out_and_a_frequency_is_a_velocity():
     known = laws.waveform_loss(w, BETA)
     np.testing.assert_allclose(laws.waveform_loss(lambda x: 7e-6 + 1e-7 * w((x + 0.3) % 1), BETA), known, atol=8e-11)
     np.testing.assert_allclose(laws.waveform_loss(lambda x: w(3 * x % 1), 3 * BETA), known, atol=8e-11)
+    tiny = laws.waveform_loss(lambda x: 1 + 1e-8 * w(x), BETA)
+    np.testing.assert_allclose(tiny, known, atol=1e-6)  # 1e-16 of rounding over 1e-8
     motion = mdr.PeriodicMotion.of(20e-6 + 1e-6 * w(np.arange(64) / 64), 300.0)
     np.testing.assert_allclose(laws.waveform_loss(motion, BETA), known, atol=8e-11)
 

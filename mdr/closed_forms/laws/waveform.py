@@ -17,12 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.motion import Motion
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import FieldError, FieldTypeError, count, finite_array, not_negative, plain
 
-TOLERANCE = (
-    1e-11  #: of a parabola in the place of a piece of a waveform, over A_z; Psi is off by at most 4 times as much
-)
+TOLERANCE = 1e-11  #: of a parabola in the place of a piece, over A_z; Psi is off by at most 4 times as much
 FIRST = 100  #: pieces of a period, of five samples each, before the first is halved
 NARROWEST = 4e-15  #: piece of a period that is a jump if it is still no parabola
 SHORT = 1e-6  #: of a period; on pieces that are shorter slopes are rounding
@@ -244,7 +242,7 @@ def _refined(w: Callable[[Array], ArrayLike]) -> _Row:
         depth = depth or float(values.mean() - values.min())
         off = values[:, 1::2] - values[:, ::2] @ np.array([[3, -1], [6, 6], [-1, 3]]) / 8
         jump = width < NARROWEST
-        good = (np.abs(off).max(axis=1) <= TOLERANCE * depth) | jump
+        good = (np.abs(off).max(axis=1) <= max(TOLERANCE * depth, 4 * EPS * np.abs(values).max())) | jump
         values[jump] = values[jump, :1] + np.outer(values[jump, -1] - values[jump, 0], np.linspace(0, 1, 5))
         done.append(np.column_stack([low, width, values])[good])
         low, width = low[~good], 0.5 * width[~good]
