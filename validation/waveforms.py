@@ -60,14 +60,14 @@ SMOOTH = {
 _EQUATIONS = (
     Equation(
         "Ψ",
-        r"\frac{\mu}{\mu_0} = 1 - \alpha \Psi(\beta), \qquad \Psi(\beta) = \langle w \rangle - \left\langle"
-        r" \min_{y \geq 0} \left[ w(x - y) + \beta y \right] \right\rangle",
+        r"\frac{\mu}{\mu_0} = 1 - \alpha \Psi(\beta), \quad \Psi(\beta) = \langle w \rangle - \left\langle"
+        r" \min_{y \ge 0} \left[ w(x - y) + \beta y \right] \right\rangle",
         "Lost by an elastic flat punch that keeps contact, after M. Popov (2020). As a mean of suprema of functions"
         " linear in β it falls and is convex, for every waveform.",
     ),
     Equation(
         "",
-        r"\frac{v_c}{\mu_0 \kappa \omega u_{z0}} \leq (N + 1) \sqrt{\frac{N (N + 2)}{12}}",
+        r"\frac{v_c}{\mu_0 \kappa \omega u_{z0}} \le (N + 1) \sqrt{\frac{N (N + 2)}{12}}",
         "Greatest critical velocity of N harmonics whose depth is nowhere negative, for every shape; reached by"
         " <code>mdr.laws.steepest_waveform</code>.",
     ),
@@ -83,13 +83,14 @@ def claim(effort: str) -> Claim:
     return Claim(
         name="waveforms",
         title="Whatever the waveform, friction is concave in velocity; N harmonics can raise v_c by N²/√12 and no more",
-        quote="The lost friction is one function of velocity for each waveform, runs from 1 to 0, falls and is convex,"
-        " “for all waveforms and any number of stick events” (proof left out). (M. Popov, Front. Mech. Eng. 6 (2020)"
-        " 69, after Eq. (33))",
+        quote="This is illustrated in Fig. 1, which qualitatively describes the behavior of the average coefficient of"
+        " friction, as it increases from its static value to μ_0 with increasing sliding velocity. (Section 1)",
         range="Saws, square, pulse, sine and random waveforms; four shapes and a sphere, elastic, Kelvin and with"
         " Maxwell arms, contact kept and lost; rigid pull, and bodies on a spring; up to 6 harmonics, depth nowhere"
         " negative.",
-        measured="The proof is short, and says more. Under a rigid pull the force of every spring is the greatest that"
+        measured="For a punch and any waveform M. Popov (2020, doi 10.3389/fmech.2020.00069, after Eq. (33)) states"
+        " without proof that lost friction falls with velocity and is convex. The proof is short, and says"
+        " more. Under a rigid pull the force of every spring is the greatest that"
         " its limit and the pull allow, and what is allowed at two velocities is, mixed, allowed between them. So"
         " friction rises and is concave in v_0 for every shape, periodic depth and material with arms, contact kept or"
         " lost, and lies above the straight line from its static value to μ_0 at v_c. On elastic springs a body"
