@@ -82,7 +82,7 @@ def claim(effort: str) -> Claim:
     fit, where = fit_error()
     return Claim(
         name="waveforms",
-        title="Whatever the waveform, friction is concave in velocity; N harmonics can raise v_c by N²/√12 and no more",
+        title="Whatever the waveform, friction is concave in velocity; how far N harmonics can raise v_c is known",
         quote="This is illustrated in Fig. 1, which qualitatively describes the behavior of the average coefficient of"
         " friction, as it increases from its static value to μ_0 with increasing sliding velocity. (Section 1)",
         range="Saws, square, pulse, sine and random waveforms; four shapes and a sphere, elastic, Kelvin and with"
