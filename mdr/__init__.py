@@ -43,6 +43,7 @@ from mdr.friction.fit import fit
 from mdr.studies import Quantity, Study, read_study, sweep
 
 from mdr import half_space, indenters, materials
+from mdr.case import waveforms
 from mdr.case import in_plane as _in_plane
 from mdr.case import motion as _motion
 
@@ -96,6 +97,7 @@ __all__ = [
     "sweep",
     "tangential_loop",
     "verdict",
+    "waveforms",
     "write_case",
 ]
 __all__ += indenters.__all__  # shapes, materials and motions are listed where they stand

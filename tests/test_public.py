@@ -83,6 +83,11 @@ SIGNATURES = {
     "Quantity": 'name, unit, of, meaning="", *, per_velocity=False',
     "measure_critical_velocity": 'case, direction=1, *, start="full_slip", limit_s=None, accuracy=1e-05',
     "verdict": "case, *, within=0.01, limit_s=None, accuracy=1e-05, three_dimensions=False",
+    "laws.waveform_loss": "w, beta",
+    "laws.steepest_waveform": "n_harmonics",
+    "waveforms.sawtooth": "u_z0, du_z, omega, *, n_harmonics, falling=False",
+    "waveforms.square": "u_z0, du_z, omega, *, n_harmonics",
+    "waveforms.pulse": "u_z0, du_z, omega, *, n_harmonics, width",
     "half_space.slide": "case, v_0, *, cells=None, steps_per_period=None, n_periods=None, coupled=True, "
     'start="full_slip", limit_s=None',
     "half_space.curve": "case, v_0, *, cells=None, steps_per_period=None, n_periods=None, coupled=True, "

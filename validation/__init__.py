@@ -32,16 +32,16 @@ GROUPS = {
         ("full_slip_motion", "static_cof", "rigid_pull", "spring_pull", "generalisation", "uniqueness", "maps"),
     ),
     "Beyond the paper": (
-        "The whole curve, lost contact, further resonances, and oscillation along the slide and across.",
+        "The whole curve, waveforms, random vibration, lost contact, resonances, and oscillation along the slide and across.",
         (
             "one_curve",
+            "waveforms",
             "lost_contact",
             "resonances",
             "shaken_velocity",
             "shaken_curves",
             "drive",
             "shaken_across",
-            "random_vibration",
         ),
     ),
     "Three dimensions": (

@@ -77,12 +77,12 @@ class ContactEdge:
         return gap
 
     def crossings(self, gap: float) -> tuple[list[float], list[float]]:
-        """Phases at which the spring of a gap touches, and at which it leaves."""
+        """Phases at which the spring of a gap touches, and at which it leaves; one that just comes to zero stays."""
         touches, leaves = [], []
         for one, (first, last) in zip(self.pieces, self._gaps, strict=True):
             if first < gap <= last:
                 touches.append(self._touch(gap, one))
-            elif last <= gap < first:
+            elif last < gap <= first:
                 leaves.append(self._passes(gap, one.begin, one.end, -1))
         return touches, leaves
 

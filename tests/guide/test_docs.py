@@ -108,7 +108,9 @@ def test_every_public_name_is_documented():
     assert len(set(documented)) == len(documented)
     laws = {f"laws.{name}" for name in mdr.laws.__all__ if isfunction(getattr(mdr.laws, name))}
     space = {f"half_space.{name}" for name in mdr.half_space.__all__}
-    assert {f"mdr.{name}" for name in {*mdr.__all__, *laws, *space} - {"laws", "half_space"}} <= set(documented)
+    waves = {f"waveforms.{name}" for name in mdr.waveforms.__all__}
+    names = {*mdr.__all__, *laws, *space, *waves} - {"laws", "half_space", "waveforms"}
+    assert {f"mdr.{name}" for name in names} <= set(documented)
     for path in documented:
         assert (pkgutil.resolve_name(path).__doc__ or "").strip(), path
 

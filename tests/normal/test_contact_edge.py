@@ -65,5 +65,15 @@ def test_a_spring_touches_and_leaves_when_it_is_the_edge(T):
         assert np.all(edge.gap(np.array(leaves) + 1e-6) < gap)
 
 
+@pytest.mark.parametrize("T", [0.0, 0.2, 4.0])
+def test_a_spring_at_a_turn_of_the_edge_touches_as_often_as_it_leaves(T):
+    """Exactly there: a depth of several zeros, as the steepest waveforms have, lost its returns."""
+    for cycle, _ in some_series():
+        edge = ContactEdge.of(cycle, T)
+        for gap in edge.gap(edge.begins)[1:]:
+            touches, leaves = edge.crossings(float(gap))
+            assert len(touches) == len(leaves)
+
+
 def test_a_constant_depth_has_a_still_edge():
     assert_allclose(ContactEdge.of(Cycle.constant(1.0, 1.0), 0.5).gap(PHASE), 0, atol=0)

@@ -22,6 +22,7 @@ from validation import (
     uncoupled,
     uniqueness,
     vector_springs,
+    waveforms,
 )
 from validation.cases import RADIUS, SHAPES, contact, driven
 from validation.generalisation import finite_amplitude, indentation
@@ -282,3 +283,53 @@ def test_spectra_claim_as_far_as_their_spread_allows():
     series = [random_vibration.Series(one, (0.1, 1.0, 1.5, 2.0, 2.5), 8) for one in random_vibration.SPECTRA]
     first = [random_vibration.claimed(one) for one in series]
     assert [one.index(True) if any(one) else None for one in first] == [1, 2, 3, None, 4]
+
+
+def test_a_loss_of_a_waveform_that_is_off_is_seen(monkeypatch):
+    right = laws.waveform_loss
+    assert all(
+        c.held for c in (*waveforms._form_checks(waveforms.fit_error()[0]), *waveforms._march_checks(quick=True))
+    )
+    monkeypatch.setattr(laws, "waveform_loss", lambda w, beta: right(w, 1.001 * np.asarray(beta)))
+    checks = [*waveforms._form_checks(0.0144), *waveforms._march_checks(quick=True)]
+    assert sum(not c.held for c in checks) == len(checks) - 1  # all but the fit
+    monkeypatch.setattr(laws, "waveform_loss", lambda w, beta: right(w, beta) + 1e-9 * np.sin(np.asarray(beta)))
+    assert not any(c.held for c in waveforms._convex_checks(quick=True))
+
+
+def test_friction_that_bends_the_wrong_way_would_be_seen():
+    case = contact("flat punch", 0.3, k_ratio=1.0, omega_0_ratio=2.2, damping_ratio=0.1)  # a body, in the place of none
+    rise, bend, error = waveforms.bends(case, 6)
+    found = list(waveforms._bend_checks("here", [(rise, bend, error), (rise, -bend, error)]))
+    assert [c.held for c in found] == [True, False]
+    assert not any(c.held for c in waveforms._bend_checks("here", [(-rise, bend, error)]))
+
+
+def test_a_steepest_waveform_that_is_not_is_seen(monkeypatch):
+    right = laws.steepest_waveform
+
+    def less(N):
+        """Its sines a hundredth too small."""
+        gain, cos, sin = right(N)
+        return 0.99 * gain, cos, 0.99 * sin
+
+    monkeypatch.setattr(laws, "steepest_waveform", less)
+    missed = [c.name for c in waveforms._steepest_checks(quick=True) if not c.held]
+    assert sum("random depths" in name for name in missed) == 3  # each finds a steeper one
+    monkeypatch.setattr(laws, "steepest_waveform", lambda N: (1.01 * right(N)[0], *right(N)[1:]))
+    missed = [c.name for c in waveforms._steepest_checks(quick=True) if not c.held]
+    assert sum("by runs" in name or "full slip" in name for name in missed) == 6
+
+
+def test_a_named_waveform_that_costs_another_amount_is_seen(monkeypatch):
+    with_gibbs = {name: (lambda m=make, **k: m(**k | {"n_harmonics": 12}), *told) for name, (make, *told) in
+                  waveforms.SMOOTH.items()}  # fmt: skip
+    monkeypatch.setattr(waveforms, "SMOOTH", with_gibbs)
+    assert sum(not c.held for c in waveforms._named_checks()) >= 7
+
+
+def test_a_waveform_that_is_not_the_best_is_seen():
+    _, cos, sin = laws.steepest_waveform(2)
+    loss = laws.waveform_loss(mdr.PeriodicMotion(1.0, 1.0, tuple(cos), tuple(sin)), 2 * np.pi)
+    found = list(waveforms._best_checks({2: (loss, cos, sin)}))
+    assert [c.held for c in found] == [True, False]

@@ -67,11 +67,13 @@ from mdr.closed_forms.laws.rigid_pull import (
     touch_depth,
 )
 from mdr.closed_forms.laws.shaken import EllipticDrive, elliptic_drive, held_under_shake, lost_under_shake, rigid_shake
+from mdr.closed_forms.laws.waveform import best_waveform, steepest_waveform, waveform_critical, waveform_loss
 
 __all__ = [
     "EllipticDrive",
     "LeastOverDepth",
     "amplitude_limit",
+    "best_waveform",
     "blow",
     "coupled_critical_velocity",
     "coupling_loss",
@@ -101,8 +103,11 @@ __all__ = [
     "rise_of_lost_punch",
     "slow_limit",
     "slow_random_loss",
+    "steepest_waveform",
     "steered_across",
     "stiffened_by_coupling",
     "stiffness_exponent",
     "touch_depth",
+    "waveform_critical",
+    "waveform_loss",
 ]
