@@ -35,6 +35,10 @@ GROUPS = {
         "The whole curve, lost contact, further resonances, and oscillation along the slide and across.",
         ("one_curve", "lost_contact", "resonances", "shaken_velocity", "shaken_curves", "drive", "shaken_across"),
     ),
+    "Measured forces": (
+        "The springs beside forces that were measured on a real contact.",
+        ("steel_slide",),
+    ),
     "Three dimensions": (
         "A half-space, solved with no springs at all, shows what independent springs leave out.",
         ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip", "vector_springs"),

@@ -17,6 +17,7 @@ from validation import (
     rigid_pull,
     shaken_across,
     static_cof,
+    steel_slide,
     transverse_slip,
     uncoupled,
     uniqueness,
@@ -248,3 +249,12 @@ def test_what_springs_are_too_high_by_counts(monkeypatch):
     missed = [c.name for c in vector_springs._table_checks(off, left) if not c.held]
     assert sum("less the law" in name for name in missed) == 3
     assert "constant of the law by least squares" in missed
+
+
+def test_a_measured_bar_or_a_contact_that_is_off_is_seen(monkeypatch):
+    assert all(check.held for check in steel_slide._met_checks())
+    right = steel_slide.measured.found
+    monkeypatch.setattr(steel_slide.measured, "found", {at: (1.6 * F, length) for at, (F, length) in right.items()})
+    assert sum(not check.held for check in steel_slide._met_checks()) >= 4  # at 0.1 mm/s all
+    monkeypatch.setattr(steel_slide.measured, "vibrated", np.linspace(0.5, 0.55, 6))
+    assert not any("fall" in check.name and check.held for check in steel_slide._constant_checks())
