@@ -33,7 +33,16 @@ GROUPS = {
     ),
     "Beyond the paper": (
         "The whole curve, lost contact, further resonances, and oscillation along the slide and across.",
-        ("one_curve", "lost_contact", "resonances", "shaken_velocity", "shaken_curves", "drive", "shaken_across"),
+        (
+            "one_curve",
+            "lost_contact",
+            "resonances",
+            "shaken_velocity",
+            "shaken_curves",
+            "drive",
+            "shaken_across",
+            "sequel",
+        ),
     ),
     "Measured forces": (
         "The springs beside forces that were measured on a real contact.",
