@@ -283,15 +283,14 @@ def test_piezo_drive_pushes_by_time_shares_less_the_deflection():
         assert rising(drive.thrust[::-1])
 
 
-def test_steel_slide_meets_the_bars_of_the_slide_and_misses_that_at_rest():
+def test_steel_slide_meets_all_bars_with_a_rough_face_alone():
     s = script("steel_slide")
-    for (_, limit, bar), (forces, deflection) in s.found.items():
+    for (face, limit, bar), (forces, deflection) in s.found.items():
         assert_allclose(forces[s.bars[bar]], s.vibrated[s.bars[bar]], rtol=1e-6)
         if limit == "constant":
             assert rising(forces)
             assert_allclose(deflection, deflection[0])
-        elif bar == "0.05 mm/s":
-            assert np.abs(forces - s.vibrated)[1:].max() < 0.12
-            assert forces[0] > s.vibrated[0] + 0.3
-    # the flat punch at rest is Eq. (6) of the author's later paper: mu_0 F_N less the force of the amplitude
-    assert_allclose(s.without[0] * s.kept(s.shapes["flat punch"], 0.7, 0.0), s.without[0] * 0.3, rtol=1e-9)
+        elif bar == "at rest":
+            assert (np.abs(forces - s.vibrated).max() < 0.08) == (face == "rough face")
+    # a flat punch at rest: mu_0 F_N less the force of the amplitude, Eq. (6) of the author's later paper
+    assert_allclose(s.kept("flat punch", 0.7, 0.0), 0.3, rtol=1e-9)

@@ -18,13 +18,12 @@ def claim(effort: str) -> Claim:
         quote="",
         range="Statements at rest, in full slip and on energy, each in a part below; elastic and Kelvin, flat punch,"
         " paraboloid, cone and r^4, rigid pull and a body on a spring. M. Popov, Front. Mech. Eng. 6:69 (2020).",
-        measured="In terms of forces Eqs. (4) and (6) hold for every shape and waveform, as all springs slip at once"
-        " where the force is greatest. Eq. (8), for a shake across, does not: it is right for a flat face alone. In"
-        " full slip friction is μ_0 for a normal and a longitudinal oscillation, and never across, Eq. (12). What is"
-        " said of energy holds for elastic contacts. On rubber a normal oscillation takes power, and the order of"
-        " efficiency turns around.",
-        verdict="fails when the contact is curved and shaken across, or its material viscous",
-        sentence="Eqs. (4), (6) and (12) of the later paper hold for all shapes; (8) only for a flat face. That a"
-        " normal oscillation costs least power holds for elastic contacts; on rubber a shake along does.",
+        measured="In terms of forces Eqs. (4) and (6) hold for every shape and waveform tried. Eq. (8), for a shake"
+        " across, does not: it is right for a flat face alone. In full slip friction is μ_0 for a normal and a"
+        " longitudinal oscillation, and never across, Eq. (12). What is said of energy holds for elastic contacts. On"
+        " viscous ones a normal oscillation takes power, from ωτ of about 0.1 on more than one along.",
+        verdict="fails when a curved contact is shaken across, and in the order of efficiency when ωτ > 0.1",
+        sentence="Eqs. (4), (6), (12) of the later paper hold for all shapes; (8) only for a flat face. Normal"
+        " vibration costs least power if elastic; from ωτ of 0.1 on one along does.",
         parts=parts,
     )

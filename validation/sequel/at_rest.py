@@ -1,9 +1,10 @@
 """Static friction under vibration, in terms of forces: Eqs. (4), (6) and (8) of the author's later paper.
 
-At rest means the limit of slow slides. Friction that varies like v_0, or its power 2/3, is followed there by runs at
-two velocities.
+At rest means the limit of slow slides, by runs. Friction under a normal oscillation varies like v_0, and is followed to
+v_0 = 0 by runs at two velocities.
 
-Symbols: A_z, A_x, A_y amplitudes of force, means less least values; eta = du/(mu_0 kappa u_z0) of a shake.
+Symbols: A_z mean less least normal force, A_x greatest less mean force along, A_y of the force across; eta =
+du/(mu_0 kappa u_z0) of a shake.
 """
 
 from __future__ import annotations
@@ -33,13 +34,18 @@ def part(effort: str) -> Part:
         range="Elastic flat punch, cone, paraboloid and r^4; depth of one and two harmonics; longitudinal shake of η ="
         " 0.3 and 0.7, one and two harmonics; shake across of η = 0.5.",
         measured="Eq. (4): static friction is μ_0 times the least normal force, so μ_0 (1 − A_z/F_N) of any shape and"
-        " waveform. Eq. (6): shaken along, the force is greatest where all springs slip, and there it is μ_0 F_N; what"
-        " is held is less by the amplitude of the force. Both are statements on forces: for a given motion the"
+        " waveform, and none where contact is lost. Eq. (6): shaken along, the force comes to μ_0 F_N once a period;"
+        " what is held is less by the amplitude of the force. Both are statements on forces: for a given motion the"
         " amplitude of the force is a function of the shape, F_N(d) − F_N(d − Δu_x/(μ_0 κ)). Eq. (8), √(μ_0^2 −"
         " A_y^2/F_N^2), is that of a vector of one length; springs reach their limits one after the other, and a"
         " half-space in every point.",
         sentence="(4) and (6) hold for forces, with any shape and waveform; (8) holds for a flat face alone.",
-        checks=(*_normal_checks(effort == "quick"), *_along_checks(effort == "quick"), *_across_checks()),
+        checks=(
+            *_normal_checks(effort == "quick"),
+            *_tapping_checks(),
+            *_along_checks(effort == "quick"),
+            *_across_checks(),
+        ),
     )
 
 
@@ -61,6 +67,13 @@ def _normal_checks(quick: bool) -> Checks:
             yield Check(f"(4): COF/μ_0 at rest, {shape}, {name}", at_rest, least / one.mean_F_z, 2e-5, why)
 
 
+def _tapping_checks() -> Checks:
+    for shape in ("flat punch", "paraboloid"):
+        case = contact(shape, 1.2)
+        cof = mdr.slide(case, SLOW * MU_0 * case.material.mindlin_ratio * OMEGA * DEPTH, accuracy=1e-5).cof
+        yield Check(f"(4), cut at zero: COF/μ_0 at rest, {shape}, tapping", cof / MU_0, 0.0, 1e-3, "it rises like v_0")
+
+
 def _along_checks(quick: bool) -> Checks:
     for shape in _shapes(quick):
         for eta, twice in ((0.3, 0.0), (0.7, 0.0), (0.3, 0.1)):
@@ -75,13 +88,29 @@ def _along_checks(quick: bool) -> Checks:
             limit, where = MU_0 * run.mean_F_z, f"{shape}, η = {eta:g}{', two harmonics' if twice else ''}"
             amplitude = float(run.F_x.max() - run.mean_F_x) / limit
             why = "a slow slide adds v^(2/3) or less to what is held at rest"
-            yield Check(f"(6): COF/μ_0 plus A_x over μ_0 F_N, {where}", run.cof / MU_0 + amplitude, 1.0, 2e-3, why)
+            yield Check(
+                f"(6): COF/μ_0 plus A_x over μ_0 F_N, so greatest F_x over μ_0 F_N, {where}",
+                run.cof / MU_0 + amplitude,
+                1.0,
+                2e-3,
+                why,
+            )
             if not twice:
                 known = laws.held_under_shake(case.indenter, DEPTH, eta * DEPTH)
                 yield Check(f"COF/μ_0 at rest by the motion, {where}", run.cof / MU_0, known, 2e-3, why)
 
 
 def _across_checks() -> Checks:
+    for shape in ("flat punch", "paraboloid"):
+        case = contact(shape, 0.1)
+        reach = MU_0 * case.material.mindlin_ratio * DEPTH
+        shake = mdr.InPlaneOscillation(OMEGA, du_y=0.5 * reach)
+        case = replace(case, oscillation=mdr.ConstantDepth(DEPTH), shake=shake)
+        cof = mdr.slide(case, 1e-3 * OMEGA * reach, accuracy=1e-4).cof / MU_0
+        known = laws.held_across(case.indenter, DEPTH, 0.5 * DEPTH)
+        yield Check(
+            f"COF/μ_0 of a slow run across, η = 0.5, {shape}", cof, known, 1e-2, "it leaves the law like v^(2/3)"
+        )
     for shape in SHAPES:
         indenter, flat = SHAPES[shape], shape == "flat punch"
         amplitude = 1 - laws.held_under_shake(indenter, DEPTH, 0.5 * DEPTH)

@@ -23,6 +23,7 @@ MU_0 = 0.5
 RATE = 0.3  #: v_0 over mu_0 kappa omega u_z0
 WAYS = ("normal", "along", "across")
 SIZES = {"normal": np.linspace(0.35, 0.95, 7), "along": np.linspace(0.35, 1.6, 11), "across": np.geomspace(0.35, 4, 6)}
+TIMES = (0.0, 0.05, 0.2, 1.0)  #: omega tau
 LESS = 0.3  #: of mu_0, by which friction is lowered where directions are compared
 
 
@@ -32,13 +33,8 @@ class Account(NamedTuple):
     lowered: float  #: 1 - COF/mu_0
     pull: float
     oscillator: float
-    friction: float
-    viscous: float
-
-    @property
-    def lost(self) -> float:
-        """All that becomes heat."""
-        return self.friction + self.viscous
+    lost: float  #: all that becomes heat
+    least_slip: float  #: in contact, over v_0; below zero where a spring slips back
 
 
 def part(effort: str) -> Part:
@@ -46,23 +42,26 @@ def part(effort: str) -> Part:
     quick = effort == "quick"
     shapes = ("flat punch",) if quick else ("flat punch", "paraboloid")
     found = {(shape, T, way): curve(shape, T, way) for shape in shapes for T in (0.0, 1.0) for way in WAYS}
+    found |= {("flat punch", T, way): curve("flat punch", T, way) for T in TIMES[1:-1] for way in WAYS[:2]}
+    most = max(one.lowered for accounts in found.values() for one in accounts)
     at = {key: cost(one) for key, one in found.items()}
     rubber = {way: at["flat punch", 1.0, way] for way in WAYS}
     return Part(
         name="energy",
         title="Energy",
         quote="",
-        range=f"{' and '.join(shapes)}, elastic and ωτ = 1, rigid pull (and a body), v_0 = {RATE:g} μ_0 κ ω u_z0;"
-        " amplitudes that take up to nine tenths of friction.",
+        range=f"{' and '.join(shapes)}, elastic and ωτ = {', '.join(f'{T:g}' for T in TIMES[1:])} (and a body), v_0 ="
+        f" {RATE:g} μ_0 κ ω u_z0; amplitudes that lower friction by up to {most:.2f} of μ_0.",
         measured="Elastic: a normal oscillation supplies no work in the mean, and all dissipation falls with friction."
         " Along, the oscillator supplies exactly what the pull is spared, as long as no spring slips back: each has its"
         " v_0 of slip, at μ_0 times its load. Where springs slip back, so with large amplitudes and at the edge of"
         " curved faces, more is dissipated than without vibration. Across more always is, as the way of slip is longer."
-        " So the order normal, along, across holds for elastic contacts. With ωτ = 1 the normal oscillation works on"
-        f" the dashpots: to lower the friction of a punch by {LESS:g} of μ_0 it takes {rubber['normal']:.1f} of what"
-        f" sliding takes, along {rubber['along']:.2f}, across {rubber['across']:.1f}: along is best there.",
-        sentence="Elastic: normal vibration takes no power, along what the pull is spared, across more. On rubber (ωτ ="
-        " 1) normal vibration takes more power than one along.",
+        " So the order normal, along, across holds for elastic contacts. On a viscous one the normal oscillation works"
+        " on the dashpots of all springs. From ωτ of about 0.1 on it takes more than one along, and with ωτ = 1 more"
+        f" than one across: to lower the friction of a punch by {LESS:g} of μ_0 takes {rubber['normal']:.1f} of what"
+        f" sliding takes, along {rubber['along']:.2f}, across {rubber['across']:.1f}.",
+        sentence="Elastic: normal vibration takes no power, along what the pull is spared, across more. With ωτ = 1"
+        " the order is along, across, normal.",
         checks=(*_elastic_checks(found), *_body_checks(), *_order_checks(at)),
         figures=(_figure(found),),
     )
@@ -77,8 +76,8 @@ def account(shape: str, T: float, way: str, size: float, **body: float) -> Accou
         case = replace(case, oscillation=mdr.ConstantDepth(DEPTH), shake=mdr.InPlaneOscillation(OMEGA, **du))
     run = mdr.slide(case, RATE * OMEGA * unit, accuracy=3e-4)
     spent, without = run.energy_balance, MU_0 * run.mean_F_z * run.v_0 * 2 * np.pi / OMEGA
-    works = spent.pull_work, spent.normal_work + spent.shake_work, spent.friction_loss, spent.viscous_loss
-    return Account(1 - run.cof / MU_0, *(one / without for one in works))
+    works = spent.pull_work, spent.normal_work + spent.shake_work, spent.lost
+    return Account(1 - run.cof / MU_0, *(one / without for one in works), run.least_slip / run.v_0)
 
 
 def curve(shape: str, T: float, way: str) -> list[Account]:
@@ -109,7 +108,7 @@ def _elastic_checks(found: dict[tuple[str, float, str], list[Account]]) -> Check
             least = min(one.lost for one in accounts)
             yield Check.at_least(f"least dissipation shaken across: {shape}", least, 1.01, "a longer way of slip")
         elif shape == "flat punch":
-            kept = [one for one in accounts if one.lost < 1 + 1e-4]
+            kept = [one for one in accounts if one.least_slip >= 0]
             yield Check.at_least("punches that do not slip back", len(kept), 3, "small amplitudes")
             name = "worst |work of a longitudinal oscillation less what the pull is spared|, no slip back: flat punch"
             off = max((abs(one.oscillator - one.lowered) for one in kept), default=np.nan)
@@ -124,21 +123,28 @@ def _body_checks() -> Checks:
     for way in WAYS[:2]:
         one = account("flat punch", 0.0, way, 0.4, **BODY)
         name = f"supply less use with a body, {way}: flat punch"
-        yield Check.between(name, one.pull + one.oscillator - one.lost, -1e-3, 1.0, "what is left the damper has")
+        yield Check(name, one.pull + one.oscillator - one.lost, 0.0, 1e-3, "all of it is accounted for")
         if way == "normal":
             yield Check("work of a normal oscillation with a body: flat punch", one.oscillator, 0.0, 1e-8, "as above")
 
 
 def _order_checks(at: dict[tuple[str, float, str], float]) -> Checks:
     for shape, T in sorted({key[:2] for key in at}):
-        normal, along, across = (at[shape, T, way] for way in WAYS)
         where = f"{shape}, {loss(T)}, friction lowered by {LESS:g} μ_0"
-        yield Check.at_least(f"work across over work along: {where}", across / along, 1.2, "slip takes a longer way")
+        over = at[shape, T, "normal"] / at[shape, T, "along"]
+        if T in (0.0, 1.0):
+            across = at[shape, T, "across"]
+            why = "slip takes a longer way"
+            yield Check.at_least(f"work across over work along: {where}", across / at[shape, T, "along"], 1.2, why)
         if T == 0:
-            yield Check(f"work normal over work along: {where}", normal / along, 0.0, 1e-6, "none is needed")
+            yield Check(f"work normal over work along: {where}", over, 0.0, 1e-6, "none is needed")
+        elif T < 0.1:
+            yield Check.at_most(f"work normal over work along: {where}", over, 0.8, "little is lost in dashpots")
         else:
-            name = f"work normal over work along: {where}"
-            yield Check.at_least(name, normal / along, 1.5, "it works on the dashpots of all springs")
+            yield Check.at_least(f"work normal over work along: {where}", over, 1.2, "it works on all dashpots")
+        if T == 1:
+            over = at[shape, T, "normal"] / at[shape, T, "across"]
+            yield Check.at_least(f"work normal over work across: {where}", over, 1.1, "likewise")
 
 
 @figure("power", 1, 2, (10, 4.2), sharex=True)
@@ -159,5 +165,5 @@ def _figure(fig, panels, found) -> str:  # type: ignore[no-untyped-def]
     return (
         f"What it costs to lower friction, at v_0 = {RATE:g} μ_0 κ ω u_z0; full lines flat punch, broken paraboloid."
         " Left: elastic, where a normal oscillation is free and one along takes what the pull is spared. Right: with"
-        " ωτ = 1 a normal oscillation is the dearest but one across."
+        " ωτ = 1 a normal oscillation takes most, and one along least."
     )
