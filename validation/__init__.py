@@ -32,17 +32,23 @@ GROUPS = {
         ("full_slip_motion", "static_cof", "rigid_pull", "spring_pull", "generalisation", "uniqueness", "maps"),
     ),
     "Beyond the paper": (
-        "The whole curve, waveforms, random vibration, lost contact, resonances, and oscillation along the slide and across.",
+        "The whole curve, waveforms and random vibration, lost contact, resonances, oscillation along and across.",
         (
             "one_curve",
             "waveforms",
+            "random_vibration",
             "lost_contact",
             "resonances",
             "shaken_velocity",
             "shaken_curves",
             "drive",
             "shaken_across",
+            "sequel",
         ),
+    ),
+    "Measured forces": (
+        "The springs beside forces that were measured on a real contact.",
+        ("steel_slide",),
     ),
     "Three dimensions": (
         "A half-space, solved with no springs at all, shows what independent springs leave out.",

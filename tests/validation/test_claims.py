@@ -18,6 +18,7 @@ from validation import (
     rigid_pull,
     shaken_across,
     static_cof,
+    steel_slide,
     transverse_slip,
     uncoupled,
     uniqueness,
@@ -29,6 +30,7 @@ from validation.generalisation import finite_amplitude, indentation
 from validation.generalisation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure
 from validation.half_space import benchmarks, tables
 from validation.rigid_pull import leading_term, read_off
+from validation.sequel import at_rest, energy, full_slip
 
 
 def test_a_claim_fails_when_the_physics_is_wrong(monkeypatch):
@@ -333,3 +335,34 @@ def test_a_waveform_that_is_not_the_best_is_seen():
     loss = laws.waveform_loss(mdr.PeriodicMotion(1.0, 1.0, tuple(cos), tuple(sin)), 2 * np.pi)
     found = list(waveforms._best_checks({2: (loss, cos, sin)}))
     assert [c.held for c in found] == [True, False]
+
+
+def test_a_measured_bar_or_a_contact_that_is_off_is_seen(monkeypatch):
+    assert all(check.held for check in steel_slide._met_checks())
+    right = steel_slide.measured.found
+    monkeypatch.setattr(steel_slide.measured, "found", {at: (1.6 * F, length) for at, (F, length) in right.items()})
+    assert sum(not check.held for check in steel_slide._met_checks()) >= 4
+    monkeypatch.setattr(steel_slide.measured, "vibrated", np.linspace(0.5, 0.55, 6))
+    assert not any("fall" in check.name and check.held for check in steel_slide._constant_checks())
+
+
+def test_signs_and_sizes_that_are_wrong_in_the_later_paper_would_be_seen(monkeypatch):
+    """Each equation of `sequel`, and each sentence on energy, with what it is compared with turned or moved."""
+    held, law = laws.held_under_shake, laws.lost_across
+    monkeypatch.setattr(laws, "held_under_shake", lambda *knobs: held(*knobs) + 0.01)
+    monkeypatch.setattr(laws, "lost_across", lambda *knobs: -law(*knobs))
+    assert not any(c.held for c in at_rest._along_checks(True) if "by the motion" in c.name)
+    assert not all(c.held for c in at_rest._across_checks())
+    assert not any(c.held for c in full_slip._checks(True) if "over its law" in c.name)
+    run = mdr.slide
+    monkeypatch.setattr(mdr, "slide", lambda *knobs, **more: replace(run(*knobs, **more), cof=0.49))
+    assert not any(c.held for c in at_rest._normal_checks(True))
+    assert not any(c.held for c in full_slip._checks(True) if "(12)" in c.name)
+    paid = {
+        ("flat punch", 0.0, way): [energy.Account(0.1 * i, 1.0, 0.3, 1.2, -1.0) for i in range(5)]
+        for way in energy.WAYS
+    }
+    missed = [c.name for c in energy._elastic_checks(paid) if not c.held]
+    assert {name.split(":")[0] for name in missed} >= {"work of a normal oscillation", "greatest dissipation under it"}
+    cheap = {("flat punch", T, way): 0.3 for T in energy.TIMES for way in energy.WAYS}
+    assert not any(c.held for c in energy._order_checks(cheap))
