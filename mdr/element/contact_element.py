@@ -83,7 +83,7 @@ class ContactElement(Record):
 
     @property
     def address(self) -> int:
-        """Address of a C function that makes a step of one contact, for programs that compile nothing.
+        """Address of a C function that makes a step of one contact, for programs that compile nothing::
 
             int step(const double *state, double *new_state, double dt, const double *u, double *F, double *K)
 
