@@ -22,7 +22,7 @@ from typing import Any
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import begin, completion, curve, explore, fit, judge, record, run, sweep, three_dimensions, velocity
-from mdr.commands.arguments import NEGATIVE, no_options, path_of
+from mdr.commands.arguments import NEGATIVE, joined, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
@@ -63,7 +63,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
     given = list(sys.argv[1:] if argv is None else argv)
     top = parser()
-    args = top.parse_args(given)
+    args = top.parse_args(joined(given))
     if args.work is None:
         top.print_help(sys.stderr)
         top.exit(Exit.WRONG_INPUT)

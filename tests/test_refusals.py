@@ -396,7 +396,7 @@ SAYINGS = {
     "parse_case(3)": "text must be",
     'parse_case("mu_0 = 0,5")': "write one number in SI",
     'parse_case("mu_0 = 0.5")': "[indenter] is missing",
-    'parse_case(CONE + "theta = 1 deg")': "without unit or arithmetic",
+    'parse_case(CONE + "theta = 1 deg")': "or a quantity in quotes",
     'parse_case(CONE + "angle = 0.1")': "angle is no key of Cone; there are shape, theta, theta_deg",
 }
 
