@@ -38,6 +38,8 @@ from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.friction.verdict import verdict
 from mdr.friction.friction_data import FrictionData, read_friction_data
 from mdr.friction.fit import fit
+from mdr.friction.find import find
+from mdr.friction.tolerance import tolerance
 from mdr.studies import Quantity, Study, read_study, sweep
 
 from mdr import half_space, indenters, materials
@@ -64,6 +66,7 @@ __all__ = [
     "blocked_cof",
     "cof_curve",
     "critical_velocity",
+    "find",
     "fit",
     "full_slip_critical_velocity",
     "half_space",
@@ -90,6 +93,7 @@ __all__ = [
     "surface_fields",
     "sweep",
     "tangential_loop",
+    "tolerance",
     "verdict",
     "write_case",
 ]

@@ -70,6 +70,8 @@ SIGNATURES = {
     "ContactElement.step": "state, dt, u, tangent=False",
     "slide_record": "indenter, material, mu_0, t, u_x, u_y=None, u_z=None, *, F_z=None, n_springs=None",
     "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None, accuracy=1e-05",
+    "find": "case, path, *, v_0=None, cof=None, v_c=None, within=None, held=None",
+    "tolerance": "case, v_0, by=0.1, fields=None, *, held=None",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",
     "read_study": "path",
@@ -91,6 +93,8 @@ RECORDS = {
     "normal.partial_slip.PartialSlip": "F_x F_z stick_radius",
     "SlideRecord": "t u_z F_x F_y F_z cof cof_error running_cof energy_balance",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
+    "friction.find.Found": "path values why cases",
+    "friction.tolerance.Tolerance": "by v_0 base_cof base_v_c inputs cof v_c warnings",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",
     "half_space.HalfSpaceRun": "cof cof_y cof_error grid_error step_error cycle_error settled kind why stick_share "

@@ -103,7 +103,8 @@ def table_of(
 
 def csv_text(columns: Mapping[str, Any]) -> str:
     """A header of names, and a line for each row of columns of one length; numbers read back as they were."""
-    lines = [",".join(f"{value:.17g}" for value in row) for row in zip(*columns.values(), strict=True)]
+    told = [[one if isinstance(one, str) else f"{one:.17g}" for one in column] for column in columns.values()]
+    lines = [",".join(row) for row in zip(*told, strict=True)]
     return "\n".join([",".join(columns), *lines]) + "\n"
 
 
