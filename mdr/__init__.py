@@ -101,3 +101,7 @@ __all__ += indenters.__all__  # shapes, materials and motions are listed where t
 __all__ += materials.__all__
 __all__ += _motion.__all__
 __all__ += _in_plane.__all__
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])

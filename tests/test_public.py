@@ -159,6 +159,10 @@ def test_the_list_of_names_is_whole():
     assert promised <= set(mdr.__all__)
 
 
+def test_completion_offers_public_names_alone():
+    assert set(dir(mdr)) == {*mdr.__all__, "__version__"}
+
+
 def test_version_is_that_of_the_distribution():
     assert mdr.__version__ == metadata.version("mdr-friction")
 

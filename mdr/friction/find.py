@@ -22,6 +22,7 @@ from mdr.normal.resolved import at_rest
 from mdr.normal.vary import still_held
 from mdr.tools.arrays import EXACT
 from mdr.tools.checks import finite, positive
+from mdr.tools.keywords import offering
 from mdr.tools.messages import short
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ticker
@@ -49,6 +50,7 @@ class Found(Printed):
         return "\n".join([*found, *([self.why] if self.why else [])])
 
 
+@offering
 def find(
     case: SlidingContact,
     path: str,

@@ -19,6 +19,7 @@ from mdr.normal.resolved import at_rest
 from mdr.normal.vary import fields_of, fields_set, still_held, value_at
 from mdr.tools.checks import between, finite
 from mdr.tools.csv_table import Tabled, csv_text
+from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import progress
 from mdr.tools.summary import Summarised, Summary
@@ -79,6 +80,7 @@ class Tolerance(Summarised, Tabled):
         return csv_text(columns)
 
 
+@offering
 def tolerance(
     case: SlidingContact,
     v_0: float,

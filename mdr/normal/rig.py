@@ -30,6 +30,7 @@ from mdr.normal.resolved import at_rest
 from mdr.normal.vary import RIG, angular, contact_of, fields_of
 from mdr.tools.arrays import EXACT, SAME
 from mdr.tools.checks import instance, not_negative, positive
+from mdr.tools.keywords import offering
 
 MATTERS = 0.01  #: of the load, by which the mean load may be more without a word
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
@@ -68,6 +69,7 @@ def settings_of(part: str) -> dict[str, Setting]:
     return {name: one for name, one in SETTINGS.items() if any(path.startswith(f"{part}.") for path in one.paths)}
 
 
+@offering
 def rig(
     indenter: Indenter,
     material: Material,
@@ -85,8 +87,8 @@ def rig(
     c_x: float = 0.0,
     load_rides: bool | None = None,
     shake: Shake | None = None,
-    density: float | None = None,
     hold: str | None = None,
+    density: float | None = None,
 ) -> SlidingContact:
     """The contact that a rig makes, from what is set and read at it.
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
+from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,7 +28,7 @@ _HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?
 
 
 class Tabled:
-    """Base of records that write themselves as CSV; they answer `table()`."""
+    """Base of records that write themselves as CSV, or as a data frame; they answer `table()`."""
 
     def table(self) -> str:
         """The text of the CSV file.
@@ -48,6 +49,26 @@ class Tabled:
             The file.
         """
         Path(path).write_text(self.table(), encoding="utf-8")
+
+    def to_dataframe(self) -> Any:
+        """The table as a pandas.DataFrame, with units in the names of its columns; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each line of `table()`.
+        """
+        return data_frame(self.table())
+
+
+def data_frame(text: str) -> Any:
+    """A CSV text with a header as a pandas.DataFrame. Raises ImportError with a command where pandas is missing."""
+    try:
+        import pandas
+    except ImportError:
+        way_out = "python3 -m pip --python .venv install -e '.[xarray]'"
+        raise ImportError(f"to_dataframe needs pandas, which comes with xarray: {way_out}") from None
+    return pandas.read_csv(StringIO(text), keep_default_na=False, na_values=["nan"], engine="python")
 
 
 class Column(NamedTuple):
