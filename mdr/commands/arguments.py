@@ -75,6 +75,11 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
+def plain_number(unit: str, must_be: str) -> Callable[[str], float]:
+    """What argparse reads a number with, in this unit where it has none; it says what the argument must be."""
+    return read_as(must_be, lambda text: value_in("it", text, unit))
+
+
 class Asked(NamedTuple):
     """A quantity as it was given."""
 

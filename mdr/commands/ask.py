@@ -6,7 +6,7 @@ import argparse
 
 import mdr
 from mdr.case.units import facts_at
-from mdr.commands.arguments import OF_MU_0, quantity, read_as, velocity
+from mdr.commands.arguments import OF_MU_0, plain_number, quantity, velocity
 from mdr.commands.output import Exit, WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.files.case_files import Said
@@ -48,7 +48,7 @@ def add_options_of_tolerance(command: argparse.ArgumentParser) -> None:
     at = "pulling velocity: 1e-3 [m/s], 1mm/s, 0.5v_c"
     command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=at)
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
-    share = read_as("a share above 0 and below 1, such as 10% or 0.1", lambda text: value_in("share", text, "-"))
+    share = plain_number("-", "a share, such as 10% or 0.1")
     command.add_argument("--by", metavar="share", type=share, default=0.1, help="less and more by this (default: 10%%)")
     named = "inputs, such as mu_0 load oscillation.du_z (default: all numbers of the case, and v_0)"
     command.add_argument("--fields", metavar="path", nargs="+", help=named)

@@ -7,7 +7,7 @@ from typing import Any
 
 import mdr
 from mdr.case.units import facts_at
-from mdr.commands.arguments import path_of, read_as
+from mdr.commands.arguments import path_of, plain_number, read_as
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.files.case_files import Said
@@ -26,7 +26,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     bounds = read_as("name=low:high, such as material.tau=1e-5:1e-1", _bounds)
     between = "lowest and highest value of a parameter: material.tau=10us:0.1s"
     command.add_argument("--bounds", metavar="name=low:high", nargs="+", type=bounds, default=[], help=between)
-    share = read_as("a share, such as 95% or 0.95", lambda text: value_in("confidence", text, "-"))
+    share = plain_number("-", "a share, such as 95% or 0.95")
     level = "level of the intervals (default: 0.95)"
     command.add_argument("--confidence", metavar="share", type=share, default=0.95, help=level)
     add_output(command, "fitted.toml", "fit.png", "fit.svg")

@@ -29,7 +29,7 @@ class Knob:
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), **look.WIDE)
         kind, listed = control.path in KINDS, isinstance(control.value, tuple)
         named = {"css_classes": ["kind" if kind else "box", control.path], "margin": (0, 5)}
-        size: dict[str, Any] = look.WIDE if kind or listed else {"width": 104}
+        size: dict[str, Any] = look.WIDE if kind or listed else {"width": 116}
         if control.words:
             self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, **named, **size)
         else:

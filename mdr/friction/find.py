@@ -7,6 +7,7 @@ asked without reaching it, the nearest point is sought first: a pair of roots ma
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -41,7 +42,7 @@ class Found(Printed):
 
     path: str  #: of the number
     values: tuple[float, ...]  #: in SI, rising; empty where there is none
-    why: str  #: why there is none; "" where there is one
+    why: str  #: why there is none, or may be others; "" where there is nothing to say
     cases: tuple[SlidingContact, ...] = field(repr=False)  #: the case at each value
 
     def __str__(self) -> str:
@@ -112,7 +113,7 @@ def find(
         *_range(case, path, within, held),
     )
     values = tuple(search.values())
-    return Found(path, values, "" if values else search.why(path), tuple(map(search.at, values)))
+    return Found(path, values, search.why(path, bool(values)), tuple(map(search.at, values)))
 
 
 class _Wish(NamedTuple):
@@ -145,7 +146,15 @@ def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, v_c: Any) -> _Wis
         raise ValueError(
             f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c"
         )
-    return _Wish(lambda one: float(cof_curve(one, speed).cof[0]), wanted, f"the COF at {shown(speed, 'm/s')}", "")
+    return _Wish(lambda one: _settled_cof(one, speed), wanted, f"the COF at {shown(speed, 'm/s')}", "")
+
+
+def _settled_cof(case: SlidingContact, v_0: float) -> float:
+    """Friction [-]. Raises ValueError where the run does not settle."""
+    curve = cof_curve(case, v_0)
+    if not curve.settled[0]:
+        raise ValueError(f"the run did not settle{f': {curve.why[0]}' if curve.why[0] else ''}")
+    return float(curve.cof[0])
 
 
 def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, float]) -> tuple[float, float]:
@@ -202,8 +211,9 @@ class _Search:
         roots = [x for x in places if known[x] == 0]
         for one, two in pairwise(places):
             if known[one] * known[two] < 0:
-                x = float(brentq(self.miss, one, two, xtol=EXACT))
-                roots += [x] if abs(self.miss(x)) < CLOSE else []
+                with suppress(ValueError):  # a case on the way that cannot be
+                    x = float(brentq(self.miss, one, two, xtol=EXACT))
+                    roots += [x] if abs(self.miss(x)) < CLOSE else []
         return [self.value(x) for x in sorted(roots)]
 
     def _turns(self, known: dict[float, float]) -> Iterator[float]:
@@ -223,12 +233,14 @@ class _Search:
         """Whether what is asked is the same everywhere."""
         return not self.found or max(self.found) - min(self.found) <= EXACT * abs(self.found[0])
 
-    def why(self, path: str) -> str:
-        """Why there is no value."""
+    def why(self, path: str, is_found: bool) -> str:
+        """Why there is no value, or why there may be others."""
+        if is_found:
+            return f"not looked at everywhere, as a case cannot be: {self.refused}" if self.refused else ""
         unit, wish = facts_at(path).unit, self.wish
         where = f"from {shown(self.low, unit)} to {shown(self.high, unit)}"
         if not self.found:
-            return f"none: no such case {where}: {self.refused}"
+            return f"none: there is no such case {where}: {self.refused}"
         least, most = (wish.told(end) for end in (min(self.found), max(self.found)))
         between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
         gaps = f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""

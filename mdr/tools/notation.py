@@ -87,9 +87,13 @@ def value_in(name: str, text: str, unit: str, also: str = "") -> float:
 
 
 def numbers_in(name: str, value: Any, unit: str) -> Any:
-    """A value, or values in lists, in which quantities as texts have become numbers; words, without a unit, stay."""
+    """A value, or values in lists, in which quantities as texts have become numbers; words, without a unit, stay.
+
+    Innermost lists may have a unit for each of their entries, as "Pa, s" of an arm.
+    """
     if isinstance(value, list):
-        return [numbers_in(f"{name}[{i}]", one, unit) for i, one in enumerate(value)]
+        units = unit.split(", ") if not any(isinstance(one, list) for one in value) else [unit]
+        return [numbers_in(f"{name}[{i}]", one, units[i % len(units)]) for i, one in enumerate(value)]
     return value_in(name, value, unit) if isinstance(value, str) and unit else value
 
 

@@ -121,6 +121,20 @@ def test_a_file_takes_quantities_in_quotes():
     assert parse_case(text) == mdr.SlidingContact(mdr.Cone(np.deg2rad(2)), rubber, 0.5, motion, pull, shake)
 
 
+def test_arms_take_quantities():
+    text = (
+        GOOD[: GOOD.index("[material]")]
+        + """[material]
+        model = "Prony"
+        E_inf = "3 MPa"
+        nu = 0.5
+        arms = [["2 MPa", "1 ms"], [1e6, 0.1]]
+    """
+        + GOOD[GOOD.index("[oscillation]") :]
+    )
+    assert parse_case(text).material == mdr.Prony(3e6, ((2e6, 1e-3), (1e6, 0.1)), 0.5)
+
+
 def test_another_quantity_is_refused_with_every_other_fault():
     text = """
         mu_0 = "1 N"

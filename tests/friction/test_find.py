@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.friction import find as module
 from mdr.normal.vary import case_at
 
 BALL, RUBBER, OMEGA = mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=2e-4), 314.0
@@ -81,7 +82,7 @@ NONE = [
      "none: the COF at 10 mm/s is 0.5 for oscillation.du_z from 1 µm to 2 µm, and 0.1 is asked for"),
     ({"path": "du_z", "v_0": 1e-4, "cof": 0.1, "within": (1e-6, 2e-6)}, "none: the COF at 100 µm/s lies between 0.4"),
     ({"path": "E", "v_c": 1.0}, "none: v_c is 942 µm/s for material.E from 300 kPa to 30 MPa, and 1 m/s is asked for"),
-    ({"path": "nu", "v_c": 1.0, "within": (0.6, 0.9)}, "none: no such case from 0.6 to 0.9: nu must lie in"),
+    ({"path": "nu", "v_c": 1.0, "within": (0.6, 0.9)}, "none: there is no such case from 0.6 to 0.9: nu must lie in"),
     ({"path": "nu", "v_c": 1.0, "within": (0.1, 0.9)}, "not everywhere: nu must lie in"),
 ]  # fmt: skip
 
@@ -92,3 +93,16 @@ def test_it_says_why_there_is_none(asked, words):
     assert found.values == found.cases == ()
     assert words in found.why
     assert str(found) == found.why
+
+
+def test_a_run_that_does_not_settle_is_no_answer(monkeypatch):
+    curve, v_0 = mdr.cof_curve, 0.4 * mdr.critical_velocity(CASE)
+    monkeypatch.setattr(
+        module, "cof_curve", lambda one, v: replace(curve(one, v), settled=np.array([one.oscillation.du_z < 4.5e-6]))
+    )
+    wanted = [curve(case_at(CASE, {"oscillation.du_z": du_z}), v_0).cof[0] for du_z in (4e-6, 5e-6)]
+    seen, unseen = (mdr.find(CASE, "du_z", v_0=v_0, cof=cof, within=(3e-6, 6e-6)) for cof in wanted)
+    assert_allclose(seen.values, [4e-6], rtol=1e-9)
+    assert seen.why == "not looked at everywhere, as a case cannot be: the run did not settle"
+    assert unseen.values == ()
+    assert unseen.why.endswith("where there is a case, as not everywhere: the run did not settle")

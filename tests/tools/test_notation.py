@@ -97,6 +97,7 @@ def test_what_is_shown_is_read_again():
 
 def test_lists_hold_quantities_and_words_stay():
     assert numbers_in("cos", ["2 um", 1e-6, ["1 mm"]], "m") == [2e-6, 1e-6, [1e-3]]
+    assert numbers_in("arms", [["3 MPa", "2 ms"], [1e6, "1 s"]], "Pa, s") == [[3e6, 2e-3], [1e6, 1.0]]
     assert numbers_in("at", "tool", "") == "tool"
     with pytest.raises(ValueError, match=r"^cos\[1\] wants m"):
         numbers_in("cos", [1e-6, "2 s"], "m")
