@@ -40,6 +40,8 @@ from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.friction.verdict import verdict
 from mdr.friction.friction_data import FrictionData, read_friction_data
 from mdr.friction.fit import fit
+from mdr.friction.find import find
+from mdr.friction.tolerance import tolerance
 from mdr.studies import Quantity, Study, read_study, sweep
 
 from mdr import half_space, indenters, materials
@@ -69,6 +71,7 @@ __all__ = [
     "blocked_cof",
     "cof_curve",
     "critical_velocity",
+    "find",
     "fit",
     "full_slip_critical_velocity",
     "half_space",
@@ -96,6 +99,7 @@ __all__ = [
     "surface_fields",
     "sweep",
     "tangential_loop",
+    "tolerance",
     "verdict",
     "waveforms",
     "write_case",
@@ -104,3 +108,7 @@ __all__ += indenters.__all__  # shapes, materials and motions are listed where t
 __all__ += materials.__all__
 __all__ += _motion.__all__
 __all__ += _in_plane.__all__
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])

@@ -1,6 +1,6 @@
-"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit` and `export` of a case
-file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and
-`mdr case` to begin with, `mdr completion` for the shell.
+"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `tolerance` and
+`export` of a case file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser,
+`mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -22,6 +22,7 @@ from typing import Any
 import mdr
 from mdr.case.contact import SlidingContact
 from mdr.commands import (
+    ask,
     begin,
     completion,
     curve,
@@ -35,7 +36,7 @@ from mdr.commands import (
     three_dimensions,
     velocity,
 )
-from mdr.commands.arguments import NEGATIVE, no_options, path_of
+from mdr.commands.arguments import NEGATIVE, joined, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
 from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
@@ -58,6 +59,10 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
     ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", read_case,
      judge.add_options),
     ("fit", fit.fit, "parameters of the case from measured friction over velocity", read_said, fit.add_options),
+    ("find", ask.find, "the value of one number that brings about a friction, or a critical velocity", read_said,
+     ask.add_options_of_find),
+    ("tolerance", ask.tolerance, "friction and critical velocity as each input alone is a little less and more",
+     read_said, ask.add_options_of_tolerance),
     ("record", record.record, "friction under a recorded motion, from a CSV file and a case file", None,
      record.add_options),
     ("export", export.export, "the contact as a C header or a unit for co-simulation (FMI 2.0)", read_case,
@@ -78,7 +83,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
     given = list(sys.argv[1:] if argv is None else argv)
     top = parser()
-    args = top.parse_args(given)
+    args = top.parse_args(joined(given))
     if args.work is None:
         top.print_help(sys.stderr)
         top.exit(Exit.WRONG_INPUT)

@@ -73,6 +73,8 @@ SIGNATURES = {
     "Spectrum": "f, density",
     "Spectrum.band": "rms, f_low, f_high",
     "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None, accuracy=1e-05",
+    "find": "case, path, *, v_0=None, cof=None, v_c=None, within=None, held=None",
+    "tolerance": "case, v_0, by=0.1, fields=None, *, held=None",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",
     "read_study": "path",
@@ -100,6 +102,8 @@ RECORDS = {
     "SlideRecord": "t u_z F_x F_y F_z cof cof_error running_cof energy_balance",
     "RandomCof": "v_0 cof standard_error cof_error realisations",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
+    "friction.find.Found": "path values why cases",
+    "friction.tolerance.Tolerance": "by v_0 base_cof base_v_c inputs cof v_c warnings",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",
     "half_space.HalfSpaceRun": "cof cof_y cof_error grid_error step_error cycle_error settled kind why stick_share "
@@ -162,6 +166,10 @@ def test_the_list_of_names_is_whole():
         "Material",
     }
     assert promised <= set(mdr.__all__)
+
+
+def test_completion_offers_public_names_alone():
+    assert set(dir(mdr)) == {*mdr.__all__, "__version__"}
 
 
 def test_version_is_that_of_the_distribution():

@@ -1,11 +1,11 @@
-"""What several commands take: accuracy and whole numbers; velocities in m/s, another unit, or over v_c."""
+"""What several commands take: accuracy and whole numbers; quantities with a unit, or as multiples of v_c or mu_0."""
 
 from __future__ import annotations
 
 import argparse
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
 import mdr
@@ -13,11 +13,9 @@ from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import WrongInput
 from mdr.files.toml_text import StandardInput
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.tools.notation import UNITS
+from mdr.tools.notation import UNITS, is_number, number_in, parted, scale_of, value_in
 
-OF_V_C = "v_c"  #: unit of a multiple of the critical velocity
-_UNIT = "|".join(map(re.escape, (*UNITS["m/s"], OF_V_C)))
-_WRITTEN = re.compile(rf"(?P<number>.*?)\s*(?P<unit>{_UNIT})?", re.DOTALL)
+OF_V_C, OF_MU_0 = "v_c", "mu_0"  #: units of multiples
 #: how a value begins that is no option, as -1e-3 and -0.5v_c; argparse itself knows -1 and -0.001 alone
 NEGATIVE = re.compile(r"-[\d.]")
 T = TypeVar("T")
@@ -33,6 +31,21 @@ def read_as(must_be: str, read: Callable[[str], T]) -> Callable[[str], T]:
             raise argparse.ArgumentTypeError(f"must be {must_be}, got {text!r}") from None
 
     return checked
+
+
+def joined(given: Sequence[str]) -> list[str]:
+    """The arguments, a unit that stands alone behind a number put to it: 5 mm/s without quotes."""
+    found: list[str] = []
+    for one in given:
+        if found and is_number(found[-1]) and parted(f"1 {one}") == ("1", one) and _is_unit(one):
+            found[-1] += one
+        else:
+            found.append(one)
+    return found
+
+
+def _is_unit(text: str) -> bool:
+    return text in (OF_V_C, OF_MU_0) or any(scale_of(text, unit) is not None for unit in UNITS)
 
 
 def path_of(text: str) -> str:
@@ -57,39 +70,48 @@ def no_options(_: argparse.ArgumentParser) -> None:
 
 def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     """How accurate an answer is to be."""
-    read = read_as("a number from 1e-8 to 1e-3", lambda text: accuracy_of(float(text)))
+    read = read_as("a number from 1e-8 to 1e-3", lambda text: accuracy_of(value_in("accuracy", text, "-")))
     meaning = f"{of_what}, 1e-8 to 1e-3 (default: {BUDGET:g})"
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
-class Velocity(NamedTuple):
-    """A velocity as it was given."""
+def plain_number(unit: str, must_be: str) -> Callable[[str], float]:
+    """What argparse reads a number with, in this unit where it has none; it says what the argument must be."""
+    return read_as(must_be, lambda text: value_in("it", text, unit))
 
-    number: float  #: in m/s, or a multiple of v_c
-    of_v_c: bool
+
+class Asked(NamedTuple):
+    """A quantity as it was given."""
+
+    number: float  #: in SI, or a multiple
+    of: str = ""  #: of v_c or mu_0, "" in SI
 
     def on(self, case: mdr.SlidingContact) -> float:
-        """The velocity [m/s] for a case. Raises WrongInput for a multiple where v_c is infinite or zero."""
-        if not self.of_v_c:
-            return self.number
+        """The value [SI] for a case. Raises WrongInput for a multiple where v_c is infinite or zero."""
+        if self.of != OF_V_C:
+            return self.number * (case.mu_0 if self.of else 1)
         v_c = mdr.critical_velocity(case, -1 if self.number < 0 else 1)
         if wrong := _no_scale(v_c):
-            raise WrongInput(f"{self.number:g}v_c: {wrong}; give the velocity in m/s")
+            raise WrongInput(f"{self.number:g} v_c: {wrong}; give the velocity in m/s")
         return self.number * v_c
 
 
-def velocity_in(usual: str) -> Callable[[str], Velocity]:
-    """What argparse reads a velocity with; usual: the unit of a plain number, "m/s" or "v_c"."""
+def quantity(name: str, unit: str, of: str = "") -> Callable[[str], Asked]:
+    """What argparse reads a quantity with, in this unit where it has none; `of`: what it may be a multiple of."""
 
-    def read(text: str) -> Velocity:
-        found = _WRITTEN.fullmatch(text.strip())
-        assert found is not None
-        unit, number = found["unit"] or usual, float(found["number"])
-        if not math.isfinite(number):
-            raise ValueError
-        return Velocity(number * UNITS["m/s"].get(unit, 1.0), unit == OF_V_C)
+    def read(text: str) -> Asked:
+        number, symbol = parted(text)
+        try:
+            if of and symbol == of:
+                return Asked(number_in(number), of)
+            return Asked(value_in(name, text, unit, of))
+        except ValueError as wrong:
+            raise argparse.ArgumentTypeError(str(wrong)) from None
 
-    return read_as("a velocity such as 1e-3, 1mm/s or 0.5v_c", read)
+    return read
+
+
+velocity = quantity("a velocity", "m/s", OF_V_C)
 
 
 def stand_in_of_v_c(case: mdr.SlidingContact) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.commands.arguments import OF_V_C, Velocity, add_accuracy, read_as, stand_in_of_v_c, velocity_in, whole_number
+from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, stand_in_of_v_c, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
@@ -24,11 +24,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     points = whole_number(2)
     command.add_argument("--points", metavar="n", type=points, help=f"how many velocities (default: {POINTS})")
     which = command.add_mutually_exclusive_group()
-    highest = f"highest velocity, over v_c or with a unit: 1.3, 5mm/s (default: {UP_TO:g})"
-    above = read_as("above zero", _highest)
-    which.add_argument("--up-to", metavar="velocity", type=above, default=Velocity(UP_TO, of_v_c=True), help=highest)
+    highest = f"highest velocity: 5e-3 [m/s], 5mm/s, 1.5v_c (default: {UP_TO:g}v_c)"
+    which.add_argument("--up-to", metavar="velocity", type=velocity, default=Asked(UP_TO, OF_V_C), help=highest)
     listed = "these velocities, in m/s, with a unit or over the v_c of their way: 1e-3 2mm/s 0.5v_c"
-    which.add_argument("--v-0", metavar="velocity", type=velocity_in("m/s"), nargs="+", help=listed)
+    which.add_argument("--v-0", metavar="velocity", type=velocity, nargs="+", help=listed)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
 
 
@@ -67,18 +66,13 @@ def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[floa
             raise WrongInput(f"--v-0 must not be negative, got {min(given):.6g} m/s: nothing shakes in the plane")
         return given
     asked = args.up_to
-    if asked.of_v_c and (said := stand_in_of_v_c(case)):
+    if asked.number <= 0:
+        raise WrongInput(f"--up-to must be above zero, got {asked.number:.6g}")
+    if asked.of and (said := stand_in_of_v_c(case)):
         complain(said)
-    forward, back = (asked.number * (velocity_scale(one) if asked.of_v_c else 1) for one in (case, case.mirrored))
+    forward, back = (asked.number * (velocity_scale(one) if asked.of else 1) for one in (case, case.mirrored))
     found: list[float] = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS).tolist()
     return found
-
-
-def _highest(text: str) -> Velocity:
-    asked = velocity_in(OF_V_C)(text)
-    if asked.number <= 0:
-        raise ValueError
-    return asked
 
 
 def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:

@@ -6,12 +6,14 @@ import argparse
 from typing import Any
 
 import mdr
-from mdr.commands.arguments import path_of, read_as
+from mdr.case.units import facts_at
+from mdr.commands.arguments import path_of, plain_number, read_as
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.files.case_files import Said
 from mdr.files.toml_text import StandardInput
 from mdr.friction.fit import Fit
+from mdr.tools.notation import value_in
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -22,10 +24,11 @@ def add_options(command: argparse.ArgumentParser) -> None:
     what = "parameters to fit, such as mu_0 material.tau; the case says where the search begins"
     command.add_argument("--free", metavar="name", nargs="+", required=True, help=what)
     bounds = read_as("name=low:high, such as material.tau=1e-5:1e-1", _bounds)
-    between = "lowest and highest value of a parameter, in SI: material.tau=1e-5:1e-1"
+    between = "lowest and highest value of a parameter: material.tau=10us:0.1s"
     command.add_argument("--bounds", metavar="name=low:high", nargs="+", type=bounds, default=[], help=between)
+    share = plain_number("-", "a share, such as 95% or 0.95")
     level = "level of the intervals (default: 0.95)"
-    command.add_argument("--confidence", metavar="share", type=float, default=0.95, help=level)
+    command.add_argument("--confidence", metavar="share", type=share, default=0.95, help=level)
     add_output(command, "fitted.toml", "fit.png", "fit.svg")
 
 
@@ -59,5 +62,5 @@ def _told(found: Fit) -> dict[str, Any]:
 
 def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     name, _, ends = text.partition("=")
-    low, high = (float(end) for end in ends.split(":"))
+    low, high = (value_in(name, end, facts_at(name).unit) for end in ends.split(":"))
     return name, (low, high)

@@ -10,6 +10,7 @@ from mdr.commands.output import Exit, Told, answer, text_of, values_of
 from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
 from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.friction.verdict import Verdict
+from mdr.tools.notation import value_in
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -99,8 +100,7 @@ def _yes_or_no(answer: bool | None, neither: str) -> str:
 
 def _share(text: str) -> float:
     """A share of v_c, given as such or as a percentage."""
-    number = text.strip()
-    share = float(number.removesuffix("%")) / (100 if number.endswith("%") else 1)
+    share = value_in("share", text, "-")
     if not 0 < share < 1:
         raise ValueError
     return share

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 import mdr
-from mdr.commands.arguments import add_accuracy, velocity_in, whole_number
+from mdr.commands.arguments import add_accuracy, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
@@ -17,7 +17,7 @@ from mdr.friction.cof_curve import LEAST_KNOB
 def add_options(command: argparse.ArgumentParser) -> None:
     """The velocity, how accurately, and where to write."""
     meaning = "pulling velocity: in m/s, with a unit or over v_c, as 1e-3, 1mm/s, 0.5v_c"
-    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity_in("m/s"), help=meaning)
+    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=meaning)
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
     add_output(command, "run.csv", "run.png", "run.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")

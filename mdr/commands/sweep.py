@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import mdr
+from mdr.commands.arguments import plain_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked
 from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
 from mdr.studies import Status
@@ -22,8 +23,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
     add_output(command, *FILES)
     command.epilog = "-o file.nc or -o file.csv writes the study to that file, and a picture beside it."
-    seconds = "work in a chunk [s] (default: 5)"
-    command.add_argument("--chunk-seconds", type=float, default=5.0, metavar="s", help=seconds)
+    seconds, time = "work in a chunk: 60 [s], 60s (default: 5s)", plain_number("s", "a time, such as 60s")
+    command.add_argument("--chunk-seconds", type=time, default=5.0, metavar="time", help=seconds)
     command.add_argument("--shard", metavar="k/n", help="compute every n-th chunk, from the k-th on; needs --store")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 import mdr
-from mdr.commands.arguments import velocity_in, whole_number
+from mdr.commands.arguments import velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.half_space.run import CELLS, LEAST_CELLS, LEAST_STEPS, PERIODS, STEPS
@@ -14,7 +14,7 @@ from mdr.half_space.run import CELLS, LEAST_CELLS, LEAST_STEPS, PERIODS, STEPS
 def add_options(command: argparse.ArgumentParser) -> None:
     """The velocity, how finely, and where to write."""
     meaning = "pulling velocity: in m/s, with a unit or over v_c, as 1e-3, 1mm/s, 0.5v_c"
-    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity_in("m/s"), help=meaning)
+    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=meaning)
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
     add_output(command, "half_space.csv", "half_space.png", "half_space.svg")
     for name, least, most, what in (

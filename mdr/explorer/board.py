@@ -29,11 +29,11 @@ class Knob:
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), **look.WIDE)
         kind, listed = control.path in KINDS, isinstance(control.value, tuple)
         named = {"css_classes": ["kind" if kind else "box", control.path], "margin": (0, 5)}
-        size: dict[str, Any] = look.WIDE if kind or listed else {"width": 104}
+        size: dict[str, Any] = look.WIDE if kind or listed else {"width": 116}
         if control.words:
             self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, **named, **size)
         else:
-            self.box = pn.widgets.TextInput(value=typed(control.value), name="", **named, **size)
+            self.box = pn.widgets.TextInput(value=self._text, name="", **named, **size)
         self.box.param.watch(self._typed, "value")
         label = [] if kind else [look.label(control.name, control.facts)]
         rows: list[Any] = [(pn.Column if listed else pn.Row)(*label, self.box, margin=(4, 0, 0, 0), **look.WIDE)]
@@ -47,6 +47,11 @@ class Knob:
             rows.append(self.slider)
         self.view = pn.Column(*rows, self.words, margin=0, **look.WIDE)
 
+    @property
+    def _text(self) -> str:
+        """What the box holds."""
+        return typed(self.control.value, self.control.facts.unit)
+
     def show(self, state: State) -> None:
         """Stand at the value of a state."""
         self.control = self.control.of(state)
@@ -55,28 +60,29 @@ class Knob:
 
     def _stand(self) -> None:
         self.showing = True
-        self.box.value = self.control.value if self.control.words else typed(self.control.value)
+        self.box.value = self._text
         if self.slider is not None:
             self.slider.end, self.slider.value = len(self.control.grid) - 1, self.control.place
         self.showing = False
 
     def _moved(self, event: Any) -> None:
         if not self.showing:
-            self._set(self.control.grid[event.new])
+            self._set(lambda: self.control.grid[event.new])
 
     def _typed(self, event: Any) -> None:
         if self.showing:
             return
-        if event.new == typed(self.control.value):  # as it was, also after a refusal
+        if event.new == self._text:  # as it was, also after a refusal
             self._say("")
         else:
-            self._set(event.new if self.control.words else meaning_of(event.new))
+            told = (self.control.name, self.control.facts.unit)
+            self._set(lambda: event.new if self.control.words else meaning_of(event.new, *told))
 
-    def _set(self, value: Any) -> None:
-        why = self.attempt(lambda state: state.changed(self.control.path, value))
+    def _set(self, value: Callable[[], Any]) -> None:
+        why = self.attempt(lambda state: state.changed(self.control.path, value()))
         if why and self.control.words:  # what was chosen is not what is shown below
             self._stand()
-            why = f"{value}: {why}"
+            why = f"{value()}: {why}"
         self._say(why)
 
     def _say(self, words: str) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from mdr.case.contact import as_given
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case, write_case
+from mdr.tools.notation import UNITS, numbers_in, shown
 
 LONGEST = 8000  #: characters of a link; a longer one is cut by some programs
 CALLS = ("curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)")  #: with which a script ends
@@ -48,12 +49,14 @@ def python_of(state: State) -> str:
     return "\n".join(["import mdr", "", "case = mdr.SlidingContact(", *arguments, ")", velocity, *CALLS, ""])
 
 
-def typed(value: Any) -> str:
-    """A value as one types it, numbers to five digits: 20e-6, 3e6, 0.05."""
+def typed(value: Any, unit: str = "") -> str:
+    """A value as one types it, numbers to five digits: 20e-6, 3e6, 0.05; in a unit 20 µm, 3 MPa, 50 Hz."""
     if isinstance(value, tuple):
-        return f"[{', '.join(map(typed, value))}]"
+        return f"[{', '.join(typed(one, unit) for one in value)}]"
     if not isinstance(value, float):
         return str(value)
+    if unit in UNITS and unit != "-":
+        return shown(value, unit)
     power = 3 * int(np.floor(np.log10(abs(value)) / 3)) if value else 0
     return f"{value:.5g}" if -3 <= power <= 3 else f"{value / 10.0**power:.5g}e{power}"
 
@@ -72,11 +75,15 @@ def _called(value: Any) -> str:
     return f"mdr.{type(value).__name__}({', '.join(told)})"
 
 
-def meaning_of(text: str) -> Any:
-    """What a text means, as in a case file: a number, a list or a word; the text itself where it is none of these."""
+def meaning_of(text: str, name: str = "", unit: str = "") -> Any:
+    """What a text means, as in a case file: a number, a list or a word, else the text; and a quantity without quotes.
+
+    Raises ValueError, naming it, for what is no number of a quantity that has a unit.
+    """
     import tomllib
 
     try:
-        return tomllib.loads(f"value = {text}")["value"]
+        found = tomllib.loads(f"value = {text}")["value"]
     except (ValueError, RecursionError):
-        return text
+        found = text.strip("[] ").split(",") if unit and text.strip().startswith("[") else text
+    return numbers_in(name, found, unit)

@@ -8,6 +8,7 @@ from typing import Any
 import panel as pn
 
 from mdr.tools.fields import Facts
+from mdr.tools.notation import SHOWN
 
 REFUSALS = (ValueError, TypeError, ArithmeticError, LookupError)  #: what a wrong number or file raises
 WIDE: dict[str, Any] = {"sizing_mode": "stretch_width"}
@@ -53,7 +54,8 @@ def heading(text: str, style: str = "") -> Any:
 
 def label(name: str, facts: Facts) -> Any:
     """Name, unit and meaning of a quantity."""
-    unit = f" [{escape(facts.unit)}]" if facts.unit not in ("", "-") else ""
+    symbols = dict.fromkeys((facts.unit, SHOWN.get(facts.unit, facts.unit)))
+    unit = f" [{escape(' or '.join(symbols))}]" if facts.unit not in ("", "-") else ""
     text = f'<b>{escape(name)}</b>{unit}<br><span style="color:#666">{escape(facts.meaning)}</span>'
     return pn.pane.HTML(text, styles={"font-size": "12.5px", "line-height": "1.3"}, margin=(0, 5), **WIDE)
 

@@ -22,9 +22,10 @@ from mdr.march.march import LEAST_ACCURATE
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import plausibility, resolved
-from mdr.plots import MODES, edges_of, prefix
+from mdr.plots import MODES, edges_of
 from mdr.spring.contact_modes import SLIP
 from mdr.tools.arrays import Array
+from mdr.tools.notation import shown
 from mdr.tools.progress import silent, time_limit
 
 RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
@@ -133,8 +134,7 @@ def with_prefix(value: float, unit: str) -> str:
     """A number with the prefix that suits it; "infinite" where it is."""
     if not np.isfinite(value):
         return "infinite"
-    factor, named = prefix([value], unit)
-    return f"{value * factor:.4g} {named}"
+    return shown(value, unit, 4)
 
 
 def verdict_of(case: SlidingContact, watch: Callable[[], None] = lambda: None) -> Iterator[str]:

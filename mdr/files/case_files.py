@@ -19,8 +19,8 @@ default, and no [pull] is a rigid pull:
     [pull]
     k_x = 2e4
     [shake]
-    omega = 314.159
-    du_x = 3e-6
+    omega = "50 Hz"                           # or a quantity, in quotes
+    du_x = "3 um"
 
 [oscillation] may name its record, motion = "LoadOscillation", and must name a ConstantDepth or ConstantLoad. Without a
 name it is a LoadOscillation where one of the keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and
@@ -55,10 +55,11 @@ from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
 from mdr.normal.doubts import warn_outside
-from mdr.normal.rig import OPEN, settings_of
+from mdr.normal.rig import OPEN, Setting, settings_of
 from mdr.normal.vary import contact_of, fields_of, fields_set
-from mdr.tools.fields import checked, example_of, required
+from mdr.tools.fields import checked, example_of, required, units_of
 from mdr.tools.messages import nearest, offer, short
+from mdr.tools.notation import numbers_in
 
 # --- public ---
 
@@ -204,8 +205,11 @@ def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in TOP]
     parts, held, of_tables = _read_tables(content)
     faults += [fault for found in of_tables.values() for fault in found]
-    given = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
-    refused = _field_faults(SlidingContact, {**_HARMLESS, **given}, {})
+    own = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
+    read = {key: tried(_number_at, key, value, TOP[key]) for key, value in own.items()}
+    given = {key: value for key, (value, unread) in read.items() if not unread}
+    refused = [fault for _, unread in read.values() for fault in unread]
+    refused += _field_faults(SlidingContact, {**_HARMLESS, **given}, {}, read)
     above = {"mu_0": 1.0} if refused else given  # whether the parts fit each other shows whatever mu_0 is
     case, whole = (None, []) if faults else tried(contact_of, parts, {**above, **held})
     if case is None or refused:
@@ -334,7 +338,7 @@ class _Table:
 
     def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
         """The record made of the keys of the table, and what is held."""
-        known, settings = self.keys(record), settings_of(self.name)
+        known, settings, units = self.keys(record), settings_of(self.name), units_of(record)
         given: dict[str, Any] = {}
         held: dict[str, Any] = {}
         faults: list[str] = []
@@ -344,16 +348,14 @@ class _Table:
             field = setting.field_of(self.name, record) if setting else key
             if field not in known:
                 faults.append(self._unknown(key, record))
-            elif setting is None:
-                given[key] = value
-            elif field in table:
+            elif setting is not None and field in table:
                 faults.append(f"{key} and {field} say the same: give one of them")
             else:
-                said, wrong = tried(setting.convert, value)
+                said, wrong = tried(_number_at, key, value, setting or units.get(key, ""))
                 faults += wrong
                 spoilt |= {field} if wrong else set()
                 given |= {} if wrong else {field: said}  # a stand-in for what is held: a number above zero
-                held |= {key: said} if field in OPEN else {}
+                held |= {key: said} if setting and field in OPEN and not wrong else {}
         given.pop(self.choice, None)
         refused = _field_faults(record, given, self._ways_out(record), spoilt)
         made, together = (None, []) if refused or spoilt else tried(record, **given)
@@ -401,7 +403,7 @@ _HARMLESS = {
     "material": example_of(materials.Elastic),
     "oscillation": example_of(NormalOscillation),
 }
-TOP = fields_of(SlidingContact)
+TOP = units_of(SlidingContact)
 FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
@@ -430,6 +432,13 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 
 
 # --- from values to records ---
+
+
+def _number_at(key: str, value: Any, of: Setting | str) -> Any:
+    """What a key says: quantities as numbers, of a field with this unit, or of what a setting stands for."""
+    if isinstance(of, str):
+        return numbers_in(key, value, of)
+    return of.convert(numbers_in(key, value, of.unit))
 
 
 def _field_faults(

@@ -129,7 +129,7 @@ def _syntax_fault(text: str, message: str) -> str:
     if re.search(r"=\s*[-+]?\d[\d_]*\.(?!\d)", line):
         what = "a number has a digit after its point, 2.0 and not 2."
     elif what.startswith("Expected newline") and "=" in line:
-        what = "more than one value; write one number in SI, without unit or arithmetic"
+        what = 'more than one value; write one number in SI, or a quantity in quotes, "5 mm"'
     elif what.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")):
         what += "; is it given twice?"
     elif what.startswith("Exceeds the limit"):

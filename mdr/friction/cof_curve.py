@@ -27,6 +27,7 @@ from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, finite_array
 from mdr.tools.csv_table import Tabled, csv_text
+from mdr.tools.keywords import offering
 from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
@@ -110,6 +111,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
         return csv_text(columns | ({} if self.cof_y is None else {"cof_y [-]": self.cof_y}))
 
 
+@offering
 def cof_curve(
     case: SlidingContact,
     v_0: ArrayLike,

@@ -24,6 +24,7 @@ from mdr.march.refinement import default_springs, default_steps
 from mdr.normal.resolved import at_rest, resolved
 from mdr.normal.vary import still_held
 from mdr.tools.arrays import EPS, Array
+from mdr.tools.keywords import offering
 from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
@@ -93,6 +94,7 @@ class Fit(Printed, ArrayRecord):
         return f"{self.values[name]:.4g} ({self.low[name]:.4g} ... {self.high[name]:.4g}){unit}"
 
 
+@offering
 def fit(
     case: SlidingContact,
     data: FrictionData,

@@ -16,14 +16,15 @@ import numpy as np
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.units import facts_at
 from mdr.materials.base import poisson_ratio_of
-from mdr.normal.resolved import resolved
-from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
+from mdr.normal.resolved import at_rest, resolved
+from mdr.normal.vary import GROUPS, RIG, case_at, fields_of, value_at
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
 from mdr.tools.messages import offer, short
 
 DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
 UNITS_AWAY = 10.0  #: of the search to either side, on a linear scale
+NONE: Mapping[str, float] = {}  #: is held
 NEAR_END = 1e-3  #: of the range: a best fit nearer to an end is at it, and no search begins nearer
 
 
@@ -42,7 +43,7 @@ class Parameter:
     def of(cls, case: SlidingContact, name: Any, given: Any = None) -> Parameter:
         """A parameter of the case, by its name; `given` bounds, or as far as it is sensible."""
         path = path_of(case, name)
-        start = _value(case, path)
+        start = value_of(case, path)
         if why := _refusal(case, path, start):
             raise ValueError(f"{name} cannot be varied: {why}")
         unit = natural_unit(case, path)
@@ -53,7 +54,7 @@ class Parameter:
             reach = start - away, start + away
         else:
             unit, reach = 0.0, (start / 10**DECADES, start * 10**DECADES)
-        low, high = ends or (_allowed(case, path, start, end) for end in reach)
+        low, high = ends or (allowed(case, path, start, end) for end in reach)
         return cls(name, path, start, low, high, unit)
 
     def coordinate(self, value: float) -> float:
@@ -104,7 +105,7 @@ def path_of(case: SlidingContact, name: Any) -> str:
         raise TypeError(f"parameters must be names, got {short(repr(name))}")
     known = [f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot))]
     numbers = [path for path in known if isinstance(value_at(case, path), int | float)]
-    if name in ("mu_0", "mindlin_ratio", *GROUPS, *numbers):
+    if name in ("mu_0", "mindlin_ratio", *GROUPS, *RIG, *numbers):
         return name
     ends = [path for path in numbers if path.partition(".")[2] == name]
     if len(ends) == 1:
@@ -118,8 +119,10 @@ def path_of(case: SlidingContact, name: Any) -> str:
     raise ValueError(f"{short(name)} {meant}")
 
 
-def _value(case: SlidingContact, path: str) -> float:
-    """The value in the case; zero of a group for which it has no spring, mass or depth."""
+def value_of(case: SlidingContact, path: str, held: Mapping[str, float] = NONE) -> float:
+    """The value in the case, or what is held; zero of a group for which it has no spring, mass or depth."""
+    if path in held:
+        return held[path]
     value = float(case.material.mindlin_ratio if path == "mindlin_ratio" else value_at(case, path))
     return value if np.isfinite(value) else 0.0
 
@@ -133,26 +136,31 @@ def natural_unit(case: SlidingContact, path: str) -> float:
         "m": depth, "s": 1 / omega, "Pa": E_star, "N": k * depth, "N/m": k, "N s/m": k / omega, "kg": k / omega**2,
         "rad/s": omega, "rad": 1.0, "-": 1.0,
     }  # fmt: skip
-    return units.get(facts_at(path).unit) or abs(_value(case, path)) or 1.0
+    return units.get(facts_at(path).unit) or abs(value_of(case, path)) or 1.0
 
 
-def _refusal(case: SlidingContact, path: str, value: float) -> str:
+def changed(case: SlidingContact, path: str, value: float, held: Mapping[str, float] = NONE) -> SlidingContact:
+    """The case with another value at a path, and what is held."""
+    return case_of(case, {**held, path: value})
+
+
+def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, float] = NONE) -> str:
     """Why the case cannot have this value; "" where it can."""
     try:
-        case_of(case, {path: value})
+        at_rest(changed(case, path, value, held))
     except (ValueError, TypeError, ArithmeticError) as refusal:
         return str(refusal) or type(refusal).__name__
     return ""
 
 
-def _allowed(case: SlidingContact, path: str, start: float, end: float) -> float:
+def allowed(case: SlidingContact, path: str, start: float, end: float, held: Mapping[str, float] = NONE) -> float:
     """The end of a range, or the value nearest to it that the case can have."""
-    if not _refusal(case, path, end):
+    if not _refusal(case, path, end, held):
         return end
     good, bad = start, end
     while abs(bad - good) > SAME * abs(good or end):
         middle = (good + bad) / 2
-        good, bad = (good, middle) if _refusal(case, path, middle) else (middle, bad)
+        good, bad = (good, middle) if _refusal(case, path, middle, held) else (middle, bad)
     return good
 
 

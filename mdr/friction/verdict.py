@@ -26,6 +26,7 @@ from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import between, positive
+from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed, with_error
 
@@ -123,6 +124,7 @@ class Verdict(Printed):
         return f"fails: no critical velocity, against {self.eq_15:.6g} m/s"
 
 
+@offering
 def verdict(
     case: SlidingContact,
     *,

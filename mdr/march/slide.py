@@ -11,11 +11,13 @@ from mdr.march.refinement import check_size, default_springs, default_steps, wit
 from mdr.march.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, finite, positive
+from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 
 SLOWEST = 1e-9  #: pull, over mu_0 kappa omega du_z, of a run: a slower one moves springs by the rounding of their place
 
 
+@offering
 def slide(
     case: SlidingContact,
     v_0: float,

@@ -102,7 +102,7 @@ class Prony(_WithArms):
     E_inf = 0 is a generalised Maxwell body, for `mdr.indent` alone.
     """
 
-    arms: Arms = field(metadata=facts("", "arms (E_j [Pa], tau_j [s])", _pairs, example=((2e6, 1e-2), (4e6, 1e-4))))
+    arms: Arms = field(metadata=facts("Pa, s", "arms (E_j, tau_j)", _pairs, example=((2e6, 1e-2), (4e6, 1e-4))))
     nu: float = field(metadata=POISSON)
     tau: float = field(
         default=0.0, metadata=facts("s", "Kelvin time of the E_inf branch", not_negative, note="Kelvin time in s")

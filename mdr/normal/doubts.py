@@ -22,6 +22,7 @@ from mdr.normal.stability import floquet_multiplier
 from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
 
+WRAPPERS = ("mdr.tools.memoise", "mdr.tools.keywords")  #: modules of decorators
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
 GREATEST_MU_0 = 2.0  #: rubber on glass comes near it; more is a percentage, or a force
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
@@ -210,7 +211,7 @@ def _is_ours(frame: FrameType) -> bool:
 
 
 def _past_wrappers(frame: FrameType | None) -> FrameType | None:
-    """The frame, or the first before it that is no wrapper of memoisation."""
-    while frame is not None and frame.f_globals.get("__name__") == "mdr.tools.memoise":
+    """The frame, or the first before it that is no wrapper."""
+    while frame is not None and frame.f_globals.get("__name__") in WRAPPERS:
         frame = frame.f_back
     return frame

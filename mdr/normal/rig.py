@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
@@ -22,12 +23,16 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
+from mdr.materials.operator import Rheology
 from mdr.normal.doubts import GRAVITY, edge, warn_outside
+from mdr.normal.followed_force import normal_cycle
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import RIG, angular, contact_of, fields_of
-from mdr.tools.arrays import SAME
+from mdr.tools.arrays import EXACT, SAME
 from mdr.tools.checks import instance, not_negative, positive
+from mdr.tools.keywords import offering
 
+MATTERS = 0.01  #: of the load, by which the mean load may be more without a word
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
 
 
@@ -64,6 +69,7 @@ def settings_of(part: str) -> dict[str, Setting]:
     return {name: one for name, one in SETTINGS.items() if any(path.startswith(f"{part}.") for path in one.paths)}
 
 
+@offering
 def rig(
     indenter: Indenter,
     material: Material,
@@ -81,6 +87,7 @@ def rig(
     c_x: float = 0.0,
     load_rides: bool | None = None,
     shake: Shake | None = None,
+    hold: str | None = None,
     density: float | None = None,
 ) -> SlidingContact:
     """The contact that a rig makes, from what is set and read at it.
@@ -97,7 +104,7 @@ def rig(
         Frequency of the vibration [Hz], not the angular one.
     load, load_grams : float
         Load [N], or the mass [g] whose weight it is. Give one. With an amplitude of the load, or a shake alone, it is
-        the mean load. With an amplitude of depth or acceleration it is the load at rest; see Notes.
+        the mean load. With an amplitude of depth or acceleration it is what `hold` says.
     load_amplitude, depth_amplitude, acceleration : float, optional
         What the normal vibration is set to; give one, or none where `shake` moves the contact in the plane alone.
         Amplitude of the load [N]; amplitude of the depth [m]; or amplitude of the normal acceleration of the indenter
@@ -117,6 +124,10 @@ def rig(
         be said where there are both, and only there. `load` then is all that presses, the weight of the sled included.
     shake : Shake, optional
         Motion in the plane besides the pull; where nothing else vibrates, at this frequency.
+    hold : {None, "depth", "load"}
+        What stays with an amplitude of depth or acceleration: "depth", about which a stiff drive moves, where the load
+        rests without vibration; or "load", of a weight that rides on a piezo, the mean load. None is "depth", and warns
+        where the mean load is more than 1 % above the load.
     density : float, optional
         Density [kg/m³] of the half-space. With it a vibration is warned of whose shear waves are not much longer than
         the contact, as the springs are quasi-static.
@@ -125,8 +136,7 @@ def rig(
     -------
     SlidingContact
         The contact. With an amplitude of the load, a `LoadOscillation`; with one of depth or acceleration, a
-        `NormalOscillation` about the depth at which the load rests before the vibration sets in; with none, a
-        `ConstantLoad`.
+        `NormalOscillation` about the depth that `hold` asks for; with none, a `ConstantLoad`.
 
     Raises
     ------
@@ -137,10 +147,9 @@ def rig(
 
     Notes
     -----
-    A `NormalOscillation` holds the depth at which the load rests. As force grows faster than depth, the mean force over
-    a period is larger than the load: of an elastic ball by 4 % at du_z = 0.44 u_z0 and by 20 % at du_z = u_z0. This
-    depth belongs to this shape and this material: where they vary, give `mdr.sweep` or `mdr.fit`
-    ``held={"load": ...}``.
+    As force grows faster than depth, the mean force about the depth at which the load rests is larger than the load: of
+    an elastic ball by 4 % at du_z = 0.44 u_z0 and by 20 % at du_z = u_z0. The depth at rest belongs to this shape and
+    this material: where they vary, give `mdr.sweep` or `mdr.fit` ``held={"load": ...}``.
 
     Examples
     --------
@@ -178,6 +187,7 @@ def rig(
         motion = NormalOscillation(0.0, du_z, omega)
     parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
     case = contact_of(parts, {"mu_0": mu_0, "load": F_z0})
+    case = _held(case, F_z0, hold, bool(amplitudes) and load_amplitude is None)
     if density is not None:
         _warn_of_waves(case, positive("density", density, "in kg/m³"))
     return case
@@ -235,6 +245,41 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
             "the load is all that presses, the weight of the sled included"
         )
     return moved if rides else 0.0
+
+
+def _held(case: SlidingContact, load: float, hold: str | None, is_driven: bool) -> SlidingContact:
+    """The contact about the depth that is held, or under the mean load that is."""
+    if hold not in (None, "depth", "load"):
+        raise ValueError(f'hold must be "depth" or "load", got {hold!r}')
+    if not is_driven and hold is not None:
+        raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
+    excess = _mean_force(case) / load - 1 if is_driven else 0.0
+    if excess > MATTERS and hold is None:
+        warn_outside(
+            f"the mean load is {1 + excess:.3g} times the load of {load:.4g} N, as the depth where it rests is held: "
+            'say hold="load" if the load is a weight, which stays, or hold="depth" if the drive is stiff'
+        )
+    return _under_mean_load(case, load) if hold == "load" and excess > SAME else case
+
+
+def _under_mean_load(case: SlidingContact, load: float) -> SlidingContact:
+    """The contact about the depth, between the first touch and where the load rests, at which it is the mean load."""
+    from scipy.optimize import brentq
+
+    motion: Any = case.oscillation
+
+    def about(u_z0: float) -> SlidingContact:
+        return replace(case, oscillation=replace(motion, u_z0=u_z0))
+
+    first_touch = -motion.du_z * (1 - SAME)
+    u_z0 = brentq(lambda depth: _mean_force(about(depth)) - load, first_touch, motion.u_z0, xtol=EXACT * motion.u_z0)
+    return about(float(u_z0))
+
+
+def _mean_force(case: SlidingContact) -> float:
+    """Mean normal force [N] over a period of prescribed depth."""
+    force = normal_cycle(case.indenter, Rheology.of(case.material, case.omega), case.cycle).F_N
+    return case.material.E_star * float(force.mean())
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:

@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.materials import KelvinVoigt
-from mdr.normal.load_control import static_depth
+from mdr.normal.load_control import static_depth, static_load
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import not_negative, positive
@@ -116,12 +116,15 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
 
 
 def value_at(case: SlidingContact, path: str) -> Any:
-    """The value of a case at a path, a group [-] included; infinite where there is no spring, mass or depth for it.
+    """The value of a case at a path, a group [-] and what a rig is set to included.
 
-    Raises ValueError where the shape does not carry the load, and KeyError or AttributeError for what is no path.
+    Infinite where there is no spring, mass or depth for it. Raises ValueError where the shape does not carry the load,
+    and KeyError or AttributeError for what is no path.
     """
     if path in GROUPS:
         return _group(case, path)
+    if path in RIG:
+        return _setting(case, path)
     slot, _, field = path.rpartition(".")
     return getattr(getattr(case, slot) if slot else case, field)
 
@@ -137,6 +140,16 @@ def _group(case: SlidingContact, path: str) -> float:
     if path in ("chi", "eta"):
         return float(getattr(known, path))
     return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
+
+
+def _setting(case: SlidingContact, path: str) -> float:
+    """What a rig is set to that makes this case."""
+    motion: Any = as_given(case).oscillation
+    if path != "load":
+        omega = _one_omega(path, motion, case.shake)
+        return omega / (2 * math.pi) if path == "frequency" else omega * float(getattr(case.material, "tau", 0.0))
+    load = getattr(motion, "F_z0", None)
+    return static_load(case.indenter, case.material, motion.u_z0) if load is None else float(load)
 
 
 def angular(frequency: Any) -> float:

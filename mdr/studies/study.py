@@ -25,6 +25,7 @@ from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
+from mdr.tools.csv_table import data_frame
 from mdr.tools.messages import MOST_TOLD, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
@@ -173,6 +174,18 @@ class Study(Printed, ArrayRecord, Frame):
         from mdr.studies.formats import table
 
         write_whole(Path(path), table(self).encode("utf-8"))
+
+    def to_dataframe(self) -> Any:
+        """The study as a pandas.DataFrame, one row for each point, with units in the names; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            What `to_csv` writes.
+        """
+        from mdr.studies.formats import table
+
+        return data_frame(table(self))
 
     def to_xarray(self) -> Any:
         """The study as an xarray.Dataset, as xarray opens the NetCDF file; needs the extra `xarray`.

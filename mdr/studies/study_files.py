@@ -28,6 +28,7 @@ import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.pull import RigidPull
+from mdr.case.units import facts_at
 from mdr.files.case_files import case_of, record_of, stand_in
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, tried
 from mdr.friction.cof_curve import LEAST_KNOB
@@ -38,6 +39,7 @@ from mdr.studies.quantities import read_quantities
 from mdr.studies.work import MOST_NUMBERS
 from mdr.tools.checks import count, finite
 from mdr.tools.messages import offer, short
+from mdr.tools.notation import numbers_in
 
 KEYS = ("axes", "quantities", "n_springs", "steps_per_period", "accuracy")
 
@@ -115,7 +117,7 @@ def _read_values(path: str, written: Any) -> Any:
     if not isinstance(written, list):
         raise ValueError(f"{path} must be a list of values or {{ from = , to = , n = }}, got {short(str(written))}")
     if path not in KINDS:
-        return written
+        return numbers_in(path, written, facts_at(path).unit)
     read = [(RigidPull(), []) if path == "pull" and one == {} else tried(record_of, path, one) for one in written]
     if faults := [fault for _, found in read for fault in found]:
         raise CaseFileError.of(faults)
@@ -141,11 +143,15 @@ def _range(path: str, written: Mapping[str, Any]) -> Any:
     known = list(_RANGE)
     faults = [f"{path}: {short(key)} is no key of a range; {offer(key, known)}" for key in written if key not in known]
     faults += [f"{path}: {key} is missing from the range" for key in known[:3] if key not in written]
-    for key, must in _RANGE.items():
-        faults += tried(must, f"{path}: {key}", written[key])[1] if key in written else []
+    units = dict.fromkeys(("from", "to"), facts_at(path).unit)
+    read = {
+        key: tried(numbers_in, f"{path}: {key}", written[key], units.get(key, "")) for key in _RANGE if key in written
+    }
+    for key, (value, unread) in read.items():
+        faults += unread or tried(_RANGE[key], f"{path}: {key}", value)[1]
     if faults:
         raise CaseFileError.of(faults)
-    low, high, n = float(written["from"]), float(written["to"]), written["n"]
+    low, high, n = float(read["from"][0]), float(read["to"][0]), written["n"]
     if written.get("spacing") != "log":
         return np.linspace(low, high, n)
     if min(low, high) <= 0:

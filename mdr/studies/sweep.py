@@ -20,9 +20,11 @@ from mdr.studies.store import Store
 from mdr.studies.study import Study
 from mdr.studies.work import MOST_NUMBERS, Work
 from mdr.tools.checks import count, positive
+from mdr.tools.keywords import offering
 from mdr.tools.messages import short
 
 
+@offering
 def sweep(
     case: SlidingContact,
     axes: Mapping[str, Any],

@@ -14,6 +14,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
+from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,13 +22,13 @@ import numpy as np
 
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line, short
-from mdr.tools.notation import UNITS, in_unit, is_number, number_in
+from mdr.tools.notation import in_unit, is_number, listed, number_in, scale_of
 
 _HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*))?")
 
 
 class Tabled:
-    """Base of records that write themselves as CSV; they answer `table()`."""
+    """Base of records that write themselves as CSV, or as a data frame; they answer `table()`."""
 
     def table(self) -> str:
         """The text of the CSV file.
@@ -48,6 +49,26 @@ class Tabled:
             The file.
         """
         Path(path).write_text(self.table(), encoding="utf-8")
+
+    def to_dataframe(self) -> Any:
+        """The table as a pandas.DataFrame, with units in the names of its columns; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each line of `table()`.
+        """
+        return data_frame(self.table())
+
+
+def data_frame(text: str) -> Any:
+    """A CSV text with a header as a pandas.DataFrame. Raises ImportError with a command where pandas is missing."""
+    try:
+        import pandas
+    except ImportError:
+        way_out = "python3 -m pip --python .venv install -e '.[xarray]'"
+        raise ImportError(f"to_dataframe needs pandas, which comes with xarray: {way_out}") from None
+    return pandas.read_csv(StringIO(text), keep_default_na=False, na_values=["nan"], engine="python")
 
 
 class Column(NamedTuple):
@@ -103,7 +124,8 @@ def table_of(
 
 def csv_text(columns: Mapping[str, Any]) -> str:
     """A header of names, and a line for each row of columns of one length; numbers read back as they were."""
-    lines = [",".join(f"{value:.17g}" for value in row) for row in zip(*columns.values(), strict=True)]
+    told = [[one if isinstance(one, str) else f"{one:.17g}" for one in column] for column in columns.values()]
+    lines = [",".join(row) for row in zip(*told, strict=True)]
     return "\n".join([",".join(columns), *lines]) + "\n"
 
 
@@ -174,22 +196,21 @@ def _places(
 
 def _scale(source: str, column: Column, written: str, given: str | None) -> float:
     """The unit in the header, or the one given beside the file, in that of the library."""
-    name, known = column.name, UNITS[column.unit]
-    what = ""
-    if given is not None and given not in known:
-        what = f"units: {name} = {short(repr(given))} is none of {_listed(known)}"
-    elif column.unit == "-" and written not in known:
-        hint = ": divide by 100, and leave the unit out" if written == "%" else ""
-        what = f"{name} is a pure number, got the unit {short(written)!r}{hint}"
-    elif written and written not in known:
-        what = f"the unit {short(written)!r} of {name} is none of {_listed(known)}: {_example([column])}"
-    elif written and given is not None and known[written] != known[given]:
+    name, unit = column.name, column.unit
+    what, scales = "", {one: scale_of(one, unit) for one in (written, given) if one is not None}
+    if given is not None and scales[given] is None:
+        what = f"units: {name} = {short(repr(given))} is none of {listed(unit)}"
+    elif written and scales[written] is None and unit == "-":
+        what = f"{name} is a pure number, got the unit {short(written)!r}"
+    elif written and scales[written] is None:
+        what = f"the unit {short(written)!r} of {name} is none of {listed(unit)}: {_example([column])}"
+    elif written and given is not None and scales[written] != scales[given]:
         what = f"the header gives {name} in {written}, units= in {given}; give one"
-    elif not (written or given or column.bare or column.unit == "-"):
-        what = f"{name} needs a unit in its header, one of {_listed(known)}: {_example([column])}"
+    elif not (written or given or column.bare or unit == "-"):
+        what = f"{name} needs a unit in its header, one of {listed(unit)}: {_example([column])}"
     if what:
         raise fault(source, what)
-    return known[written or given or column.unit]
+    return scales.get(written or given or "") or 1.0  # of a bare column
 
 
 def _split(head: str) -> tuple[str, str, str]:
@@ -204,11 +225,6 @@ def _plain(name: str) -> str:
     """A name without what does not matter in it."""
     same = {"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "_": "", " ": "", "-": "", "µ": "μ"}
     return "".join(same.get(letter, letter) for letter in name.casefold())
-
-
-def _listed(known: Mapping[str, float]) -> str:
-    """Spellings of a unit, each once."""
-    return ", ".join(one for one in known if not {"μ", "^"} & set(one))
 
 
 def _require_known(name: str, given: Mapping[str, str] | None, known: Sequence[str]) -> None:

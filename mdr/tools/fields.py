@@ -57,6 +57,11 @@ def facts_of(field: Field[Any]) -> Facts:
     return found
 
 
+def units_of(record: type[Any]) -> dict[str, str]:
+    """The units of the fields of a record, which are its arguments."""
+    return {one.name: facts_of(one).unit for one in fields(record) if one.init}
+
+
 def has_example(record: Any) -> bool:
     """Whether this is a record of which each field without a default has an example."""
     return is_dataclass(record) and all(facts_of(one).example is not None for one in required(record))

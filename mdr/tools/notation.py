@@ -1,41 +1,110 @@
-"""Numbers and units as people write them in tables: the value, or what to write instead."""
+"""Quantities as people write them: a number and a unit, "2 um", "50 Hz", "10%", or what to write instead.
+
+One reader for case files, options of commands, boxes of the explorer and headers of tables; one writer, `shown`. A
+number without a unit is in that of the library.
+"""
 
 from __future__ import annotations
 
 import math
 import re
+from typing import Any, TypeVar
 
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.messages import short
 
+T = TypeVar("T", float, Array)
 
-def _prefixed(unit: str, prefixes: str, rest: str = "") -> dict[str, float]:
-    """The unit and what it becomes with each prefix, {symbol: value in the unit}."""
-    powers = {"n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2, "": 0, "k": 3, "M": 6, "G": 9}
-    return {f"{prefix}{unit}{rest}": 10.0 ** powers[prefix] for prefix in ("", *prefixes)}
+
+def _prefixed(unit: str, prefixes: str, scale: float = 1.0) -> dict[str, float]:
+    """The unit, which is `scale` in that of the library, and what it becomes with each prefix."""
+    powers = {"n": -9, "µ": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+    return {unit: scale} | {f"{prefix}{unit}": 10.0 ** powers[prefix] * scale for prefix in prefixes}
 
 
 UNITS = {
-    "m": _prefixed("m", "cmuµμn"),
-    "m/s": _prefixed("m", "cmuµμn", "/s") | {"mm/min": 1e-3 / 60},
-    "N": _prefixed("N", "kmuµμn"),
-    "Pa": _prefixed("Pa", "kMG") | {"N/mm²": 1e6, "N/mm^2": 1e6, "N/mm2": 1e6},
-    "rad/s": {"rad/s": 1.0} | {unit: math.tau * hertz for unit, hertz in _prefixed("Hz", "mkM").items()},
-    "s": _prefixed("s", "muµμn"),
-    "-": dict.fromkeys(("", "-", "1"), 1.0),
+    "m": _prefixed("m", "cmµn"),
+    "m/s": _prefixed("m/s", "cmµn") | {"mm/min": 1e-3 / 60},
+    "N": _prefixed("N", "kmµn"),
+    "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6},
+    "rad/s": {"rad/s": 1.0} | _prefixed("Hz", "mkM", math.tau),
+    "Hz": _prefixed("Hz", "mkM") | {"rad/s": 1 / math.tau},
+    "rad": _prefixed("rad", "m") | dict.fromkeys(("deg", "°"), math.pi / 180),
+    "deg": dict.fromkeys(("deg", "°"), 1.0) | {"rad": 180 / math.pi},
+    "s": _prefixed("s", "mµn"),
+    "kg": {"kg": 1.0} | _prefixed("g", "mµ", 1e-3),
+    "N/m": _prefixed("N/m", "kMmµ") | {"N/mm": 1e3, "N/µm": 1e6},
+    "N s/m": _prefixed("N s/m", "kmµ") | {"N s/mm": 1e3},
+    "1/m": {"1/m": 1.0, "1/mm": 1e3},
+    "-": dict.fromkeys(("", "-", "1"), 1.0) | {"%": 0.01},
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}
+#: which of them is shown, with a prefix, in the place of the unit of the library
+SHOWN = {"rad/s": "Hz", "rad": "deg", "kg": "g"}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _PLAIN = re.compile(_NUMBER)
 _GROUPED = re.compile(r"[+-]?\d{1,3}(?:[,'’ \u00a0\u202f]\d{3})+(?:\.\d*)?")
 _GROUPED_BY_POINTS = re.compile(r"[+-]?\d{1,3}(?:\.\d{3})+,\d+")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
-_WITH_UNIT = re.compile(rf"({_NUMBER})\s*([^\W\d_]|[%°]).*")
+_WITH_UNIT = re.compile(r"(?P<number>.*?[\d.])\s*(?P<unit>(?![eE][+-]?\d)(?:1/)?(?:[^\W\d_]|[%°]).*)?", re.DOTALL)
 
 
 def is_number(text: str) -> bool:
     """Whether it is a number with a decimal point, and no more."""
     return bool(_PLAIN.fullmatch(text))
+
+
+def parted(text: str) -> tuple[str, str]:
+    """Number and unit of a quantity as texts; "" for what is not there."""
+    found = _WITH_UNIT.fullmatch(text.strip())
+    return (found["number"], found["unit"] or "") if found else (text.strip(), "")
+
+
+def scale_of(symbol: str, unit: str) -> float | None:
+    """Value of a symbol in a unit of the library; None where it measures something else."""
+    known = {_same(one): value for one, value in UNITS.get(unit, {unit: 1.0}).items()}
+    return known.get(_same(symbol))
+
+
+def listed(unit: str) -> str:
+    """The symbols that measure the same as a unit of the library."""
+    return ", ".join(UNITS.get(unit, (unit,))).replace("µ", "u")
+
+
+def value_in(name: str, text: str, unit: str, also: str = "") -> float:
+    """The value of a quantity in a unit of the library. ValueError, naming it, with what it wants; or `also`."""
+    number, symbol = parted(text)
+    scale = scale_of(symbol or unit, unit)
+    if scale is not None and any(one.isdigit() for one in number):
+        try:
+            return float(in_unit(number_in(number), scale))
+        except ValueError as wrong:
+            raise ValueError(f"{name}: {wrong}") from None
+    first, _, others = (listed(unit) + (f", {also}" if also else "")).partition(", ")
+    wanted = f"{first} (or {others})" if others else first or "a number without a unit"
+    wanted = f"a pure number, such as 0.1 or 10%{f', or 0.5 {also}' if also else ''}" if unit == "-" else wanted
+    raise ValueError(f"{name} wants {wanted}, got {short(repr(text))}")
+
+
+def numbers_in(name: str, value: Any, unit: str) -> Any:
+    """A value, or values in lists, in which quantities as texts have become numbers; words, without a unit, stay.
+
+    Innermost lists may have a unit for each of their entries, as "Pa, s" of an arm.
+    """
+    if isinstance(value, list):
+        units = unit.split(", ") if not any(isinstance(one, list) for one in value) else [unit]
+        return [numbers_in(f"{name}[{i}]", one, units[i % len(units)]) for i, one in enumerate(value)]
+    return value_in(name, value, unit) if isinstance(value, str) and unit else value
+
+
+def shown(value: float, unit: str, digits: int = 5) -> str:
+    """A value with the prefix that brings it above one, as `value_in` reads it: "2 µm", "50 Hz", "3 MPa"."""
+    symbol, known = SHOWN.get(unit, unit), UNITS.get(unit, {})
+    scales = {one: known[one] for one in (prefix + symbol for prefix in ("", *"nµmkMG")) if one in known}
+    below = [one for one in scales if scales[one] <= abs(value) * (1 + EXACT)]
+    best = max(below, key=scales.__getitem__) if below else min(scales, key=scales.__getitem__, default=unit)
+    best = best if value else unit
+    return f"{value / known.get(best, 1.0):.{digits}g} {best.removeprefix('-')}".rstrip()
 
 
 def number_in(cell: str) -> float:
@@ -59,12 +128,19 @@ def _instead(text: str) -> str:
         return f", write {whole} without a thousands separator{decimal if '.' not in text else ''}"
     if _DECIMAL_COMMA.fullmatch(text):
         return f", write {text.replace(',', '.')} with a decimal point"
-    if found := _WITH_UNIT.fullmatch(text):
-        return f", write {found[1]} and the unit in the header"
+    number, symbol = parted(text)
+    if symbol and is_number(number):
+        return f", write {number} and the unit in the header"
     return ""
 
 
-def in_unit(values: Array, scale: float) -> Array:
+def in_unit(values: T, scale: float) -> T:
     """Values times the scale; a division where that is exact, so that 100 um is 100e-6 m to the last digit."""
     whole = round(1 / scale) if scale < 1 else 0
     return values / whole if whole and math.isclose(whole * scale, 1, rel_tol=EXACT) else values * scale
+
+
+def _same(symbol: str) -> str:
+    """A symbol without what does not matter in it."""
+    same = {"µ": "u", "μ": "u", "²": "2", "^": "", " ": "", "·": "", "*": ""}
+    return "".join(same.get(letter, letter) for letter in symbol)

@@ -96,7 +96,7 @@ def test_a_resonance_is_an_answer(capsys, resonant):
 
 def test_curve_writes_what_it_prints(capsys, punch, tmp_path):
     folder = tmp_path / "a" / "b"
-    command = ["curve", punch, "-o", str(folder), "--points", "3", "--up-to", "1.2"]
+    command = ["curve", punch, "-o", str(folder), "--points", "3", "--up-to", "1.2", "v_c"]
     assert main(command) == 0
     table = capsys.readouterr().out.splitlines()
     assert sorted(path.name for path in folder.iterdir()) == ["curve.csv", "curve.png", "curve.svg"]
@@ -141,7 +141,7 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
     monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     case = read_case(resonant)
     assert velocity_scale(case) == pytest.approx(0.5 * 400.0 * 2e-6 * 1.5, rel=1e-12)
-    assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2"]) == 0
+    assert main(["curve", resonant, "-o", str(tmp_path), "--points", "4", "--up-to", "2v_c"]) == 0
     out, err = capsys.readouterr()
     assert "v_c = infinite" in out
     assert "v_c is infinite here: velocities are multiples of 0.0006 m/s" in err
@@ -152,7 +152,8 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
 @pytest.mark.parametrize(
     ("options", "velocities"),
     [(["--v-0", "1e-3", "2mm/s", "0.5v_c"], [1e-3, 2e-3, None]), (["--up-to", "5mm/s", "--points", "2"], [0, 5e-3]),
-     (["--up-to", "0.5", "--points", "2"], [0, None]), (["--up-to", "0.5 v_c", "--points", "2"], [0, None])],
+     (["--up-to", "0.5", "--points", "2"], [0, 0.5]), (["--up-to", "0.5 v_c", "--points", "2"], [0, None]),
+     (["--v-0", "1e-3", "2", "mm/s", "7", "0.5", "v_c"], [1e-3, 2e-3, 7.0, None])],
 )  # fmt: skip
 def test_velocities_of_a_curve_in_metres_per_second_or_over_v_c(capsys, punch, monkeypatch, options, velocities):
     monkeypatch.setattr("mdr.cof_curve", made_up_curve)
@@ -354,11 +355,15 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
 
 # --- what goes wrong ---
 
-NO_VELOCITY, NO_SHARE = "must be a velocity such as 1e-3, 1mm/s or 0.5v_c, got", "must be a share above 0 and below 1"
+NO_VELOCITY, NO_SHARE = (
+    "a velocity wants m/s (or cm/s, mm/s, um/s, nm/s, mm/min, v_c), got",
+    "must be a share above 0 and below 1",
+)
 #: what cannot be, and what standard error says of it
 WRONG = [
     *((f"run {{punch}} --v-0 {v}", "--v-0 must be above zero") for v in ("0", "-1e-3", "-0.5v_c")),
-    *((f"run {{punch}} --v-0 '{v}'", f"{NO_VELOCITY} '{v}'") for v in ("nan", "inf", "v_c", "", "1e-3km/s", "1,5")),
+    *((f"run {{punch}} --v-0 '{v}'", f"{NO_VELOCITY} '{v}'") for v in ("nan", "inf", "v_c", "", "1e-3km/s", "5 N")),
+    ("run {punch} --v-0 1,5", "a velocity: 1,5 is no number, write 1.5 with a decimal point"),
     ("run {punch}", "the following arguments are required: --v-0"),
     ("run {punch} --v-0 1e-3 --n-springs 31", "argument --n-springs"),
     *((f"run {{punch}} --v-0 1e-3 --steps {n}", "argument --steps") for n in ("1e3", "9" * 5000)),
@@ -367,7 +372,8 @@ WRONG = [
     ("curve {punch} --v-0 1e-3 --points 3", "--v-0 names every velocity"),
     ("curve {resonant} --v-0 0.5v_c", "v_c is infinite here; give the velocity in m/s"),
     *((f"curve {{punch}} --points {n}", "argument --points") for n in ("1", "9" * 5000)),
-    *((f"curve {{punch}} --up-to {v}", "argument --up-to") for v in ("nan", "x")),
+    *((f"curve {{punch}} --up-to {v}", "argument --up-to") for v in ("nan", "x", "2 mm")),
+    ("curve {punch} --up-to 0", "--up-to must be above zero"),
     ("curve {punch} --point 3", "unrecognized arguments: --point"),
     ("curve", "the following arguments are required"),
     *((f"verdict {{punch}} '--within={v}'", f"argument --within: {NO_SHARE}, such as 1% or 0.01, got '{v}'")

@@ -10,6 +10,7 @@ import pytest
 from chromium import PATIENCE, Browser, chromium, explorer, lacking, named
 
 import mdr
+from mdr.tools.notation import value_in
 
 REQUIRED = os.environ.get("MDR_BROWSER") == "required"  #: a browser that is missing is then a failure
 CASE = mdr.SlidingContact(
@@ -43,7 +44,7 @@ def test_the_page_opens_with_its_pictures(browser):
     drawn = mdr.cof_curve(CASE, [0.0]).cof[0]
     assert browser.curve()[0] == pytest.approx(drawn, abs=1e-3 * CASE.mu_0)
     assert len(browser.find(".bk-Figure")) == 3
-    assert browser.value("indenter.a") == "0.001"
+    assert browser.value("indenter.a") == "1 mm"
     assert any("critical velocity in closed form" in line for line in browser.text("table"))
 
 
@@ -51,7 +52,7 @@ def test_a_slider_moves_the_curve(browser):
     before, state = browser.curve(), browser.state()
     browser.move("oscillation.du_z", 20)
     browser.until(lambda: browser.state() != state and browser.curve() != before)
-    amplitude = float(browser.value("oscillation.du_z"))
+    amplitude = value_in("du_z", browser.value("oscillation.du_z"), "m")
     assert amplitude > CASE.oscillation.du_z
     browser.until(lambda: f"du_z={amplitude!r}" in browser.state())  # of all moves the last is drawn
     assert browser.curve()[0] < before[0]
@@ -60,8 +61,9 @@ def test_a_slider_moves_the_curve(browser):
 @pytest.mark.parametrize(
     ("path", "text", "words"),
     [
-        ("mu_0", "rough", "mu_0 must be a real number, got 'rough'"),
+        ("mu_0", "rough", "mu_0 wants a pure number, such as 0.1 or 10%, got 'rough'"),
         ("oscillation.u_z0", "-1", "the indenter never touches"),
+        ("material.E", "3 mm", "E wants Pa (or kPa, MPa, GPa, N/mm2), got '3 mm'"),
     ],
 )
 def test_a_wrong_number_is_refused_with_words_and_the_picture_stays(browser, path, text, words):
@@ -108,7 +110,7 @@ def test_a_wrong_link_is_refused_with_words(browser):
 
 
 def test_the_case_is_downloaded_and_loaded_again(browser):
-    browser.type("indenter.a", "2e-3")
+    browser.type("indenter.a", "2 mm")
     browser.until(lambda: "indenter.a=0.002" in browser.state())
     browser.button("Case (TOML)")
     path = Path(browser.folder / "case.toml")
@@ -119,7 +121,7 @@ def test_the_case_is_downloaded_and_loaded_again(browser):
     browser.until(lambda: "indenter.a=0.003" in browser.state())
     browser.inside(named("upload", "case"), "input[type=file]").send_keys(str(path))
     browser.until(lambda: "indenter.a=0.002" in browser.state())
-    assert browser.value("indenter.a") == "0.002"
+    assert browser.value("indenter.a") == "2 mm"
 
 
 def test_figures_are_downloaded(browser):

@@ -19,6 +19,7 @@ from mdr.explorer.state import State, group_values
 from mdr.files.examples import PARTS, example, example_file
 from mdr.normal.vary import GROUPS
 from mdr.plots import MODES
+from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
 
 CASES = {
@@ -76,6 +77,9 @@ def test_script_and_file_make_the_case(state):
 @pytest.mark.parametrize("value", [20e-6, 3e6, 0.05, 314.16, -2e-6, 0.0, 1e-3, 12345.0, 1e-30, 1e30])
 def test_numbers_are_written_as_one_types_them(value):
     assert meaning_of(typed(value)) == pytest.approx(value, rel=1e-12)
+    for unit in UNITS:
+        assert meaning_of(typed(value, unit), "x", unit) == pytest.approx(value, rel=6e-5)  # five digits, of any unit
+        assert meaning_of(typed((value, 2.0), unit), "x", unit) == pytest.approx([value, 2.0], rel=6e-5)
 
 
 @pytest.mark.parametrize("in_groups", [False, True], ids=["SI", "groups"])

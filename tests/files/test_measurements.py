@@ -146,7 +146,7 @@ FAULTS = [
     (friction, "", "holds no table; a header such as v_0 [mm/s], cof, and a row a measurement"),
     (friction, "1, 0.3\n2, 0.4\n", "line 1: numbers, where a header must be: v_0 [mm/s], cof"),
     (friction, "v [m/s], mu\n", "holds no table"),
-    (friction, "v [m/s], mu [%]\n1, 0.3\n", "cof is a pure number, got the unit '%'"),
+    (friction, "v [m/s], mu [N]\n1, 0.3\n", "cof is a pure number, got the unit 'N'"),
     (friction, "v [m/s], m\x1bu\n1, 0.3\n", "the header names no cof: v [m/s], m u"),
     (friction, f"v [{'x' * 1000}], mu\n1, 0.3\n", "is none of m/s"),
     (friction, "v [m/s], y\n1, 0.3\n", "the header names no cof: v [m/s], y; write v_0 [mm/s], cof"),

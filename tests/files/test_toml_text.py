@@ -6,8 +6,14 @@ from mdr.files import toml_text
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, toml_value
 
 SYNTAX = {
-    "unit": ("a = 1\nR = 5 mm", "line 2: R = 5 mm: more than one value; write one number in SI, without unit"),
-    "arithmetic": ("R = 5*1e-3", "line 1: R = 5*1e-3: more than one value; write one number in SI, without unit"),
+    "unit": (
+        "a = 1\nR = 5 mm",
+        "line 2: R = 5 mm: more than one value; write one number in SI, or a quantity in quotes",
+    ),
+    "arithmetic": (
+        "R = 5*1e-3",
+        "line 1: R = 5*1e-3: more than one value; write one number in SI, or a quantity in quotes",
+    ),
     "name without quotes": ("[indenter]\nshape = Cone", 'line 2: shape = Cone: a name is written in quotes, "Cone"'),
     "point without a digit": ("R = 2000.  # m", "line 1: R = 2000. # m: a number has a digit after its point, 2.0"),
     "no value": ("R = ", "line 1: R =: no number, name in quotes or list"),

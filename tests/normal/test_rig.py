@@ -1,10 +1,13 @@
 """From a rig to a case: each way of saying the same gives the same contact, and what is left open is asked."""
 
+import warnings
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.closed_forms.full_slip import mean_normal_force
 
 BALL, RUBBER = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
 OMEGA = 2 * np.pi * 50
@@ -63,6 +66,8 @@ REFUSED = [
     ({"depth_amplitude": float("nan")}, "depth_amplitude must be"),
     ({"load": 1e6, "depth_amplitude": 1e-6}, "carries on this material"),
     ({"load_amplitude": 0.1, "tan_delta": -0.1}, "tan_delta must not be negative"),
+    ({"depth_amplitude": 1e-6, "hold": "force"}, 'hold must be "depth" or "load"'),
+    ({"load_amplitude": 0.1, "hold": "load"}, "hold is about a driven depth"),
 ]
 
 
@@ -89,3 +94,40 @@ def test_short_waves_are_warned_of():
     with pytest.warns(mdr.PlausibilityWarning, match=r"about 0.00158 m long .* is 0.0019\d m wide"):
         rig(frequency=20e3, depth_amplitude=2e-6, density=1000.0)
     rig(depth_amplitude=2e-6, density=1000.0)  # none at 50 Hz
+
+
+@pytest.mark.parametrize("share", [0.1, 0.44, 1.0, 3.0])
+@pytest.mark.parametrize(
+    "material",
+    [RUBBER, mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.Prony(2e6, ((1e6, 1e-3),), 0.45)],
+    ids=lambda one: type(one).__name__,
+)
+@pytest.mark.parametrize("shape", [BALL, mdr.Cone(0.05), mdr.Paraboloid(5e-3)], ids=lambda one: type(one).__name__)
+def test_the_mean_load_is_held_while_the_depth_is_driven(shape, material, share):
+    """By the mean force in closed form. The ball is spared great depths: it ends at R."""
+    load, du_z = 0.05, share * mdr.static_depth(shape, material, 0.05)
+    held = mdr.rig(shape, material, 0.8, frequency=50, load=load, depth_amplitude=du_z, hold="load")
+    assert held.oscillation.du_z == du_z
+    assert_allclose(mean_normal_force(held), load, rtol=1e-5)  # springs are followed with errors of that size
+    rested = mdr.rig(shape, material, 0.8, frequency=50, load=load, depth_amplitude=du_z, hold="depth")
+    assert held.oscillation.u_z0 < rested.oscillation.u_z0 == mdr.static_depth(shape, material, load)
+
+
+def test_the_mean_load_of_a_paraboloid_is_a_beta_function():
+    """Of F = c u^1.5 about u_z0 = du_z it is c (2 du_z)^1.5 B(2, 1/2)/pi = c (2 du_z)^1.5 4/(3 pi)."""
+    du_z, shape = 20e-6, mdr.Paraboloid(5e-3)
+    c = 4 / 3 * RUBBER.E_star * np.sqrt(5e-3)
+    load = c * (2 * du_z) ** 1.5 * 4 / (3 * np.pi)
+    held = mdr.rig(shape, RUBBER, 0.8, frequency=50, load=load, depth_amplitude=du_z, hold="load")
+    assert_allclose(held.oscillation.u_z0, du_z, rtol=1e-5)
+
+
+def test_a_mean_load_that_is_more_than_the_load_is_warned_of_once_it_matters():
+    with pytest.warns(mdr.PlausibilityWarning, match=r"the mean load is 1\.\d+ times the load of 1 N.*hold=\"load\""):
+        rig(depth_amplitude=0.5 * mdr.static_depth(BALL, RUBBER, 1.0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rig(depth_amplitude=0.5 * mdr.static_depth(BALL, RUBBER, 1.0), hold="depth")
+        rig(depth_amplitude=0.1 * mdr.static_depth(BALL, RUBBER, 1.0))
+        flat = mdr.rig(mdr.FlatPunch(1e-3), RUBBER, 0.8, frequency=50, load=1.0, depth_amplitude=1e-5, hold="load")
+    assert flat.oscillation.u_z0 == mdr.static_depth(mdr.FlatPunch(1e-3), RUBBER, 1.0)

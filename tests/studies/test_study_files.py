@@ -73,7 +73,8 @@ FAULTS = [  # what stands under [axes] and at the top, and how the faults begin
     ('"v_0" = 3\n"material.tua" = [1]\n"mu_0" = [0.1, 0.1]', "", [
         "[axes] v_0 must be a list", "[axes] material.tua is no path", "[axes] mu_0 has the value 0.1 twice"]),
     ('"v_0" = { from = "a", to = inf, n = 3 }', "", [
-        "[axes] v_0: from must be a real number, got 'a' (str)", "[axes] v_0: to must be a finite number, got inf"]),
+        "[axes] v_0: from wants m/s (or cm/s, mm/s, um/s, nm/s, mm/min), got 'a'",
+        "[axes] v_0: to must be a finite number, got inf"]),
     ('oscillation.u_z0 = [1e-6]\n"v_0" = [1]', "", [
         '[axes] oscillation.u_z0 must be in quotes, "oscillation.u_z0" = [...]; oscillation itself a list of tables']),
     ('"v_0" = [1]\nindenter = [{ shape = "Cone" }, { shape = "Kone", theta = 1 }]', "", [
@@ -135,3 +136,13 @@ def test_what_is_no_study_file_is_refused(content):
         parse_study(content)
     with pytest.raises(mdr.CaseFileError, match="cannot be read"):
         read_study_file("/nowhere/study.toml")
+
+
+def test_axes_take_quantities():
+    given = (
+        '"oscillation.du_z" = ["1 um", 2e-6]\nv_0 = { from = "1 mm/s", to = "3 mm/s", n = 3 }\nfrequency = ["50 Hz"]'
+    )
+    axes = parse_study(text(given)).axes
+    assert axes["oscillation.du_z"] == [1e-6, 2e-6]
+    assert axes["v_0"].tolist() == [1e-3, 2e-3, 3e-3]
+    assert axes["frequency"] == [50.0]

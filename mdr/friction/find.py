@@ -1,0 +1,247 @@
+"""find(): the values of one number of a case at which friction, or the critical velocity, is what is asked for.
+
+The range is scanned, each change of sign is solved for by Brent's method, and where the scan comes nearest to what is
+asked without reaching it, the nearest point is sought first: a pair of roots may hide there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact, as_given
+from mdr.case.units import facts_at
+from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.friction.cof_curve import cof_curve
+from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.normal.resolved import at_rest
+from mdr.normal.vary import still_held
+from mdr.tools.arrays import EXACT
+from mdr.tools.checks import finite, positive
+from mdr.tools.keywords import offering
+from mdr.tools.messages import short
+from mdr.tools.notation import shown
+from mdr.tools.progress import Ticker
+from mdr.tools.summary import Printed
+
+N_SCAN = 33  #: values of a range that are looked at first
+DECADE = 10.0  #: to both sides of the value in the case, where no range is given
+LOG_FROM = 4.0  #: ratio of the ends of a range from which on its values grow by a constant factor
+CLOSE = 1e-3  #: of what is asked, within which a root is none that is only jumped over
+TRIES = 20  #: to find the nearest point between three values
+
+
+@dataclass(frozen=True)
+class Found(Printed):
+    """Values of one number of a case that bring about what was asked for."""
+
+    path: str  #: of the number
+    values: tuple[float, ...]  #: in SI, rising; empty where there is none
+    why: str  #: why there is none, or may be others; "" where there is nothing to say
+    cases: tuple[SlidingContact, ...] = field(repr=False)  #: the case at each value
+
+    def __str__(self) -> str:
+        unit = facts_at(self.path).unit
+        found = [f"{self.path} = {shown(value, unit, 6)}" for value in self.values]
+        return "\n".join([*found, *([self.why] if self.why else [])])
+
+
+@offering
+def find(
+    case: SlidingContact,
+    path: str,
+    *,
+    v_0: float | None = None,
+    cof: float | None = None,
+    v_c: float | None = None,
+    within: tuple[float, float] | None = None,
+    held: Mapping[str, float] | None = None,
+) -> Found:
+    """Values [SI] of one number of a case at which friction, or the critical velocity, is what is asked for.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+    path : str
+        The number: a path ("oscillation.du_z"), its last part where that is unique ("du_z"), a group ("alpha"), or
+        "load" [N], "frequency" [Hz], "tan_delta".
+    v_0 : float, optional
+        Pulling velocity [m/s] at which friction is asked for.
+    cof : float, optional
+        The coefficient of friction [-] that is wanted at v_0.
+    v_c : float, optional
+        The critical velocity [m/s] that is wanted, as `critical_velocity` gives it. Give this, or v_0 and cof.
+    within : (float, float), optional
+        Lowest and highest value. None: a tenth to ten times that of the case, as far as the case can have it.
+    held : mapping of str to float, optional
+        "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold meanwhile, as in `sweep`.
+
+    Returns
+    -------
+    Found
+        All values that the scan saw, rising, the case at each, and in words why there is none.
+
+    Raises
+    ------
+    ValueError
+        For no wish or two, and for what is no number of the case.
+    TypeError
+        For a case that is no SlidingContact.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
+    >>> print(mdr.find(case, "du_z", v_0=1e-4, cof=0.2))
+    oscillation.du_z = 7.2068 µm
+    """
+    case = as_given(case)
+    at_rest(case)  # warns of what is unlikely
+    path = path_of(case, path)
+    held = still_held(held or {}, [path])
+    search = _Search(
+        lambda value: changed(case, path, value, held),
+        _wish(case, path, v_0, cof, v_c),
+        *_range(case, path, within, held),
+    )
+    values = tuple(search.values())
+    return Found(path, values, search.why(path, bool(values)), tuple(map(search.at, values)))
+
+
+class _Wish(NamedTuple):
+    """What is asked of a case."""
+
+    ask: Callable[[SlidingContact], float]
+    wanted: float
+    what: str
+    unit: str
+
+    def miss(self, found: float) -> float:
+        """What was found less what is wanted; of a velocity over their sum, as v_c may be infinite."""
+        if not self.unit:
+            return found - self.wanted
+        return 1 - 2 * self.wanted / (found + self.wanted)
+
+    def told(self, value: float) -> str:
+        """A value of what is asked."""
+        return "infinite" if np.isinf(value) else shown(value, self.unit)
+
+
+def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, v_c: Any) -> _Wish:
+    """What was asked for."""
+    if (cof is None) == (v_c is None) or (cof is None) != (v_0 is None):
+        raise ValueError("give one wish: cof at a velocity v_0, or v_c")
+    if v_c is not None:
+        return _Wish(critical_velocity, positive("v_c", v_c, "critical velocity in m/s"), "v_c", "m/s")
+    wanted, speed = finite("cof", cof), finite("v_0", v_0)
+    if path != "mu_0" and abs(wanted) >= case.mu_0:
+        raise ValueError(
+            f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c"
+        )
+    return _Wish(lambda one: _settled_cof(one, speed), wanted, f"the COF at {shown(speed, 'm/s')}", "")
+
+
+def _settled_cof(case: SlidingContact, v_0: float) -> float:
+    """Friction [-]. Raises ValueError where the run does not settle."""
+    curve = cof_curve(case, v_0)
+    if not curve.settled[0]:
+        raise ValueError(f"the run did not settle{f': {curve.why[0]}' if curve.why[0] else ''}")
+    return float(curve.cof[0])
+
+
+def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, float]) -> tuple[float, float]:
+    """The ends of the range."""
+    start = value_of(case, path, held)
+    if within is None:
+        if start == 0:
+            raise ValueError(f"{path} is zero in this case: give the range to search as within=(low, high)")
+        low, high = (allowed(case, path, start, end, held) for end in sorted((start / DECADE, start * DECADE)))
+        return low, high
+    if not isinstance(within, tuple | list) or len(within) != 2:
+        raise TypeError(f"within must be a pair (low, high), got {short(repr(within))}")
+    low, high = (finite("within", end) for end in within)
+    if not low < high:
+        raise ValueError(f"within must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
+    return low, high
+
+
+class _Search:
+    """The search along a range, over a coordinate from 0 to 1."""
+
+    def __init__(self, at: Callable[[float], SlidingContact], wish: _Wish, low: float, high: float) -> None:
+        self.at, self.wish, self.low, self.high = at, wish, low, high
+        self.found: list[float] = []  #: what was asked, of all cases that there are
+        self.refused = ""  #: why one of them cannot be
+        self.ticker = Ticker("find", parts="cases")
+
+    def value(self, x: float) -> float:
+        """The value at a coordinate."""
+        if 0 < LOG_FROM * self.low < self.high:
+            return float(self.low * (self.high / self.low) ** x)
+        return self.low + (self.high - self.low) * x
+
+    def miss(self, x: float) -> float:
+        """How far the case at a coordinate is from the wish; NaN where there is no such case."""
+        self.ticker.tick()
+        try:
+            found = self.wish.ask(self.at(self.value(x)))
+        except ValueError as refusal:
+            self.refused = str(refusal)
+            return np.nan
+        self.found.append(found)
+        return self.wish.miss(found)
+
+    def values(self) -> list[float]:
+        """The value at each root, rising."""
+        from scipy.optimize import brentq
+
+        known = {x: self.miss(x) for x in np.linspace(0, 1, N_SCAN).tolist()}
+        if self.is_flat:
+            return []
+        known |= {x: self.miss(x) for x in list(self._turns(known))}
+        places = sorted(known)
+        roots = [x for x in places if known[x] == 0]
+        for one, two in pairwise(places):
+            if known[one] * known[two] < 0:
+                with suppress(ValueError):  # a case on the way that cannot be
+                    x = float(brentq(self.miss, one, two, xtol=EXACT))
+                    roots += [x] if abs(self.miss(x)) < CLOSE else []
+        return [self.value(x) for x in sorted(roots)]
+
+    def _turns(self, known: dict[float, float]) -> Iterator[float]:
+        """Coordinates between those known where the wish is missed least, without a change of sign."""
+        from scipy.optimize import minimize_scalar
+
+        places = sorted(known)
+        for one, x, two in zip(places, places[1:], places[2:], strict=False):
+            side = np.sign(known[x])
+            before, here, behind = (side * known[at] for at in (one, x, two))
+            if 0 < here <= min(before, behind) and here < max(before, behind):
+                ends, limit = (one, two), {"maxiter": TRIES}
+                yield float(minimize_scalar(lambda at, side=side: side * self.miss(at), bounds=ends, options=limit).x)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether what is asked is the same everywhere."""
+        return not self.found or max(self.found) - min(self.found) <= EXACT * abs(self.found[0])
+
+    def why(self, path: str, is_found: bool) -> str:
+        """Why there is no value, or why there may be others."""
+        if is_found:
+            return f"not looked at everywhere, as a case cannot be: {self.refused}" if self.refused else ""
+        unit, wish = facts_at(path).unit, self.wish
+        where = f"from {shown(self.low, unit)} to {shown(self.high, unit)}"
+        if not self.found:
+            return f"none: there is no such case {where}: {self.refused}"
+        least, most = (wish.told(end) for end in (min(self.found), max(self.found)))
+        between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
+        gaps = f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
+        return f"none: {wish.what} {between} for {path} {where}, and {wish.told(wish.wanted)} is asked for{gaps}"

@@ -1,0 +1,179 @@
+"""tolerance(): what friction and critical velocity become as each input alone is a little smaller or larger.
+
+Inputs are what the user sets: the numbers of the case, the load, frequency and loss tangent in the place of the fields
+that these are turned into, and the pulling velocity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.units import facts_at
+from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.friction.cof_curve import cof_curve
+from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.normal.resolved import at_rest
+from mdr.normal.vary import fields_of, fields_set, still_held, value_at
+from mdr.tools.checks import between, finite
+from mdr.tools.csv_table import Tabled, csv_text
+from mdr.tools.keywords import offering
+from mdr.tools.notation import shown
+from mdr.tools.progress import progress
+from mdr.tools.summary import Summarised, Summary
+
+Pair = tuple[float, float]  #: at the smaller and at the larger value of an input
+
+
+@dataclass(frozen=True)
+class Tolerance(Summarised, Tabled):
+    """Friction and critical velocity as each input alone varies; dictionaries by its path, what matters most first."""
+
+    by: float  #: share by which each input is smaller and larger [-]
+    v_0: float  #: pulling velocity [m/s]
+    base_cof: float  #: coefficient of friction of the case itself [-]
+    base_v_c: float  #: its critical velocity, Eq. (15) [m/s]
+    inputs: dict[str, Pair]  #: values [SI] of each input: less and more by the share, as far as the case can have them
+    cof: dict[str, Pair]  #: coefficient of friction at them [-]
+    v_c: dict[str, Pair]  #: critical velocity at them [m/s]
+    warnings: tuple[str, ...]  #: runs that did not settle
+
+    def _summary(self) -> Summary:
+        rows = [("COF", f"{self.base_cof:.4g}", f"v_c {shown(self.base_v_c, 'm/s', 4)}")]
+        for path, (less, more) in self.cof.items():
+            v_c = " ... ".join(shown(one, "m/s", 4) for one in self.v_c[path])
+            rows.append((path, f"{less:.4g} ... {more:.4g}", f"v_c {v_c}"))
+        title = f"Tolerance: each input {100 * self.by:.3g} % less and more, at v_0 = {shown(self.v_0, 'm/s')}"
+        return Summary(title, [*rows, *(("warning", one, "") for one in self.warnings)])
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw a tornado chart: a bar for each input, from friction at its smaller to that at its larger value.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw friction alone. None makes a new figure, with a second panel for the critical velocity.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where friction was drawn.
+        """
+        from mdr.plots.tornado import plot_tolerance
+
+        return plot_tolerance(self, ax)
+
+    def table(self) -> str:
+        """A row for each input as CSV: its path and values, friction and critical velocity at them.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes.
+        """
+        columns: dict[str, Any] = {"input": self.cof, "unit": [facts_at(path).unit for path in self.cof]}
+        for name, pairs in (("input", self.inputs), ("cof [-]", self.cof), ("v_c [m/s]", self.v_c)):
+            for end, way in enumerate(("minus", "plus")):
+                columns[f"{way}: {name}"] = [pairs[path][end] for path in self.cof]
+        return csv_text(columns)
+
+
+@offering
+def tolerance(
+    case: SlidingContact,
+    v_0: float,
+    by: float = 0.1,
+    fields: Iterable[str] | None = None,
+    *,
+    held: Mapping[str, float] | None = None,
+) -> Tolerance:
+    """Friction [-] and critical velocity [m/s] of a contact as each of its inputs alone is smaller and larger.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact.
+    v_0 : float
+        Pulling velocity [m/s].
+    by : float
+        Share [-], between 0 and 1, by which each input is made smaller, and larger.
+    fields : iterable of str, optional
+        Inputs: paths as in `find`, or "v_0". None: every number of the case that is not zero, `frequency` for one
+        omega, what is `held` for the field that it sets; and v_0.
+    held : mapping of str to float, optional
+        What the case was made from: "load" [N] for its depth u_z0, "tan_delta" [-] for its tau. They hold while other
+        inputs vary, and vary themselves. `mdr tolerance` takes them from the case file.
+
+    Returns
+    -------
+    Tolerance
+        Friction and critical velocity at both values of each input; the input that moves friction most comes first.
+
+    Raises
+    ------
+    ValueError
+        For what is no number of the case, and for a share that is not between 0 and 1.
+    TypeError
+        For a case that is no SlidingContact.
+
+    Notes
+    -----
+    A value that the case cannot have, such as nu = 0.55, is moved to the nearest that it can: `inputs` has them.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
+    >>> found = mdr.tolerance(case, 1e-4, by=0.1)
+    >>> least, most = found.cof["oscillation.du_z"]
+    >>> print(f"{found.base_cof:.3f}: {least:.3f} ... {most:.3f}")
+    0.365: 0.371 ... 0.358
+    """
+    case = as_given(case)
+    at_rest(case)  # warns of what is unlikely
+    by, v_0 = between("by", by, 0.0, 1.0, "0.1 for 10 %"), finite("v_0", v_0)
+    kept = still_held(held or {}, ())
+    if isinstance(fields, str):
+        raise TypeError(f"fields must be a list of paths, got {fields!r}; write [...]")
+    paths = _inputs(case, kept) if fields is None else [one if one == "v_0" else path_of(case, one) for one in fields]
+    warnings: list[str] = []
+
+    def at(path: str, value: float) -> Pair:
+        """Friction and critical velocity with another value at a path."""
+        one = case if path == "v_0" else changed(case, path, value, still_held(kept, [path]))
+        curve = cof_curve(one, value if path == "v_0" else v_0)
+        if not curve.settled[0]:
+            warnings.append(f"{path} = {shown(value, facts_at(path).unit)}: the run did not settle")
+        return float(curve.cof[0]), critical_velocity(one)
+
+    base_cof, base_v_c = at("v_0", v_0)
+    inputs = {path: _ends(case, path, v_0, by, kept) for path in paths}
+    points = {path: [at(path, end) for end in inputs[path]] for path in progress(paths, "tolerance", "inputs")}
+    spread = {path: abs(less[0] - more[0]) for path, (less, more) in points.items()}
+    order = sorted(paths, key=spread.__getitem__, reverse=True)
+    cof, v_c = ({path: (points[path][0][i], points[path][1][i]) for path in order} for i in (0, 1))
+    values = {path: inputs[path] for path in order}
+    return Tolerance(by, v_0, base_cof, base_v_c, values, cof, v_c, tuple(warnings))
+
+
+def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[str, float]) -> Pair:
+    """The smaller and the larger value of an input, as far as the case can have them."""
+    if path == "v_0":
+        return v_0 * (1 - by), v_0 * (1 + by)
+    start, others = value_of(case, path, held), still_held(held, [path])
+    less, more = (allowed(case, path, start, start * (1 + share), others) for share in (-by, by))
+    return less, more
+
+
+def _inputs(case: SlidingContact, held: Mapping[str, float]) -> list[str]:
+    """The numbers of a case that are not zero, by what they were set with."""
+    known = ["mu_0", *(f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot)))]
+    paths = [path for path in known if isinstance(value := value_at(case, path), float) and value]
+    alike = {value_at(case, path) for path in fields_set("frequency") if path in paths}
+    for setting in (*(("frequency",) if len(alike) == 1 else ()), *held):
+        paths = list(dict.fromkeys(setting if path in fields_set(setting) else path for path in paths))
+    return [*paths, "v_0"]

@@ -1,0 +1,108 @@
+"""find(): every value that does what is asked, against closed forms and a fine grid; and why there is none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.friction import find as module
+from mdr.normal.vary import case_at
+
+BALL, RUBBER, OMEGA = mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=2e-4), 314.0
+CASE = mdr.SlidingContact(BALL, RUBBER, 0.5, mdr.NormalOscillation(20e-6, 4e-6, OMEGA))
+BODY = replace(CASE, material=mdr.Elastic(E=3e6, nu=0.3), pull=mdr.SpringPull(k_x=2e3, m=0.1))
+
+
+@pytest.mark.parametrize(
+    ("path", "within"),
+    [("du_z", (1e-6, 18e-6)), ("oscillation.u_z0", None), ("alpha", (0.1, 0.9)), ("frequency", (5.0, 500.0)),
+     ("load", None), ("mu_0", (0.1, 2.0)), ("material.tau", (1e-5, 1e-1))],
+)  # fmt: skip
+def test_friction_is_found_where_a_fine_grid_passes_it(path, within):
+    v_0, cof = 0.4 * mdr.critical_velocity(CASE), 0.42
+    found = mdr.find(CASE, path, v_0=v_0, cof=cof, within=within)
+    low, high = within or (1e-1 * found.values[0], 10 * found.values[0])
+    grid = np.geomspace(low, high, 60)
+    beside = np.array([mdr.cof_curve(case_at(CASE, {found.path: value}), v_0).cof[0] for value in grid]) - cof
+    passed = np.flatnonzero(beside[1:] * beside[:-1] < 0)
+    if within:
+        assert len(found.values) == len(passed) > 0
+        assert all(grid[i] <= value <= grid[i + 1] for i, value in zip(passed, found.values, strict=True))
+    for case in found.cases:
+        assert_allclose(mdr.cof_curve(case, v_0).cof[0], cof, rtol=1e-9)
+    assert found.why == ""
+
+
+def eq_15_roots(v_c):
+    """Both stiffnesses at which Eq. (15) of an undamped body is v_c."""
+    size = v_c / (BODY.mu_0 * BODY.oscillation.du_z * OMEGA * BODY.k_zc / BODY.k_xc)
+    return sorted(BODY.pull.m * OMEGA**2 - BODY.k_xc / (1 + sign * size) for sign in (-1, 1))
+
+
+@pytest.mark.parametrize("share", [0.5, 1e-2, 1e-4])
+def test_two_stiffnesses_have_one_critical_velocity_however_near_they_are(share):
+    """Between them v_c falls to zero: a thousandth of their value apart, they lie between two points of the scan."""
+    v_c = share * mdr.critical_velocity(replace(BODY, pull=mdr.RigidPull()))
+    found = mdr.find(BODY, "k_x", v_c=v_c, within=(1e3, 2e4))
+    expected = [k_x for k_x in eq_15_roots(v_c) if 1e3 < k_x < 2e4]
+    assert len(expected) == 2
+    assert_allclose(found.values, expected, rtol=1e-7)
+
+
+def test_a_resonance_is_jumped_over_by_no_root():
+    """v_c is infinite at k_x = m omega²: above the wish on both sides, and no value of it."""
+    v_c = 50 * mdr.critical_velocity(replace(BODY, pull=mdr.RigidPull()))
+    found = mdr.find(BODY, "k_x", v_c=v_c, within=(1e3, 2e4))
+    assert_allclose(found.values, [k_x for k_x in eq_15_roots(v_c) if 1e3 < k_x < 2e4], rtol=1e-7)
+
+
+def test_a_load_is_held_while_the_modulus_is_sought():
+    load, v_0 = 0.05, 0.3 * mdr.critical_velocity(CASE)
+    rested = mdr.parse_case(mdr.write_case(CASE).replace("u_z0 = 2e-05", f"load = {load}"))
+    softer = case_at(rested, {"material.E": 2e6, "load": load})
+    wanted = mdr.cof_curve(softer, v_0).cof[0]
+    found = mdr.find(rested, "E", v_0=v_0, cof=wanted, within=(1e6, 1e7), held={"load": load})
+    (case,), (E,) = found.cases, found.values
+    assert case.material.E == E
+    assert_allclose(E, 2e6, rtol=1e-7)
+    assert_allclose(case.oscillation.u_z0, mdr.static_depth(BALL, case.material, load), rtol=1e-12)
+
+
+def test_a_body_is_found_by_runs():
+    v_0 = 0.5 * mdr.critical_velocity(BODY)
+    wanted = mdr.slide(BODY, v_0).cof
+    found = mdr.find(BODY, "du_z", v_0=v_0, cof=wanted, within=(3e-6, 5e-6))
+    assert_allclose(found.values, [4e-6], rtol=1e-3)  # of runs whose errors are 1e-5 of mu_0
+
+
+NONE = [
+    ({"path": "du_z", "v_0": 1e-2, "cof": 0.1, "within": (1e-6, 2e-6)},
+     "none: the COF at 10 mm/s is 0.5 for oscillation.du_z from 1 µm to 2 µm, and 0.1 is asked for"),
+    ({"path": "du_z", "v_0": 1e-4, "cof": 0.1, "within": (1e-6, 2e-6)}, "none: the COF at 100 µm/s lies between 0.4"),
+    ({"path": "E", "v_c": 1.0}, "none: v_c is 942 µm/s for material.E from 300 kPa to 30 MPa, and 1 m/s is asked for"),
+    ({"path": "nu", "v_c": 1.0, "within": (0.6, 0.9)}, "none: there is no such case from 0.6 to 0.9: nu must lie in"),
+    ({"path": "nu", "v_c": 1.0, "within": (0.1, 0.9)}, "not everywhere: nu must lie in"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("asked", "words"), NONE)
+def test_it_says_why_there_is_none(asked, words):
+    found = mdr.find(CASE, **asked)
+    assert found.values == found.cases == ()
+    assert words in found.why
+    assert str(found) == found.why
+
+
+def test_a_run_that_does_not_settle_is_no_answer(monkeypatch):
+    curve, v_0 = mdr.cof_curve, 0.4 * mdr.critical_velocity(CASE)
+    monkeypatch.setattr(
+        module, "cof_curve", lambda one, v: replace(curve(one, v), settled=np.array([one.oscillation.du_z < 4.5e-6]))
+    )
+    wanted = [curve(case_at(CASE, {"oscillation.du_z": du_z}), v_0).cof[0] for du_z in (4e-6, 5e-6)]
+    seen, unseen = (mdr.find(CASE, "du_z", v_0=v_0, cof=cof, within=(3e-6, 6e-6)) for cof in wanted)
+    assert_allclose(seen.values, [4e-6], rtol=1e-9)
+    assert seen.why == "not looked at everywhere, as a case cannot be: the run did not settle"
+    assert unseen.values == ()
+    assert unseen.why.endswith("where there is a case, as not everywhere: the run did not settle")

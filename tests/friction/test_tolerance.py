@@ -1,0 +1,140 @@
+"""tolerance(): every number is that of the case in which it is written down; inputs are those that were given."""
+
+import csv
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.files.case_files import case_of
+from mdr.friction import tolerance as module
+from mdr.tools.notation import shown
+
+TABLES = {
+    "mu_0": 0.3,
+    "indenter": {"shape": "Sphere", "R": 3e-3},
+    "material": {"model": "KelvinVoigt", "E": 3e9, "nu": 0.4, "tan_delta": 0.03},
+    "oscillation": {"frequency": 20e3, "load": 5.0, "du_z": 3.15e-6},
+}
+V_0, BY = 0.01, 0.1
+
+
+def written(path, share):
+    """Case and velocity with one number of the file another."""
+    tables = {name: dict(one) if isinstance(one, dict) else one for name, one in TABLES.items()}
+    v_0 = V_0
+    if path == "v_0":
+        v_0 *= 1 + share
+    elif path == "mu_0":
+        tables["mu_0"] *= 1 + share
+    else:
+        home = {"load": "oscillation", "frequency": "oscillation", "tan_delta": "material"}.get(path)
+        slot, _, key = path.partition(".")
+        tables[home or slot][key or path] *= 1 + share
+    return case_of(tables).case, v_0
+
+
+def test_numbers_are_those_of_a_loop_over_files():
+    said = case_of(TABLES)
+    found = mdr.tolerance(said.case, V_0, by=BY, held=said.held)
+    asked = {
+        "mu_0",
+        "indenter.R",
+        "material.E",
+        "material.nu",
+        "tan_delta",
+        "frequency",
+        "load",
+        "oscillation.du_z",
+        "v_0",
+    }
+    assert set(found.cof) == set(found.v_c) == set(found.inputs) == asked
+    for path in asked:
+        for end, share in enumerate((-BY, BY)):
+            case, v_0 = written(path, share)
+            assert_allclose(found.cof[path][end], mdr.cof_curve(case, v_0).cof[0], rtol=1e-10)
+            assert_allclose(found.v_c[path][end], mdr.critical_velocity(case), rtol=1e-10)
+    base = case_of(TABLES).case
+    assert found.base_cof == mdr.cof_curve(base, V_0).cof[0]
+    assert found.base_v_c == mdr.critical_velocity(base)
+    spread = [abs(less - more) for less, more in found.cof.values()]
+    assert spread == sorted(spread, reverse=True)
+    assert found.warnings == ()
+
+
+def test_without_what_was_set_the_fields_are_the_inputs():
+    found = mdr.tolerance(case_of(TABLES).case, V_0)
+    assert {"oscillation.u_z0", "material.tau", "frequency"} < set(found.cof)
+    assert not {"load", "tan_delta", "oscillation.omega"} & set(found.cof)
+
+
+def test_small_steps_are_the_derivative_of_eq_1():
+    """Under a rigid pull v_c = mu_0 kappa omega du_z: each factor moves it by its own share, and R, E not at all."""
+    found = mdr.tolerance(case_of({**TABLES, "material": {"model": "Elastic", "E": 3e9, "nu": 0.4}}).case, V_0, by=1e-3)
+    for path, power in {"mu_0": 1, "frequency": 1, "oscillation.du_z": 1, "indenter.R": 0, "material.E": 0}.items():
+        assert_allclose(
+            np.array(found.v_c[path]) / found.base_v_c, [(1 - 1e-3) ** power, (1 + 1e-3) ** power], rtol=1e-12
+        )
+
+
+def test_one_frequency_of_oscillation_and_shake_is_one_input():
+    motion, shake = mdr.NormalOscillation(20e-6, 4e-6, 314.0), mdr.InPlaneOscillation(314.0, du_x=1e-6)
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.Elastic(3e6, 0.3), 0.5, motion, shake=shake)
+    found = mdr.tolerance(case, 1e-4, fields=["frequency", "shake.du_x"])
+    assert_allclose(found.inputs["frequency"], np.array([0.9, 1.1]) * 314 / (2 * np.pi), rtol=1e-12)
+    whole = mdr.SlidingContact(
+        case.indenter, case.material, 0.5, replace(motion, omega=1.1 * 314), shake=replace(shake, omega=1.1 * 314)
+    )
+    assert_allclose(found.cof["frequency"][1], mdr.cof_curve(whole, 1e-4).cof[0], rtol=1e-9)
+
+
+def test_what_a_case_cannot_have_is_moved_to_what_it_can():
+    case = mdr.SlidingContact(
+        mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.48), 0.5, mdr.NormalOscillation(20e-6, 19.9e-6, 314.0)
+    )
+    found = mdr.tolerance(case, 1e-3, by=0.5)
+    assert found.inputs["material.nu"] == pytest.approx((0.24, 0.5), rel=1e-8)
+
+
+def test_a_body_is_varied_by_runs_and_a_run_that_does_not_settle_is_named(monkeypatch):
+    case = mdr.SlidingContact(
+        mdr.Paraboloid(5e-3),
+        mdr.Elastic(3e6, 0.3),
+        0.5,
+        mdr.NormalOscillation(20e-6, 4e-6, 314.0),
+        mdr.SpringPull(2e3, 0.1),
+    )
+    v_0 = 0.5 * mdr.critical_velocity(case)
+    found = mdr.tolerance(case, v_0, fields=["m"])
+    heavy = replace(case, pull=mdr.SpringPull(2e3, 0.11))
+    assert found.cof["pull.m"][1] == mdr.slide(heavy, v_0).cof
+    assert found.v_c["pull.m"][1] == mdr.critical_velocity(heavy)
+    curve = mdr.cof_curve
+    monkeypatch.setattr(module, "cof_curve", lambda *of: replace(curve(*of), settled=np.array([False])))
+    loose = mdr.tolerance(replace(case, pull=mdr.RigidPull()), v_0, fields=["oscillation.du_z"])
+    assert loose.warnings[1] == "oscillation.du_z = 3.6 µm: the run did not settle"
+
+
+def test_it_prints_and_is_written_as_csv(tmp_path):
+    said = case_of(TABLES)
+    found = mdr.tolerance(said.case, V_0, fields=["load", "v_0"], held=said.held)
+    found.to_csv(tmp_path / "t.csv")
+    load, v_0 = csv.DictReader(io.StringIO((tmp_path / "t.csv").read_text()))
+    assert (load["input"], load["unit"], v_0["unit"]) == ("load", "N", "m/s")
+    assert float(load["minus: cof [-]"]) == found.cof["load"][0]
+    assert float(load["plus: input"]) == 5.5
+    assert "Tolerance: each input 10 % less and more, at v_0 = 10 mm/s" in str(found)
+    assert shown(found.v_c["load"][0], "m/s", 4) in str(found)
+
+
+def test_the_chart_has_a_bar_for_each_end():
+    found = mdr.tolerance(case_of(TABLES).case, V_0, fields=["mu_0", "frequency"])
+    ax = found.plot()
+    assert [tick.get_text() for tick in ax.get_yticklabels()] == ["local friction $\\mu_0$", "frequency"]
+    for axes, pairs, factor in zip(ax.figure.axes, (found.cof, found.v_c), (1, 1e3), strict=True):
+        ends = {round(bar.get_x() + bar.get_width(), 6) for bar in axes.patches}
+        assert ends == {round(factor * one, 6) for pair in pairs.values() for one in pair}
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["10 % less", "10 % more"]
