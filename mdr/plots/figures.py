@@ -447,13 +447,14 @@ def _direction_bar(figure: Any, turned: Any, beside: Any) -> None:
     bar.set_label("direction of slip [°]\n0 along the pull, 90 across")
 
 
-def mode_patches(*states: Any, slip: bool = True) -> list[Any]:
-    """Legend entries of the modes that occur in arrays of modes; slip: also of those that slip."""
+def mode_patches(*states: Any, slip: bool = True, free: str = MODES[0][0]) -> list[Any]:
+    """Legend entries of the modes that occur in arrays of modes; slip: also of those that slip; free: its name."""
     from matplotlib.patches import Patch
 
     seen = np.unique(np.concatenate([np.unique(state) for state in states]))
     shown = [MODES[m] for m in seen if slip or not MODES[m][0].startswith("slip")]
-    return [Patch(fc=colour, ec="0.6", lw=0.5, label=name) for name, colour in shown]
+    names = {MODES[0][0]: free}
+    return [Patch(fc=colour, ec="0.6", lw=0.5, label=names.get(name, name)) for name, colour in shown]
 
 
 def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:
