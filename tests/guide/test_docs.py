@@ -153,6 +153,6 @@ def test_the_paper_has_the_form_that_its_journal_asks_for():
     sections += ["AI usage disclosure", "Acknowledgements", "References"]
     assert re.findall(r"^# (.*)$", paper, re.MULTILINE) == sections
     assert 750 <= len(re.sub(r"<!--.*?-->", "", paper).split()) <= 1750
-    assert len(re.findall(r"^!\[.*\]\((\S+)\)", paper, re.MULTILINE)) == 1
+    assert len(re.findall(r"^!\[.*\]\((\S+)\)", paper, re.MULTILINE)) == 2
     bib = (DOCS / "paper.bib").read_text(encoding="utf-8")
     assert set(re.findall(r"@(\w+)", paper)) == set(re.findall(r"^@\w+\{(\w+),", bib, re.MULTILINE))

@@ -49,6 +49,17 @@ def test_the_moving_picture_is_drawn_as_it_stands(drawn, tmp_path):
     assert "docs/animation.gif" in README
 
 
+def test_the_set_up_is_drawn_as_it_stands_and_shown():
+    stored = (pages.DOCS / "set_up.svg").read_text(encoding="utf-8")
+    drawn = runpy.run_path(str(pages.DOCS / "set_up.py"))["written"]()
+    texts = re.compile(r"<!-- (.*) -->")
+    assert len(stored) < 4e4
+    assert texts.findall(stored) == texts.findall(drawn)
+    assert stored.count("<path") == drawn.count("<path")
+    for page in ("README.md", "docs/tutorial.md", "docs/paper.md"):
+        assert "set_up.svg" in (pages.ROOT / page).read_text(encoding="utf-8")
+
+
 def test_it_is_read_in_some_minutes():
     assert len(prose(README).split()) <= 950
 
