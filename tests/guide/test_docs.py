@@ -116,7 +116,7 @@ def test_every_public_name_is_documented():
 def test_the_site_builds_without_a_warning_and_needs_no_network(tmp_path):
     for name in ("sphinx", "myst_nb", "numpydoc", "furo"):
         pytest.importorskip(name)
-    options = ["-q", "-W", "--keep-going", "-D", "nb_execution_mode=off", "-d", tmp_path / "trees"]
+    options = ["-q", "-W", "--keep-going", "-d", tmp_path / "trees"]
     command = [sys.executable, "-m", "sphinx", *options, DOCS, tmp_path / "site"]
     built = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"PYTHONWARNINGS": "ignore"})
     assert built.returncode == 0, built.stderr
