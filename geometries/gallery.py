@@ -109,7 +109,7 @@ def figure():
         forms[-1].legend(loc="center", handlelength=1.0)
         curve_of_all, bars = below.subplots(1, 2)
         shade = mpl.colormaps["viridis_r"](mpl.colors.Normalize(0.45, 1.2)(list(share.values())))
-        for (name, curve), colour in zip(curves().items(), shade, strict=True):
+        for curve, colour in zip(curves().values(), shade, strict=True):
             curve_of_all.plot(v_hat, curve, color=colour, lw=1.2)
         for name, x, y in (("cone", 0.18, 0.62), ("concave punch", -0.03, 0.965)):
             curve_of_all.text(x, y, name, color=shade[list(shapes).index(name)])
