@@ -143,7 +143,7 @@ def test_the_gallery_has_every_script():
     """Where this fails, `python tests/gallery_page.py` draws what is missing and writes the page."""
     assert gallery_page.PAGE.read_text(encoding="utf-8") == gallery_page.page()
     assert {path.stem for path in gallery_page.PICTURES.iterdir()} == set(gallery_page.names())
-    assert all(path.stat().st_size < 4e4 for path in gallery_page.PICTURES.iterdir())
+    assert all(path.stat().st_size < gallery_page.MOST_BYTES for path in gallery_page.PICTURES.iterdir())
 
 
 def test_the_paper_has_the_form_that_its_journal_asks_for():
