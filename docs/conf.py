@@ -1,7 +1,7 @@
 """The guide as a site: `python -m sphinx -W docs site` writes pages into site/ that need no network.
 
 Pages are plain Markdown, readable as they are. What a page cannot say of itself stands here: their order, and how
-equations are set (extensions/). Docstrings are numpydoc; the notebook is run while the pages are built (myst-nb).
+equations are set (extensions/). Docstrings are numpydoc; the notebook is shown with its stored outputs (myst-nb).
 """
 
 import sys
@@ -27,11 +27,7 @@ exclude_patterns = ["extensions", "paper.md"]  # the paper is set by the journal
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 default_role = "literal"  # `name` in a docstring is code
-nb_execution_mode = "force"  # the notebook is stored without outputs
-nb_execution_in_temp = True
-nb_execution_timeout = -1  # of a slow machine
-nb_execution_raise_on_error = True
-nb_output_stderr = "remove"  # progress
+nb_execution_mode = "off"  # the notebook is stored with its outputs
 nb_merge_streams = True
 nb_ipywidgets_js = {}  # no script from elsewhere
 numpydoc_show_class_members = False  # autodoc lists them

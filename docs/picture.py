@@ -1,6 +1,6 @@
-"""The picture of the first page: friction of a shaken contact, and what its springs do meanwhile.
+"""The pictures of the first page: friction of a shaken contact, and what its springs do meanwhile, at rest and moving.
 
-`python docs/picture.py` draws docs/picture.png anew.
+`python docs/picture.py` draws docs/picture.png and docs/animation.gif anew.
 """
 
 from pathlib import Path
@@ -20,23 +20,35 @@ SHARE = 0.4  #: of the critical velocity: where the springs are shown
 BLUE, RED, INK = COLOURS[0], COLOURS[1], "0.25"
 
 
-def figure():
+V_C = mdr.critical_velocity(CASE)
+
+
+def shown():
+    """The run that both show."""
+    return mdr.slide(CASE, SHARE * V_C, n_springs=256, steps_per_period=960, record=1)
+
+
+def animate(path, run):
+    """Let the springs move."""
+    lost = f"{100 * (1 - run.cof / CASE.mu_0):.0f} % less friction"
+    return run.animate(path, title=f"pulled at {SHARE:g} of the critical velocity: {lost}")
+
+
+def figure(run):
     """Friction over pulling velocity, beside a map of the springs over one period."""
     import matplotlib.pyplot as plt
 
-    v_c = mdr.critical_velocity(CASE)
-    run = mdr.slide(CASE, SHARE * v_c, n_springs=256, steps_per_period=1024, record=1)
     with style():
         drawn, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.9))
-        draw_curve(left, v_c, run.cof / CASE.mu_0)
+        draw_curve(left, run.cof / CASE.mu_0)
         draw_springs(right, run)
     return drawn
 
 
-def draw_curve(ax, v_c, shown):
+def draw_curve(ax, shown):
     """Draw friction over velocity, and the point of the run that is shown beside it."""
     share = 1.4 * np.linspace(0, 1, 80) ** 2  # dense at rest, where the curve is steep
-    friction = mdr.cof_curve(CASE, v_0=share * v_c).cof / CASE.mu_0
+    friction = mdr.cof_curve(CASE, v_0=share * V_C).cof / CASE.mu_0
     ax.fill_between(share, friction, 1, color=BLUE, alpha=0.12, lw=0)
     ax.plot(share, friction, color=BLUE, lw=2.2)
     ax.plot([1, 1], [0, 1], color=INK, lw=1, ls=":")
@@ -59,4 +71,6 @@ def draw_springs(ax, run):
 
 
 if __name__ == "__main__":
-    figure().savefig(Path(__file__).with_name("picture.png"), dpi=150)
+    run = shown()
+    figure(run).savefig(Path(__file__).with_name("picture.png"), dpi=150)
+    animate(Path(__file__).with_name("animation.gif"), run)

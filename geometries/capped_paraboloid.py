@@ -44,7 +44,8 @@ def figure():
     from mdr.plots import COLOURS, style
 
     with style():
-        fig, (circle, left, right) = plt.subplots(1, 3, figsize=(12.5, 4))
+        fig, axes = plt.subplot_mosaic([["circle", "v_c"], ["circle", "cof"]], figsize=(8.6, 5.8))
+        circle, left, right = axes["circle"], axes["v_c"], axes["cof"]
         circle.plot(1e-3 * K_z.real, 1e-3 * K_z.imag, color=COLOURS[0], label="$K_z$, from fast to slow rubber")
         circle.plot(1e-3 * kappa_A.real, 1e-3 * kappa_A.imag, "k^", label=r"$\kappa A$ of the slider")
         far = K_z[np.argmax(v_c)]

@@ -53,7 +53,8 @@ def figure():
 
     r = np.linspace(0, 0.999 * a, 300)
     with style():
-        fig, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 4))
+        fig, axes = plt.subplot_mosaic([["pressure", "off"], ["pressure", "static"]], figsize=(8.6, 5.8))
+        left, middle, right = axes["pressure"], axes["off"], axes["static"]
         cases = contacts(amplitudes[1])
         for i, (name, colour) in enumerate(zip(names, COLOURS, strict=False)):
             p = cases[name].indenter.pressure(r, cases[name].oscillation.u_z0, rubber.E_star)

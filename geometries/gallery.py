@@ -88,56 +88,56 @@ def full():
 
 
 def figure():
-    """Two small pictures a shape: f(r) and g(x) pressed to the depth d; its COF curve among all."""
+    """Each shape f(r) and its image g(x), pressed to the depth d; the COF curves of all, and how far v_c is off."""
+    import matplotlib as mpl
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
 
-    columns, all_curves = 6, np.array(list(curves().values()))
-    within = all_curves.min(axis=0), all_curves.max(axis=0)
+    columns = 6
     with style():
-        fig, axes = plt.subplots(6, columns, figsize=(15, 14.5), height_ratios=(3, 4) * 3)
-        for i, (name, shape) in enumerate(shapes.items()):
-            form, cof = axes[2 * (i // columns) : 2 * (i // columns) + 2, i % columns]
-            x = np.linspace(0, min(1.35 * a, shape.max_radius), 300)
-            for heights, colour in ((shape.profile_3d(x), COLOURS[0]), (shape.profile_1d(x), COLOURS[1])):
-                wall = np.r_[heights, 3 * d] if x[-1] < 1.35 * a else heights
-                r = np.r_[x, x[-1]] if x[-1] < 1.35 * a else x
-                form.plot(1e3 * np.r_[-r[::-1], r], 1e6 * (np.r_[wall[::-1], wall] - d), color=colour)
-            form.axhline(0, color="0.4", lw=0.8)
-            form.set(title=name, xlim=(-1.35, 1.35), ylim=(-62, 45))
-            cof.fill_between(v_hat, *within, color="0.9", lw=0, zorder=0)
-            cof.plot(v_hat, curves()[name], color="k")
-            cof.plot(full()[name] / eq_1, 1, "v", color=COLOURS[2], ms=8)
-            cof.axvline(eq_15 / eq_1, color=COLOURS[2], lw=0.8, ls=":")
-            off = 100 * (full()[name] / eq_15 - 1)
-            title = f"$F_N = {share[name]:.2f}\\,k_{{zc}}u_{{z0}}$; $v_c$ {off + 0:+.2f} %"
-            cof.set(title=title, xlim=(0, 1.3), ylim=(0.45, 1.04))
-        for ax in axes[:, 0]:
-            ax.set_ylabel("height [µm]" if ax in axes[::2, 0] else r"$\mu/\mu_0$")
-        for ax in axes[4]:
-            ax.set_xlabel("$r$, $x$ [mm]")
-        for ax in axes[5]:
-            ax.set_xlabel("$v_0$ over Eq. (1)")
-        _legend(axes[4, -1], axes[5, -1])
+        fig = plt.figure(figsize=(8.6, 8.6))
+        above, below = fig.subfigures(2, 1, height_ratios=(5, 4))
+        forms = above.subplots(-(-(len(shapes) + 1) // columns), columns).flat
+        for ax, (name, shape) in zip(forms, shapes.items(), strict=False):
+            _form(ax, shape)
+            ax.set_title(name.replace(" ", "\n", 1), fontsize=10)
+        for name, colour in (("shape $f(r)$", COLOURS[0]), ("image $g(x)$", COLOURS[1]), ("surface", "0.4")):
+            forms[-1].plot([], color=colour, label=name)
+        forms[-1].set_title("all 40 µm deep", fontsize=10)
+        forms[-1].axis("off")
+        forms[-1].legend(loc="center", handlelength=1.0)
+        curve_of_all, bars = below.subplots(1, 2)
+        shade = mpl.colormaps["viridis_r"](mpl.colors.Normalize(0.45, 1.2)(list(share.values())))
+        for curve, colour in zip(curves().values(), shade, strict=True):
+            curve_of_all.plot(v_hat, curve, color=colour, lw=1.2)
+        for name, x, y in (("cone", 0.18, 0.62), ("concave punch", -0.03, 0.965)):
+            curve_of_all.text(x, y, name, color=shade[list(shapes).index(name)])
+        curve_of_all.set(title="rigid pull (dark: carries more)", xlabel="$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$")
+        order = sorted(shapes, key=share.get)
+        off = [100 * (full()[name] / eq_15 - 1) for name in order]
+        bars.barh(order, off, color=shade[[list(shapes).index(name) for name in order]])
+        bars.axvline(0, color="0.4", lw=0.8)
+        bars.set(title="mass and spring", xlabel="$v_c$ off Eq. (15) [%]")
+        bars.tick_params(axis="y", labelsize=9.5, length=0)
     return fig
 
 
-def _legend(form, cof):
-    """What the lines are, in the last pair of pictures."""
+def _form(ax, shape):
+    """Shape and image at the depth d, without axes."""
     from mdr.plots import COLOURS
 
-    form.plot([], color=COLOURS[0], label="shape $f(r)$")
-    form.plot([], color=COLOURS[1], label="image $g(x)$")
-    form.plot([], color="0.4", lw=0.8, label="undeformed surface")
-    cof.plot([], color="k", label="rigid pull")
-    cof.plot([], color="0.9", lw=8, label="all shapes")
-    cof.plot([], "v", color=COLOURS[2], ms=8, label="$v_c$, mass and spring\n(%: off Eq. (15))")
-    cof.plot([], color=COLOURS[2], ls=":", label="Eq. (15)")
-    for ax, title in ((form, "above: pressed to 40 µm"), (cof, "below: how it slides")):
-        ax.set_title(title)
-        ax.axis("off")
-        ax.legend(loc="center")
+    x = np.linspace(0, min(1.35 * a, shape.max_radius), 300)
+    ends = x[-1] < 1.35 * a
+    r = np.r_[x, x[-1]] if ends else x
+    for heights, colour in ((shape.profile_3d(x), COLOURS[0]), (shape.profile_1d(x), COLOURS[1])):
+        z = 1e6 * (np.r_[heights, 3 * d] if ends else heights) - 1e6 * d
+        ax.plot(1e3 * np.r_[-r[::-1], r], np.r_[z[::-1], z], color=colour)
+        if colour == COLOURS[0]:
+            ax.fill_between(1e3 * np.r_[-r[::-1], r], np.r_[z[::-1], z], 60, color="0.92", lw=0)
+    ax.axhline(0, color="0.4", lw=0.8)
+    ax.set(xlim=(-1.35, 1.35), ylim=(-62, 45))
+    ax.axis("off")
 
 
 if __name__ == "__main__":

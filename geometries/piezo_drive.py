@@ -109,7 +109,8 @@ def figure():
 
     rows = (("S", strokes, sawtooths, "s--", "sawtooth"), (r"\Delta u_z", heights, ellipses, "o-", "ellipse"))
     with style():
-        fig, axes = plt.subplots(1, 3, figsize=(13, 4.4))
+        fig, axes = plt.subplot_mosaic([["sawtooth", "efficiency"], ["ellipse", "efficiency"]], figsize=(8.6, 5.8))
+        axes = [axes[name] for name in ("sawtooth", "ellipse", "efficiency")]
         for row, ax in zip(rows, axes, strict=False):
             symbol, sizes, drives, look, name = row
             for i, (size, drive) in enumerate(zip(sizes, drives, strict=True)):

@@ -59,7 +59,8 @@ def figure():
 
     x, r = np.linspace(0, reach, 281), np.linspace(0, 1.1e-3, 221)[1:]
     with style():
-        fig, (left, middle, right) = plt.subplots(1, 3, figsize=(12.5, 4))
+        fig, axes = plt.subplot_mosaic([["tip", "errors"], ["pressure", "errors"]], figsize=(8.6, 5.8))
+        left, middle, right = axes["tip"], axes["pressure"], axes["errors"]
         for shape, ls in ((shapes[2], "-"), (ball, ":")):
             left.plot(1e3 * x, 1e6 * shape.profile_3d(x), color=COLOURS[0], ls=ls)
             left.plot(1e3 * x, 1e6 * shape.profile_1d(x), color=COLOURS[1], ls=ls)
@@ -77,9 +78,7 @@ def figure():
         for values, mark, name in zip(np.transpose(list(errors.values())), "os^", names, strict=True):
             right.loglog(n, 100 * values, mark + "-", label=name)
         right.loglog(n, 100 * errors[1][0] * (n[0] / n) ** 2, "k:", label="$1/n^2$")
-        right.set(
-            title="... the force falls like $1/n^2$, friction unevenly", xlabel="facets", ylabel="off the ball [%]"
-        )
+        right.set(title="... the force falls like $1/n^2$", xlabel="facets", ylabel="off the ball [%]")
         right.set_xticks(n, [str(k) for k in n])
         right.minorticks_off()
         right.legend()

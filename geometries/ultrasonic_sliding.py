@@ -80,13 +80,14 @@ run = mdr.slide(contact(amplitudes[0]), speed)
 
 
 def figure():
-    """Left: friction over velocity. Middle and right: over the amplitude, at rest and at one speed, for three loads."""
+    """Left: friction over velocity. Right: over the amplitude, at rest and at one speed, for three loads."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
 
     with style():
-        fig, (curve, rest, sliding) = plt.subplots(1, 3, sharey=True, figsize=(13, 4.4))
+        fig, axes = plt.subplot_mosaic([["curve", "rest"], ["curve", "sliding"]], sharey=True, figsize=(8.6, 5.8))
+        curve, rest, sliding = axes["curve"], axes["rest"], axes["sliding"]
         r = np.linspace(0, 1.2, 601)
         for i, (one, colour) in enumerate(zip(curves, COLOURS, strict=False)):
             label = f"{1e6 * amplitudes[i]:g} µm, $\\chi = {chi[i]:.1f}$"
@@ -109,6 +110,7 @@ def figure():
         sliding.plot(1e6 * fine, rigid_law(speed / (omega * fine)), "k--", lw=1.2, label="no deflection")
         sliding.set(title=f"at {speed:g} m/s: a higher load asks for more", xlim=(0, 1e6 * shaken[-1]))
         for ax in (rest, sliding):
+            ax.tick_params(labelleft=True)
             ax.set_xlabel(r"amplitude $\Delta u_x$ [µm]")
             ax.legend(loc="upper right")
     return fig

@@ -11,7 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PAGE, PICTURES, SCRIPTS = ROOT / "docs" / "gallery.md", ROOT / "docs" / "figures" / "gallery", ROOT / "geometries"
-PIXELS, COLOURS = 4e5, 96  #: of a picture, about, and how many
+WIDTH, COLOURS = 960, (128, 64, 32)  #: of a picture, in pixels, and how many: the most that its file has room for
+MOST_BYTES = 4e4
 SYMBOL = re.compile(r"\b\w_\w\b|\b[fg]\([rx]\)")  #: v_c or g(x) in a caption
 
 
@@ -48,13 +49,17 @@ def draw(name: str) -> None:
     from PIL import Image
     from test_geometries import script
 
-    figure = script(name).figure()
+    module = script(name)
+    figure = getattr(module, "in_gallery", module.figure)()
     path = PICTURES / f"{name}.png"
-    figure.savefig(path, dpi=(PIXELS / figure.get_size_inches().prod()) ** 0.5)
+    figure.savefig(path, dpi=WIDTH / figure.get_size_inches()[0])
     plt.close(figure)
-    with Image.open(path) as picture:
-        few = picture.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+    with Image.open(path) as drawn:
+        picture = drawn.convert("RGB")
+    for colours in COLOURS:
+        picture.quantize(colours, dither=Image.Dither.NONE).save(path, optimize=True)
+        if path.stat().st_size < MOST_BYTES:
+            break
     print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")
 
 

@@ -1,7 +1,7 @@
 """The rooms of mdr/ and who may import whom, read off the imports of every file, also those inside functions.
 
-A record may open a door upwards: inside its methods `plot...`, `to_...` and `read` it may import what draws or files
-it, so that `run.plot()` needs no second name. Nothing else runs back.
+A record may open a door upwards: inside its methods `plot...`, `animate`, `to_...` and `read` it may import what draws
+or files it, so that `run.plot()` needs no second name. Nothing else runs back.
 """
 
 import ast
@@ -31,7 +31,7 @@ ORDER = (
     ("commands",),
 )
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
-DOORS = ("plot", "to_", "read")  # methods of records that may import upwards
+DOORS = ("plot", "animate", "to_", "read")  # methods of records that may import upwards
 OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the command
 #: Imports against the order, each with its reason. The list may only shrink.
 NAMED: dict[tuple[str, str], str] = {}

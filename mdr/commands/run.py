@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import mdr
 from mdr.commands.arguments import add_accuracy, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
-from mdr.commands.written import add_output, output_folder, write_figure, write_text
+from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
 from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.plots.animation import animate_springs
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -21,6 +23,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
     add_output(command, "run.csv", "run.png", "run.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
+    meaning = "write a moving picture of the springs over the last period to this file, which ends in .gif"
+    command.add_argument("--animate", metavar="springs.gif", type=Path, help=meaning)
     size = whole_number(LEAST_KNOB)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: as the accuracy needs)")
     command.add_argument("--steps", metavar="n", type=size, help="time steps of a period (default: likewise)")
@@ -37,11 +41,17 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     if v_0 <= 0 and not case.is_shaken:
         raise WrongInput(f"--v-0 must be above zero, got {v_0:.6g} m/s: `mdr velocity` has the limit at rest")
     folder = output_folder(args)  # before the work, not after it
+    if args.animate is not None:
+        if args.animate.suffix != ".gif":
+            raise WrongInput(f"--animate must name a file that ends in .gif, got {args.animate.name}")
+        require_free([args.animate])
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
     found = mdr.slide(case, v_0, record=1, **knobs)
     if folder is not None:
         write_text(args, folder / "run.csv", found.table(), "", mdr.write_case(case))
         write_figure(args, folder / "run", found.plot)
+    if args.animate is not None:
+        animate_springs(found, args.animate, comment=made_by(args))
     v_c = mdr.critical_velocity(case, -1 if v_0 < 0 else 1)
     text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
     answer(args, {"v_c": v_c, **_values(found)}, text, case)

@@ -7,6 +7,7 @@ Sign and symbols: F_x > 0 holds back an indenter that is pulled forward [N], F_z
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -145,6 +146,32 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
         from mdr import plots
 
         return plots.plot_run(self)
+
+    def animate(self, path: str | PathLike[str] = "springs.gif", frames: int = 60, title: str | None = None) -> Any:
+        """Write a GIF that shows the springs move over the recorded periods; see `mdr.plots.animation`.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file, ending in .gif.
+        frames : int
+            Number of pictures of one period.
+        title : str, optional
+            What stands above them. None: velocity and friction.
+
+        Returns
+        -------
+        mdr.plots.animation.Gif
+            The file; a notebook shows it.
+
+        Raises
+        ------
+        ValueError
+            For a run without a record, or another ending of the path.
+        """
+        from mdr.plots.animation import animate_springs
+
+        return animate_springs(self, path, frames, title)
 
 
 def _turned(values: Any) -> Any:

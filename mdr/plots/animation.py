@@ -17,8 +17,13 @@ from mdr.tools.checks import count
 from mdr.tools.progress import progress
 
 SECONDS = 4.0  #: that one period lasts in the picture
-MOST_DRAWN = 24  #: springs on each side
-LEAN = 0.06  #: greatest lean of a spring, over the width of the picture
+MOST_DRAWN = 13  #: springs on each side
+LEAN = 0.08  #: greatest lean of a spring, over the width of the picture
+COIL = np.array([0, 0, *[1, -1] * 4, 0, 0])  #: places of the bends of a spring beside its axis, from the foot up
+MARGIN = 1.15  #: half the width of the picture, over that of the contact
+EDGE = 0.1  #: of the greatest compression: what the outermost spring of a contact that grows with depth has at most
+PALETTE = 32  #: colours of the file
+MARKS = 24  #: about so many on the ground
 
 
 @dataclass(frozen=True)
@@ -34,13 +39,15 @@ class Gif:
         return f'<img alt="{self.path.stem}" src="data:image/gif;base64,{b64encode(self.path.read_bytes()).decode()}">'
 
 
-def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title: str | None = None) -> Gif:
+def animate_springs(
+    run: Any, path: str | PathLike[str], frames: int = 60, title: str | None = None, comment: str = ""
+) -> Gif:
     """Write an animated GIF of the recorded periods of a run.
 
-    Above, seen from the indenter: its image g(x) goes up and down on springs that stand on the ground. Their feet lag
-    behind as far as they are sheared (exaggerated). Their colour is their state: a spring that sticks is sheared
-    further by the pull, one that slips holds the limit. Below: the tangential force and its limit mu_0 F_z, with the
-    instant shown.
+    Above, seen from the indenter: its image g(x) goes up and down on springs that stand on the ground, which the pull
+    draws away below. Their feet lag behind as far as they are sheared (exaggerated, as is the way of the ground). Their
+    colour is their state: the foot of a spring that sticks goes with the ground, that of one that slips does not, as it
+    holds the limit. Below: the tangential force and its limit mu_0 F_z, with the instant shown.
 
     Of a run that is shaken across the picture above is the plane seen from above, and moves with the pull. The indenter
     drags the feet of its springs behind it. A foot that sticks stands still in the plane; one that slips is drawn
@@ -56,6 +63,8 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
         Number of pictures of one period.
     title : str, optional
         What stands above them. None: velocity and friction.
+    comment : str
+        What the file says of itself.
 
     Returns
     -------
@@ -79,9 +88,9 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
     periods = max(1, round(periods_of(run)[-1]))
     at = np.unique(np.linspace(0, run.t.size, frames * periods, endpoint=False).astype(int))
     with style():
-        fig = Figure(figsize=(6.4, 5.6), dpi=80)
+        fig = Figure(figsize=(6.4, 5.3), dpi=100)
         canvas: Any = FigureCanvasAgg(fig)
-        above, below = fig.subplots(2, 1, height_ratios=(2, 1))
+        above, below = fig.subplots(2, 1, height_ratios=(9, 5))
         fig.suptitle(_title(run) if title is None else title)
         parts = (_Springs(above, run) if run.f_y is None else Leashes(above, run), _Force(below, run))
         canvas.draw()  # all but what moves
@@ -93,15 +102,26 @@ def animate_springs(run: Any, path: str | PathLike[str], frames: int = 60, title
                 part.show(k)
             pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy()))
     few = Image.fromarray(np.concatenate([np.asarray(one) for one in pictures[:: max(1, len(pictures) // 4)]]))
-    palette = few.quantize(method=Image.Quantize.FASTOCTREE)
+    palette = few.quantize(PALETTE, method=Image.Quantize.FASTOCTREE)
     first, *rest = (one.quantize(palette=palette, dither=Image.Dither.NONE) for one in pictures)
-    first.save(path, save_all=True, append_images=rest, duration=round(1e3 * SECONDS * periods / len(at)), loop=0)
+    lasts = round(1e3 * SECONDS * periods / len(at))
+    first.save(path, save_all=True, append_images=rest, duration=lasts, loop=0, comment=comment.encode())
     return Gif(path)
 
 
 def _title(run: Any) -> str:
     per, unit = prefix(run.v_0, "m/s")
     return rf"$v_0$ = {run.v_0 * per:.3g} {unit}, $\mu/\mu_0$ = {run.cof / run.mu_0:.3f}"
+
+
+def _image(run: Any) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Places x >= 0 and the image g(x), as the springs felt it [m]; straight on where a growing contact ends."""
+    x, image = run.x, np.max(run.u_z[:, None] - run.s, axis=0)  # no spring reaches through the indenter: s >= u_z - g
+    if run.s[:, -1].max() > EDGE * run.s.max():
+        return x, image  # a wall
+    back = -1 - x.size // 10
+    slope = (image[-1] - image[back]) / (x[-1] - x[back])
+    return np.append(x, MARGIN * x[-1]), np.append(image, image[-1] + slope * (MARGIN - 1) * x[-1])
 
 
 class _Springs:
@@ -114,22 +134,34 @@ class _Springs:
         every = np.unique(np.abs(run.x[:, None] - even).argmin(axis=0))
         self.ax, self.run, self.every = ax, run, every
         (per_x, unit), (self.per_z, unit_z) = prefix(run.x, "m"), prefix(run.s, "m")
-        x = run.x * per_x
-        self.x, self.flanks = np.concatenate([-x[every][::-1], x[every]]), np.concatenate([-x[::-1], x])
-        self.image = np.max(run.u_z[:, None] - run.s, axis=0)  # no spring reaches through the indenter: s >= u_z - g
+        self.x, (flanks, image) = np.concatenate([-run.x[every][::-1], run.x[every]]) * per_x, _image(run)
+        self.flanks = np.concatenate([-flanks[::-1], flanks]) * per_x
+        self.image = np.concatenate([image[::-1], image]) * self.per_z
+        widest = float(run.x[-1]) * per_x
         deepest, sheared = float(run.s.max()) * self.per_z, float(np.abs(run.e).max())
-        self.lean = LEAN * 2.2 * float(x.max()) / sheared if sheared else 0.0
+        self.lean = LEAN * 2.2 * widest / sheared if sheared else 0.0
+        self.coil = 0.3 * COIL * 2 * widest / self.x.size
         self.ground, self.top = -2.2 * deepest, deepest * float(np.clip(0.3 - run.u_z.min() / run.s.max(), 0.6, 1.5))
         (self.body,) = ax.fill([0], [0], facecolor="0.9", linewidth=0, animated=True)
         (self.surface,) = ax.plot([], [], color="0.2", linewidth=1.2, animated=True)
-        self.lines = LineCollection([], linewidths=2.2, animated=True)
-        ax.add_collection(self.lines)
-        ax.set(xlim=np.array([-1.15, 1.15]) * x.max(), ylim=(self.ground, self.top), ylabel=f"height [{unit_z}]")
+        self.lines = LineCollection([], linewidths=1.8, animated=True)
+        self.marks = LineCollection([], linewidths=1.0, colors="0.45", animated=True)
+        for lines in (self.lines, self.marks):
+            ax.add_collection(lines)
+        reach, bottom = MARGIN * widest, self.ground - 0.17 * deepest
+        ax.set(xlim=(-reach, reach), ylim=(bottom, self.top), ylabel=f"height [{unit_z}]")
+        ax.axhline(self.ground, color="0.2", linewidth=1.2)
+        way = self.lean * 2 * np.pi / run.omega * abs(run.v_0) or 2 * reach  # of the ground in a period
+        self.apart = way / max(1, round(MARKS * way / (2 * reach)))
+        begins = np.arange(-reach - self.apart, reach, self.apart)
+        ends = (begins, np.full_like(begins, bottom)), (begins + self.apart / 2, np.full_like(begins, self.ground))
+        self.hatching = np.moveaxis(np.array(ends), 2, 0)
         ax.set_xlabel(f"$x$ [{unit}]" + (f", shear drawn {self.lean / per_x:.2g} times" if sheared else ""))
         corner = {"xycoords": "axes fraction", "va": "center", "annotation_clip": False}
         ax.annotate("$v_0$", (1.0, 1.06), (0.88, 1.06), arrowprops={"arrowstyle": "->"}, **corner)
         self.colours = [colour for _, colour in MODES]
-        ax.legend(handles=mode_patches(run.state), loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0.2)
+        names = mode_patches(run.state, free="no contact")
+        ax.legend(handles=names, loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0.2)
 
     def _both(self, values: NDArray[Any]) -> NDArray[Any]:
         one = values[self.every]
@@ -138,15 +170,17 @@ class _Springs:
     def show(self, k: int) -> None:
         """Draw the instant k of the record."""
         run = self.run
-        top = np.stack([self.x, -self._both(run.s[k]) * self.per_z], axis=1)
-        foot = np.stack([self.x - self._both(run.e[k]) * self.lean, np.full_like(self.x, self.ground)], axis=1)
-        self.lines.set_segments(list(np.stack([foot, top], axis=1)))
+        up = np.linspace(0, 1, COIL.size)  # along a spring
+        height = self.ground - np.outer(self._both(run.s[k]) * self.per_z + self.ground, up)
+        place = self.x[:, None] - np.outer(self._both(run.e[k]) * self.lean, 1 - up) + self.coil
+        self.lines.set_segments(list(np.stack([place, height], axis=2)))
+        goes = np.array([-run.u_x[k] * self.lean % self.apart, 0])
+        self.marks.set_segments(list(self.hatching + goes))
         self.lines.set_color([self.colours[mode] for mode in self._both(run.state[k])])
-        surface = np.concatenate([self.image[::-1], self.image]) - run.u_z[k]
-        outline = np.stack([self.flanks, surface * self.per_z], axis=1)
+        outline = np.stack([self.flanks, self.image - run.u_z[k] * self.per_z], axis=1)
         self.surface.set_data(*outline.T)
         self.body.set_xy([*outline, [self.flanks[-1], 10 * self.top], [self.flanks[0], 10 * self.top]])
-        for artist in (self.body, self.lines, self.surface):
+        for artist in (self.body, self.marks, self.lines, self.surface):
             self.ax.draw_artist(artist)
 
 

@@ -42,6 +42,7 @@ MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip 
 #: colours of the direction of slip, from -180 degrees on; that along the pull is the colour of slip
 AROUND = ((-180, "#CC79A7"), (-90, "#D55E00"), (0, "#F0B93A"), (90, "#009E73"), (135, "#56B4E9"), (180, "#CC79A7"))
 
+PIECES = 16  #: straight ones between two points of a smooth line
 _MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
 
@@ -80,6 +81,8 @@ def plot_curve(
     curves: Any, ax: "Axes | None" = None, labels: Sequence[str] | None = None, *, absolute: bool | None = None
 ) -> "Axes":
     """Draw one CofCurve, COF over mu_0 against v_0 over v_c, or several, COF against v_0; unsettled points are hollow.
+
+    Points are what was computed. The line between them is smooth, and rises and falls with them alone.
 
     Parameters
     ----------
@@ -366,7 +369,7 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
         order = np.argsort(v)
         for way in (order[v[order] < 0], order[v[order] >= 0]):
             ax.plot(v[way], cof_y[way] / scale[1], color=colour, ls="-.", lw=1.2, zorder=2)
-    size = 4.5 if len(v) <= 60 else 3.0
+    size = 4.0 if len(v) <= 40 else 2.2
     ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
     ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
     seen = error * scale[1] / curve.mu_0 > 0.005
@@ -378,7 +381,7 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
 
 
 def _line(curve: Any, v: "NDArray[Any]", mu: "NDArray[Any]", scale: float) -> "tuple[NDArray[Any], NDArray[Any]]":
-    """The line through the points; at rest, of a curve of both ways, upright from one limit to the other.
+    """A smooth line through the points; at rest, of a curve of both ways, upright from one limit to the other.
 
     Where the limit of a backward pull was not computed the line is broken there: friction may jump.
     """
@@ -386,10 +389,29 @@ def _line(curve: Any, v: "NDArray[Any]", mu: "NDArray[Any]", scale: float) -> "t
     v, mu = v[order], mu[order]
     back, forward = v < 0, v > 0
     if not (back.any() and forward.any()):
-        return v, mu
-    low = np.nan if curve.static_cof_back is None else curve.static_cof_back
-    at_rest = np.array([low, curve.static_cof]) / scale
-    return np.concatenate([v[back], [0.0, 0.0], v[forward]]), np.concatenate([mu[back], at_rest, mu[forward]])
+        return smooth(v, mu)
+    low = np.nan if curve.static_cof_back is None else curve.static_cof_back / scale
+    backward = smooth(np.append(v[back], 0.0), np.append(mu[back], low))
+    onward = smooth(np.append(0.0, v[forward]), np.append(curve.static_cof / scale, mu[forward]))
+    at, line = (np.concatenate(pair) for pair in zip(backward, onward, strict=True))
+    return at, line
+
+
+def smooth(x: "NDArray[Any]", y: "NDArray[Any]") -> "tuple[NDArray[Any], NDArray[Any]]":
+    """A line through points with x ascending, cubic between them and never beyond either neighbour.
+
+    It is broken at a point that is nan, and straight where points share a place.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    seen = np.isfinite(y)
+    if np.count_nonzero(seen) < 2 or np.any(np.diff(x) <= 0):
+        return x, y
+    share = np.arange(PIECES * (x.size - 1) + 1) / PIECES
+    at, nodes = np.interp(share, np.arange(x.size), x), np.interp(share, np.arange(x.size), y)  # nan beside a nan
+    line = np.where(np.isfinite(nodes), PchipInterpolator(x[seen], y[seen])(at), np.nan)
+    line[::PIECES] = y  # to the last digit
+    return at, line
 
 
 def _across(curve: Any) -> Any:
@@ -447,13 +469,14 @@ def _direction_bar(figure: Any, turned: Any, beside: Any) -> None:
     bar.set_label("direction of slip [°]\n0 along the pull, 90 across")
 
 
-def mode_patches(*states: Any, slip: bool = True) -> list[Any]:
-    """Legend entries of the modes that occur in arrays of modes; slip: also of those that slip."""
+def mode_patches(*states: Any, slip: bool = True, free: str = MODES[0][0]) -> list[Any]:
+    """Legend entries of the modes that occur in arrays of modes; slip: also of those that slip; free: its name."""
     from matplotlib.patches import Patch
 
     seen = np.unique(np.concatenate([np.unique(state) for state in states]))
     shown = [MODES[m] for m in seen if slip or not MODES[m][0].startswith("slip")]
-    return [Patch(fc=colour, ec="0.6", lw=0.5, label=name) for name, colour in shown]
+    names = {MODES[0][0]: free}
+    return [Patch(fc=colour, ec="0.6", lw=0.5, label=names.get(name, name)) for name, colour in shown]
 
 
 def _draw_places(ax: "Axes", t: "NDArray[np.float64]", run: Any) -> None:

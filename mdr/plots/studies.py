@@ -90,7 +90,7 @@ def plot_map(
     """Colours of a quantity over the two axes of a study; x is the path across, by default the last.
 
     levels: contours to draw and label; limits: of the colours; log: logarithmic colours. Values are in SI. The critical
-    velocity is dashed where an axis is v_0/v_c, or v_0 in a study that has the quantity v_c.
+    velocity is dashed where an axis is v_0/v_c, or v_0.
     """
     from matplotlib.colors import LogNorm, Normalize
 

@@ -121,7 +121,10 @@ CATALOGUE: dict[str, Quantity] = {
 
 
 def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) -> tuple[Quantity, ...]:
-    """The quantities of a study with axes of these paths; ValueError or TypeError for what it cannot compute."""
+    """The quantities of a study with axes of these paths, over v_0 with the critical velocity that maps are read by.
+
+    Raises ValueError or TypeError for what cannot be computed.
+    """
     if isinstance(quantities, str | Quantity) or not isinstance(quantities, Iterable):
         raise TypeError(f"quantities must be a list of names, got {short(repr(quantities))}; write [...]")
     paths = list(paths)
@@ -137,7 +140,7 @@ def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) 
     if not any(path in VELOCITIES for path in paths) and (moving := [one.name for one in found if one.per_velocity]):
         asks = "needs" if len(moving) == 1 else "need"
         raise ValueError(f'{" and ".join(moving)} {asks} a velocity: give an axis "v_0" [m/s] or "v_0/v_c"')
-    return found
+    return found + ((CATALOGUE["v_c"],) if "v_0" in paths and "v_c" not in [*names, *paths] else ())
 
 
 def _known(one: Any) -> Quantity:

@@ -58,7 +58,7 @@ def sweep(
         Who computes: None takes one thread for each core. Any Executor will do, of processes that are spawned, or of a
         cluster (Dask: `client.get_executor()`).
     quantities : iterable of str or Quantity
-        Names of `mdr.studies.CATALOGUE`, or records of your own.
+        Names of `mdr.studies.CATALOGUE`, or records of your own. Over "v_0" it has "v_c" too, which its maps show.
     chunk_seconds : float
         Length of a chunk of work [s].
     shard : str or tuple of int, optional

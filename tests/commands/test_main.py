@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from conftest import contact
 from numpy.testing import assert_allclose
+from PIL import Image
 
 import mdr
 from mdr.__main__ import main
@@ -193,6 +194,16 @@ def test_a_run_writes_what_it_prints(capsys, punch, tmp_path):
     assert np.array_equal(rows.T, [found.t, found.u_x, found.u_z, found.F_x, found.F_z])
     found.to_csv(tmp_path / "again.csv")
     assert (tmp_path / "again.csv").read_text(encoding="utf-8").splitlines() == lines[len(head) :]
+
+
+def test_a_run_is_animated(capsys, punch, tmp_path):
+    command = ["run", punch, "--v-0", "1mm/s", *RUN, "--animate"]
+    assert main([*command, str(tmp_path / "springs.png")]) == 2
+    assert "--animate must name a file that ends in .gif, got springs.png" in capsys.readouterr().err
+    assert main([*command, str(tmp_path / "springs.gif")]) == 0
+    with Image.open(tmp_path / "springs.gif") as gif:
+        assert gif.n_frames == 60
+        assert gif.info["comment"].decode() == f"{versions()}\n{' '.join(['mdr', *command])} {tmp_path / 'springs.gif'}"
 
 
 def test_a_run_for_machines(capsys, punch):

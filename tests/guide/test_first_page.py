@@ -5,9 +5,11 @@ import runpy
 import shlex
 
 import matplotlib as mpl
+import numpy as np
 import pages
 import pytest
 from matplotlib.testing.compare import compare_images
+from PIL import Image
 from test_docs import SAME
 
 README = (pages.ROOT / "README.md").read_text(encoding="utf-8")
@@ -22,15 +24,40 @@ def prose(page):
 @pytest.fixture(scope="module")
 def drawn():
     mpl.use("Agg")
-    return runpy.run_path(str(pages.DOCS / "picture.py"))["figure"]()
+    names = runpy.run_path(str(pages.DOCS / "picture.py"))
+    run = names["shown"]()
+    return names["figure"](run), lambda path: names["animate"](path, run)
 
 
 def test_the_picture_is_drawn_as_it_stands(drawn, tmp_path):
     stored = pages.DOCS / "picture.png"
     assert stored.stat().st_size < 2e5
-    drawn.savefig(tmp_path / "picture.png", dpi=150)
+    drawn[0].savefig(tmp_path / "picture.png", dpi=150)
     assert compare_images(str(stored), str(tmp_path / "picture.png"), tol=SAME) is None
     assert "docs/picture.png" in README
+
+
+def test_the_moving_picture_is_drawn_as_it_stands(drawn, tmp_path):
+    stored = pages.DOCS / "animation.gif"
+    assert stored.stat().st_size < 7e5
+    with Image.open(stored) as one, Image.open(drawn[1](tmp_path / "animation.gif")) as other:
+        assert one.n_frames == other.n_frames
+        for k in (0, 25, 50):
+            one.seek(k), other.seek(k)
+            difference = np.asarray(one.convert("RGB"), float) - np.asarray(other.convert("RGB"), float)
+            assert np.sqrt(np.mean(difference**2)) < SAME
+    assert "docs/animation.gif" in README
+
+
+def test_the_set_up_is_drawn_as_it_stands_and_shown():
+    stored = (pages.DOCS / "set_up.svg").read_text(encoding="utf-8")
+    drawn = runpy.run_path(str(pages.DOCS / "set_up.py"))["written"]()
+    texts = re.compile(r"<!-- (.*) -->")
+    assert len(stored) < 4e4
+    assert texts.findall(stored) == texts.findall(drawn)
+    assert stored.count("<path") == drawn.count("<path")
+    for page in ("README.md", "docs/tutorial.md", "docs/paper.md"):
+        assert "set_up.svg" in (pages.ROOT / page).read_text(encoding="utf-8")
 
 
 def test_it_is_read_in_some_minutes():

@@ -1,10 +1,17 @@
-"""The student's notebook: stored without outputs, and its cells run from top to bottom, without Jupyter."""
+"""The student's notebook: its cells run from top to bottom, without Jupyter, and its stored outputs are what comes out.
 
+Where they differ, `python tests/notebook_outputs.py` stores them anew.
+"""
+
+import io
 import json
+from base64 import b64decode
+from contextlib import redirect_stdout
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
+import pages
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
@@ -12,22 +19,25 @@ from scipy.optimize import brentq
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
-NOTEBOOK = json.loads((Path(__file__).parents[2] / "docs/springs.ipynb").read_text(encoding="utf-8"))
+FILE = pages.DOCS / "springs.ipynb"
+NOTEBOOK = json.loads(FILE.read_text(encoding="utf-8"))
 CODE = {cell["id"]: "".join(cell["source"]) for cell in NOTEBOOK["cells"] if cell["cell_type"] == "code"}
 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """Names after the last cell, and for each cell the number of figures it showed."""
-    names, shown = {}, dict.fromkeys(CODE, 0)
+    """Names after the last cell, and for each cell the number of figures it showed and what it printed."""
+    names, shown, printed = {}, dict.fromkeys(CODE, 0), {}
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(tmp_path_factory.mktemp("notebook"))
         plt.close("all")
         for cell, source in CODE.items():
             patch.setattr(plt, "show", lambda cell=cell: _show(shown, cell))
-            exec(compile(source, f"cell {cell}", "exec"), names)
+            with redirect_stdout(io.StringIO()) as out:
+                exec(compile(source, f"cell {cell}", "exec"), names)
+            printed[cell] = out.getvalue()
         names["folder"] = Path.cwd()
-    return names, shown
+    return names, shown, printed
 
 
 def _show(shown, cell):
@@ -37,15 +47,23 @@ def _show(shown, cell):
     plt.close("all")
 
 
-def test_it_is_stored_without_outputs():
+def test_it_is_stored_with_what_comes_out(session):
+    _, shown, printed = session
     assert (NOTEBOOK["nbformat"], NOTEBOOK["nbformat_minor"]) == (4, 5)
     code = [cell for cell in NOTEBOOK["cells"] if cell["cell_type"] == "code"]
-    assert all((cell["execution_count"], cell["outputs"]) == (None, []) for cell in code)
-    assert len(CODE) == len(code)
+    assert [cell["execution_count"] for cell in code] == list(range(1, len(CODE) + 1))
+    for cell in code:
+        texts = ["".join(one["text"]) for one in cell["outputs"] if one.get("name") == "stdout"]
+        assert pages.difference("".join(texts), printed[cell["id"]]) == ""
+        assert sum("image/png" in one.get("data", ()) for one in cell["outputs"]) == shown[cell["id"]]
+        assert not [one for one in cell["outputs"] if one["output_type"] == "error" or one.get("name") == "stderr"]
+    (moving,) = next(cell["outputs"] for cell in code if cell["id"] == "animation")
+    assert b64decode("".join(moving["data"]["text/html"]).split("base64,")[1].split('"')[0])[:6] == b"GIF89a"
+    assert FILE.stat().st_size < 1e6
 
 
 def test_its_cells_run_and_show_their_figures(session):
-    names, shown = session
+    names, shown, _ = session
     draws = {cell: "plots.plot" in source or "slide_all(" in source for cell, source in CODE.items()}
     assert shown == draws
     assert sum(draws.values()) == 6
@@ -53,7 +71,7 @@ def test_its_cells_run_and_show_their_figures(session):
 
 
 def test_what_it_says_of_the_numbers_given_is_so(session):
-    names, _ = session
+    names, *_ = session
     run, v_c = names["run"], names["v_c"]
     assert_allclose(v_c, names["case"].mu_0 * 1.5 * names["omega"] * names["du_z"])  # Eq. (1), E*/G* = 3/2 for nu = 1/2
     assert run.v_0 < v_c
@@ -80,7 +98,7 @@ def contact_is_back(product, u_z0, du_z):
 
 
 def test_the_exercises_accept_the_right_answers_alone(session, capsys):
-    names, _ = session
+    names, *_ = session
     u_z0, du_z = names["u_z0"], names["du_z"]
     hertz = (u_z0 + du_z * np.cos(np.arange(360) * np.pi / 180)) ** 1.5
     right = {

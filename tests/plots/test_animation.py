@@ -9,7 +9,7 @@ from conftest import contact
 from PIL import Image
 
 import mdr
-from mdr.plots.animation import _Springs, animate_springs
+from mdr.plots.animation import _image, _Springs, animate_springs
 
 
 @pytest.fixture(scope="module")
@@ -51,17 +51,53 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
     x, R = run.x, 5e-3
     second_order = 1e-3 * 2e-6  # a tenth of (2 pi/64)² du_z: springs leave and touch between steps
     pressed = np.any(run.state != mdr.State.FREE, axis=0)  # others never learn how deep the indenter is
-    assert np.max(np.abs(picture.image - x**2 / R)[pressed]) < second_order  # the paraboloid's g, from the run alone
+    image = picture.image[-x.size - 1 : -1] / 1e6
+    assert np.max(np.abs(image - x**2 / R)[pressed]) < second_order  # the paraboloid's g, from the run alone
     ax.figure.canvas.draw()
     for k in (0, 20, 40):
         picture.show(k)
-        feet, tops = np.swapaxes(picture.lines.get_segments(), 0, 1)
+        feet, *_, tops = np.swapaxes(picture.lines.get_segments(), 0, 1)
         i = np.argmin(np.abs(x[:, None] - np.abs(tops[:, 0]) / 1e6), axis=0)  # drawn in µm
         here = run.state[k, i] != mdr.State.FREE
         assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
         shear = tops[:, 0] - feet[:, 0]
         assert np.max(np.abs(shear - picture.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()  # the rounding of places
     plt.close("all")
+
+
+def test_the_ground_takes_along_feet_that_stick_and_is_back_after_a_period(run):
+    _, ax = plt.subplots()
+    picture = _Springs(ax, run)
+    ax.figure.canvas.draw()
+
+    def seen(k):
+        picture.show(k)
+        feet = np.array(picture.lines.get_segments())[:, 0, 0]
+        return feet, np.array(picture.marks.get_segments())[0, 0, 0]
+
+    places = [seen(k) for k in range(run.t.size)]
+    moved = [np.diff(one, axis=0) for one in (np.array([feet for feet, _ in places]), [mark for _, mark in places])]
+    state = np.concatenate([run.state[:, picture.every[::-1]], run.state[:, picture.every]], axis=1)
+    sticks = np.all(np.stack([state[1:], state[:-1]]) == mdr.State.STICK, axis=0)
+    off = (moved[0] - moved[1][:, None]) / picture.apart
+    assert np.count_nonzero(sticks) > 100
+    assert np.max(np.abs(off - np.round(off))[sticks]) < 1e-9
+    turns = run.v_0 * 2 * np.pi / run.omega * picture.lean / picture.apart
+    assert abs(turns - round(turns)) < 1e-9 < turns
+    plt.close("all")
+
+
+def test_a_shape_goes_on_beyond_its_contact_and_a_punch_ends(run):
+    punch = mdr.slide(contact("flat", 1.5, 0.5), 1e-4, n_springs=32, steps_per_period=32, record=1)
+    (x, g), (of_punch, _) = _image(run), _image(punch)
+    assert of_punch[-1] == punch.x[-1]
+    assert x[-1] > run.x[-1]
+    assert 0.95 < (g[-1] - g[0]) / (x[-1] ** 2 / 5e-3) < 1  # the tangent of the paraboloid, or just below
+
+
+def test_a_run_animates_itself(run, tmp_path):
+    made = run.animate(tmp_path / "own.gif", frames=2, title="mine")
+    assert made.path.read_bytes() == animate_springs(run, tmp_path / "two.gif", 2, "mine").path.read_bytes()
 
 
 def test_what_it_cannot_draw_is_refused(run, tmp_path):

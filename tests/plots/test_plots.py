@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import plots
+from mdr.plots.figures import PIECES, smooth
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -75,6 +76,11 @@ def line(ax, label):
     return next(drawn for drawn in ax.lines if drawn.get_label() == label)
 
 
+def points(ax, label):
+    """Of the smooth line with this label, those that were computed: x and y."""
+    return np.asarray(line(ax, label).get_data())[:, ::PIECES]
+
+
 def legend_texts(ax):
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
@@ -82,11 +88,25 @@ def legend_texts(ax):
 def test_a_curve_is_drawn_over_v_c_and_mu_0():
     curve = made_up_curve()
     ax = plots.plot_curve(curve, labels=["cone"])
-    assert_allclose(line(ax, "cone").get_xdata(), curve.v_0 / 0.04)
-    assert_allclose(line(ax, "cone").get_ydata(), curve.cof / 0.5)
+    assert_allclose(points(ax, "cone"), [curve.v_0 / 0.04, curve.cof / 0.5])
     assert legend_texts(ax) == ["cone", "static limit"]
     assert any(np.allclose(drawn.get_ydata(), 0.3 / 0.5) for drawn in ax.lines)
     assert "v_c" in ax.get_xlabel()
+
+
+def test_the_line_through_a_curve_is_smooth_and_goes_no_further_than_its_points():
+    def closed_form(v):
+        return 1 - (1 - np.minimum(v, 1)) ** 2
+
+    v = np.linspace(0, 1.3, 9)
+    at, drawn = smooth(v, closed_form(v))
+    assert_array_equal(drawn[::PIECES], closed_form(v))
+    assert np.all(np.diff(drawn) >= 0)
+    off, straight = (np.abs(one - closed_form(at)).max() for one in (drawn, np.interp(at, v, closed_form(v))))
+    assert off < 0.4 * straight
+    gap = smooth(v, np.where(v == v[4], np.nan, v))[1]
+    assert_array_equal(np.flatnonzero(np.isnan(gap)), np.arange(3 * PIECES + 1, 5 * PIECES))
+    assert_allclose(smooth(v[:2], v[:2] ** 2)[1], np.linspace(v[0], v[1] ** 2, PIECES + 1))
 
 
 def test_unsettled_points_are_hollow_and_their_error_shows():
@@ -112,22 +132,21 @@ def test_several_curves_share_given_axes():
 def test_without_a_finite_v_c_the_axis_is_the_velocity_itself(v_c):
     ax = plots.plot_curve([made_up_curve(v_c=v_c), made_up_curve()], labels=["a", "b"])
     assert "[mm/s]" in ax.get_xlabel()
-    assert_allclose(line(ax, "b").get_xdata(), 1e3 * made_up_curve().v_0)
+    assert_allclose(points(ax, "b")[0], 1e3 * made_up_curve().v_0)
 
 
 def test_several_curves_are_drawn_as_they_are_unless_asked_otherwise():
     curves = [made_up_curve(v_c=0.02), made_up_curve(v_c=0.04, static=0.2)]
     ax = plots.plot_curve(curves, labels=["a", "b"])
-    assert_allclose(line(ax, "a").get_xdata(), 1e3 * curves[0].v_0)
-    assert_allclose(line(ax, "a").get_ydata(), curves[0].cof)
+    assert_allclose(points(ax, "a"), [1e3 * curves[0].v_0, curves[0].cof])
     assert ("[mm/s]" in ax.get_xlabel(), "mu_0" in ax.get_ylabel()) == (True, False)
     dotted = {float(drawn.get_xdata()[0]): drawn.get_color() for drawn in ax.lines if drawn.get_linestyle() == ":"}
     assert dotted == {20.0: plots.COLOURS[0], 40.0: plots.COLOURS[1]}  # v_c of each, in its colour
     over = plots.plot_curve(curves, labels=["a", "b"], absolute=False)
-    assert_allclose(line(over, "a").get_xdata(), curves[0].v_0 / 0.02)
+    assert_allclose(points(over, "a")[0], curves[0].v_0 / 0.02)
     assert len([drawn for drawn in over.lines if drawn.get_linestyle() == ":"]) == 1
     alone = plots.plot_curve(curves[0], labels=["a"], absolute=True)
-    assert_allclose(line(alone, "a").get_ydata(), curves[0].cof)
+    assert_allclose(points(alone, "a")[1], curves[0].cof)
 
 
 def test_too_few_labels_are_refused():
