@@ -18,7 +18,7 @@ PAGES = {  #: in the order of the navigation, under their headings
     "Guide": ["tutorial", "explorer", "rig", "recipes", "trust", "gallery"],
     "In depth": ["shaken", "element", "paths", "own_data", "studies"],
     "Physics": ["claims", "theory", "limits", "glossary"],
-    "Teaching": ["springs", "exercises"],
+    "Teaching": ["springs"],
     "Reference": ["questions", "api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],
 }
 
