@@ -45,7 +45,6 @@ class FullSlipForce(NamedTuple):
     area: Array  #: (n_t,)
     moment: Array  #: (n_t,) about the start of the step
     end: Array  #: (n_t,) force at its end
-    flight: Array  #: (n_t,) time to the first touch in a step that begins without contact; else zero
 
 
 class Here(NamedTuple):
@@ -130,10 +129,12 @@ def later(path, t):
 
 
 @_jit
-def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
+def march(e, s, held, body, springs, slip, flight, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
-    slip: the FullSlipForce; trace: filled. Returns whether every step was solved for.
+    slip: the FullSlipForce; flight (n_t,): of a light body, time to the first touch in a step that begins without
+    contact, else zero. What the pull does not need is None, and compiled away. trace: filled. Returns whether every
+    step was solved for.
     """
     h, n_t, solved, last = tools.h, motion.z.size - 1, True, Last(0.0, 0.0)
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
@@ -146,22 +147,22 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
             tools.excess[:] = 0.0
         zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
         path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
-        if body.light:
-            here, flown = Here(path, zd, xd, slip.area[k], slip.end[k]), slip.flight[k]
+        if flight is not None:
+            here = Here(path, zd, xd, slip.area[k], slip.end[k])
             area, moment, last, found = follow(
-                e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j, trace
+                e, s, e_0, s_0, held, last, body, springs, here, flight[k], law, tools, j, trace
             )
         else:
-            put(e, e_0)
-            put(s, s_0)
-            if body.rigid:
-                found = True
-                area, moment, _, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
-            else:
+            if slip is not None:
+                put(e, e_0)
+                put(s, s_0)
                 force = slip.area[k], slip.moment[k]
                 path, area, moment, last, found = answer(
                     e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools
                 )
+            else:
+                found = True
+                area, moment, _, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
             note(trace, j, 1, h, path)
         solved = solved and found
         trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, held[Y], held[RATE]

@@ -100,7 +100,7 @@ def within_friction(x, s, is_turning):
 
 
 @_jit
-def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, trace, across):
+def search(at, s, roots, body, springs, slip, flight, motion, law, tools, n_periods, trace, across):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
 
     s: (1 + J, n) compressions at the start of a period. trace: of the last period. across: None, or the Across of
@@ -117,7 +117,7 @@ def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, tra
         copy(image, at.start)
         e, held = image[:n_e].reshape((-1, s.shape[1])), image[n_e:]
         if across is None:
-            march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace)
+            march(e, now, held, body, springs, slip, flight, motion, law, tools, n_t, trace)
         else:
             march_turning(e, now, held, body, springs, motion, law, tools, n_t, trace, across)
         ended = combine(at, image, roots)
