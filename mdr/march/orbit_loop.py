@@ -67,8 +67,8 @@ def combine(at, image, roots):
     elif period > 0:
         if counts[KEPT] == at.d_image.shape[0]:
             for j in range(1, counts[KEPT]):
-                copy(at.d_image[j], at.d_image[j - 1])
-                copy(at.d_moved[j], at.d_moved[j - 1])
+                for i in range(image.size):
+                    at.d_image[j - 1, i], at.d_moved[j - 1, i] = at.d_image[j, i], at.d_moved[j, i]
             counts[KEPT] -= 1
         for i in range(image.size):
             at.d_image[counts[KEPT], i] = image[i] - at.image[i]
