@@ -160,7 +160,7 @@ class ScaledContact:
 
     @property
     def full_slip_force(self) -> tuple[loop.FullSlipForce | None, Array | None]:
-        """Force of the springs over each step, if all slip forward, and times of flight; None is what no march needs."""
+        """Force of the springs over each step, if all slip forward, and times of flight; None where not needed."""
         if self.body.rigid or self.ways == 2:
             return None, None
         normal = self.normal

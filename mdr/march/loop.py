@@ -13,13 +13,13 @@ import numpy as np
 
 from mdr.march.body import RATE, Y
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import ROUNDING, Look, Path, as_they_are, glassy, row, tools_of
+from mdr.spring.step import LENT, ROUNDING, Look, Path, as_they_are, glassy, row, tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 _inner = inner(error_model="numpy", fastmath={"reassoc", "contract"})
-_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
+_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"}, **LENT)
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
