@@ -1,6 +1,6 @@
 """The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `tolerance` and
 `export` of a case file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser,
-`mdr shapes` and `mdr case` to begin with, `mdr completion` for the shell.
+`mdr shapes` and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -35,6 +35,7 @@ from mdr.commands import (
     sweep,
     three_dimensions,
     velocity,
+    warm,
 )
 from mdr.commands.arguments import NEGATIVE, joined, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
@@ -73,6 +74,8 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
     ("shapes", begin.shapes, "the shapes, materials and motions that a file can name, and their keys", None,
      no_options),
     ("case", begin.case, "a commented case file to begin with", None, begin.add_options),
+    ("warm", warm.warm, "compile all that runs need now, once on this machine, so that no run waits for it", None,
+     no_options),
     ("completion", completion.completion, "a script that completes commands and options in the shell", None,
      completion.add_options),
 )  # fmt: skip

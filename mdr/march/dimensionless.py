@@ -159,9 +159,12 @@ class ScaledContact:
         return found
 
     @property
-    def full_slip_force(self) -> loop.FullSlipForce:
-        """Force of the springs over each step, if all slip forward."""
-        return loop.FullSlipForce(self.normal.area, self.normal.moment, self.normal.end, self.normal.flight)
+    def full_slip_force(self) -> tuple[loop.FullSlipForce | None, Array | None]:
+        """Force of the springs over each step, if all slip forward, and times of flight; None where not needed."""
+        if self.body.rigid or self.ways == 2:
+            return None, None
+        normal = self.normal
+        return loop.FullSlipForce(normal.area, normal.moment, normal.end), normal.flight if self.body.light else None
 
     @cached_property
     def full_slip(self) -> FullSlip:

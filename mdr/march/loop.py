@@ -13,13 +13,13 @@ import numpy as np
 
 from mdr.march.body import RATE, Y
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import ROUNDING, Look, Path, as_they_are, glassy, row, tools_of
+from mdr.spring.step import LENT, ROUNDING, Look, Path, as_they_are, glassy, row, tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 _inner = inner(error_model="numpy", fastmath={"reassoc", "contract"})
-_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
+_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"}, **LENT)
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
@@ -45,7 +45,6 @@ class FullSlipForce(NamedTuple):
     area: Array  #: (n_t,)
     moment: Array  #: (n_t,) about the start of the step
     end: Array  #: (n_t,) force at its end
-    flight: Array  #: (n_t,) time to the first touch in a step that begins without contact; else zero
 
 
 class Here(NamedTuple):
@@ -130,10 +129,12 @@ def later(path, t):
 
 
 @_jit
-def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
+def march(e, s, held, body, springs, slip, flight, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
-    slip: the FullSlipForce; trace: filled. Returns whether every step was solved for.
+    slip: the FullSlipForce; flight (n_t,): of a light body, time to the first touch in a step that begins without
+    contact, else zero. What the pull does not need is None, and compiled away. trace: filled. Returns whether every
+    step was solved for.
     """
     h, n_t, solved, last = tools.h, motion.z.size - 1, True, Last(0.0, 0.0)
     e_0, s_0 = np.empty_like(e), np.empty_like(s)
@@ -146,22 +147,22 @@ def march(e, s, held, body, springs, slip, motion, law, tools, n_steps, trace):
             tools.excess[:] = 0.0
         zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
         path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
-        if body.light:
-            here, flown = Here(path, zd, xd, slip.area[k], slip.end[k]), slip.flight[k]
+        if flight is not None:
+            here = Here(path, zd, xd, slip.area[k], slip.end[k])
             area, moment, last, found = follow(
-                e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j, trace
+                e, s, e_0, s_0, held, last, body, springs, here, flight[k], law, tools, j, trace
             )
         else:
-            put(e, e_0)
-            put(s, s_0)
-            if body.rigid:
-                found = True
-                area, moment, _, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
-            else:
+            if slip is not None:
+                put(e, e_0)
+                put(s, s_0)
                 force = slip.area[k], slip.moment[k]
                 path, area, moment, last, found = answer(
                     e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools
                 )
+            else:
+                found = True
+                area, moment, _, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
             note(trace, j, 1, h, path)
         solved = solved and found
         trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, held[Y], held[RATE]

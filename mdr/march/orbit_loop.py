@@ -67,8 +67,8 @@ def combine(at, image, roots):
     elif period > 0:
         if counts[KEPT] == at.d_image.shape[0]:
             for j in range(1, counts[KEPT]):
-                copy(at.d_image[j], at.d_image[j - 1])
-                copy(at.d_moved[j], at.d_moved[j - 1])
+                for i in range(image.size):
+                    at.d_image[j - 1, i], at.d_moved[j - 1, i] = at.d_image[j, i], at.d_moved[j, i]
             counts[KEPT] -= 1
         for i in range(image.size):
             at.d_image[counts[KEPT], i] = image[i] - at.image[i]
@@ -100,7 +100,7 @@ def within_friction(x, s, is_turning):
 
 
 @_jit
-def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, trace, across):
+def search(at, s, roots, body, springs, slip, flight, motion, law, tools, n_periods, trace, across):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
 
     s: (1 + J, n) compressions at the start of a period. trace: of the last period. across: None, or the Across of
@@ -117,7 +117,7 @@ def search(at, s, roots, body, springs, slip, motion, law, tools, n_periods, tra
         copy(image, at.start)
         e, held = image[:n_e].reshape((-1, s.shape[1])), image[n_e:]
         if across is None:
-            march(e, now, held, body, springs, slip, motion, law, tools, n_t, trace)
+            march(e, now, held, body, springs, slip, flight, motion, law, tools, n_t, trace)
         else:
             march_turning(e, now, held, body, springs, motion, law, tools, n_t, trace, across)
         ended = combine(at, image, roots)

@@ -87,7 +87,7 @@ class Stepper:
         self._parts = (
             scaled.body,
             scaled.springs,
-            scaled.full_slip_force,
+            *scaled.full_slip_force,
             scaled.drive.with_pull(v),
             scaled.law,
             tools_for(scaled.law, scaled.drive.h),
@@ -149,7 +149,7 @@ class Stepper:
         if across is None:
             self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
         else:
-            body, springs, _, *others = self._parts
+            body, springs, _, _, *others = self._parts
             self.solved = march_turning(state.e, state.s, state.body, body, springs, *others, n_steps, trace, across)
         self._count(n_periods)
         return trace, across
@@ -176,7 +176,7 @@ class Stepper:
         seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 4)), *np.zeros((7, kept, n)))
         seen.sums[LEAST_SLIP] = np.inf
         (trace, across), passed = self._marched(state, 1), before.copy()
-        _, springs, _, motion, law, tools = self._parts
+        _, springs, _, _, motion, law, tools = self._parts
         nothing = np.zeros(n_steps + 1)
         seen.sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace)
         if across is None or scaled.drive.across is None:

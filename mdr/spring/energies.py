@@ -86,9 +86,12 @@ def nodes_of(t, modes, arms):
 
 
 @inner(error_model="numpy", fastmath={"reassoc", "contract"})
-def account(sums, mode, s, e, i, w, path, nodes, T, modes, arms, tools):
-    """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time."""
-    J, K = 0, 0
+def account(sums, mode, s, e, i, w, path, t, whole, T, modes, arms, tools):
+    """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time t.
+
+    whole: the rule over a whole step.
+    """
+    J, K, nodes = 0, 0, whole if t == tools.h else nodes_of(t, modes, arms)
     sign = -1.0 if mode == SLIP_BACK else 1.0
     z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
     if modes is not None and mode != STICK:

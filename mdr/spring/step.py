@@ -26,15 +26,17 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.contact_modes import FREE, SLIP, SLIP_BACK, STICK
-from mdr.spring.energies import LEAST_SLIP, Nodes, account, nodes_of
+from mdr.spring.energies import LEAST_SLIP, Nodes, account
 from mdr.spring.law import phi_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
 _FAST = {"reassoc", "contract"}
-_inner = inner(error_model="numpy", fastmath=_FAST)
-_inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST)
-_call = compiled(error_model="numpy", nogil=True, fastmath=_FAST)
+# arrays are only lent to these functions: numba need not count references to them, which takes time, to compile too
+LENT = {"_nrt": False}
+_inner = inner(error_model="numpy", fastmath=_FAST, **LENT)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST, **LENT)
+_call = compiled(error_model="numpy", nogil=True, fastmath=_FAST, **LENT)
 
 TOUCHES, BEGINS = 4, 5  #: the mode is still to be found: just touched; at the begin of a step
 NEVER = np.inf
@@ -149,7 +151,7 @@ def force(x, p, q, T, t):
     return area + T * dx, moment + T * (t * (x + dx) - area)
 
 
-@compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=_FAST)
+@compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=_FAST, **LENT)
 def fill(t, modes, arms, tools, k):
     """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts held[k, 0:3], the area of
     its force over the time held[k, 3:6], and its moment held[k, 6:9].
@@ -181,7 +183,7 @@ def new_tools(h, modes, arms):
     return tools
 
 
-@_inner
+@inner(error_model="numpy", fastmath=_FAST)
 def tools_of(h, modes, arms, tools):
     """The tools of another step; the room, and the excess of the step before, are the same."""
     one = Tools(h, np.empty_like(tools.held), np.empty_like(tools.decay), *tools[3:])
@@ -435,10 +437,7 @@ def row(s, e, gap, w, path, T, modes, arms, tools, zd, xd, look):
                 fill(t, modes, arms, tools, 1)
             if look is not None and (modes is not None or mode != FREE):
                 here = Path(z_0, z_1, z_2, x_1, x_2)
-                if t == h:
-                    account(look.sums, mode, s, e, i, w[i], here, look.nodes, T, modes, arms, tools)
-                else:
-                    account(look.sums, mode, s, e, i, w[i], here, nodes_of(t, modes, arms), T, modes, arms, tools)
+                account(look.sums, mode, s, e, i, w[i], here, t, look.nodes, T, modes, arms, tools)
             # the state after that time
             fallen = 0.0
             if modes is not None:
@@ -581,7 +580,7 @@ def relax(x, i, k, modes, arms, tools):
             x[j, i] = of_modes(j, k, tools, modes)
 
 
-@compiled(error_model="numpy", nogil=True, fastmath=_FAST, _nrt=False)
+@_call
 def press(s, gap, w, path, T, modes, arms, tools, since):
     """The normal part alone, in which friction has no part: sums of area and moment of the normal forces.
 

@@ -31,6 +31,7 @@ from mdr.spring.energies import (
 from mdr.spring.law import phi_of
 from mdr.spring.step import (
     BEGINS,
+    LENT,
     MOST_EVENTS,
     ROUNDING,
     Ends,
@@ -49,9 +50,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
 _FAST = {"reassoc", "contract"}
-# arrays are only lent to these functions: numba need not count references to them, which would take half of the time
-_LENT = {"_nrt": False}
-_inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST, **_LENT)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST, **LENT)
 
 MOST_HALVINGS = 60  #: in the search for the end of a mode
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
@@ -511,7 +510,7 @@ def row_turning(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look):
     return events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did)
 
 
-@inner(error_model="numpy", fastmath=_FAST, **_LENT)
+@inner(error_model="numpy", fastmath=_FAST, **LENT)
 def events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did):
     """The springs that are left, from event to event."""
     h, J, G = tools.h, s.shape[0], glassy(arms)

@@ -1,6 +1,6 @@
 """Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
 
-What takes long is said on standard error: the first run on a machine waits for it, half a minute on one core.
+What takes long is said on standard error: the first run of a kind on a machine waits for it, 6 to 25 s on one core.
 """
 
 # mypy: disallow-untyped-calls=false
@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from numba import njit
@@ -80,7 +81,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
-                "own, which takes half a minute of one core; let NUMBA_CACHE_DIR name a folder that can"
+                "own, which takes 6 to 25 s of one core; let NUMBA_CACHE_DIR name a folder that can"
             )
         return ready
 
@@ -92,8 +93,7 @@ class Notice(event.Listener):
 
     def __init__(self) -> None:
         self.open = 0
-        parts = "functions, which take half a minute of one core,"
-        self.line = Ticker("compiling, once on this machine", parts=parts)
+        self.line = Ticker("compiling, once on this machine, the 30 to 80 functions of this kind of run")
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
@@ -113,4 +113,15 @@ def _is_ours(event: Any) -> bool:
     return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-event.register("numba:compile", Notice())
+NOTICE = Notice()
+event.register("numba:compile", NOTICE)
+
+
+@contextmanager
+def unsaid() -> Iterator[None]:
+    """No notice inside, where who compiles on purpose says how far it has got."""
+    event.unregister("numba:compile", NOTICE)
+    try:
+        yield
+    finally:
+        event.register("numba:compile", NOTICE)

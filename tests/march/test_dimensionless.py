@@ -132,7 +132,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     e, held, trace = s.copy(), start.copy(), scaled.trace(3)
     parts = (
         scaled.springs,
-        scaled.full_slip_force,
+        *scaled.full_slip_force,
         scaled.drive.with_pull(1e3),
         scaled.law,
         tools_for(scaled.law, scaled.drive.h),

@@ -10,6 +10,8 @@ from types import SimpleNamespace
 
 import numba
 import pytest
+from numba.core import event
+from numba.core.event import EventStatus
 
 from mdr.tools import jit
 
@@ -118,4 +120,15 @@ def test_a_long_compilation_says_every_ten_seconds_how_much_is_done(module, seco
     assert notice.open == 0
     lines = capsys.readouterr().err.splitlines()
     assert [int(line.split(": ")[1].split()[0]) for line in lines] == said
-    assert all(line.startswith("compiling, once on this machine: ") for line in lines)
+    assert all(line.startswith("compiling, once on this machine,") for line in lines)
+
+
+def test_who_compiles_on_purpose_has_no_notice():
+    def begun_and_ended():
+        for status, step in ((EventStatus.START, 1), (EventStatus.END, 0)):
+            event.broadcast(event.Event("numba:compile", status, data=compiling("mdr.x").data))
+            yield jit.NOTICE.open, step
+
+    with jit.unsaid():
+        assert [is_open for is_open, _ in begun_and_ended()] == [0, 0]
+    assert all(is_open == step for is_open, step in begun_and_ended())

@@ -1,0 +1,72 @@
+"""Compile ahead all that runs need: small runs of every kind of material and pull, still and shaken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from itertools import product
+
+from mdr.case.contact import SlidingContact
+from mdr.case.in_plane import InPlaneOscillation
+from mdr.case.motion import NormalOscillation
+from mdr.case.pull import Pull, RigidPull, SpringPull
+from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
+from mdr.element.contact_element import ContactElement
+from mdr.element.record import slide_record
+from mdr.indenters.paraboloid import Paraboloid
+from mdr.march.slide import slide
+from mdr.materials import Elastic, KelvinVoigt, Material, Prony
+from mdr.normal.indentation import indent
+from mdr.tools.jit import unsaid
+from mdr.tools.progress import progress, silent
+
+MATERIALS = (
+    KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
+    Elastic(E=3e6, nu=0.5),
+    Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
+)
+PULLS = (RigidPull(), SpringPull(k_x=2e4, m=0.1, c_x=4.0), SpringPull(k_x=2e4, m=0.0, c_x=4.0))
+BALL, MOTION, MU_0 = Paraboloid(R=5e-3), NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=314.0), 0.5
+ACROSS = InPlaneOscillation(omega=314.0, du_x=1e-6, du_y=1e-6)
+
+
+def compile_all(kinds: int | None = None) -> int:
+    """Number of kinds of run that are compiled from now on, all or the first so many; with progress.
+
+    What has been compiled on this machine is read from the disk.
+    """
+    todo = kinds_of_run()[:kinds]
+    with unsaid():
+        for run in progress(todo, "compiling, once on this machine", "kinds of run"):
+            with silent(lambda: None):
+                run()
+    return len(todo)
+
+
+def kinds_of_run() -> list[Callable[[], object]]:
+    """Small runs, each of which compiles what it needs; the most frequent first."""
+    slides = [partial(_slide, *parts) for parts in product(MATERIALS, PULLS)]
+    return [*slides, *(partial(one, material) for one in (_shaken, _indent, _record) for material in MATERIALS)]
+
+
+def _slide(material: Material, pull: Pull) -> None:
+    case = SlidingContact(BALL, material, MU_0, MOTION, pull)
+    v_0 = 0.5 * full_slip_critical_velocity(case)
+    slide(case, v_0, accuracy=1e-3, record=1)
+    slide(case, v_0, n_springs=32, steps_per_period=32, n_periods=16, start="rest")
+
+
+def _shaken(material: Material) -> None:
+    slide(SlidingContact(BALL, material, MU_0, MOTION, RigidPull(), ACROSS), 1e-3, n_springs=32, steps_per_period=32)
+
+
+def _indent(material: Material) -> None:
+    indent(BALL, material, [0.0, 1.0], F_z=[0.0, 1.0], n_springs=32)
+
+
+def _record(material: Material) -> None:
+    element = ContactElement(BALL, material, MU_0, u_z_max=20e-6)
+    element.step(element.at_rest(), 1e-3, (0.0, 0.0, 10e-6))
+    _ = element.address
+    for u_y in (None, [0.0, 1e-6]):
+        slide_record(BALL, material, MU_0, [0.0, 1.0], [0.0, 1e-6], u_y, u_z=20e-6)

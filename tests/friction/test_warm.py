@@ -1,0 +1,39 @@
+"""Compiling ahead: said as kinds of run, complete, and from the disk the next time."""
+
+import numba
+import pytest
+
+import mdr
+from mdr.__main__ import main
+from mdr.friction import warm
+from mdr.march import loop, orbit_loop, turning
+
+
+def all_compiled():
+    """Compiled variants of the functions that runs enter by."""
+    entries = loop.march, loop.look, orbit_loop.search, turning.march_turning, turning.look_turning
+    return {one.__name__: len(one.signatures) for one in entries}
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+@pytest.mark.parametrize("material", warm.MATERIALS, ids=lambda one: type(one).__name__)
+def test_after_the_kinds_of_run_a_run_compiles_nothing(material):
+    for kind in warm.kinds_of_run():
+        if kind.args[0] == material:
+            kind()
+    before = all_compiled()
+    for pull in warm.PULLS:
+        case = mdr.SlidingContact(mdr.Cone(theta=0.02), material, 0.3, warm.MOTION, pull)
+        mdr.slide(case, 0.3 * mdr.full_slip_critical_velocity(case), accuracy=1e-3)
+    assert all_compiled() == before
+    assert before["march"] >= len(warm.PULLS)
+
+
+def test_the_command_says_how_many_kinds_and_compiles_them_in_order(monkeypatch, capsys):
+    done = []
+    monkeypatch.setattr(warm, "kinds_of_run", lambda: [lambda i=i: done.append(i) for i in range(5)])
+    assert warm.compile_all(2) == 2
+    assert done == [0, 1]
+    assert main(["warm"]) == 0
+    assert done == [0, 1, 0, 1, 2, 3, 4]
+    assert capsys.readouterr().out.startswith("5 kinds of run")
