@@ -22,11 +22,13 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
-from mdr.normal.doubts import GRAVITY, edge, warn_outside
+from mdr.normal.doubts import edge
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import RIG, angular, contact_of, fields_of
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance, not_negative, positive
+from mdr.tools.notation import GRAVITY
+from mdr.tools.warned import warn_outside
 
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
 

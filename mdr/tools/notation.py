@@ -15,9 +15,11 @@ def _prefixed(unit: str, prefixes: str, rest: str = "") -> dict[str, float]:
     return {f"{prefix}{unit}{rest}": 10.0 ** powers[prefix] for prefix in ("", *prefixes)}
 
 
+GRAVITY = 9.80665  #: standard gravity [m/s²]
 UNITS = {
     "m": _prefixed("m", "cmuµμn"),
     "m/s": _prefixed("m", "cmuµμn", "/s") | {"mm/min": 1e-3 / 60},
+    "m/s²": {"m/s²": 1.0, "m/s^2": 1.0, "m/s2": 1.0, "mm/s²": 1e-3, "g": GRAVITY, "mg": 1e-3 * GRAVITY},
     "N": _prefixed("N", "kmuµμn"),
     "Pa": _prefixed("Pa", "kMG") | {"N/mm²": 1e6, "N/mm^2": 1e6, "N/mm2": 1e6},
     "rad/s": {"rad/s": 1.0} | {unit: math.tau * hertz for unit, hertz in _prefixed("Hz", "mkM").items()},
