@@ -5,7 +5,8 @@ A periodic record is fitted by a mean, a linear drift and harmonics of one funda
     a(t) = mean + drift t + Re of sum over n of A_n exp(i n omega t),
 
 at the instants at which it was sampled, so that these may be uneven. A harmonic is kept where noise alone, taken as
-white, would reach it with a probability of less than FALSE. Twice integrated it is -A_n/(n omega)².
+white, would not reach it anywhere in its spectrum, but for a probability of FALSE. Twice integrated it is
+-A_n/(n omega)².
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ LEAST_PERIODS = 2.9  #: in a record: three, but for what their number is uncerta
 MOST = 100  #: harmonics that are looked at
 ALIKE = 0.3  #: two lines, times the length of the record, that are one
 AT_ONCE = 1024  #: samples whose powers are held
-FALSE = 1e-3  #: probability that noise alone passes for a harmonic
+FALSE = 1e-4  #: probability that noise alone passes for a line, of as many as there are samples
 ROUNDING = 1e-14  #: mean square of a rest, over that of the record, that may be rounding
 LEFT_OUT = 0.05  #: share of the mean square, above which what was left out is told
 UNEVEN = 0.1  #: of a step, which sampled instants may be off a grid
@@ -59,12 +60,7 @@ class _Fit(NamedTuple):
     orders: Orders
     A: Complex  #: (n_orders,)
     columns: Array  #: factors of the columns, the drift first
-    rest: float  #: sum of squares that are left
-    variance: Array  #: (n_orders,) of A by white noise
-
-    def stands_out(self) -> Orders:
-        """The orders that noise does not explain."""
-        return self.orders[np.abs(self.A) ** 2 > self.variance * np.log(self.orders.size / FALSE)]
+    noise: Array  #: (n_orders,) |A|² that white noise passes at one frequency in n_t with the probability FALSE
 
 
 def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
@@ -199,9 +195,9 @@ def _fitted(record: _Record, omega: float, orders: Orders, *columns: Array) -> _
     seen_a = np.concatenate([beside[0], rows[1:] @ a])
     c = inverse @ seen_a
     rest = max(float(a @ a - (seen_a.conj() @ c).real), ROUNDING * float(a @ a))
-    noise = 4 * rest / max(t.size - len(c), 1)
+    noise = 4 * np.log(t.size / FALSE) * rest / max(t.size - len(c), 1)
     ahead = slice(orders.size + 1, n.size)
-    return _Fit(orders, 2 * c[ahead], c[n.size :].real, rest, noise * inverse.diagonal()[ahead].real)
+    return _Fit(orders, 2 * c[ahead], c[n.size :].real, noise * inverse.diagonal()[ahead].real)
 
 
 def _by_order(fit: _Fit) -> Complex:
@@ -220,7 +216,7 @@ def _signed(table: Complex, n: NDArray[np.intp]) -> Complex:
 def _kept(record: _Record, omega: float, orders: Orders) -> _Fit:
     """The fit by those of some orders that stand out of the noise."""
     found = _fitted(record, omega, orders)
-    return _fitted(record, omega, found.stands_out())
+    return _fitted(record, omega, orders[np.abs(found.A) ** 2 > found.noise])
 
 
 # --- the fundamental ---
@@ -237,7 +233,7 @@ def _fundamental(record: _Record) -> float:
     while (q := _divisor(record, omega, rest)) > 1 and order * q <= MOST:
         trial = _tuned(record, omega / q, order * q)
         better, rest = _score(record, trial)
-        if better >= score - SAME * record.t.size:
+        if better > score - 2 * np.log(record.t.size):  # as a harmonic counts
             break
         omega, order, score = trial, order * q, better
     _require_sampled(record, omega, f"the fundamental of a seems to be {omega / (2 * np.pi):.4g} Hz")
@@ -247,8 +243,9 @@ def _fundamental(record: _Record) -> float:
 def _score(record: _Record, omega: float) -> tuple[float, _Record]:
     """Bayes' information criterion of the series at a frequency, and what it leaves out."""
     fit, n = _kept(record, omega, _up_to(record.most(omega))), record.t.size
-    rest = record._replace(a=record.a - harmonic_sum(_by_order(fit), omega * record.t))
-    return n * np.log(fit.rest) + 2 * fit.orders.size * np.log(n), rest
+    a = record.a - harmonic_sum(_by_order(fit), omega * record.t) - fit.columns[0] * record.t / record.span
+    least = max(n * float(a.var()), ROUNDING * float(record.a @ record.a))
+    return n * np.log(least) + 2 * fit.orders.size * np.log(n), record._replace(a=a - a.mean())
 
 
 def _divisor(record: _Record, omega: float, rest: _Record) -> int:

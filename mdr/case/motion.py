@@ -296,8 +296,8 @@ class PeriodicMotion(Motion):
         Notes
         -----
         Least squares at the instants of the record. Of the first 100 harmonics those are kept that white noise alone
-        would reach with a probability of less than 1 in 1000; each is divided by -(n omega)². The frequency is the one
-        that fits best. What was left out is ``a - motion.u_z_ddot(t)``, with the mean of a.
+        would hardly reach (1 in 1000 records); each is divided by -(n omega)². The frequency is the one that fits
+        best. What was left out is ``a - motion.u_z_ddot(t)``, with the mean of a.
 
         Examples
         --------

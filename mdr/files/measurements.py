@@ -122,7 +122,7 @@ def read_moduli(
 
 
 def read_record(path: str | PathLike[str], *, units: Words = None, columns: Words = None) -> dict[str, Array]:
-    """A recorded motion or acceleration in SI, from a CSV file.
+    r"""A recorded motion or acceleration in SI, from a CSV file.
 
     Parameters
     ----------
