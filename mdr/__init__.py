@@ -6,7 +6,7 @@ a sliding contact; from there to closed forms, runs, curves and the verdict on t
 
 from mdr.indenters import *
 from mdr.materials import *
-from mdr.case.acceleration import displacement_of
+from mdr.case.displacement import displacement_of
 from mdr.case.motion import *
 from mdr.case.in_plane import *
 from mdr.case.pull import RigidPull, SpringPull

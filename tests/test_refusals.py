@@ -327,6 +327,7 @@ SAYINGS = {
     "PeriodicMotion.from_acceleration(T, WAVE**0, u_z0=1e-5)": "nothing periodic stands out of the noise",
     "PeriodicMotion.from_acceleration(T[::-1], WAVE, u_z0=1e-5)": "t must rise, got 0.99 s after 0.995 s (sample 1)",
     "PeriodicMotion.from_acceleration(T[:25], WAVE[:25], u_z0=1e-5)": "holds 2.5 periods and must hold three or more",
+    "PeriodicMotion.from_acceleration([0, 1, 2], [0, 1, 0], u_z0=1e-5)": "t must be a list of 8 instants or more",
     "displacement_of(T**1.1, WAVE, high_pass=5.0)": "t must rise in equal steps, but sample",
     "LoadOscillation(0.1, 0.2, 300)": "dF_z = 0.2 N must be less than F_z0 = 0.1 N where nothing has mass",
     "SpringPull(0)": "for a rigid pull use RigidPull()",

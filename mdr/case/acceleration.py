@@ -1,10 +1,10 @@
-"""Motion from a recorded acceleration: its Fourier series by least squares, or its integral above a high-pass.
+"""Fourier series of a recorded acceleration, by least squares at the instants at which it was sampled.
 
 A periodic record is fitted by a mean, a linear drift and harmonics of one fundamental,
 
     a(t) = mean + drift t + Re of sum over n of A_n exp(i n omega t),
 
-at the instants at which it was sampled, so that these may be uneven. A harmonic is kept where noise alone, taken as
+with the instants as they are, even or not. A harmonic is kept where noise alone, taken as
 white, would not reach it anywhere in its spectrum, but for a probability of FALSE. Twice integrated it is
 -A_n/(n omega)².
 """
@@ -28,9 +28,6 @@ AT_ONCE = 1024  #: samples whose powers are held
 FALSE = 1e-4  #: probability that noise alone passes for a line, of as many as there are samples
 ROUNDING = 1e-14  #: mean square of a rest, over that of the record, that may be rounding
 LEFT_OUT = 0.05  #: share of the mean square, above which what was left out is told
-UNEVEN = 0.1  #: of a step, which sampled instants may be off a grid
-ORDER = 4  #: of the Butterworth filter
-REACH = 8.0  #: times 1/high_pass, after which the response of the filter is below 1e-8
 
 Complex = NDArray[np.complex128]
 Orders = NDArray[np.intp]
@@ -65,7 +62,7 @@ class _Fit(NamedTuple):
 
 def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
     """The harmonics of a periodic record. Warns where much of the record is left out."""
-    t, a = _sampled(t, a)
+    t, a = sampled(t, a)
     record = _Record(t - t.mean(), a - a.mean(), (t[-1] - t[0]) * t.size / (t.size - 1))
     if frequency is None:
         omega = _fundamental(record)
@@ -80,69 +77,8 @@ def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
     return Series(omega, A * np.exp(-1j * np.arange(1, A.size + 1) * omega * t.mean()))
 
 
-def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
-    """Displacement [m] of a recorded acceleration, of frequencies above a high-pass.
-
-    Of a record that need not be periodic. Slower motion cannot be told from the drift of an accelerometer. Of a
-    periodic one `PeriodicMotion.from_acceleration` knows more.
-
-    Parameters
-    ----------
-    t : array_like of float, shape (n_t,)
-        Instants [s], rising in equal steps.
-    a : array_like of float, shape (n_t,)
-        Acceleration [m/s²].
-    high_pass : float
-        Frequency [Hz] at which the filter halves the displacement.
-
-    Returns
-    -------
-    ndarray
-        Displacement [m], shape (n_t,), about zero.
-
-    Raises
-    ------
-    TypeError, ValueError
-        For NaN, lists of different lengths, uneven instants, a high-pass whose period is longer than the record or
-        that is above half of the sampling rate.
-
-    Notes
-    -----
-    The filter is a Butterworth high-pass of fourth order, run forwards and backwards, so that no phase is shifted: it
-    multiplies the displacement at the frequency f by 1/(1 + (high_pass/f)⁸). Filter and integration are done on the
-    spectrum. The record counts as zero before and after: within about 1/high_pass of its ends the result is uncertain.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import mdr
-    >>> t = np.linspace(0, 2, 4001)
-    >>> a = -2e-6 * (2 * np.pi * 100) ** 2 * np.sin(2 * np.pi * 100 * t) + 0.1 * t  # 2 um at 100 Hz, and drift
-    >>> print(f"{np.ptp(mdr.displacement_of(t, a, high_pass=10)[1000:3000]):.3g} m")
-    4e-06 m
-    """
-    t, a = _sampled(t, a)
-    high_pass, step = positive("high_pass", high_pass, "in Hz"), (t[-1] - t[0]) / (t.size - 1)
-    off = np.abs(t - t[0] - step * np.arange(t.size)) / step
-    if off.max() > UNEVEN:
-        raise FieldError(
-            f"t must rise in equal steps, but sample {np.argmax(off)} is off by {off.max():.2g} steps: interpolate a",
-            "t",
-        )
-    low, high = 1 / (step * t.size), 0.5 / step
-    if not low <= high_pass < high:
-        raise FieldError(
-            f"high_pass must lie between {low:.4g} Hz, one over the record, and {high:.4g} Hz, half of the sampling "
-            f"rate, got {high_pass:.6g}",
-            "high_pass",
-        )
-    n = t.size + int(REACH / (high_pass * step)) + 1
-    x = np.fft.rfftfreq(n, step) / high_pass
-    gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
-    return np.asarray(np.fft.irfft(gain * np.fft.rfft(a - a.mean(), n), n)[: t.size])
-
-
-def _sampled(t: ArrayLike, a: ArrayLike) -> tuple[Array, Array]:
+def sampled(t: ArrayLike, a: ArrayLike) -> tuple[Array, Array]:
+    """Instants [s] that rise, and an acceleration [m/s²] at each."""
     t, a = instants("t", t), finite_array("a", a, "m/s²")
     if a.shape != t.shape:
         raise FieldError(f"a must have the shape {t.shape} of t, got {a.shape}", "a")
@@ -263,8 +199,8 @@ def _loudest(record: _Record) -> float:
     drift = even * float(even @ x) / float(even @ even)
     spectrum = np.abs(np.fft.rfft((x - drift) * np.hanning(n), 4 * n))
     first, end = int(4 * LEAST_PERIODS), 2 * n - 4
-    if first >= end or not spectrum[first:end].any():
-        raise _nothing()
+    if first >= end:
+        raise FieldError(f"t must be a list of 8 instants or more, over three periods, got {n}", "t")
     return 2 * np.pi * (first + int(np.argmax(spectrum[first:end]))) / (4 * record.span)
 
 
