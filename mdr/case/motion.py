@@ -45,6 +45,7 @@ def fill_up(record: Any, *names: str) -> int:
     return length
 
 
+REPEATS = 0.99  #: share of the mean square in every nth harmonic, above which depths repeat n times
 GREATEST_SWING = 0.01  #: amplitude of depth [m], above which it is hardly meant
 FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$", example=314.159)
 MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$", example=20e-6)
@@ -247,7 +248,7 @@ class PeriodicMotion(Motion):
         Warns
         -----
         PlausibilityWarning
-            For an amplitude above 1 cm, as when an acceleration is given for a depth.
+            For an amplitude above 1 cm, as when an acceleration is given for a depth, and for several periods.
         """
         u_z = finite_array("u_z", u_z, "m")
         if u_z.ndim != 1 or u_z.size < 3:
@@ -255,7 +256,10 @@ class PeriodicMotion(Motion):
         most = (u_z.size - 1) // 2
         keep = most if n_harmonics is None else min(count("n_harmonics", n_harmonics, 1), most)
         spectrum = np.fft.rfft(u_z)[1 : keep + 1] * 2 / u_z.size
-        motion = cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag))
+        motion, power = cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag)), abs(spectrum) ** 2
+        n = 1 + int(np.argmax(power))
+        if n > 1 and power[n - 1 :: n].sum() > REPEATS * power.sum():
+            warn_outside(f"u_z repeats {n} times: give one period, and omega of that period")
         return motion._not_wide("is u_z an acceleration? PeriodicMotion.from_acceleration integrates one")
 
     @classmethod

@@ -136,10 +136,13 @@ def test_what_is_left_out_is_told():
         assert told[0].filename == __file__
 
 
-def test_an_acceleration_that_is_given_for_a_depth_is_told():
+def test_an_acceleration_or_a_record_that_is_given_for_a_period_of_depth_is_told():
     period = np.cos(2 * np.pi * np.arange(50) / 50)
     with pytest.warns(mdr.PlausibilityWarning, match=r"is 30 m: is u_z an acceleration\? PeriodicMotion\.from_acc"):
         mdr.PeriodicMotion.of(30 * period, 300.0)
+    with pytest.warns(mdr.PlausibilityWarning, match="u_z repeats 7 times: give one period"):
+        mdr.PeriodicMotion.of(1e-3 * np.tile(period, 7), 300.0)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         mdr.PeriodicMotion.of(1e-3 + 1e-3 * period, 300.0)
+        mdr.PeriodicMotion.of(1e-3 * (period**2 + 0.2 * period), 300.0)  # the second is the loudest, not the only one
