@@ -6,6 +6,7 @@ a sliding contact; from there to closed forms, runs, curves and the verdict on t
 
 from mdr.indenters import *
 from mdr.materials import *
+from mdr.case.displacement import displacement_of
 from mdr.case.motion import *
 from mdr.case.in_plane import *
 from mdr.case.pull import RigidPull, SpringPull
@@ -13,7 +14,7 @@ from mdr.case.spectrum import Spectrum
 from mdr.case.contact import SlidingContact
 from mdr.normal.load_control import static_depth, static_load
 from mdr.normal.resolved import plausibility, resolved
-from mdr.normal.doubts import PlausibilityWarning
+from mdr.tools.warned import PlausibilityWarning
 from mdr.normal.rig import rig
 from mdr.normal.springs import SpringArray
 from mdr.normal.indentation import indent
@@ -21,7 +22,7 @@ from mdr.normal.partial_slip import partial_slip, tangential_loop
 
 from mdr.files.case_files import parse_case, read_case, write_case
 from mdr.files.toml_text import CaseFileError
-from mdr.files.measurements import read_moduli
+from mdr.files.measurements import read_moduli, read_record
 from mdr.files.own_records import register
 from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
@@ -71,6 +72,7 @@ __all__ = [
     "blocked_cof",
     "cof_curve",
     "critical_velocity",
+    "displacement_of",
     "find",
     "fit",
     "full_slip_critical_velocity",
@@ -87,6 +89,7 @@ __all__ = [
     "read_case",
     "read_friction_data",
     "read_moduli",
+    "read_record",
     "read_study",
     "register",
     "resolved",

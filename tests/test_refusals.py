@@ -27,6 +27,8 @@ SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(
 SOME = mdr.FrictionData([1e-4, 2e-4, 3e-4], [0.4, 0.45, 0.5])
 CONE = 'mu_0 = 0.5\n[indenter]\nshape = "Cone"\n'
 NINE, SHAKE = np.linspace(0, 1e-6, 9), mdr.InPlaneOscillation(300.0, 1e-6)
+T = np.arange(200) / 200
+WAVE = np.sin(2 * np.pi * 20 * T)
 
 
 class Sly(float):
@@ -184,6 +186,17 @@ ARGUMENTS = [
     ("t", RUBBER.relaxation_modulus, ARRAY),
     ("t", TAPPING.u_z, ARRAY),
     ("t", TAPPING.u_z_dot, ARRAY),
+    ("t", TAPPING.u_z_ddot, ARRAY),
+    *[(name, lambda value, name=name, ask=ask: ask(**{"t": T, "a": WAVE, name: value}), [*ARRAY, (NINE, words)])
+      for name, words in {"t": "must have the shape", "a": "must have the shape"}.items()
+      for ask in (lambda t, a: mdr.PeriodicMotion.from_acceleration(t, a, u_z0=2e-5),
+                  lambda t, a: mdr.displacement_of(t, a, high_pass=5.0))],
+    ("frequency", lambda f: mdr.PeriodicMotion.from_acceleration(T, WAVE, u_z0=2e-5, frequency=f), [
+        *((value, words) for value, words in ABOVE_ZERO if value is not None),
+        (2.0, "holds 2 periods"), (200.0, "below half of the sampling rate, 100 Hz")]),
+    ("u_z0", lambda u_z0: mdr.PeriodicMotion.from_acceleration(T, WAVE, u_z0=u_z0), [(NAN, "finite"), (-1.0, "never")]),
+    ("high_pass", lambda f: mdr.displacement_of(T, WAVE, high_pass=f), [
+        *ABOVE_ZERO, (0.5, "must lie between 1 Hz"), (100.0, "100 Hz, half of the sampling rate")]),
     ("G", lambda G: mdr.KelvinVoigt.from_shear(G=G, eta=1, nu=0.5), ABOVE_ZERO),
     ("eta", lambda eta: mdr.KelvinVoigt.from_shear(G=1, eta=eta, nu=0.5), [(-1, "not be negative"), (NAN, "must be")]),
     ("tan_delta", lambda value: mdr.KelvinVoigt.from_loss_tangent(E=1, nu=0.5, tan_delta=value, omega=1), [
@@ -311,6 +324,11 @@ SAYINGS = {
     "PeriodicMotion(1, 1e-6)": "nothing oscillates",
     "PeriodicMotion(1, -1e-6, sin=(1e-7,))": "at its deepest: the indenter never touches",
     "PeriodicMotion.of([1.0], 1)": "u_z must be a list of at least 3",
+    "PeriodicMotion.from_acceleration(T, WAVE**0, u_z0=1e-5)": "nothing periodic stands out of the noise",
+    "PeriodicMotion.from_acceleration(T[::-1], WAVE, u_z0=1e-5)": "t must rise, got 0.99 s after 0.995 s (sample 1)",
+    "PeriodicMotion.from_acceleration(T[:25], WAVE[:25], u_z0=1e-5)": "holds 2.5 periods and must hold three or more",
+    "PeriodicMotion.from_acceleration([0, 1, 2], [0, 1, 0], u_z0=1e-5)": "t must be a list of 8 instants or more",
+    "displacement_of(T**1.1, WAVE, high_pass=5.0)": "t must rise in equal steps, but sample",
     "LoadOscillation(0.1, 0.2, 300)": "dF_z = 0.2 N must be less than F_z0 = 0.1 N where nothing has mass",
     "SpringPull(0)": "for a rigid pull use RigidPull()",
     "SpringPull(kx=2e4)": "did you mean k_x?",

@@ -87,6 +87,10 @@ class Cycle(ArrayRecord):
         """dz/dphase."""
         return harmonic_sum(1j * np.arange(1, self.cos.size + 1) * self.harmonics, phase)
 
+    def bend(self, phase: Array) -> Array:
+        """d²z/dphase²."""
+        return harmonic_sum(-(np.arange(1, self.cos.size + 1) ** 2) * self.harmonics, phase)
+
     def over_a_period(self, steps: int) -> tuple[Array, Array]:
         """z and its rate at equidistant phases, both ends included: (steps + 1,), not to be written to."""
         n = np.arange(1, self.cos.size + 1)

@@ -16,11 +16,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mdr.case.acceleration import series_of
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.tools.checks import FieldError, FieldTypeError, count, finite, finite_array, not_negative
 from mdr.tools.fields import Record, facts
+from mdr.tools.warned import warn_outside
 
 __all__ = ["ConstantDepth", "ConstantLoad", "LoadOscillation", "Motion", "NormalOscillation", "PeriodicMotion"]
 
@@ -43,6 +45,8 @@ def fill_up(record: Any, *names: str) -> int:
     return length
 
 
+REPEATS = 0.99  #: share of the mean square in every nth harmonic, above which depths repeat n times
+GREATEST_SWING = 0.01  #: amplitude of depth [m], above which it is hardly meant
 FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$", example=314.159)
 MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$", example=20e-6)
 
@@ -127,6 +131,22 @@ class Motion(Record, ABC):
         """
         cycle = self.cycle
         return cycle.unit * self.omega * cycle.rate(self.omega * finite_array("t", t, "s"))
+
+    def u_z_ddot(self, t: ArrayLike) -> NDArray[np.float64]:
+        """Acceleration of the depth [m/s²] over time.
+
+        Parameters
+        ----------
+        t : array_like of float
+            Time [s].
+
+        Returns
+        -------
+        ndarray
+            Acceleration [m/s²] in the shape of t.
+        """
+        cycle = self.cycle
+        return cycle.unit * self.omega**2 * cycle.bend(self.omega * finite_array("t", t, "s"))
 
 
 @dataclass(frozen=True)
@@ -224,6 +244,11 @@ class PeriodicMotion(Motion):
         ------
         ValueError
             For fewer than three depths.
+
+        Warns
+        -----
+        PlausibilityWarning
+            For an amplitude above 1 cm, as when an acceleration is given for a depth, and for several periods.
         """
         u_z = finite_array("u_z", u_z, "m")
         if u_z.ndim != 1 or u_z.size < 3:
@@ -231,7 +256,74 @@ class PeriodicMotion(Motion):
         most = (u_z.size - 1) // 2
         keep = most if n_harmonics is None else min(count("n_harmonics", n_harmonics, 1), most)
         spectrum = np.fft.rfft(u_z)[1 : keep + 1] * 2 / u_z.size
-        return cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag))
+        motion, power = cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag)), abs(spectrum) ** 2
+        n = 1 + int(np.argmax(power))
+        if n > 1 and power[n - 1 :: n].sum() > REPEATS * power.sum():
+            warn_outside(f"u_z repeats {n} times: give one period, and omega of that period")
+        return motion._not_wide("is u_z an acceleration? PeriodicMotion.from_acceleration integrates one")
+
+    @classmethod
+    def from_acceleration(
+        cls, t: ArrayLike, a: ArrayLike, *, u_z0: float, frequency: float | None = None
+    ) -> PeriodicMotion:
+        """The Fourier series [m] of a recorded acceleration of many periods.
+
+        Parameters
+        ----------
+        t : array_like of float, shape (n_t,)
+            Instants [s], rising, in even steps or not, over three periods or more.
+        a : array_like of float, shape (n_t,)
+            Acceleration [m/s²], positive into the half-space as the depth is. A constant part, such as gravity, and a
+            linear drift do not matter.
+        u_z0 : float
+            Mean depth [m], which an acceleration does not tell.
+        frequency : float, optional
+            Fundamental [Hz], if it is known exactly. None: it is found.
+
+        Returns
+        -------
+        PeriodicMotion
+            The motion, on the time of the record.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For NaN, lists of different lengths, instants that do not rise, too few periods, a frequency above half of
+            the sampling rate, a record in which nothing periodic stands out of the noise.
+
+        Warns
+        -----
+        PlausibilityWarning
+            Where more than 5 % of the mean square of a is left out, harmonics reach half of the sampling rate, or the
+            amplitude of the depth is above 1 cm.
+
+        Notes
+        -----
+        Least squares at the instants of the record. Of the first 100 harmonics those are kept that white noise alone
+        would hardly reach (1 in 1000 records); each is divided by -(n omega)². The frequency is the one that fits
+        best. What was left out is ``a - motion.u_z_ddot(t)``, with the mean of a.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import mdr
+        >>> t = np.arange(0, 1, 1e-4)
+        >>> phase = 2 * np.pi * 80.3 * t
+        >>> a = -0.5 * np.cos(phase) + 0.1 * np.cos(3 * phase) + np.random.default_rng(1).normal(0, 0.02, t.size)
+        >>> motion = mdr.PeriodicMotion.from_acceleration(t, a, u_z0=20e-6)
+        >>> print(f"{motion.omega / (2 * np.pi):.2f} Hz, {len(motion.cos)} harmonics, {motion.cos[0]:.2e} m")
+        80.30 Hz, 3 harmonics, 1.96e-06 m
+        """
+        series = series_of(t, a, frequency)
+        swing = -series.A / (np.arange(1, series.A.size + 1) * series.omega) ** 2
+        motion = cls(series.omega, u_z0, tuple(swing.real), tuple(-swing.imag))
+        return motion._not_wide("is a in m/s², and t in s?")
+
+    def _not_wide(self, question: str) -> PeriodicMotion:
+        """The motion; with a warning where its amplitude is hardly meant."""
+        if self.cycle.du_z > GREATEST_SWING:
+            warn_outside(f"the amplitude of the depth is {self.cycle.du_z:.3g} m: {question}")
+        return self
 
 
 class _Load(Motion):

@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import argparse
+import math
 from dataclasses import asdict
 from typing import Any
 
 import mdr
-from mdr.commands.arguments import path_of, whole_number
+from mdr.commands.arguments import path_of, read_as, whole_number
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.measurements import read_motion
 from mdr.files.toml_text import StandardInput
 from mdr.normal.springs import MIN_SPRINGS
+from mdr.tools.arrays import Array
+from mdr.tools.notation import UNITS
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The motion, and where to write."""
-    columns = "motion of the indenter: columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]"
+    columns = (
+        "motion of the indenter: columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, a_y, a_z"
+    )
     command.add_argument("motion", metavar="motion.csv", type=path_of, help=columns)
     case = "the case file: shape, material and mu_0 count; - is standard input"
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
+    high_pass = "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case"
+    command.add_argument("--high-pass", metavar="5Hz", type=read_as("a frequency such as 5Hz", hertz), help=high_pass)
     size = whole_number(2 * MIN_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: 256)")
     add_output(command, "record.csv", "record.png", "record.svg")
@@ -33,7 +39,7 @@ def record(args: argparse.Namespace, _: None) -> int:
         raise WrongInput("- stands for the motion and for the case: standard input can be read once, give a file")
     case, folder = mdr.read_case(args.case), output_folder(args)
     try:
-        motion: dict[str, Any] = read_motion(args.motion)
+        motion: dict[str, Any] = with_displacements(mdr.read_record(args.motion), args.high_pass, case)
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {str(fault).removeprefix(f'{args.motion}: ')}") from None
@@ -44,3 +50,30 @@ def record(args: argparse.Namespace, _: None) -> int:
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
     return answer(args, values, str(found), case)
+
+
+def with_displacements(motion: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact) -> dict[str, Array]:
+    """The record with positions and depths [m] in the place of accelerations [m/s²]."""
+    for axis in "xyz":
+        a, u = f"a_{axis}", f"u_{axis}"
+        if a not in motion:
+            continue
+        if high_pass is None:
+            raise ValueError(f"{a} is an acceleration: give the frequency above which it counts, --high-pass 5Hz")
+        if u in motion or (axis == "z" and "F_z" in motion):
+            raise ValueError(f"the header names {a} and {u if u in motion else 'F_z'}: leave one out")
+        motion[u] = mdr.displacement_of(motion["t"], motion.pop(a), high_pass=high_pass)
+        if axis == "z":
+            motion[u] += mdr.resolved(case).working_depth
+    if "u_x" not in motion:
+        raise ValueError("the header names no u_x; write t [s], u_x [um], u_z [um]")
+    return motion
+
+
+def hertz(text: str) -> float:
+    """A frequency [Hz], positive; of a plain number too."""
+    unit = next((one for one in sorted(UNITS["rad/s"], key=len, reverse=True) if text.endswith(one)), "Hz")
+    value = float(text.removesuffix(unit)) * UNITS["rad/s"][unit] / math.tau
+    if not 0 < value < math.inf:
+        raise ValueError
+    return value

@@ -20,7 +20,7 @@ from mdr.materials.base import Material
 from mdr.normal.load_control import static_depths
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import EXACT, SAME, Array
-from mdr.tools.checks import FieldError, count, finite_array, instance, positive
+from mdr.tools.checks import FieldError, count, finite_array, instance, instants, positive
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
@@ -178,12 +178,7 @@ def slide_record(
     instance("material", material, Material)
     mu_0 = positive("mu_0", mu_0, "coefficient of friction")
     n = SPRINGS if n_springs is None else count("n_springs", n_springs, 2 * MIN_SPRINGS)
-    t = finite_array("t", t, "s")
-    if t.ndim != 1 or t.size < 2:
-        raise FieldError(f"t must be a list of two instants or more, got shape {t.shape}", "t")
-    if not np.all(np.diff(t) > 0):
-        k = int(np.argmin(np.diff(t) > 0))
-        raise FieldError(f"t must rise, got {t[k + 1]:.9g} s after {t[k]:.9g} s (sample {k + 1})", "t")
+    t = instants("t", t)
     if (u_z is None) == (F_z is None):
         raise ValueError("give either u_z, a record of depth, or F_z, one of force, and not both")
     x, y = _samples("u_x", u_x, t, "m"), _samples("u_y", 0.0 if u_y is None else u_y, t, "m")

@@ -54,12 +54,12 @@ from mdr.case.motion import LoadOscillation, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
-from mdr.normal.doubts import warn_outside
 from mdr.normal.rig import OPEN, Setting, settings_of
 from mdr.normal.vary import contact_of, fields_of, fields_set
 from mdr.tools.fields import checked, example_of, required, units_of
 from mdr.tools.messages import nearest, offer, short
 from mdr.tools.notation import numbers_in
+from mdr.tools.warned import warn_outside
 
 # --- public ---
 

@@ -38,10 +38,13 @@ MODULI = (
 )
 MOTION = (
     Column("t", ("time",), "s"),
-    Column("u_x", ("x",), "m"),
+    Column("u_x", ("x",), "m", needed=False),
     Column("u_y", ("y",), "m", needed=False),
-    Column("u_z", ("z", "depth"), "m", needed=False),
+    Column("u_z", ("z", "u", "depth", "displacement"), "m", needed=False),
     Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
+    Column("a_x", (), "m/s²", needed=False),
+    Column("a_y", (), "m/s²", needed=False),
+    Column("a_z", ("a", "acceleration"), "m/s²", needed=False),
 )
 
 
@@ -118,9 +121,48 @@ def read_moduli(
     return DynamicModuli(found["omega"][order], stretch * storage[order], stretch * loss[order])
 
 
-def read_motion(path: str | PathLike[str]) -> dict[str, Array]:
-    """Recorded motion in SI, as `slide_record` takes it: t, u_x, and u_y, u_z and F_z where the file has them."""
-    return read_table(path, MOTION).values
+def read_record(path: str | PathLike[str], *, units: Words = None, columns: Words = None) -> dict[str, Array]:
+    r"""A recorded motion or acceleration in SI, from a CSV file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file. Its header names the time t and at least one of u_x, u_y, u_z (or u, displacement), F_z, a_x, a_y,
+        a_z (or a, acceleration), with their units: `t [ms], a [g]`.
+    units : dict of str, optional
+        Units of columns whose header has none, such as {"t": "s", "a_z": "m/s²"}.
+    columns : dict of str, optional
+        What the header calls a column, such as {"a_z": "Kanal 1"}.
+
+    Returns
+    -------
+    dict of ndarray
+        The columns that the file has, by the names above: times in s, positions and depths in m, forces in N,
+        accelerations in m/s². Depths and a_z are positive into the half-space.
+
+    Raises
+    ------
+    ValueError
+        With file and line of what is wrong.
+
+    See Also
+    --------
+    slide_record : takes t, u_x, u_y, u_z and F_z by these names.
+    displacement_of : integrates an acceleration.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import mdr
+    >>> _ = Path("shaker.csv").write_text("t [ms], a [g]\n0, 1\n0.5, -2\n")
+    >>> record = mdr.read_record("shaker.csv")
+    >>> print(record["t"], record["a_z"])
+    [0.     0.0005] [  9.80665 -19.6133 ]
+    """
+    table = read_table(path, MOTION, units, columns)
+    if len(table.values) < 2:
+        raise table.fault("the header names a time alone; write t [s], a [m/s²], or t [s], u_x [um], u_z [um]")
+    return table.values
 
 
 def profile_points(

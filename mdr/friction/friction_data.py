@@ -18,12 +18,13 @@ from os import PathLike
 import numpy as np
 
 from mdr.files.measurements import read_table
-from mdr.normal.doubts import GREATEST_MU_0, warn_outside
+from mdr.normal.doubts import GREATEST_MU_0
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_table import Column
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
+from mdr.tools.warned import warn_outside
 
 COLUMNS = (
     Column("v_0", ("v", "velocity", "speed"), "m/s"),

@@ -8,7 +8,6 @@ unit is wrong. Each limit below is far from usual contacts and near what the the
 from __future__ import annotations
 
 import sys
-import warnings
 from collections.abc import Iterator
 from types import FrameType
 
@@ -21,6 +20,8 @@ from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.stability import floquet_multiplier
 from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
+from mdr.tools.notation import GRAVITY
+from mdr.tools.warned import is_ours, warn_outside
 
 WRAPPERS = ("mdr.tools.memoise", "mdr.tools.keywords")  #: modules of decorators
 GREATEST_ALPHA = 5.0  #: du_z/u_z0
@@ -28,14 +29,9 @@ GREATEST_MU_0 = 2.0  #: rubber on glass comes near it; more is a percentage, or 
 GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
 STIFFEST = 1e4  #: stiffness of the pulling spring over that of the contact, or over m omega², which it makes negligible
 SOFTEST = 1e-6  #: its stiffness over that of the contact; metals, or a tip on its cantilever, are at 1e-4 to 1e-5
-GRAVITY = 9.80665  #: standard gravity [m/s²]
 HEAVIEST = 10.0  #: weight of a mass that the load moves over the mean load; springs may carry some of it
 SOFTENED = 0.03  #: change of stiffness with amplitude over the dynamic stiffness less m_z omega², of a small amplitude
 UNSTABLE = 1.001  #: Floquet multiplier; without damping it is 1 of a stable depth
-
-
-class PlausibilityWarning(UserWarning):
-    """A contact is legal but unlikely: a unit may be wrong, or the theory be left. Silence it by its class."""
 
 
 def warn_at_the_door(known: SlidingContact) -> None:
@@ -45,19 +41,11 @@ def warn_at_the_door(known: SlidingContact) -> None:
     package asks itself, such as each point of a study, is not looked at.
     """
     public = _past_wrappers(sys._getframe(2))
-    outside = _past_wrappers(public.f_back) if public is not None and _is_ours(public) else public
-    if outside is None or _is_ours(outside):
+    outside = _past_wrappers(public.f_back) if public is not None and is_ours(public) else public
+    if outside is None or is_ours(outside):
         return
     for doubt in doubts_of(known):
         warn_outside(doubt)
-
-
-def warn_outside(doubt: str) -> None:
-    """Warn of the last line outside the package that led here."""
-    level, frame = 1, sys._getframe(0)
-    while _is_ours(frame) and frame.f_back is not None:
-        level, frame = level + 1, frame.f_back
-    warnings.warn(doubt, PlausibilityWarning, stacklevel=level)
 
 
 def doubts_of(known: SlidingContact) -> tuple[str, ...]:
@@ -203,11 +191,6 @@ def _of_pull(known: SlidingContact) -> Iterator[str]:
             f"the natural frequency of the body is {light:.3g} times that of the vibration, so that its mass, "
             f"{m:.4g} kg, has no effect: is it in the right unit?"
         )
-
-
-def _is_ours(frame: FrameType) -> bool:
-    """Whether a frame belongs to the package."""
-    return str(frame.f_globals.get("__name__", "")).partition(".")[0] == __name__.partition(".")[0]
 
 
 def _past_wrappers(frame: FrameType | None) -> FrameType | None:

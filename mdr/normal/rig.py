@@ -24,13 +24,15 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
 from mdr.materials.operator import Rheology
-from mdr.normal.doubts import GRAVITY, edge, warn_outside
+from mdr.normal.doubts import edge
 from mdr.normal.followed_force import normal_cycle
 from mdr.normal.resolved import at_rest
 from mdr.normal.vary import RIG, angular, contact_of, fields_of
 from mdr.tools.arrays import EXACT, SAME
 from mdr.tools.checks import instance, not_negative, positive
 from mdr.tools.keywords import offering
+from mdr.tools.notation import GRAVITY
+from mdr.tools.warned import warn_outside
 
 MATTERS = 0.01  #: of the load, by which the mean load may be more without a word
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static

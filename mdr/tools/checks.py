@@ -115,6 +115,17 @@ def positive_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     return array
 
 
+def instants(name: str, values: ArrayLike) -> Array:
+    """Two or more instants [s], each after the one before."""
+    t = finite_array(name, values, "s")
+    if t.ndim != 1 or t.size < 2:
+        raise FieldError(f"{name} must be a list of two instants or more, got shape {t.shape}", name)
+    if not np.all(np.diff(t) > 0):
+        k = int(np.argmin(np.diff(t) > 0))
+        raise FieldError(f"{name} must rise, got {t[k + 1]:.9g} s after {t[k]:.9g} s (sample {k + 1})", name)
+    return t
+
+
 def plain(values: Any) -> Array:
     """The answer in the form of the question: a float for a plain number, else a float64 array."""
     answer: Array = np.asarray(values, dtype=np.float64)[()]

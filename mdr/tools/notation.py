@@ -22,9 +22,11 @@ def _prefixed(unit: str, prefixes: str, scale: float = 1.0) -> dict[str, float]:
     return {unit: scale} | {f"{prefix}{unit}": 10.0 ** powers[prefix] * scale for prefix in prefixes}
 
 
+GRAVITY = 9.80665  #: standard gravity [m/s²]
 UNITS = {
     "m": _prefixed("m", "cmµn"),
     "m/s": _prefixed("m/s", "cmµn") | {"mm/min": 1e-3 / 60},
+    "m/s²": _prefixed("m/s2", "m") | _prefixed("g", "m", GRAVITY),
     "N": _prefixed("N", "kmµn"),
     "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6},
     "rad/s": {"rad/s": 1.0} | _prefixed("Hz", "mkM", math.tau),

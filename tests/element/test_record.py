@@ -1,5 +1,8 @@
 """Friction under a recorded motion: what `slide` has, exact pieces, loads, errors, files and what is refused."""
 
+import contextlib
+import json
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -7,6 +10,7 @@ from reference_steps import followed
 
 import mdr
 from mdr.__main__ import main
+from mdr.tools.csv_table import csv_text
 
 BALL, MU_0, OMEGA = mdr.Paraboloid(R=5e-3), 0.5, 314.0
 ELASTIC = mdr.Elastic(E=3e6, nu=0.5)
@@ -236,6 +240,43 @@ def test_the_command_writes_what_it_prints(tmp_path, capsys):
     assert "running_cof [-]" in (tmp_path / "out" / "record.csv").read_text()
     assert main([*line, "--json"]) == 0
     assert '"cof_error"' in capsys.readouterr().out
+
+
+def test_the_command_integrates_accelerations(tmp_path, capsys):
+    """Bursts along and into the half-space: COF and mean force are those of the displacements, to (5/80)⁸."""
+    t = np.arange(4001) * 2.5e-4
+    with_ends = np.exp(-(((t - 0.5) / 0.08) ** 2) / 2 + 2j * np.pi * 80 * (t - 0.5))
+    rate = (2j * np.pi * 80 - (t - 0.5) / 0.08**2) ** 2 - 1 / 0.08**2
+    x, z, a_x, a_z = (6e-6 * u.imag if k % 2 else 4e-6 * u.real for u in (with_ends, rate * with_ends) for k in (1, 0))
+    line = written(tmp_path, csv_text({"t [ms]": 1e3 * t, "a_x [g]": a_x / 9.80665, "a_z [m/s²]": a_z}))
+    assert main([*line, "--high-pass", "0.005kHz", "--json", "--n-springs", "64"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    found = mdr.slide_record(BALL, ELASTIC, MU_0, t, x, u_z=20e-6 + z, n_springs=64)
+    assert abs(found.cof) > 1e-3
+    assert_allclose([printed["cof"], printed["mean_F_z"]], [found.cof, found.mean_F_z], rtol=1e-6, atol=1e-8)
+    for change, words in [
+        ([], "a_x is an acceleration: give the frequency above which it counts, --high-pass 5Hz"),
+        (["--high-pass", "5"], "SlideRecord of 4001 samples"),
+        (["--high-pass", "5mm"], "must be a frequency such as 5Hz, got '5mm'"),
+        (["--high-pass", "-1Hz"], "must be a frequency"),
+        (["--high-pass", "3kHz"], "half of the sampling rate"),
+    ]:
+        with contextlib.suppress(SystemExit):
+            main([*line, *change])
+        assert words in "".join(capsys.readouterr())
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("t [s], a_x [g], u_x [um], u_z [um]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_x and u_x: leave one out"),
+        ("t [s], u_x [um], a_z [g], F_z [N]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_z and F_z: leave one out"),
+        ("t [s], a_z [g]\n" + "".join(f"{k}, 1\n" for k in range(9)), "names no u_x"),
+    ],
+)
+def test_hostile_accelerations_are_refused(tmp_path, capsys, text, words):
+    assert main([*written(tmp_path, text), "--high-pass", "0.3Hz"]) == 2
+    assert words in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

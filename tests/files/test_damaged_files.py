@@ -23,6 +23,7 @@ FRICTION = "v_0 [mm/s], COF, error\n0.5, 0.31, 0.01\n1.0, 0.35, 0.01\n# a remark
 SCAN = "x [um],f [nm],note\n" + "".join(f"{x},{40 * x * x},a\n" for x in range(-6, 7))
 PRESS = "d [um];F [mN]\n" + "".join(f"{d};{0.4 * d**1.5:.6f}\n" for d in range(1, 10))
 MODULI = "f [Hz],E' [MPa],tan delta\n1,3,0.1\n10,3.5,0.2\n100,4,0.15\n"
+RECORD = "t [ms],a [g],u_x [um]\n" + "".join(f"{k},{(-1) ** k},{k * k}\n" for k in range(9))
 ARMS = "E_j [Pa],tau_j [s]\n2e6,1e-2\n4e6,1e-4\n1e5,0.3\n3e6,inf\n"
 MATERIAL = '[material] # 20 °C\nmodel = "Prony"\nE_inf = 3e6\narms = [[2e6, 1e-2], [4e6, 1e-4]]\nnu = 0.5\ntau = 1e-5\n'
 CASES = [
@@ -41,6 +42,7 @@ KINDS = {
     "profile": ("scan.csv", [SCAN], mdr.SampledProfile.read, ValueError),
     "force": ("press.csv", [PRESS], lambda path: mdr.FromForce.read(path, E_star=1e6), ValueError),
     "moduli": ("moduli.csv", [MODULI], mdr.read_moduli, ValueError),
+    "record": ("shaker.csv", [RECORD], mdr.read_record, ValueError),
     "arms": ("arms.csv", [ARMS], lambda path: mdr.Prony.read(path, nu=0.5), ValueError),
     "material": ("arms.toml", [MATERIAL], mdr.Prony.read, ValueError),
     "stored study": ("study.nc", None, mdr.read_study, mdr.studies.StudyError),

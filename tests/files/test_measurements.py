@@ -109,6 +109,31 @@ def test_a_material_comes_back_from_its_moduli(write):
     assert mdr.Prony.fit(*moduli, nu=0.5).misfit(*moduli) < 0.01
 
 
+# --- records ---
+
+
+@pytest.mark.parametrize(
+    ("head", "row", "arguments"),
+    [
+        ("t [ms], a [g]", "2, -3", {}),
+        ("time (s); acceleration (m/s^2); note", "0.002; -29.41995; a", {}),
+        ("t / s, a_z / mg", "0.002, -3000", {}),
+        ("t [s], Kanal 1", "0.002, -3", {"units": {"a_z": "g"}, "columns": {"a_z": "Kanal 1"}}),
+    ],
+)
+def test_an_acceleration_is_read_in_si(write, head, row, arguments):
+    record = mdr.read_record(write(f"{head}\n{row}\n"), **arguments)
+    assert list(record) == ["t", "a_z"]
+    assert_allclose([record["t"][0], record["a_z"][0]], [2e-3, -3 * 9.80665], rtol=1e-14)
+
+
+def test_a_motion_is_read_as_slide_record_takes_it(write):
+    record = mdr.read_record(write("t [s], x [mm], displacement [um]\n0, 1, 2\n1, 2, 3\n"))
+    assert {name: values.tolist() for name, values in record.items()} == {
+        "t": [0, 1], "u_x": [1e-3, 2e-3], "u_z": [2e-6, 3e-6],
+    }  # fmt: skip
+
+
 # --- what is wrong ---
 
 SCAN = table(np.arange(0, 60.0, 10), np.arange(0, 60.0, 10) ** 2)
@@ -156,6 +181,8 @@ FAULTS = [
     (mdr.read_moduli, "f [Hz], E' [mPa], E'' [mPa]\n1, 3, 0.3\n", "'mPa' of storage is none of Pa, kPa, MPa, GPa"),
     (mdr.read_moduli, "f [Hz], E' [MPa]\n1, 3\n", "neither E'' nor tan delta"),
     (mdr.read_moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", "need Poisson's ratio, as E = 2 (1 + nu) G"),
+    (mdr.read_record, "t [s], b [m/s²]\n0, 1\n", "the header names a time alone; write t [s], a [m/s²], or"),
+    (mdr.read_record, "t [s], a\n0, 1\n", "a_z needs a unit in its header, one of m/s2, mm/s2, g, mg"),
     # rows
     (mdr.read_moduli, "f [Hz], E' [MPa], E'' [MPa]\n1, 3, 1\n2, 3, -0.1\n", "line 3: loss must not be negative"),
     (profile, "r [um], f [nm]\n0, 0\n1, 1\n2, 4\n", "r must have at least 6 numbers, got 3"),

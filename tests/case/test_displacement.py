@@ -1,0 +1,43 @@
+"""Accelerations integrated above a high-pass: a burst, the filter of scipy, a tone with drift."""
+
+import numpy as np
+from numpy.testing import assert_allclose
+from scipy import signal
+
+import mdr
+
+
+def burst(t, f=100.0, width=0.05):
+    """A tone under a Gaussian, and its second derivative."""
+    x, w = t - 1.0, 2 * np.pi * f
+    u = 2e-6 * np.exp(-((x / width) ** 2) / 2) * np.exp(1j * w * x)
+    return u.real, (u * ((1j * w - x / width**2) ** 2 - 1 / width**2)).real
+
+
+def test_a_burst_is_integrated():
+    """The filter takes (high_pass/f)⁸ of its middle, a few times that of its lower half; more as it says above."""
+    t = np.arange(4001) * 5e-4
+    u, a = burst(t)
+    for high_pass in (5.0, 10.0, 20.0):
+        off = np.abs(mdr.displacement_of(t, a + 9.81, high_pass=high_pass) - u).max() / 2e-6
+        assert (high_pass / 100) ** 8 / 2 < off + 1e-9
+        assert off < 2 * (high_pass / 100) ** 8 + 1e-9
+
+
+def test_the_filter_is_butterworth_run_both_ways():
+    """Of scipy, on the displacement, which the bilinear transform warps by (pi f dt)²/3: 2e-3 at the cut."""
+    t = np.arange(20001) * 1e-4
+    u, a = burst(t, 25.0)
+    sos = signal.butter(4, 20.0, "highpass", fs=1e4, output="sos")
+    expected = signal.sosfiltfilt(sos, u)
+    assert np.abs(expected - u).max() > 0.1 * 2e-6
+    assert_allclose(mdr.displacement_of(t, a, high_pass=20.0), expected, rtol=0, atol=1e-4 * 2e-6)
+
+
+def test_drift_is_left_out_and_the_middle_of_a_tone_is_right():
+    t = np.arange(20000) * 1e-4
+    f = 101.3
+    a = -((2 * np.pi * f) ** 2) * 2e-6 * np.cos(2 * np.pi * f * t + 0.4)
+    u = mdr.displacement_of(t, a + 9.81 + 0.02 * t, high_pass=10.0)
+    middle = slice(5000, 15000)  # half a second from the ends, five times 1/high_pass
+    assert_allclose(u[middle], 2e-6 * np.cos(2 * np.pi * f * t + 0.4)[middle], rtol=0, atol=1e-3 * 2e-6)
