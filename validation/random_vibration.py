@@ -178,7 +178,7 @@ _EQUATIONS = (
     ),
     Equation(
         "slow",
-        r"F(h) = \Phi(h) \exp \left[ -\frac{\Phi(-h)}{\sqrt{2\pi} b} \right]",
+        r"F(h) = \Phi(h) e^{-\Phi(-h)/(\sqrt{2\pi} b)}",
         "Distribution of the lag over σ at b → 0, Φ the normal distribution; no narrow band.",
     ),
 )
