@@ -9,16 +9,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.plots.figures import COLOURS, MODES, mode_patches, periods_of, plot_forces, prefix, style
 from mdr.plots.leashes import Leashes
+from mdr.plots.side_view import SideView
 from mdr.tools.checks import count
 from mdr.tools.progress import progress
 
 SECONDS = 4.0  #: that one period lasts in the picture
-MOST_DRAWN = 24  #: springs on each side
-LEAN = 0.06  #: greatest lean of a spring, over the width of the picture
 
 
 @dataclass(frozen=True)
@@ -110,42 +108,29 @@ class _Springs:
     def __init__(self, ax: Any, run: Any) -> None:
         from matplotlib.collections import LineCollection
 
-        even = np.linspace(run.x[-1] / MOST_DRAWN / 2, run.x[-1], MOST_DRAWN)  # springs stand closer at the edge
-        every = np.unique(np.abs(run.x[:, None] - even).argmin(axis=0))
-        self.ax, self.run, self.every = ax, run, every
-        (per_x, unit), (self.per_z, unit_z) = prefix(run.x, "m"), prefix(run.s, "m")
-        x = run.x * per_x
-        self.x, self.flanks = np.concatenate([-x[every][::-1], x[every]]), np.concatenate([-x[::-1], x])
-        self.image = np.max(run.u_z[:, None] - run.s, axis=0)  # no spring reaches through the indenter: s >= u_z - g
-        deepest, sheared = float(run.s.max()) * self.per_z, float(np.abs(run.e).max())
-        self.lean = LEAN * 2.2 * float(x.max()) / sheared if sheared else 0.0
-        self.ground, self.top = -2.2 * deepest, deepest * float(np.clip(0.3 - run.u_z.min() / run.s.max(), 0.6, 1.5))
+        self.ax, self.run, self.view = ax, run, (view := SideView(run))
         (self.body,) = ax.fill([0], [0], facecolor="0.9", linewidth=0, animated=True)
         (self.surface,) = ax.plot([], [], color="0.2", linewidth=1.2, animated=True)
         self.lines = LineCollection([], linewidths=2.2, animated=True)
         ax.add_collection(self.lines)
-        ax.set(xlim=np.array([-1.15, 1.15]) * x.max(), ylim=(self.ground, self.top), ylabel=f"height [{unit_z}]")
-        ax.set_xlabel(f"$x$ [{unit}]" + (f", shear drawn {self.lean / per_x:.2g} times" if sheared else ""))
+        reach = 1.15 * float(view.flanks[-1])
+        ax.set(xlim=(-reach, reach), ylim=(view.ground, view.top), ylabel=f"height [{view.unit_z}]")
+        ax.set_xlabel(f"$x$ [{view.unit}]" + (f", shear drawn {view.lean / view.per_x:.2g} times" if view.lean else ""))
         corner = {"xycoords": "axes fraction", "va": "center", "annotation_clip": False}
         ax.annotate("$v_0$", (1.0, 1.06), (0.88, 1.06), arrowprops={"arrowstyle": "->"}, **corner)
         self.colours = [colour for _, colour in MODES]
         ax.legend(handles=mode_patches(run.state), loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0.2)
 
-    def _both(self, values: NDArray[Any]) -> NDArray[Any]:
-        one = values[self.every]
-        return np.concatenate([one[::-1], one])
-
     def show(self, k: int) -> None:
         """Draw the instant k of the record."""
-        run = self.run
-        top = np.stack([self.x, -self._both(run.s[k]) * self.per_z], axis=1)
-        foot = np.stack([self.x - self._both(run.e[k]) * self.lean, np.full_like(self.x, self.ground)], axis=1)
+        view = self.view
+        top = np.stack([view.x, view.tops(k)], axis=1)
+        foot = np.stack([view.feet(k), np.full_like(view.x, view.ground)], axis=1)
         self.lines.set_segments(list(np.stack([foot, top], axis=1)))
-        self.lines.set_color([self.colours[mode] for mode in self._both(run.state[k])])
-        surface = np.concatenate([self.image[::-1], self.image]) - run.u_z[k]
-        outline = np.stack([self.flanks, surface * self.per_z], axis=1)
+        self.lines.set_color([self.colours[mode] for mode in view.both(self.run.state[k])])
+        outline = np.stack([view.flanks, view.surface(k)], axis=1)
         self.surface.set_data(*outline.T)
-        self.body.set_xy([*outline, [self.flanks[-1], 10 * self.top], [self.flanks[0], 10 * self.top]])
+        self.body.set_xy([*outline, [view.flanks[-1], 10 * view.top], [view.flanks[0], 10 * view.top]])
         for artist in (self.body, self.lines, self.surface):
             self.ax.draw_artist(artist)
 

@@ -113,4 +113,10 @@ def _is_ours(event: Any) -> bool:
     return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-event.register("numba:compile", Notice())
+_notice = Notice()
+event.register("numba:compile", _notice)
+
+
+def compiled_so_far() -> tuple[int, bool]:
+    """How many functions this process has compiled, and whether it compiles another."""
+    return _notice.line.done, _notice.open > 0

@@ -43,7 +43,7 @@ def browser(server, tmp_path_factory):
 def test_the_page_opens_with_its_pictures(browser):
     drawn = mdr.cof_curve(CASE, [0.0]).cof[0]
     assert browser.curve()[0] == pytest.approx(drawn, abs=1e-3 * CASE.mu_0)
-    assert len(browser.find(".bk-Figure")) == 3
+    assert len(browser.find(".bk-Figure")) == 4
     assert browser.value("indenter.a") == "1 mm"
     assert any("critical velocity in closed form" in line for line in browser.text("table"))
 

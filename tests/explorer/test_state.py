@@ -14,7 +14,8 @@ from mdr.case.units import facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
-from mdr.explorer.pictures import DIRECTIONS, pictures_of
+from mdr.explorer.pictures import pictures_of
+from mdr.explorer.springs import DIRECTIONS, map_of
 from mdr.explorer.state import State, group_values
 from mdr.files.examples import PARTS, example, example_file
 from mdr.normal.vary import GROUPS
@@ -154,14 +155,15 @@ def test_a_case_that_is_refused_as_a_whole_is_no_state():
 
 
 def test_pictures_are_those_of_the_library(state):
-    first, *_, last = pictures_of(state)
-    assert first.curve is None
+    pictures = [*pictures_of(state)]
+    first, last = next(one for one in pictures if one.cof is not None), pictures[-1]
     exact = mdr.cof_curve(state.case, last.v_0[::7], accuracy=1e-4)
     assert_allclose(last.cof[::7], exact.cof, atol=1e-3 * state.case.mu_0)
     assert_allclose(first.cof[::7], exact.cof, atol=0.05 * state.case.mu_0)  # no bound: a first sight
     assert abs(last.run.cof - mdr.slide(state.case, state.v_0).cof) <= 1e-3 * state.case.mu_0
-    assert last.springs.shape == (last.run.n_springs, last.run.steps_per_period)
-    modes = np.where(last.springs >= len(MODES), mdr.State.SLIP, last.springs)  # one of the directions of slip
+    assert map_of(last.run).shape == (last.run.n_springs, last.run.steps_per_period)
+    modes = map_of(last.run)
+    modes = np.where(modes >= len(MODES), mdr.State.SLIP, modes)  # one of the directions of slip
     assert_array_equal(np.unique(modes), np.unique(last.run.state))
     assert (last.band is not None) == state.case.is_shaken
     assert all(name and value and meaning for name, value, meaning in last.numbers)
@@ -220,8 +222,8 @@ def test_what_is_unlikely_is_said_beside_the_numbers():
 
 def test_shaken_across_every_slip_has_its_direction():
     state = State.of(CASES["across"])
-    first, *_ = pictures_of(state)
-    run, shown = first.run, first.springs
+    _, first, *_ = pictures_of(state)
+    run, shown = first.run, map_of(first.run)
     angle = np.degrees(np.arctan2(run.f_y, run.f_x)).T
     inmost, width = np.argmin(run.x), 360 / DIRECTIONS
     slips = run.state[:, inmost] == mdr.State.SLIP

@@ -48,10 +48,11 @@ def test_a_notebook_shows_it_without_the_file(run, tmp_path):
 def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
     _, ax = plt.subplots()
     picture = _Springs(ax, run)
+    image = picture.view.image[run.x.size :] / picture.view.per_z
     x, R = run.x, 5e-3
     second_order = 1e-3 * 2e-6  # a tenth of (2 pi/64)² du_z: springs leave and touch between steps
     pressed = np.any(run.state != mdr.State.FREE, axis=0)  # others never learn how deep the indenter is
-    assert np.max(np.abs(picture.image - x**2 / R)[pressed]) < second_order  # the paraboloid's g, from the run alone
+    assert np.max(np.abs(image - x**2 / R)[pressed]) < second_order  # the paraboloid's g, from the run alone
     ax.figure.canvas.draw()
     for k in (0, 20, 40):
         picture.show(k)
@@ -60,7 +61,7 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
         here = run.state[k, i] != mdr.State.FREE
         assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
         shear = tops[:, 0] - feet[:, 0]
-        assert np.max(np.abs(shear - picture.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()  # the rounding of places
+        assert np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()  # the rounding of places
     plt.close("all")
 
 
