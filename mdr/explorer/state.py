@@ -7,6 +7,7 @@ at what it shares with the one before, and else at sizes that suit the case.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -82,20 +83,20 @@ class State:
         state = replace(self, kept={**self.kept, **{f"{slot}.{one}": value for one, value in now.items()}})
         if new is None:
             return state._with(replace(case, **{slot: None}))
-        kept = {path.removeprefix(f"{slot}."): value for path, value in state.kept.items() if path.startswith(f"{slot}.")}
+        mine = {path.removeprefix(f"{slot}."): value for path, value in state.kept.items() if path.startswith(f"{slot}.")}
+        sizes, others = scales_of(self.case), {}
+        if slot == "shake":
+            mine["omega"] = sizes["omega"]
         if slot == "oscillation" and not new.omega and case.shake is None:  # else nothing would move
             shaken = state._with_kind("shake", "InPlaneOscillation")
             case, state = shaken.case, replace(shaken, kept={**shaken.kept, "": shaken.case.shake})
-        elif slot == "oscillation" and new.omega and case.shake is not None and case.shake is state.kept.get(""):
-            case = replace(case, shake=None)
-        for known in (scales_of(self.case) | kept | now, scales_of(self.case) | now, {}):
+        elif slot == "oscillation" and new.omega and case.shake is not None and case.shake == state.kept.get(""):
+            others = {"shake": None}
+        for known in (sizes | mine | now, sizes | now):
             shared = {one: known[one] for one in fields_of(new) if one in known}
-            try:
-                return state._with(replace(case, **{slot: replace(new, **shared)}))
-            except (TypeError, ValueError):  # what has the same name may mean another thing
-                if not known:
-                    raise
-        raise AssertionError
+            with suppress(TypeError, ValueError):  # what has the same name may mean another thing
+                return state._with(replace(case, **others, **{slot: replace(new, **shared)}))
+        return state._with(replace(case, **others, **{slot: new}))
 
     def _with(self, case: SlidingContact) -> State:
         """Another case at the velocity that is held: v_0/v_c in groups; one that the case can be pulled at. ValueError
