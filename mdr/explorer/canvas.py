@@ -28,12 +28,12 @@ def data_of(*columns: str, **named: str) -> Any:
     return ColumnDataSource({column: [] for column in columns}, **named)
 
 
-def canvas(height: int, x_label: str, y_label: str, **ranges: Any) -> Any:
+def canvas(height: int, x_label: str, y_label: str, **options: Any) -> Any:
     """An empty figure in the style of the project's plots."""
-    ranges = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)} | ranges
+    options = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)} | options
     made = figure(
         height=height, sizing_mode="stretch_width", toolbar_location="right",
-        active_drag=None, tools="box_zoom,reset,save", **ranges,
+        active_drag=None, tools="box_zoom,reset,save", **options,
     )  # fmt: skip
     made.toolbar.logo = None
     made.outline_line_color = None

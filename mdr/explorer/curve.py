@@ -20,12 +20,13 @@ FINE = 8  #: pieces of the line between two points
 BEFORE = "#c3d9ea"
 
 
-def curve_legend(picture: Picture) -> str:
-    """The legend of the curve."""
+def curve_legend(picture: Picture, before: bool = False) -> str:
+    """The legend of the curve; `before`: and of the one before it."""
     known = np.isfinite([picture.v_c, picture.v_c_back or np.nan]).any()
     return "".join(
         [
-            swatches(("friction", COLOURS[0]), ("before", BEFORE), ("the run at v<sub>0</sub>", COLOURS[1])),
+            swatches(("friction", COLOURS[0]), ("the run at v<sub>0</sub>", COLOURS[1])),
+            swatches(("before", BEFORE)) if before else "",
             stroke("under a rigid pull", f"border-top:2px dashed {DARK}") if picture.rigid is not None else "",
             swatches(("across", COLOURS[4])) if picture.state.case.moves_across else "",
             stroke("v<sub>c</sub>", f"border-left:2px dotted {DARK}") if known else "",
@@ -38,7 +39,7 @@ class Curve:
     """The figure and its data."""
 
     def __init__(self) -> None:
-        self.figure = canvas(320, "pulling velocity", "coefficient of friction μ")
+        self.figure = canvas(320, "pulling velocity", "coefficient of friction μ", css_classes=["large"])
         self.shown: Picture | None = None
         self.complete: Picture | None = None  #: the last picture to which nothing is added any more
         self.ghost: Picture | None = None  #: what was complete before the state that is shown

@@ -15,7 +15,7 @@ from mdr.explorer.scripts import COPY, LINK
 from mdr.explorer.state import State
 from mdr.files.examples import example_file
 
-CODE = "textarea { font: 12px ui-monospace, monospace; color: #222; white-space: pre-wrap; }"
+CODE = "textarea {{ font: 12px ui-monospace, monospace; color: #222; white-space: {}; }}"
 
 
 class Keep:
@@ -23,8 +23,8 @@ class Keep:
 
     def __init__(self, go: Callable[[str], Any]) -> None:
         self.picture: Picture | None = None
-        self.toml, self.python = _text("TOML"), _text("Python")
-        named = "Link to this state, also in the address bar; the browser's back goes to the state before"
+        self.toml, self.python = _text("TOML", "pre"), _text("Python", "pre-wrap")
+        named = "Link to this state, as in the address bar, where back undoes"
         self.link: Any = pn.widgets.TextInput(name=named, css_classes=["shown"], margin=5, **look.WIDE)
         back: Any = pn.widgets.TextInput(visible=False)
         back.param.watch(lambda event: event.new and go(event.new), "value")
@@ -67,9 +67,9 @@ def _file(label: str, name: str, make: Callable[[], Any]) -> Any:
     return pn.widgets.FileDownload(callback=make, filename=name, label=label, margin=5)
 
 
-def _text(name: str) -> Any:
-    classes = ["shown", name]
-    return pn.widgets.TextAreaInput(name=name, rows=16, css_classes=classes, stylesheets=[CODE], margin=5, **look.WIDE)
+def _text(name: str, wrap: str) -> Any:
+    looks: dict[str, Any] = {"css_classes": ["shown"], "stylesheets": [CODE.format(wrap)], "margin": 5, **look.WIDE}
+    return pn.widgets.TextAreaInput(name=name, rows=16, **looks)
 
 
 def _copy(name: str, text: Any) -> Any:

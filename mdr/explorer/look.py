@@ -21,7 +21,7 @@ CELL = "padding-right:14px;white-space:nowrap;vertical-align:top"
 #: stay in sight above the controls
 LAYOUT = """
 :host { display: grid !important; gap: 8px 28px; align-items: start;
-        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-rows: auto auto 1fr;
+        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-rows: auto 1fr auto;
         grid-template-areas: "controls curve springs" "controls numbers springs" "controls files files"; }
 @media (max-width: 1150px) { :host {
         grid-template-columns: 330px minmax(0, 1fr); grid-template-rows: auto auto auto 1fr;
@@ -43,12 +43,14 @@ AREAS = {
         position: sticky !important; top: 0; max-height: 100vh; overflow: hidden auto !important; } }
 """,
     "picture": """
-:host { transition: opacity 0.2s; }
-:host(.stale) { opacity: 0.4; transition-delay: 0.4s; }
 @media (max-width: 720px) { :host {
-        flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; } }
+        flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; }
+    .bk-Figure { height: 170px !important; }
+    .bk-Figure.large { height: 240px !important; } }
 """,
 }
+STALE = {"opacity": "0.4", "transition": "opacity 0.2s 0.4s"}  #: of a picture of other values, if it stays for long
+FRESH = {"opacity": "1", "transition": "opacity 0.2s"}
 LABEL = "label { white-space: pre-line; font-size: 12.5px; line-height: 1.3; color: #666; margin: 0; }"
 FIRST = "label::first-line { font-weight: 600; color: #000; }"
 LISTED = LABEL + FIRST
@@ -63,7 +65,7 @@ PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; b
 def area(name: str, *parts: Any) -> Any:
     """Parts one below the other, in an area of the layout."""
     sheet = AREAS.get("picture" if name in ("curve", "springs") else name, "")
-    return pn.Column(*parts, styles={"grid-area": name}, stylesheets=[sheet], css_classes=["area", name], **WIDE)
+    return pn.Column(*parts, styles={"grid-area": name}, stylesheets=[sheet], **WIDE)
 
 
 def html(text: str = "", style: str = "") -> Any:

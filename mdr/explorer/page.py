@@ -37,9 +37,7 @@ class Page:
     def __init__(self, state: State, refusal: str = "") -> None:
         self.state, self.first, self.document, self.loaded = state, state, pn.state.curdoc, False
         self.alert, self.status, self.numbers, self.said = (look.html() for _ in range(4))
-        self.legends: dict[Callable[[Any], str], Any] = {
-            legend: look.html() for legend in (curve_legend, springs_legend, forces_legend)
-        }
+        self.legends = {name: look.html() for name in ("curve", "springs", "forces")}
         self.curve, self.over_period = Curve(), OverPeriod()
         self.keep, self.board = Keep(self._go), Board(state, self.attempt)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
@@ -66,7 +64,7 @@ class Page:
         """All of it."""
         judge = pn.widgets.Button(name="Judge the closed form by simulation", button_type="primary", margin=(6, 5))
         judge.on_click(self._judge)
-        given: Any = pn.widgets.FileInput(accept=".toml", margin=5, css_classes=["upload", "case"])
+        given: Any = pn.widgets.FileInput(accept=".toml", margin=5, width=230, css_classes=["upload", "case"])
         given.param.watch(lambda event: self._load(event.new, given.filename or "file"), "value")
         reset = pn.widgets.Button(name="Reset", margin=5)
         reset.on_click(lambda _: self._take(self.first))
@@ -106,11 +104,12 @@ class Page:
     def _take(self, state: State) -> None:
         """Make this the state: the controls stand at it, and its pictures are asked for."""
         self.state = state
-        self.board.show(state)
-        self.said.object = ""
         self.verdicts.drop()
-        if self.loaded:
-            self._ask()
+        with pn.io.hold(self.document):  # one message to the browser
+            self.board.show(state)
+            self.said.object = ""
+            if self.loaded:
+                self._ask()
 
     def _loaded(self) -> None:
         """Compute only once the browser listens: what changes before may be lost on its way."""
@@ -127,7 +126,7 @@ class Page:
         self.pictures.ask(self.state)
 
     def _mark(self, area: Any, stale: bool) -> None:
-        area.css_classes = [*(one for one in area.css_classes if one != "stale"), *(["stale"] if stale else [])]
+        area.styles = {**area.styles, **(look.STALE if stale else look.FRESH)}
 
     def _watch(self) -> None:
         """Say what is waited for on a machine that is new to it."""
@@ -158,18 +157,18 @@ class Page:
         """Show what is known of a picture; what is not yet stays as it was before, faded."""
         if self.curve.show(picture):
             self._mark(self.areas["curve"], stale=False)
-            self._legend(curve_legend, picture)
+            self._legend("curve", curve_legend(picture, before=self.curve.ghost is not None))
         if picture.run is not None and picture.run is not (self.keep.picture and self.keep.picture.run):
             self.over_period.show(picture.run)
             self._mark(self.areas["springs"], stale=False)
-            for legend in (springs_legend, forces_legend):
-                self._legend(legend, picture.run)
+            self._legend("springs", springs_legend(picture.run))
+            self._legend("forces", forces_legend(picture.run))
         self.keep.picture = picture
         self.numbers.object = look.table(picture.numbers) + "".join(map(look.doubted, picture.doubts))
         self._tell(BOUNDED if picture.curve else COMPUTING if picture.cof is None else FIRST_SIGHT)
 
-    def _legend(self, legend: Callable[[Any], str], of: Any) -> None:
-        self.legends[legend].object = f'<span style="{look.SMALL}">{legend(of)}</span>'
+    def _legend(self, name: str, legend: str) -> None:
+        self.legends[name].object = f'<span style="{look.SMALL}">{legend}</span>'
 
     def _tell(self, status: str) -> None:
         self.waits = status == COMPUTING or status.startswith(COMPILING[:9])

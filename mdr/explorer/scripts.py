@@ -10,6 +10,7 @@ const boxes = {}, sliders = {};
     if (one.matches('.slider')) sliders[path] = one.shadowRoot;
     if (one.matches('.shown')) one.shadowRoot.querySelector('input, textarea').readOnly = true;
     if (one.matches('.upload')) one.shadowRoot.querySelector('input').setAttribute('aria-label', 'load a case');
+    if (one.matches('.phase')) one.shadowRoot.querySelector('[role=slider]').setAttribute('aria-label', 'phase');
     if (one.shadowRoot) walk(one.shadowRoot);
   }
 })(document);

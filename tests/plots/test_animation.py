@@ -61,7 +61,9 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
         here = run.state[k, i] != mdr.State.FREE
         assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
         shear = tops[:, 0] - feet[:, 0]
-        assert np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()  # the rounding of places
+        assert (
+            np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()
+        )  # the rounding of places
     plt.close("all")
 
 
