@@ -45,7 +45,9 @@ class Curve:
         self.ghost: Picture | None = None  #: what was complete before the state that is shown
         self.ends, self.in_groups = (0.0, 0.0), False  #: of the axis of velocities [m/s], or over v_c
         self.line, self.run = data_of("v_0", "cof", name="curve"), data_of("v_0", "cof")
-        self.before, self.rigid, self.across = (data_of("v_0", "cof") for _ in range(3))
+        self.before, self.rigid, self.across = (
+            data_of("v_0", "cof", name=name) for name in ("before", "rigid", "across")
+        )
         self.points, self.held = data_of("v_0", "cof", "fill"), data_of("v_0", "low", "high")
         limit, critical = {"dimension": "width", "line_color": GREY, "line_width": 1}, {"dimension": "height"}
         critical |= {"line_color": DARK, "line_dash": "dotted"}
@@ -71,8 +73,8 @@ class Curve:
         v, cof, curve, run, band = picture.v_0 * per, picture.cof, picture.curve, picture.run, picture.band
         cof_y = None if curve is None else curve.cof_y
         for source, values in ((self.line, cof), (self.across, cof_y)):
-            source.data = _line(v, values)
-        self.rigid.data = _line(v, picture.rigid)
+            source.data = line_of(v, values)
+        self.rigid.data = line_of(v, picture.rigid)
         self.points.data = {"v_0": [], "cof": [], "fill": []}
         if curve is not None:
             fill = np.where(curve.settled, COLOURS[0], "#ffffff").tolist()
@@ -104,7 +106,7 @@ class Curve:
         if ghost is None:
             return
         per = per if not self.in_groups else 1 / (ghost.state.v_c or np.nan)
-        self.before.data = _line(ghost.v_0 * per, ghost.cof)
+        self.before.data = line_of(ghost.v_0 * per, ghost.cof)
 
     def _show_limits(self, picture: Picture, per: float) -> None:
         """Friction of full slip, critical velocities, and the axis of friction."""
@@ -122,7 +124,7 @@ class Curve:
             span(axis, low - room, high + room)
 
 
-def _line(v: Array, cof: Array | None) -> dict[str, Array]:
+def line_of(v: Array, cof: Array | None) -> dict[str, Array]:
     """A smooth line through points, which rises where they rise; on both sides of rest, where friction may jump."""
     x: list[Array] = []
     y: list[Array] = []

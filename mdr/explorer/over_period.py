@@ -82,7 +82,7 @@ class OverPeriod:
         for figure, cursor in zip((self.map, self.forces), cursors, strict=True):
             figure.add_layout(cursor)
         phase = Slider(start=0, end=1, step=1 / FRAMES, value=0, title="phase [periods]", format="0.00",
-                       sizing_mode="stretch_width", bar_color=COLOURS[1], css_classes=["phase"])  # fmt: skip
+                       sizing_mode="stretch_width", bar_color=COLOURS[1], css_classes=["slider", "phase"])  # fmt: skip
         play = Toggle(label="▶ Play", width=90)
         for one in (body, springs, phase, play, *cursors):
             one.syncable = False

@@ -115,6 +115,7 @@ class Page:
         """Compute only once the browser listens: what changes before may be lost on its way."""
         self.loaded = True
         self.board.name()
+        self.keep.write(self.state)
         pn.state.add_periodic_callback(self._watch, 500)
         self._ask()
 

@@ -10,14 +10,13 @@ const boxes = {}, sliders = {};
     if (one.matches('.slider')) sliders[path] = one.shadowRoot;
     if (one.matches('.shown')) one.shadowRoot.querySelector('input, textarea').readOnly = true;
     if (one.matches('.upload')) one.shadowRoot.querySelector('input').setAttribute('aria-label', 'load a case');
-    if (one.matches('.phase')) one.shadowRoot.querySelector('[role=slider]').setAttribute('aria-label', 'phase');
     if (one.shadowRoot) walk(one.shadowRoot);
   }
 })(document);
 for (const path in sliders) {
   const handle = sliders[path].querySelector('[role=slider]'), box = boxes[path];
-  handle.setAttribute('aria-label', box.querySelector('label').innerText);
-  handle.setAttribute('aria-valuetext', box.querySelector('input').value);
+  handle.setAttribute('aria-label', box ? box.querySelector('label').innerText : path);
+  if (box) handle.setAttribute('aria-valuetext', box.querySelector('input').value);
 }
 """
 #: the address is that of the state; what follows within a second, as while one drags, is the same step of the history

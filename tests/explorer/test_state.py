@@ -1,5 +1,8 @@
 """What is explored, without a browser: every kind of every part, links, scripts, controls, pictures, threads."""
 
+import os
+import subprocess
+import sys
 import threading
 from dataclasses import fields, replace
 from urllib.parse import parse_qsl
@@ -11,7 +14,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr.case.contact import KINDS
 from mdr.case.units import facts_at
+from mdr.explorer.canvas import suits
 from mdr.explorer.controls import HIDDEN, controls_of
+from mdr.explorer.curve import line_of
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import pictures_of
@@ -53,6 +58,17 @@ def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
     assert body.changed("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
     heavy = body.changed("oscillation", "LoadOscillation").case
     assert_allclose(mdr.resolved(heavy).working_depth, body.case.working_depth, rtol=0.05)  # two digits of the load
+
+
+def test_a_kind_that_comes_back_has_the_fields_that_it_had():
+    state = State.of(CASES["body"]).changed("pull.k_x", 12345.0).changed("material.tau", 7e-4)
+    away = state.changed("pull", "RigidPull").changed("material", "Elastic").changed("material.E", 2e6)
+    back = away.changed("pull", "SpringPull").changed("material", "KelvinVoigt").case
+    assert back == replace(state.case, material=replace(state.case.material, E=2e6))
+    constant = state.changed("oscillation", "ConstantDepth")
+    assert constant.changed("oscillation", "NormalOscillation").case == state.case  # without what it shook instead
+    own = constant.changed("shake.du_x", 1e-6).changed("oscillation", "NormalOscillation").case
+    assert own.shake.du_x == 1e-6
 
 
 def test_a_link_carries_the_state(state):
@@ -167,6 +183,35 @@ def test_pictures_are_those_of_the_library(state):
     assert_array_equal(np.unique(modes), np.unique(last.run.state))
     assert (last.band is not None) == state.case.is_shaken
     assert all(name and value and meaning for name, value, meaning in last.numbers)
+
+
+def test_the_first_picture_compiles_nothing(tmp_path):
+    code = (
+        "from mdr.explorer import pictures, state; from mdr.files.examples import example; "
+        "from mdr.tools.jit import compiled_so_far; "
+        "one = pictures.at_once(state.State.of(example())); print(one.rigid.size, *compiled_so_far())"
+    )
+    empty = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    said = subprocess.run([sys.executable, "-c", code], env=empty, capture_output=True, text=True, check=True).stdout
+    points, compiled, more = said.split()
+    assert int(points) > 10
+    assert (compiled, more) == ("0", "False")
+
+
+def test_the_run_lies_on_its_curve_and_the_line_on_the_points(state):
+    picture = [*pictures_of(replace(state, v_0=state.v_0 / 3))][-1]
+    at = picture.v_0 == picture.run.v_0
+    assert_allclose(picture.cof[at], [picture.run.cof], atol=2e-3 * state.case.mu_0)  # two bounds of 1e-3
+    line = line_of(picture.v_0, picture.cof)
+    drawn = np.isin(line["v_0"], picture.v_0)
+    assert_array_equal(line["v_0"][drawn], picture.v_0)
+    assert_allclose(line["cof"][drawn], picture.cof, rtol=1e-12)
+
+
+def test_an_axis_stays_while_what_is_shown_suits_it():
+    assert suits((0.0, 1.0), 0.3, 0.9)
+    assert not suits((0.0, 1.0), 0.3, 1.1)  # does not fit
+    assert not suits((0.0, 1.0), 0.3, 0.6)  # would be seen too small
 
 
 def test_only_the_latest_request_is_answered():
