@@ -8,7 +8,6 @@ from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 
 GREY, DARK = "#bbbbbb", "#666666"
-FILLED = 0.45  #: of an axis that what is shown must span, for the axis to stay as it is
 
 
 def swatches(*named: tuple[str, str]) -> str:
@@ -49,10 +48,3 @@ def canvas(height: int, x_label: str, y_label: str, **options: Any) -> Any:
 def span(axis: Any, start: float, end: float) -> None:
     """What an axis spans, also after a reset."""
     axis.update(start=start, end=end, reset_start=start, reset_end=end)
-
-
-def suits(held: tuple[float, float], low: float, high: float) -> bool:
-    """Whether what lies between low and high fits an axis and fills a good part of it."""
-    slack = 1e-9 * (held[1] - held[0])
-    within = held[0] - slack <= low and high <= held[1] + slack
-    return within and high - low >= FILLED * (held[1] - held[0])

@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 from bokeh.models import Span
-from scipy.interpolate import PchipInterpolator
 
-from mdr.explorer.canvas import DARK, GREY, canvas, data_of, span, stroke, suits, swatches
+from mdr.explorer.canvas import DARK, GREY, canvas, data_of, span, stroke, swatches
+from mdr.explorer.lines import line_of, suits
 from mdr.explorer.pictures import Picture
 from mdr.plots import COLOURS, prefix
-from mdr.tools.arrays import Array
 
 EMPTY = 0.1  #: of mu_0: least height of the curve's axis
-FINE = 8  #: pieces of the line between two points
 BEFORE = "#c3d9ea"
 
 
@@ -39,15 +37,15 @@ class Curve:
     """The figure and its data."""
 
     def __init__(self) -> None:
-        self.figure = canvas(320, "pulling velocity", "coefficient of friction μ", css_classes=["large"])
+        self.figure = canvas(320, "pulling velocity", "coefficient of friction μ")
         self.shown: Picture | None = None
         self.complete: Picture | None = None  #: the last picture to which nothing is added any more
         self.ghost: Picture | None = None  #: what was complete before the state that is shown
-        self.ends, self.in_groups = (0.0, 0.0), False  #: of the axis of velocities [m/s], or over v_c
+        self.levels, self.ends = (0.0, 0.0), (0.0, 0.0)  #: of the axes of friction and of velocities [m/s], or over v_c
+        self.in_groups = False
         self.line, self.run = data_of("v_0", "cof", name="curve"), data_of("v_0", "cof")
-        self.before, self.rigid, self.across = (
-            data_of("v_0", "cof", name=name) for name in ("before", "rigid", "across")
-        )
+        self.before = data_of("v_0", "cof", name="before")
+        self.rigid, self.across = data_of("v_0", "cof"), data_of("v_0", "cof")
         self.points, self.held = data_of("v_0", "cof", "fill"), data_of("v_0", "low", "high")
         limit, critical = {"dimension": "width", "line_color": GREY, "line_width": 1}, {"dimension": "height"}
         critical |= {"line_color": DARK, "line_dash": "dotted"}
@@ -82,7 +80,9 @@ class Curve:
         self.run.data = {"v_0": [], "cof": []} if run is None else {"v_0": [run.v_0 * per], "cof": [run.cof]}
         held = [] if band is None else [(0.0, band.low, band.high)]
         self.held.data = {name: [one[i] for one in held] for i, name in enumerate(("v_0", "low", "high"))}
-        self._show_before(picture, per)
+        if self.ghost is not None:
+            own = 1 / (self.ghost.state.v_c or np.nan) if self.in_groups else per
+            self.before.data = line_of(self.ghost.v_0 * own, self.ghost.cof)
         self._show_limits(picture, per)
         return True
 
@@ -100,14 +100,6 @@ class Curve:
         self.figure.xaxis.axis_label = "pulling velocity v₀/v_c" if groups else f"pulling velocity v₀ [{unit}]"
         return per * factor
 
-    def _show_before(self, picture: Picture, per: float) -> None:
-        """The curve before this one; over v_c, where that is the axis, over its own."""
-        ghost = self.ghost
-        if ghost is None:
-            return
-        per = per if not self.in_groups else 1 / (ghost.state.v_c or np.nan)
-        self.before.data = line_of(ghost.v_0 * per, ghost.cof)
-
     def _show_limits(self, picture: Picture, per: float) -> None:
         """Friction of full slip, critical velocities, and the axis of friction."""
         mu_0, both = picture.state.case.mu_0, picture.state.case.is_shaken
@@ -119,20 +111,7 @@ class Curve:
         drawn = [one for one in (picture.cof, picture.rigid, cof_y) if one is not None]
         values = np.concatenate([*drawn, [(1 - EMPTY) * mu_0, mu_0]])
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        room, axis = 0.06 * (high - low), self.figure.y_range
-        if not suits((axis.start, axis.end), low - room, high + room) or high < 0.6 * axis.end:
-            span(axis, low - room, high + room)
-
-
-def line_of(v: Array, cof: Array | None) -> dict[str, Array]:
-    """A smooth line through points, which rises where they rise; on both sides of rest, where friction may jump."""
-    x: list[Array] = []
-    y: list[Array] = []
-    cof = np.full(v.shape, np.nan) if cof is None else cof
-    for side in (v < 0, v >= 0):
-        here = side & np.isfinite(cof)
-        if here.sum() > 1:
-            fine = np.interp(np.arange(FINE * here.sum() - FINE + 1) / FINE, np.arange(here.sum()), v[here])
-            x.append(fine)
-            y.append(PchipInterpolator(v[here], cof[here])(fine))
-    return {"v_0": np.concatenate([[], *x]), "cof": np.concatenate([[], *y])}
+        room = 0.06 * (high - low)
+        if not suits(self.levels, low - room, high + room):
+            self.levels = (low - room, high + room)
+            span(self.figure.y_range, *self.levels)

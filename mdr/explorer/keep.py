@@ -1,4 +1,4 @@
-"""What one takes from the page: the case as a file and as Python, a link, figures; and a case that is brought."""
+"""What one takes from the page: the case as a file and as Python, a link, figures."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ class Keep:
             _file("Springs and forces (SVG)", "run.svg", lambda: self._svg(lambda picture: picture.run.plot())),
             _copy("link", self.link), back,
         )  # fmt: skip
-        texts = [
-            pn.Column(text, _copy(text.name, text), styles={"flex": "1 1 340px"}) for text in (self.toml, self.python)
-        ]
+        wide = {"flex": "1 1 340px"}
+        texts = [pn.Column(text, _copy(text.name, text), styles=wide) for text in (self.toml, self.python)]
         self.view = look.area("files", look.heading("To keep"), files, self.link, pn.FlexBox(*texts, gap="12px"))
 
     def write(self, state: State) -> None:
         """The texts of a state."""
-        link = f"http://{pn.state.headers.get('Host', '')}/?{link_of(state)}"
-        self.toml.value, self.python.value, self.link.value = example_file(state.case), python_of(state), link
+        query, host = link_of(state), pn.state.headers.get("Host", "")
+        self.link.value = query and f"http://{host}/?{query}"
+        self.toml.value, self.python.value = example_file(state.case), python_of(state)
 
     def _svg(self, draw: Callable[[Any], Any]) -> BytesIO:
         """A figure of the project's plots."""

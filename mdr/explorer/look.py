@@ -44,28 +44,31 @@ AREAS = {
 """,
     "picture": """
 @media (max-width: 720px) { :host {
-        flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; }
-    .bk-Figure { height: 170px !important; }
-    .bk-Figure.large { height: 240px !important; } }
+        flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; } }
 """,
 }
 STALE = {"opacity": "0.4", "transition": "opacity 0.2s 0.4s"}  #: of a picture of other values, if it stays for long
 FRESH = {"opacity": "1", "transition": "opacity 0.2s"}
-LABEL = "label { white-space: pre-line; font-size: 12.5px; line-height: 1.3; color: #666; margin: 0; }"
-FIRST = "label::first-line { font-weight: 600; color: #000; }"
-LISTED = LABEL + FIRST
-BOX = (
-    LISTED
-    + ".bk-input-group { display: grid; grid-template-columns: minmax(0, 1fr) 104px; align-items: center; gap: 10px; }"
-)
+LISTED = """
+label { white-space: pre-line; font-size: 12.5px; line-height: 1.3; color: #666; margin: 0; }
+label::first-line { font-weight: 600; color: #000; }
+"""
+BOX = f"""{LISTED}
+.bk-input-group {{ display: grid; grid-template-columns: minmax(0, 1fr) 116px; align-items: center; gap: 10px; }}
+"""
 KIND = "label { font-weight: 600; font-size: 15px; margin: 10px 0 3px; }"
 PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
+
+
+def column(*parts: Any, **options: Any) -> Any:
+    """Parts one below the other."""
+    return pn.Column(*parts, **WIDE, **options)
 
 
 def area(name: str, *parts: Any) -> Any:
     """Parts one below the other, in an area of the layout."""
     sheet = AREAS.get("picture" if name in ("curve", "springs") else name, "")
-    return pn.Column(*parts, styles={"grid-area": name}, stylesheets=[sheet], **WIDE)
+    return column(*parts, styles={"grid-area": name}, stylesheets=[sheet])
 
 
 def html(text: str = "", style: str = "") -> Any:

@@ -36,6 +36,7 @@ class Page:
 
     def __init__(self, state: State, refusal: str = "") -> None:
         self.state, self.first, self.document, self.loaded = state, state, pn.state.curdoc, False
+        self.waits = False  #: whether more is computed of the state
         self.alert, self.status, self.numbers, self.said = (look.html() for _ in range(4))
         self.legends = {name: look.html() for name in ("curve", "springs", "forces")}
         self.curve, self.over_period = Curve(), OverPeriod()
@@ -43,21 +44,13 @@ class Page:
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
         self.alert.object = look.refused(refusal)
-        self.areas = self._areas()
-        self._take(state)
-        pn.state.onload(self._loaded)
-
-    def _areas(self) -> dict[str, Any]:
         curve, springs, forces = self.legends.values()
         over = self.over_period
-        return {
-            "curve": look.area("curve", look.heading("Friction over velocity"), curve, self.curve.figure, self.status),
-            "springs": look.area(
-                "springs",
-                look.heading("The springs over a period"), springs, over.controls, over.moving, over.map,
-                look.heading("The forces over a period"), forces, over.forces,
-            ),
-        }  # fmt: skip
+        self.faded = {"curve": look.column(curve, self.curve.figure), "springs": look.column(
+            springs, over.controls, over.moving, over.map, look.heading("The forces over a period"), forces, over.forces
+        )}  # fmt: skip
+        self._take(state)
+        pn.state.onload(self._loaded)
 
     @property
     def view(self) -> Any:
@@ -70,12 +63,14 @@ class Page:
         reset.on_click(lambda _: self._take(self.first))
         title = "<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration"
         top = pn.FlexBox(pn.pane.HTML(title), pn.pane.HTML("load a case:"), given, reset, align_items="center")
-        pictures = pn.Column(*self.areas.values(), stylesheets=[look.PICTURES], **look.WIDE)
-        body = pn.Column(
-            pictures, self.board.view, look.area("numbers", self.numbers, judge, self.said), self.keep.view,
-            stylesheets=[look.LAYOUT], **look.WIDE,
-        )  # fmt: skip
-        return pn.Column(top, self.alert, body, stylesheets=[look.PAGE], **look.WIDE)
+        pictures = look.column(
+            look.area("curve", look.heading("Friction over velocity"), self.faded["curve"], self.status),
+            look.area("springs", look.heading("The springs over a period"), self.faded["springs"]),
+            stylesheets=[look.PICTURES],
+        )
+        numbers = look.area("numbers", self.numbers, judge, self.said)
+        body = look.column(pictures, self.board.view, numbers, self.keep.view, stylesheets=[look.LAYOUT])
+        return look.column(top, self.alert, body, stylesheets=[look.PAGE])
 
     # --- changes ---
 
@@ -121,13 +116,11 @@ class Page:
 
     def _ask(self) -> None:
         """Ask for the pictures; those of the state before fade until they come."""
-        for area in self.areas.values():
-            self._mark(area, stale=True)
+        for part in self.faded.values():
+            part.styles = look.STALE
+        self.waits = True
         self._tell(COMPUTING)
         self.pictures.ask(self.state)
-
-    def _mark(self, area: Any, stale: bool) -> None:
-        area.styles = {**area.styles, **(look.STALE if stale else look.FRESH)}
 
     def _watch(self) -> None:
         """Say what is waited for on a machine that is new to it."""
@@ -144,8 +137,8 @@ class Page:
     def _show(self, state: State, answer: Picture | Exception | None) -> None:
         if state is not self.state:
             return
+        self.waits = isinstance(answer, Picture)
         if isinstance(answer, Exception):
-            self.waits = False
             self.status.object = look.refused(f"{look.words_of(answer)}; the picture is that of before")
         elif answer is not None:
             with pn.io.hold(self.document):  # one message to the browser
@@ -157,11 +150,11 @@ class Page:
     def _draw(self, picture: Picture) -> None:
         """Show what is known of a picture; what is not yet stays as it was before, faded."""
         if self.curve.show(picture):
-            self._mark(self.areas["curve"], stale=False)
+            self.faded["curve"].styles = look.FRESH
             self._legend("curve", curve_legend(picture, before=self.curve.ghost is not None))
         if picture.run is not None and picture.run is not (self.keep.picture and self.keep.picture.run):
             self.over_period.show(picture.run)
-            self._mark(self.areas["springs"], stale=False)
+            self.faded["springs"].styles = look.FRESH
             self._legend("springs", springs_legend(picture.run))
             self._legend("forces", forces_legend(picture.run))
         self.keep.picture = picture
@@ -172,7 +165,6 @@ class Page:
         self.legends[name].object = f'<span style="{look.SMALL}">{legend}</span>'
 
     def _tell(self, status: str) -> None:
-        self.waits = status == COMPUTING or status.startswith(COMPILING[:9])
         self.status.object = f'<span style="{look.SMALL}" class="status">{status}</span>'
 
     def _judge(self, _: Any) -> None:

@@ -25,6 +25,7 @@ const link = new URL(cb_obj.value || location.pathname, location.href).href, now
 const step = window.mdr_last && now - window.mdr_last > 1000 && link !== location.href;
 history[step ? 'pushState' : 'replaceState'](null, '', link);
 window.mdr_last = now;
+back.value = '';
 window.onpopstate = () => { back.value = location.search; };
 """
 #: copy, and say so

@@ -14,10 +14,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 import mdr
 from mdr.case.contact import KINDS
 from mdr.case.units import facts_at
-from mdr.explorer.canvas import suits
 from mdr.explorer.controls import HIDDEN, controls_of
-from mdr.explorer.curve import line_of
 from mdr.explorer.latest import Latest
+from mdr.explorer.lines import line_of, suits
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import pictures_of
 from mdr.explorer.springs import DIRECTIONS, map_of
