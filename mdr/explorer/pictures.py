@@ -66,7 +66,7 @@ class Picture:
         elif self.v_c_back is not None:
             rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
         elif self.static is not None:
-            rows.append(("COF at rest", f"{self.static:.4g}", "limit of friction as v_0 → 0"))
+            rows.append(("static COF", f"{self.static:.4g}", "limit of friction as v_0 → 0"))
         if self.band is not None:
             held = "mean F_x over F_z at rest, under a rigid pull that stands still"
             rows.append(("band", f"{self.band.low:.4g} to {self.band.high:.4g}", held))
