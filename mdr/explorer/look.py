@@ -47,6 +47,10 @@ AREAS = {
         flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; } }
 """,
 }
+IN_SIGHT = """
+@media (min-width: 721px) and (max-width: 1150px) { :host {
+        position: sticky !important; top: 0; z-index: 4; background: white; } }
+"""
 STALE = {"opacity": "0.4", "transition": "opacity 0.2s 0.4s"}  #: of a picture of other values, if it stays for long
 FRESH = {"opacity": "1", "transition": "opacity 0.2s"}
 LISTED = """
@@ -68,7 +72,7 @@ def column(*parts: Any, **options: Any) -> Any:
 def area(name: str, *parts: Any) -> Any:
     """Parts one below the other, in an area of the layout."""
     sheet = AREAS.get("picture" if name in ("curve", "springs") else name, "")
-    return column(*parts, styles={"grid-area": name}, stylesheets=[sheet])
+    return column(*parts, styles={"grid-area": name}, stylesheets=[sheet, IN_SIGHT if name == "curve" else ""])
 
 
 def html(text: str = "", style: str = "") -> Any:

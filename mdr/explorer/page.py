@@ -23,7 +23,7 @@ from mdr.explorer.pictures import Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case
 from mdr.march.march import LEAST_ACCURATE
-from mdr.tools.jit import compiled_so_far
+from mdr.tools.compiling import TALLY
 
 COMPUTING = "computing …"
 COMPILING = "compiling, once on this machine and for half a minute: {} functions so far …"
@@ -124,9 +124,8 @@ class Page:
 
     def _watch(self) -> None:
         """Say what is waited for on a machine that is new to it."""
-        n, more = compiled_so_far()
-        if self.waits and more:
-            self._tell(COMPILING.format(n + 1))
+        if self.waits and TALLY.open:
+            self._tell(COMPILING.format(TALLY.done))
 
     # --- answers ---
 

@@ -24,7 +24,7 @@ from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import plausibility, resolved
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled_so_far
+from mdr.tools.compiling import TALLY
 from mdr.tools.notation import shown
 from mdr.tools.progress import silent, time_limit
 
@@ -99,10 +99,10 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
 def _in_time(better: Callable[[Picture], Picture], picture: Picture) -> Picture:
     """What becomes of a picture within PATIENCE; once more where compiling was what took the time."""
     for _ in range(2):
-        before = compiled_so_far()
+        before = TALLY.done
         with time_limit(PATIENCE):
             after = better(picture)
-        if compiled_so_far() == before:
+        if TALLY.done == before:
             break
     return after
 

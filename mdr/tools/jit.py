@@ -16,6 +16,7 @@ from numba.core import event
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 from mdr.tools import sources
+from mdr.tools.compiling import TALLY
 from mdr.tools.progress import PATIENCE, Ticker
 
 Function = Callable[..., Any]
@@ -91,21 +92,21 @@ class Notice(event.Listener):
     """Says on standard error how many functions of this package have been compiled, if it takes long."""
 
     def __init__(self) -> None:
-        self.open = 0
         parts = "functions, which take half a minute of one core,"
         self.line = Ticker("compiling, once on this machine", parts=parts)
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
         if _is_ours(event):
-            if not self.open:
+            if not TALLY.open:
                 self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
-            self.open += 1
+            TALLY.open += 1
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
         if _is_ours(event):
-            self.open -= 1
+            TALLY.open -= 1
+            TALLY.done += 1
             self.line.tick()
 
 
@@ -113,10 +114,4 @@ def _is_ours(event: Any) -> bool:
     return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-_notice = Notice()
-event.register("numba:compile", _notice)
-
-
-def compiled_so_far() -> tuple[int, bool]:
-    """How many functions this process has compiled, and whether it compiles another."""
-    return _notice.line.done, _notice.open > 0
+event.register("numba:compile", Notice())
