@@ -98,9 +98,10 @@ class Browser:
         """What the page says of its curve."""
         return " ".join(self.text(".status"))
 
-    def curve(self):
-        """Friction over velocity, as drawn."""
-        return self.driver.execute_script("return [...Bokeh.documents[0].get_model_by_name('curve').data.cof]")
+    def curve(self, name="curve", column="cof"):
+        """Friction over velocity, or another column of data, as drawn."""
+        script = "return [...Bokeh.documents[0].get_model_by_name(arguments[0]).data[arguments[1]]]"
+        return self.driver.execute_script(script, name, column)
 
     def value(self, path):
         return self.inside(named("box", path), "input").get_attribute("value")
@@ -115,7 +116,7 @@ class Browser:
     def move(self, path, steps):
         from selenium.webdriver.common.keys import Keys
 
-        self.inside(named("slider", path), ".noUi-handle").send_keys(Keys.ARROW_RIGHT * steps)
+        self.inside(f".slider[class~='{path}']", ".noUi-handle").send_keys(Keys.ARROW_RIGHT * steps)
 
     def state(self):
         """The query of the address, which carries the state of the last picture."""

@@ -281,7 +281,8 @@ def _steepest_checks(quick: bool) -> Checks:
             runs.append(mdr.measure_critical_velocity(case, accuracy=1e-8).v_c / (UNIT * d / DEPTH))
         for how, got in (("full slip", full), ("runs", runs)):
             off = np.max(np.abs(np.array(got) / gain - 1))
-            name = f"critical velocity by {how} over the gain of the steepest waveform, less 1, worst of 5 shapes: N = {N}"
+            name = f"critical velocity by {how} over the gain of the steepest waveform, less 1, worst of 5 shapes: "
+            name += f"N = {N}"
             yield Check.at_most(name, off, 1e-6, "the closed form is exact")
         n = 1000 if quick else 10_000
         got = np.max(_random_slopes(N, n)) / gain

@@ -13,30 +13,32 @@ from mdr.case.units import facts_at
 from mdr.explorer import look
 from mdr.explorer.controls import Control, control_of, controls_of
 from mdr.explorer.links import meaning_of, typed
+from mdr.explorer.scripts import NAMES
 from mdr.explorer.state import State, group_values
+
+GROUPED = (
+    "Groups have no unit: contacts alike in all of them have the same μ/μ<sub>0</sub> over v<sub>0</sub>/v<sub>c</sub>."
+)
 
 Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answer is why it was refused, or ""
 
 
 class Knob:
-    """One control: name and meaning, a box to type in or to choose from, a slider, and below why a value was refused.
-
-    The kind of a part is named by the heading above it.
-    """
+    """One control: name and meaning, a box to type in or to choose from, a slider, and why a value was refused."""
 
     def __init__(self, control: Control, attempt: Attempt) -> None:
         self.control, self.attempt, self.showing = control, attempt, False
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), **look.WIDE)
         kind, listed = control.path in KINDS, isinstance(control.value, tuple)
-        named = {"css_classes": ["kind" if kind else "box", control.path], "margin": (0, 5)}
-        size: dict[str, Any] = look.WIDE if kind or listed else {"width": 116}
+        named = {"css_classes": ["kind" if kind else "box", control.path], "margin": (8, 5, 0, 5), **look.WIDE}
+        named["stylesheets"] = [look.KIND if kind else look.LISTED if listed else look.BOX]
+        named["name"] = facts_at(control.path).meaning.capitalize() if kind else look.label(control.name, control.facts)
         if control.words:
-            self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, **named, **size)
+            self.box: Any = pn.widgets.Select(options=list(control.words), value=control.value, **named)
         else:
-            self.box = pn.widgets.TextInput(value=self._text, name="", **named, **size)
+            self.box = pn.widgets.TextInput(value=self._text, **named)
         self.box.param.watch(self._typed, "value")
-        label = [] if kind else [look.label(control.name, control.facts)]
-        rows: list[Any] = [(pn.Column if listed else pn.Row)(*label, self.box, margin=(4, 0, 0, 0), **look.WIDE)]
+        rows: list[Any] = [self.box]
         self.slider: Any = None
         if control.grid:
             self.slider = pn.widgets.IntSlider(
@@ -104,10 +106,12 @@ class Board:
             options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5), **look.WIDE
         )
         self.held.param.watch(lambda event: attempt(lambda state: replace(state, in_groups=event.new)), "value")
-        self.view = look.area("controls", self.held, self.parts[""])
+        self.names = pn.widgets.IntInput(visible=False)
+        self.names.jscallback(value=NAMES)
+        explained = look.html(GROUPED, look.SMALL)
+        self.view = look.area("controls", self.held, explained, self.parts[""], self.names)
         for slot, kind in self.kinds.items():
-            title = facts_at(slot).meaning.capitalize()
-            self.view.extend([look.heading(title, "margin-top:10px;"), kind.view, self.parts[slot]])
+            self.view.extend([kind.view, self.parts[slot]])
 
     def show(self, state: State) -> None:
         """Stand at a state."""
@@ -121,3 +125,8 @@ class Board:
                 self.parts[slot].objects = [knob.view for knob in made]
         for knob in (*self.kinds.values(), *self.knobs):
             knob.show(state)
+        self.name()
+
+    def name(self) -> None:
+        """Have the browser name the sliders, which no widget does, for those who hear the page."""
+        self.names.value += 1

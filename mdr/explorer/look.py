@@ -17,28 +17,62 @@ SMALL = "color:#666;font-size:12.5px;"
 REFUSED = "color:#a32020;background:#fdecea;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
 DOUBTED = "color:#6b4e00;background:#fff6dc;border-radius:4px;padding:4px 8px;font-size:12px;line-height:1.35;"
 CELL = "padding-right:14px;white-space:nowrap;vertical-align:top"
-#: wide: controls, curve, springs side by side; narrow: one below the other, and the curve stays in sight
+#: wide: controls, curve, springs side by side, and controls scroll by themselves; narrow: pictures side by side, which
+#: stay in sight above the controls
 LAYOUT = """
 :host { display: grid !important; gap: 8px 28px; align-items: start;
-        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-rows: auto auto 1fr;
+        grid-template-columns: 350px minmax(0, 1fr) minmax(0, 1fr); grid-template-rows: auto 1fr auto;
         grid-template-areas: "controls curve springs" "controls numbers springs" "controls files files"; }
 @media (max-width: 1150px) { :host {
         grid-template-columns: 330px minmax(0, 1fr); grid-template-rows: auto auto auto 1fr;
         grid-template-areas: "controls curve" "controls numbers" "controls springs" "controls files"; } }
 @media (max-width: 720px) { :host {
         grid-template-columns: minmax(0, 1fr); grid-template-rows: auto;
-        grid-template-areas: "curve" "controls" "numbers" "springs" "files"; } }
+        grid-template-areas: "pictures" "controls" "numbers" "files"; } }
 """
+PICTURES = """
+:host { display: contents !important; }
+@media (max-width: 720px) { :host {
+        display: flex !important; flex-flow: row !important; grid-area: pictures; position: sticky !important; top: 0;
+        z-index: 5; background: white; overflow: auto hidden; scroll-snap-type: x mandatory;
+        border-bottom: 1px solid #ddd; } }
+"""
+AREAS = {
+    "controls": """
+@media (min-width: 721px) { :host {
+        position: sticky !important; top: 0; max-height: 100vh; overflow: hidden auto !important; } }
+""",
+    "picture": """
+@media (max-width: 720px) { :host {
+        flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; } }
+""",
+}
 IN_SIGHT = """
-@media (max-width: 720px) { :host { position: sticky !important; top: 0; z-index: 5; background: white; } }
+@media (min-width: 721px) and (max-width: 1150px) { :host {
+        position: sticky !important; top: 0; z-index: 4; background: white; } }
 """
+STALE = {"opacity": "0.4", "transition": "opacity 0.2s 0.4s"}  #: of a picture of other values, if it stays for long
+FRESH = {"opacity": "1", "transition": "opacity 0.2s"}
+LISTED = """
+label { white-space: pre-line; font-size: 12.5px; line-height: 1.3; color: #666; margin: 0; }
+label::first-line { font-weight: 600; color: #000; }
+"""
+BOX = f"""{LISTED}
+.bk-input-group {{ display: grid; grid-template-columns: minmax(0, 1fr) 116px; align-items: center; gap: 10px; }}
+"""
+KIND = "label { font-weight: 600; font-size: 15px; margin: 10px 0 3px; }"
 PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
+
+
+def column(*parts: Any, **options: Any) -> Any:
+    """Parts one below the other."""
+    return pn.Column(*parts, **WIDE, **options)
 
 
 def area(name: str, *parts: Any) -> Any:
     """Parts one below the other, in an area of the layout."""
-    sheets = [IN_SIGHT if name == "curve" else ""]
-    return pn.Column(*parts, styles={"grid-area": name}, stylesheets=sheets, **WIDE)
+    sheet = AREAS.get("picture" if name in ("curve", "springs") else name, "")
+    return column(*parts, styles={"grid-area": name}, stylesheets=[sheet, IN_SIGHT if name == "curve" else ""])
 
 
 def html(text: str = "", style: str = "") -> Any:
@@ -52,12 +86,11 @@ def heading(text: str, style: str = "") -> Any:
     return html(text, HEADING + style)
 
 
-def label(name: str, facts: Facts) -> Any:
-    """Name, unit and meaning of a quantity."""
+def label(name: str, facts: Facts) -> str:
+    """Name, unit and meaning of a quantity, in two lines."""
     symbols = dict.fromkeys((facts.unit, SHOWN.get(facts.unit, facts.unit)))
-    unit = f" [{escape(' or '.join(symbols))}]" if facts.unit not in ("", "-") else ""
-    text = f'<b>{escape(name)}</b>{unit}<br><span style="color:#666">{escape(facts.meaning)}</span>'
-    return pn.pane.HTML(text, styles={"font-size": "12.5px", "line-height": "1.3"}, margin=(0, 5), **WIDE)
+    unit = f" [{' or '.join(symbols)}]" if facts.unit not in ("", "-") else ""
+    return f"{name}{unit}\n{facts.meaning}"
 
 
 def refused(words: str) -> str:

@@ -7,21 +7,26 @@ from dataclasses import replace
 from functools import partial
 from html import escape
 from typing import Any
+from urllib.parse import parse_qsl
 
 import panel as pn
 
 from mdr.case.contact import SlidingContact
 from mdr.explorer import look
 from mdr.explorer.board import Board
-from mdr.explorer.figures import Figures, curve_legend, forces_legend, springs_legend
+from mdr.explorer.curve import Curve, curve_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
+from mdr.explorer.over_period import OverPeriod, forces_legend, springs_legend
 from mdr.explorer.pictures import Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 from mdr.files.case_files import parse_case
 from mdr.march.march import LEAST_ACCURATE
+from mdr.tools.compiling import TALLY
 
+COMPUTING = "computing …"
+COMPILING = "compiling, once on this machine and for half a minute: {} functions so far …"
 FIRST_SIGHT = "first sight, its error is not bounded yet"
 BOUNDED = f"error of friction ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>, where settled; hollow points are not"
 
@@ -30,13 +35,20 @@ class Page:
     """One visitor's page. The state changes here alone."""
 
     def __init__(self, state: State, refusal: str = "") -> None:
-        self.state, self.document, self.loaded = state, pn.state.curdoc, False
+        self.state, self.first, self.document, self.loaded = state, state, pn.state.curdoc, False
+        self.waits = False  #: whether more is computed of the state
         self.alert, self.status, self.numbers, self.said = (look.html() for _ in range(4))
-        self.legends = {legend: look.html() for legend in (curve_legend, springs_legend, forces_legend)}
-        self.figures, self.keep, self.board = Figures(), Keep(self._load), Board(state, self.attempt)
+        self.legends = {name: look.html() for name in ("curve", "springs", "forces")}
+        self.curve, self.over_period = Curve(), OverPeriod()
+        self.keep, self.board = Keep(self._go), Board(state, self.attempt)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
         self.alert.object = look.refused(refusal)
+        curve, springs, forces = self.legends.values()
+        over = self.over_period
+        self.faded = {"curve": look.column(curve, self.curve.figure), "springs": look.column(
+            springs, over.controls, over.moving, over.map, look.heading("The forces over a period"), forces, over.forces
+        )}  # fmt: skip
         self._take(state)
         pn.state.onload(self._loaded)
 
@@ -45,20 +57,20 @@ class Page:
         """All of it."""
         judge = pn.widgets.Button(name="Judge the closed form by simulation", button_type="primary", margin=(6, 5))
         judge.on_click(self._judge)
-        curve, springs, forces = self.legends.values()
-        body = pn.Column(
-            look.area("curve", look.heading("Friction over velocity"), curve, self.figures.curve, self.status),
-            self.board.view,
-            look.area("numbers", self.numbers, judge, self.said),
-            look.area(
-                "springs",
-                look.heading("The springs over a period"), springs, self.figures.springs,
-                look.heading("The forces over a period"), forces, self.figures.forces,
-            ),
-            self.keep.view, stylesheets=[look.LAYOUT], **look.WIDE,
-        )  # fmt: skip
+        given: Any = pn.widgets.FileInput(accept=".toml", margin=5, width=230, css_classes=["upload", "case"])
+        given.param.watch(lambda event: self._load(event.new, given.filename or "file"), "value")
+        reset = pn.widgets.Button(name="Reset", margin=5)
+        reset.on_click(lambda _: self._take(self.first))
         title = "<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration"
-        return pn.Column(look.html(title), self.alert, body, stylesheets=[look.PAGE], **look.WIDE)
+        top = pn.FlexBox(pn.pane.HTML(title), pn.pane.HTML("load a case:"), given, reset, align_items="center")
+        pictures = look.column(
+            look.area("curve", look.heading("Friction over velocity"), self.faded["curve"], self.status),
+            look.area("springs", look.heading("The springs over a period"), self.faded["springs"]),
+            stylesheets=[look.PICTURES],
+        )
+        numbers = look.area("numbers", self.numbers, judge, self.said)
+        body = look.column(pictures, self.board.view, numbers, self.keep.view, stylesheets=[look.LAYOUT])
+        return look.column(top, self.alert, body, stylesheets=[look.PAGE])
 
     # --- changes ---
 
@@ -70,28 +82,50 @@ class Page:
             return look.words_of(refusal)
         return ""
 
-    def _load(self, data: bytes, name: str) -> None:
+    def _load(self, data: bytes | None, name: str) -> None:
         """Take a case file."""
+        if data is None:
+            return
 
         def loaded(state: State) -> State:
             return replace(State.of(parse_case(data.decode("utf-8-sig"), name)), in_groups=state.in_groups)
 
         self.alert.object = look.refused(self.attempt(loaded))
 
+    def _go(self, query: str) -> None:
+        """Take the state of a link, as the browser goes back and forth."""
+        self.alert.object = look.refused(self.attempt(lambda _: state_of(dict(parse_qsl(query.lstrip("?"))))))
+
     def _take(self, state: State) -> None:
         """Make this the state: the controls stand at it, and its pictures are asked for."""
         self.state = state
-        self.board.show(state)
-        self.said.object = ""
         self.verdicts.drop()
-        if self.loaded:
-            self._tell("computing …")
-            self.pictures.ask(state)
+        with pn.io.hold(self.document):  # one message to the browser
+            self.board.show(state)
+            self.said.object = ""
+            if self.loaded:
+                self._ask()
 
     def _loaded(self) -> None:
         """Compute only once the browser listens: what changes before may be lost on its way."""
         self.loaded = True
+        self.board.name()
+        self.keep.write(self.state)
+        pn.state.add_periodic_callback(self._watch, 500)
+        self._ask()
+
+    def _ask(self) -> None:
+        """Ask for the pictures; those of the state before fade until they come."""
+        for part in self.faded.values():
+            part.styles = look.STALE
+        self.waits = True
+        self._tell(COMPUTING)
         self.pictures.ask(self.state)
+
+    def _watch(self) -> None:
+        """Say what is waited for on a machine that is new to it."""
+        if self.waits and TALLY.open:
+            self._tell(COMPILING.format(TALLY.done))
 
     # --- answers ---
 
@@ -102,21 +136,32 @@ class Page:
     def _show(self, state: State, answer: Picture | Exception | None) -> None:
         if state is not self.state:
             return
+        self.waits = isinstance(answer, Picture)
         if isinstance(answer, Exception):
             self.status.object = look.refused(f"{look.words_of(answer)}; the picture is that of before")
         elif answer is not None:
             with pn.io.hold(self.document):  # one message to the browser
                 self._draw(answer)
         else:
+            self.curve.complete = self.curve.shown
             self.keep.write(state)
 
     def _draw(self, picture: Picture) -> None:
+        """Show what is known of a picture; what is not yet stays as it was before, faded."""
+        if self.curve.show(picture):
+            self.faded["curve"].styles = look.FRESH
+            self._legend("curve", curve_legend(picture, before=self.curve.ghost is not None))
+        if picture.run is not None and picture.run is not (self.keep.picture and self.keep.picture.run):
+            self.over_period.show(picture.run)
+            self.faded["springs"].styles = look.FRESH
+            self._legend("springs", springs_legend(picture.run))
+            self._legend("forces", forces_legend(picture.run))
         self.keep.picture = picture
-        self.figures.show(picture)
-        for legend, pane in self.legends.items():
-            pane.object = f'<span style="{look.SMALL}">{legend(picture)}</span>'
         self.numbers.object = look.table(picture.numbers) + "".join(map(look.doubted, picture.doubts))
-        self._tell(BOUNDED if picture.curve else FIRST_SIGHT)
+        self._tell(BOUNDED if picture.curve else COMPUTING if picture.cof is None else FIRST_SIGHT)
+
+    def _legend(self, name: str, legend: str) -> None:
+        self.legends[name].object = f'<span style="{look.SMALL}">{legend}</span>'
 
     def _tell(self, status: str) -> None:
         self.status.object = f'<span style="{look.SMALL}" class="status">{status}</span>'

@@ -1,6 +1,6 @@
-"""What is computed of a state: a curve without a bound on its error, then one with, then what is held at rest.
+"""What is computed of a state: closed forms, which compile nothing, then a run and a curve, then a bound on its error.
 
-Both come of the same functions as everywhere, with few points and a coarse accuracy, to be there at once.
+All come of the same functions as everywhere, with few points and a coarse accuracy, to be there at once.
 """
 
 from __future__ import annotations
@@ -10,10 +10,11 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.pull import RigidPull
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
+from mdr.closed_forms.full_slip import mean_normal_force, static_cof
 from mdr.explorer.state import DECADE, POINTS, UP_TO, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
@@ -22,14 +23,13 @@ from mdr.march.march import LEAST_ACCURATE
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
 from mdr.normal.resolved import plausibility, resolved
-from mdr.plots import MODES, edges_of
-from mdr.spring.contact_modes import SLIP
 from mdr.tools.arrays import Array
+from mdr.tools.compiling import TALLY
 from mdr.tools.notation import shown
 from mdr.tools.progress import silent, time_limit
 
 RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
-DIRECTIONS = 72  #: of slip that have their own colours, shaken across
+WAITS = "…"  #: for a number that is being computed
 PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
 
 
@@ -38,32 +38,16 @@ class Picture:
     """What is shown of a state."""
 
     state: State
-    run: SlidingRun
     v_0: Array  #: velocities of the curve [m/s], (n,)
-    cof: Array  #: friction at them [-], (n,)
     v_c: float  #: critical velocity in closed form [m/s]
     v_c_back: float | None  #: the same the other way, None if nothing shakes in the plane
+    static: float | None = None  #: limit of friction as v_0 -> 0 [-], if nothing shakes in the plane
+    load: float | None = None  #: mean normal force [N]
+    rigid: Array | None = None  #: friction at them under a rigid pull [-], (n,), where that is known in closed form
+    run: SlidingRun | None = None
+    cof: Array | None = None  #: friction at them [-], (n,)
     curve: CofCurve | None = None  #: with a bound on its error; None as long as it has none
     band: HoldingBand | None = None  #: of a contact shaken in the plane
-
-    @property
-    def springs(self) -> NDArray[np.uint8]:
-        """Modes (n_springs, n_t) of the springs from the middle to `reach`, in equal rows.
-
-        Shaken across, a slip is not SLIP but one of `DIRECTIONS` from len(MODES) on, from -180 degrees.
-        """
-        x, state = np.asarray(self.run.x), np.asarray(self.run.state)
-        if self.run.f_y is not None:
-            turns = np.arctan2(self.run.f_y, np.asarray(self.run.f_x)) / (2 * np.pi) + 0.5
-            which = len(MODES) + np.minimum(DIRECTIONS * turns, DIRECTIONS - 1).astype(np.uint8)
-            state = np.where(state == SLIP, which, state)
-        order, rows = np.argsort(x), (np.arange(x.size) + 0.5) / x.size * self.reach
-        return state[:, order[np.searchsorted(edges_of(x[order])[1:-1], rows)]].T
-
-    @property
-    def reach(self) -> float:
-        """Position of the outermost spring [m]."""
-        return float(np.max(np.asarray(self.run.x)))
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -72,51 +56,101 @@ class Picture:
 
     @property
     def numbers(self) -> list[tuple[str, str, str]]:
-        """Name, value and meaning of what one reads off."""
+        """Name, value and meaning of what one reads off, and of the run a dot each as long as it is computed."""
         run, known = self.run, resolved(self.state.case)
         depth = known.working_depth
         a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
-        end = "" if run.settled else ", not settled"
         rows = [("v_c", with_prefix(self.v_c, "m/s"), "critical velocity in closed form")]
         if known.moves_across:
             rows = [("v_c", "infinite", "shaken across, friction is below mu_0 at every velocity")]
         elif self.v_c_back is not None:
             rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
-        else:
-            rows.append(("COF at rest", f"{self.cof[0]:.4g}", "limit of friction as v_0 → 0"))
+        elif self.static is not None:
+            rows.append(("static COF", f"{self.static:.4g}", "limit of friction as v_0 → 0"))
         if self.band is not None:
             held = "mean F_x over F_z at rest, under a rigid pull that stands still"
             rows.append(("band", f"{self.band.low:.4g} to {self.band.high:.4g}", held))
-        aside = run.cof_y if abs(run.cof_y) > run.cof_error else 0.0
+        cof = across = stick = WAITS
+        if run is not None:
+            cof = f"{run.cof:.4g} ± {run.cof_error:.1g}{'' if run.settled else ', not settled'}"
+            across = f"{run.cof_y if abs(run.cof_y) > run.cof_error else 0.0:.4g}"
+            stick = f"{100 * run.stick_share:.3g} %"
         return [
             *rows,
-            ("COF at v_0", f"{run.cof:.4g} ± {run.cof_error:.1g}{end}", "mean F_x over mean F_z of the run"),
-            *([("COF across", f"{aside:.4g}", "mean F_y over mean F_z of the run")] if known.moves_across else []),
-            ("stick", f"{100 * run.stick_share:.3g} %", "share of contact time, weighted by force"),
-            ("F_z", with_prefix(run.mean_F_z, "N"), "mean load"),
+            ("COF at v_0", cof, "mean F_x over mean F_z of the run"),
+            *([("COF across", across, "mean F_y over mean F_z of the run")] if known.moves_across else []),
+            ("stick", stick, "share of contact time, weighted by force"),
+            ("F_z", WAITS if self.load is None else with_prefix(self.load, "N"), "mean load"),
             ("a", with_prefix(a, "m"), "contact radius at the mean depth"),
         ]
 
 
 def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Iterator[Picture]:
     """Pictures of a state, each better than the one before. `watch` may end the work by raising an error."""
-    case = state.case
-    with silent(watch), time_limit(PATIENCE):
-        run = slide(case, state.v_0, n_springs=RUN[0], steps_per_period=RUN[1], record=1, accuracy=LEAST_ACCURATE)
-        v_0 = velocities_of(state)
-        watch()
-        cof = friction_without_bound(case, v_0, RUN[0] // 2, RUN[1] // 2)
-        back = critical_velocity(case, -1) if case.is_shaken else None
-        first = Picture(state, run, v_0, cof, critical_velocity(case), back)
-    yield first
-    with silent(watch), time_limit(PATIENCE):
-        curve = cof_curve(case, v_0, accuracy=LEAST_ACCURATE)
-        second = replace(first, cof=curve.cof, curve=curve)
-    yield second
+    picture = at_once(state)
+    yield picture
+    curve = [_first_sight, _bounded] if picture.curve is None else []
+    for better in (_run, *curve, *([_held] if state.case.is_shaken else [])):
+        with silent(watch):
+            picture = _in_time(better, picture)
+        yield picture
+
+
+def _in_time(better: Callable[[Picture], Picture], picture: Picture) -> Picture:
+    """What becomes of a picture within PATIENCE; once more where compiling was what took the time."""
+    for _ in range(2):
+        before = TALLY.done
+        with time_limit(PATIENCE):
+            after = better(picture)
+        if TALLY.done == before:
+            break
+    return after
+
+
+def at_once(state: State) -> Picture:
+    """What is known in closed form and needs nothing to be compiled."""
+    case, v_0 = resolved(state.case), velocities_of(state)
+    back = critical_velocity(case, -1) if case.is_shaken else None
+    picture = Picture(state, v_0, critical_velocity(case), back)
+    if case.material.contact_arms:  # their normal force is followed spring by spring
+        return picture
+    picture = replace(picture, load=mean_normal_force(case))
     if case.is_shaken:
-        with silent(watch), time_limit(PATIENCE), suppress(ValueError):  # it is not known where no run settles in time
-            second = replace(second, band=holding_band(case))
-        yield second
+        return picture
+    picture = replace(picture, static=static_cof(case))
+    if not case.is_of_the_paper:
+        return picture
+    rigid = cof_curve(replace(case, pull=RigidPull()), v_0)
+    return replace(picture, cof=rigid.cof, curve=rigid) if case.pull.is_rigid else replace(picture, rigid=rigid.cof)
+
+
+def _run(picture: Picture) -> Picture:
+    """With a run at v_0."""
+    springs, steps = RUN
+    case, v_0 = picture.state.case, picture.state.v_0
+    run = slide(case, v_0, n_springs=springs, steps_per_period=steps, record=1, accuracy=LEAST_ACCURATE)
+    return replace(picture, run=run, load=run.mean_F_z)
+
+
+def _first_sight(picture: Picture) -> Picture:
+    """With a curve, whose error is not known; at v_0 it is that of the run."""
+    cof = friction_without_bound(picture.state.case, picture.v_0, RUN[0] // 2, RUN[1] // 2)
+    if picture.run is not None:
+        cof[picture.v_0 == picture.state.v_0] = picture.run.cof
+    return replace(picture, cof=cof)
+
+
+def _bounded(picture: Picture) -> Picture:
+    """With a curve whose error is bounded."""
+    curve = cof_curve(picture.state.case, picture.v_0, accuracy=LEAST_ACCURATE)
+    return replace(picture, cof=curve.cof, curve=curve, static=curve.static_cof)
+
+
+def _held(picture: Picture) -> Picture:
+    """With what is held at rest; it is not known where no run settles in time."""
+    with suppress(ValueError):
+        return replace(picture, band=holding_band(picture.state.case))
+    return picture
 
 
 def velocities_of(state: State) -> Array:
@@ -124,10 +158,11 @@ def velocities_of(state: State) -> Array:
     scales = [velocity_scale(case) for case in (state.case, state.case.mirrored)]
     forward, back = (min(max(UP_TO * one, 1.1 * abs(state.v_0)), DECADE * one) for one in scales)
     share = np.linspace(0, 1, POINTS // 2 + 1)  # half as fine as elsewhere, to be there at once
+    own = [state.v_0] if -back <= state.v_0 <= forward else []
     if not state.case.is_shaken:
-        return share * forward
+        return np.unique([*(share * forward), *own])
     share[0] = share[1] ** 2  # beside zero, where friction of a shaken contact jumps
-    return np.concatenate([-back * share[::-1], forward * share])
+    return np.unique([*(-back * share), *(forward * share), *own])
 
 
 def with_prefix(value: float, unit: str) -> str:

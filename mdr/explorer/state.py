@@ -6,7 +6,9 @@ at what it shares with the one before, and else at sizes that suit the case.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -32,6 +34,8 @@ class State:
     case: SlidingContact
     v_0: float  #: pulling velocity of the run [m/s]
     in_groups: bool = False  #: whether groups and v_0/v_c are held, not fields and v_0
+    #: fields that kinds left behind had, by path, for when they come back; and under "" a shake that came of itself
+    kept: Mapping[str, Any] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
     def of(cls, case: SlidingContact) -> State:
@@ -70,19 +74,31 @@ class State:
         return self._with(case_at(as_given(case), settings))
 
     def _with_kind(self, slot: str, name: str) -> State:
-        """The state with another kind of a part; what it shares with the one before keeps its value."""
+        """The state with another kind of a part. What it shares with the one before keeps its value, and what it had
+        when it was left comes back.
+        """
         case: Any = as_given(self.case)
-        old, new, known = getattr(case, slot), PARTS[slot][name], scales_of(case)
+        old, new = getattr(case, slot), PARTS[slot][name]
+        now = {one: getattr(old, one) for one in fields_of(old)}
+        state = replace(self, kept={**self.kept, **{f"{slot}.{one}": value for one, value in now.items()}})
         if new is None:
-            return self._with(replace(case, **{slot: None}))
-        known |= {one: getattr(old, one) for one in fields_of(old)}
-        shared = {one: known[one] for one in fields_of(new) if one in known}
-        if slot == "oscillation" and not new.omega and case.shake is None:
-            case = self._with_kind("shake", "InPlaneOscillation").case
-        try:
-            return self._with(replace(case, **{slot: replace(new, **shared)}))
-        except (TypeError, ValueError):  # what has the same name may mean another thing
-            return self._with(replace(case, **{slot: new}))
+            return state._with(replace(case, **{slot: None}))
+        mine = {
+            path.removeprefix(f"{slot}."): value for path, value in state.kept.items() if path.startswith(f"{slot}.")
+        }
+        sizes, others = scales_of(self.case), {}
+        if slot == "shake":
+            mine["omega"] = sizes["omega"]
+        if slot == "oscillation" and not new.omega and case.shake is None:  # else nothing would move
+            shaken = state._with_kind("shake", "InPlaneOscillation")
+            case, state = shaken.case, replace(shaken, kept={**shaken.kept, "": shaken.case.shake})
+        elif slot == "oscillation" and new.omega and case.shake is not None and case.shake == state.kept.get(""):
+            others = {"shake": None}
+        for known in (sizes | mine | now, sizes | now):
+            shared = {one: known[one] for one in fields_of(new) if one in known}
+            with suppress(TypeError, ValueError):  # what has the same name may mean another thing
+                return state._with(replace(case, **others, **{slot: replace(new, **shared)}))
+        return state._with(replace(case, **others, **{slot: new}))
 
     def _with(self, case: SlidingContact) -> State:
         """Another case at the velocity that is held: v_0/v_c in groups; one that the case can be pulled at. ValueError

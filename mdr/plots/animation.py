@@ -9,19 +9,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.plots.figures import COLOURS, MODES, mode_patches, periods_of, plot_forces, prefix, style
 from mdr.plots.leashes import Leashes
+from mdr.plots.side_view import SideView
 from mdr.tools.checks import count
 from mdr.tools.progress import progress
 
 SECONDS = 4.0  #: that one period lasts in the picture
 MOST_DRAWN = 13  #: springs on each side
-LEAN = 0.08  #: greatest lean of a spring, over the width of the picture
 COIL = np.array([0, 0, *[1, -1] * 4, 0, 0])  #: places of the bends of a spring beside its axis, from the foot up
-MARGIN = 1.15  #: half the width of the picture, over that of the contact
-EDGE = 0.1  #: of the greatest compression: what the outermost spring of a contact that grows with depth has at most
 PALETTE = 32  #: colours of the file
 MARKS = 24  #: about so many on the ground
 
@@ -130,56 +127,40 @@ class _Springs:
     def __init__(self, ax: Any, run: Any) -> None:
         from matplotlib.collections import LineCollection
 
-        even = np.linspace(run.x[-1] / MOST_DRAWN / 2, run.x[-1], MOST_DRAWN)  # springs stand closer at the edge
-        every = np.unique(np.abs(run.x[:, None] - even).argmin(axis=0))
-        self.ax, self.run, self.every = ax, run, every
-        (per_x, unit), (self.per_z, unit_z) = prefix(run.x, "m"), prefix(run.s, "m")
-        self.x, (flanks, image) = np.concatenate([-run.x[every][::-1], run.x[every]]) * per_x, _image(run)
-        self.flanks = np.concatenate([-flanks[::-1], flanks]) * per_x
-        self.image = np.concatenate([image[::-1], image]) * self.per_z
-        widest = float(run.x[-1]) * per_x
-        deepest, sheared = float(run.s.max()) * self.per_z, float(np.abs(run.e).max())
-        self.lean = LEAN * 2.2 * widest / sheared if sheared else 0.0
-        self.coil = 0.3 * COIL * 2 * widest / self.x.size
-        self.ground, self.top = -2.2 * deepest, deepest * float(np.clip(0.3 - run.u_z.min() / run.s.max(), 0.6, 1.5))
+        self.ax, self.run, self.view = ax, run, (view := SideView(run, MOST_DRAWN))
+        self.coil = 0.3 * COIL * 2 * view.x[-1] / view.x.size
         (self.body,) = ax.fill([0], [0], facecolor="0.9", linewidth=0, animated=True)
         (self.surface,) = ax.plot([], [], color="0.2", linewidth=1.2, animated=True)
         self.lines = LineCollection([], linewidths=1.8, animated=True)
         self.marks = LineCollection([], linewidths=1.0, colors="0.45", animated=True)
         for lines in (self.lines, self.marks):
             ax.add_collection(lines)
-        reach, bottom = MARGIN * widest, self.ground - 0.17 * deepest
-        ax.set(xlim=(-reach, reach), ylim=(bottom, self.top), ylabel=f"height [{unit_z}]")
-        ax.axhline(self.ground, color="0.2", linewidth=1.2)
-        way = self.lean * 2 * np.pi / run.omega * abs(run.v_0) or 2 * reach  # of the ground in a period
+        reach, bottom = view.reach, 1.08 * view.ground
+        ax.set(xlim=(-reach, reach), ylim=(bottom, view.top), ylabel=f"height [{view.unit_z}]")
+        ax.axhline(view.ground, color="0.2", linewidth=1.2)
+        way = view.lean * 2 * np.pi / run.omega * abs(run.v_0) or 2 * reach  # of the ground in a period
         self.apart = way / max(1, round(MARKS * way / (2 * reach)))
         begins = np.arange(-reach - self.apart, reach, self.apart)
-        ends = (begins, np.full_like(begins, bottom)), (begins + self.apart / 2, np.full_like(begins, self.ground))
+        ends = (begins, np.full_like(begins, bottom)), (begins + self.apart / 2, np.full_like(begins, view.ground))
         self.hatching = np.moveaxis(np.array(ends), 2, 0)
-        ax.set_xlabel(f"$x$ [{unit}]" + (f", shear drawn {self.lean / per_x:.2g} times" if sheared else ""))
+        ax.set_xlabel(f"$x$ {view.label}")
         corner = {"xycoords": "axes fraction", "va": "center", "annotation_clip": False}
         ax.annotate("$v_0$", (1.0, 1.06), (0.88, 1.06), arrowprops={"arrowstyle": "->"}, **corner)
         self.colours = [colour for _, colour in MODES]
         names = mode_patches(run.state, free="no contact")
         ax.legend(handles=names, loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0.2)
 
-    def _both(self, values: NDArray[Any]) -> NDArray[Any]:
-        one = values[self.every]
-        return np.concatenate([one[::-1], one])
-
     def show(self, k: int) -> None:
         """Draw the instant k of the record."""
-        run = self.run
-        up = np.linspace(0, 1, COIL.size)  # along a spring
-        height = self.ground - np.outer(self._both(run.s[k]) * self.per_z + self.ground, up)
-        place = self.x[:, None] - np.outer(self._both(run.e[k]) * self.lean, 1 - up) + self.coil
+        view, up = self.view, np.linspace(0, 1, COIL.size)  # along a spring
+        height = view.ground + np.outer(view.tops(k) - view.ground, up)
+        place = view.feet(k)[:, None] + np.outer(view.x - view.feet(k), up) + self.coil
         self.lines.set_segments(list(np.stack([place, height], axis=2)))
-        goes = np.array([-run.u_x[k] * self.lean % self.apart, 0])
-        self.marks.set_segments(list(self.hatching + goes))
-        self.lines.set_color([self.colours[mode] for mode in self._both(run.state[k])])
-        outline = np.stack([self.flanks, self.image - run.u_z[k] * self.per_z], axis=1)
+        self.marks.set_segments(list(self.hatching + np.array([-self.run.u_x[k] * view.lean % self.apart, 0])))
+        self.lines.set_color([self.colours[mode] for mode in view.both(self.run.state[k])])
+        outline = np.stack([view.flanks, view.surface(k)], axis=1)
         self.surface.set_data(*outline.T)
-        self.body.set_xy([*outline, [self.flanks[-1], 10 * self.top], [self.flanks[0], 10 * self.top]])
+        self.body.set_xy([*outline, [view.flanks[-1], 10 * view.top], [view.flanks[0], 10 * view.top]])
         for artist in (self.body, self.marks, self.lines, self.surface):
             self.ax.draw_artist(artist)
 

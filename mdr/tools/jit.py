@@ -17,6 +17,7 @@ from numba.core import event
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 from mdr.tools import sources
+from mdr.tools.compiling import TALLY
 from mdr.tools.progress import PATIENCE, Ticker
 
 Function = Callable[..., Any]
@@ -92,20 +93,20 @@ class Notice(event.Listener):
     """Says on standard error how many functions of this package have been compiled, if it takes long."""
 
     def __init__(self) -> None:
-        self.open = 0
         self.line = Ticker("compiling, once on this machine, the 30 to 80 functions of this kind of run")
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
         if _is_ours(event):
-            if not self.open:
+            if not TALLY.open:
                 self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
-            self.open += 1
+            TALLY.open += 1
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
         if _is_ours(event):
-            self.open -= 1
+            TALLY.open -= 1
+            TALLY.done += 1
             self.line.tick()
 
 

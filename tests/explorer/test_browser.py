@@ -43,8 +43,9 @@ def browser(server, tmp_path_factory):
 def test_the_page_opens_with_its_pictures(browser):
     drawn = mdr.cof_curve(CASE, [0.0]).cof[0]
     assert browser.curve()[0] == pytest.approx(drawn, abs=1e-3 * CASE.mu_0)
-    assert len(browser.find(".bk-Figure")) == 3
+    assert len(browser.find(".bk-Figure")) == 4
     assert browser.value("indenter.a") == "1 mm"
+    assert all(one.accessible_name for one in browser.find(".noUi-handle") if one.is_displayed())
     assert any("critical velocity in closed form" in line for line in browser.text("table"))
 
 
@@ -56,6 +57,23 @@ def test_a_slider_moves_the_curve(browser):
     assert amplitude > CASE.oscillation.du_z
     browser.until(lambda: f"du_z={amplitude!r}" in browser.state())  # of all moves the last is drawn
     assert browser.curve()[0] < before[0]
+
+
+def test_back_undoes(browser):
+    """The moves of a slider are one step of the history; the curve before stays as a ghost."""
+    amplitude, drawn = browser.value("oscillation.du_z"), browser.curve()
+    browser.driver.back()
+    browser.until(lambda: browser.value("oscillation.du_z") == "10 µm")
+    browser.driver.forward()
+    browser.until(lambda: browser.value("oscillation.du_z") == amplitude and browser.curve() == drawn)
+    assert browser.curve("before") not in ([], drawn)
+
+
+def test_the_phase_moves_the_springs_and_nothing_else(browser):
+    state, feet = browser.state(), browser.curve("springs", "foot")
+    browser.move("phase", 20)
+    browser.until(lambda: browser.curve("springs", "foot") != feet)
+    assert browser.state() == state
 
 
 @pytest.mark.parametrize(

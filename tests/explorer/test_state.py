@@ -1,5 +1,8 @@
 """What is explored, without a browser: every kind of every part, links, scripts, controls, pictures, threads."""
 
+import os
+import subprocess
+import sys
 import threading
 from dataclasses import fields, replace
 from urllib.parse import parse_qsl
@@ -13,12 +16,15 @@ from mdr.case.contact import KINDS
 from mdr.case.units import facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest
+from mdr.explorer.lines import line_of, suits
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
-from mdr.explorer.pictures import DIRECTIONS, pictures_of
+from mdr.explorer.pictures import pictures_of
+from mdr.explorer.springs import DIRECTIONS, frames_of, map_of
 from mdr.explorer.state import State, group_values
 from mdr.files.examples import PARTS, example, example_file
 from mdr.normal.vary import GROUPS
 from mdr.plots import MODES
+from mdr.plots.side_view import SideView
 from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
 
@@ -52,6 +58,17 @@ def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
     assert body.changed("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
     heavy = body.changed("oscillation", "LoadOscillation").case
     assert_allclose(mdr.resolved(heavy).working_depth, body.case.working_depth, rtol=0.05)  # two digits of the load
+
+
+def test_a_kind_that_comes_back_has_the_fields_that_it_had():
+    state = State.of(CASES["body"]).changed("pull.k_x", 12345.0).changed("material.tau", 7e-4)
+    away = state.changed("pull", "RigidPull").changed("material", "Elastic").changed("material.E", 2e6)
+    back = away.changed("pull", "SpringPull").changed("material", "KelvinVoigt").case
+    assert back == replace(state.case, material=replace(state.case.material, E=2e6))
+    constant = state.changed("oscillation", "ConstantDepth")
+    assert constant.changed("oscillation", "NormalOscillation").case == state.case  # without what it shook instead
+    own = constant.changed("shake.du_x", 1e-6).changed("oscillation", "NormalOscillation").case
+    assert own.shake.du_x == 1e-6
 
 
 def test_a_link_carries_the_state(state):
@@ -154,17 +171,59 @@ def test_a_case_that_is_refused_as_a_whole_is_no_state():
 
 
 def test_pictures_are_those_of_the_library(state):
-    first, *_, last = pictures_of(state)
-    assert first.curve is None
+    pictures = [*pictures_of(state)]
+    first, last = next(one for one in pictures if one.cof is not None), pictures[-1]
     exact = mdr.cof_curve(state.case, last.v_0[::7], accuracy=1e-4)
     assert_allclose(last.cof[::7], exact.cof, atol=1e-3 * state.case.mu_0)
     assert_allclose(first.cof[::7], exact.cof, atol=0.05 * state.case.mu_0)  # no bound: a first sight
     assert abs(last.run.cof - mdr.slide(state.case, state.v_0).cof) <= 1e-3 * state.case.mu_0
-    assert last.springs.shape == (last.run.n_springs, last.run.steps_per_period)
-    modes = np.where(last.springs >= len(MODES), mdr.State.SLIP, last.springs)  # one of the directions of slip
+    assert map_of(last.run).shape == (last.run.n_springs, last.run.steps_per_period)
+    modes = map_of(last.run)
+    modes = np.where(modes >= len(MODES), mdr.State.SLIP, modes)  # one of the directions of slip
     assert_array_equal(np.unique(modes), np.unique(last.run.state))
     assert (last.band is not None) == state.case.is_shaken
     assert all(name and value and meaning for name, value, meaning in last.numbers)
+
+
+def test_the_first_picture_compiles_nothing(tmp_path):
+    code = (
+        "from mdr.explorer import pictures, state; from mdr.files.examples import example; "
+        "from mdr.tools.compiling import TALLY; "
+        "one = pictures.at_once(state.State.of(example())); print(one.rigid.size, TALLY.done, TALLY.open)"
+    )
+    empty = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    said = subprocess.run([sys.executable, "-c", code], env=empty, capture_output=True, text=True, check=True).stdout
+    points, compiled, more = said.split()
+    assert int(points) > 10
+    assert (compiled, more) == ("0", "0")
+
+
+def test_the_run_lies_on_its_curve_and_the_line_on_the_points(state):
+    picture = [*pictures_of(replace(state, v_0=state.v_0 / 3))][-1]
+    at = picture.v_0 == picture.run.v_0
+    assert_allclose(picture.cof[at], [picture.run.cof], atol=2e-3 * state.case.mu_0)  # two bounds of 1e-3
+    line = line_of(picture.v_0, picture.cof)
+    drawn = np.isin(line["v_0"], picture.v_0)
+    assert_array_equal(line["v_0"][drawn], picture.v_0)
+    assert_allclose(line["cof"][drawn], picture.cof, rtol=1e-12)
+
+
+def test_an_axis_stays_while_what_is_shown_suits_it():
+    assert suits((0.0, 1.0), 0.3, 0.9)
+    assert not suits((0.0, 1.0), 0.3, 1.1)  # does not fit
+    assert not suits((0.0, 1.0), 0.3, 0.6)  # would be seen too small
+
+
+def test_springs_that_move_end_on_the_indenter():
+    run = mdr.slide(CASES["rigid"], 1e-4, n_springs=64, steps_per_period=64, record=1)
+    view = SideView(run)
+    frames = frames_of(run, view)
+    surface = np.interp(view.x, view.flanks, view.image) - frames["depth"][:, None]
+    touching = frames["mode"] != mdr.State.FREE
+    assert 0 < touching.mean() < 1
+    within_a_step = 2e-3 * np.abs(frames["top"]).max()  # springs leave and touch between steps: (2 pi/64)² du_z/u_z0/5
+    assert_allclose(frames["top"][touching], surface[touching], atol=within_a_step)
+    assert np.all(frames["top"][~touching] >= surface.min() - within_a_step)
 
 
 def test_only_the_latest_request_is_answered():
@@ -220,8 +279,8 @@ def test_what_is_unlikely_is_said_beside_the_numbers():
 
 def test_shaken_across_every_slip_has_its_direction():
     state = State.of(CASES["across"])
-    first, *_ = pictures_of(state)
-    run, shown = first.run, first.springs
+    _, first, *_ = pictures_of(state)
+    run, shown = first.run, map_of(first.run)
     angle = np.degrees(np.arctan2(run.f_y, run.f_x)).T
     inmost, width = np.argmin(run.x), 360 / DIRECTIONS
     slips = run.state[:, inmost] == mdr.State.SLIP

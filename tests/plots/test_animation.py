@@ -48,10 +48,9 @@ def test_a_notebook_shows_it_without_the_file(run, tmp_path):
 def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
     _, ax = plt.subplots()
     picture = _Springs(ax, run)
-    x, R = run.x, 5e-3
+    x, R, image = run.x, 5e-3, picture.view.image[-run.x.size - 1 : -1] / picture.view.per_z
     second_order = 1e-3 * 2e-6  # a tenth of (2 pi/64)² du_z: springs leave and touch between steps
     pressed = np.any(run.state != mdr.State.FREE, axis=0)  # others never learn how deep the indenter is
-    image = picture.image[-x.size - 1 : -1] / 1e6
     assert np.max(np.abs(image - x**2 / R)[pressed]) < second_order  # the paraboloid's g, from the run alone
     ax.figure.canvas.draw()
     for k in (0, 20, 40):
@@ -61,7 +60,9 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
         here = run.state[k, i] != mdr.State.FREE
         assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
         shear = tops[:, 0] - feet[:, 0]
-        assert np.max(np.abs(shear - picture.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()  # the rounding of places
+        assert (
+            np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()
+        )  # the rounding of places
     plt.close("all")
 
 
@@ -77,12 +78,12 @@ def test_the_ground_takes_along_feet_that_stick_and_is_back_after_a_period(run):
 
     places = [seen(k) for k in range(run.t.size)]
     moved = [np.diff(one, axis=0) for one in (np.array([feet for feet, _ in places]), [mark for _, mark in places])]
-    state = np.concatenate([run.state[:, picture.every[::-1]], run.state[:, picture.every]], axis=1)
+    state = np.concatenate([run.state[:, picture.view.every[::-1]], run.state[:, picture.view.every]], axis=1)
     sticks = np.all(np.stack([state[1:], state[:-1]]) == mdr.State.STICK, axis=0)
     off = (moved[0] - moved[1][:, None]) / picture.apart
     assert np.count_nonzero(sticks) > 100
     assert np.max(np.abs(off - np.round(off))[sticks]) < 1e-9
-    turns = run.v_0 * 2 * np.pi / run.omega * picture.lean / picture.apart
+    turns = run.v_0 * 2 * np.pi / run.omega * picture.view.lean / picture.apart
     assert abs(turns - round(turns)) < 1e-9 < turns
     plt.close("all")
 

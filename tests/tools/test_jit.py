@@ -14,6 +14,7 @@ from numba.core import event
 from numba.core.event import EventStatus
 
 from mdr.tools import jit
+from mdr.tools.compiling import TALLY
 
 #: A package whose function `answer` compiles in a function and a constant of two other files.
 SMALL = {
@@ -117,7 +118,7 @@ def test_a_long_compilation_says_every_ten_seconds_how_much_is_done(module, seco
         notice.on_start(compiling(module))
     for _ in range(4):
         notice.on_end(compiling(module))
-    assert notice.open == 0
+    assert TALLY.open == 0
     lines = capsys.readouterr().err.splitlines()
     assert [int(line.split(": ")[1].split()[0]) for line in lines] == said
     assert all(line.startswith("compiling, once on this machine,") for line in lines)
