@@ -111,16 +111,6 @@ def _title(run: Any) -> str:
     return rf"$v_0$ = {run.v_0 * per:.3g} {unit}, $\mu/\mu_0$ = {run.cof / run.mu_0:.3f}"
 
 
-def _image(run: Any) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Places x >= 0 and the image g(x), as the springs felt it [m]; straight on where a growing contact ends."""
-    x, image = run.x, np.max(run.u_z[:, None] - run.s, axis=0)  # no spring reaches through the indenter: s >= u_z - g
-    if run.s[:, -1].max() > EDGE * run.s.max():
-        return x, image  # a wall
-    back = -1 - x.size // 10
-    slope = (image[-1] - image[back]) / (x[-1] - x[back])
-    return np.append(x, MARGIN * x[-1]), np.append(image, image[-1] + slope * (MARGIN - 1) * x[-1])
-
-
 class _Springs:
     """The upper picture: both sides of the contact."""
 

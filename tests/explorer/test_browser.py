@@ -63,7 +63,7 @@ def test_back_undoes(browser):
     """The moves of a slider are one step of the history; the curve before stays as a ghost."""
     amplitude, drawn = browser.value("oscillation.du_z"), browser.curve()
     browser.driver.back()
-    browser.until(lambda: browser.value("oscillation.du_z") == "10 µm")
+    browser.until(lambda: browser.value("oscillation.du_z") == "10 µm" and browser.curve() != drawn)
     browser.driver.forward()
     browser.until(lambda: browser.value("oscillation.du_z") == amplitude and browser.curve() == drawn)
     assert browser.curve("before") not in ([], drawn)

@@ -9,7 +9,8 @@ from conftest import contact
 from PIL import Image
 
 import mdr
-from mdr.plots.animation import _image, _Springs, animate_springs
+from mdr.plots.animation import _Springs, animate_springs
+from mdr.plots.side_view import _image
 
 
 @pytest.fixture(scope="module")

@@ -128,7 +128,7 @@ def test_who_compiles_on_purpose_has_no_notice():
     def begun_and_ended():
         for status, step in ((EventStatus.START, 1), (EventStatus.END, 0)):
             event.broadcast(event.Event("numba:compile", status, data=compiling("mdr.x").data))
-            yield jit.NOTICE.open, step
+            yield TALLY.open, step
 
     with jit.unsaid():
         assert [is_open for is_open, _ in begun_and_ended()] == [0, 0]
