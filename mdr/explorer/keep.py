@@ -74,5 +74,5 @@ def _text(name: str, wrap: str) -> Any:
 
 def _copy(name: str, text: Any) -> Any:
     button = pn.widgets.Button(name=f"Copy {name}", margin=5)
-    button.jscallback(clicks=COPY, args={"text": text})
+    button.jscallback(clicks=COPY, args={"text": text, "button": button})
     return button

@@ -30,9 +30,9 @@ window.onpopstate = () => { back.value = location.search; };
 """
 #: copy, and say whether it was allowed
 COPY = """
-const label = cb_obj.label, say = words => {
-  cb_obj.label = words;
-  setTimeout(() => { cb_obj.label = label; }, 1500);
+const label = button.label, say = words => {
+  button.label = words;
+  setTimeout(() => { button.label = label; }, 1500);
 };
 navigator.clipboard.writeText(text.value).then(() => say('Copied ✓'), () => say('Not allowed: select and copy it'));
 """
