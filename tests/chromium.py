@@ -71,7 +71,11 @@ class Browser:
 
     def open(self, query=""):
         self.driver.get(f"{self.address}{query}")
-        self.until(lambda: self.shown().startswith("error of friction"), COMPILES)
+        self.until(self.is_complete, COMPILES)
+
+    def is_complete(self):
+        """Whether the error of the curve is bounded."""
+        return self.shown().startswith("error of friction")
 
     def until(self, true, patience=PATIENCE):
         """Wait until something is so, and return it."""

@@ -42,8 +42,8 @@ class Keep:
     def write(self, state: State) -> None:
         """The texts of a state."""
         query, host = link_of(state), pn.state.headers.get("Host", "")
-        self.link.value = query and f"http://{host}/?{query}"
         self.toml.value, self.python.value = example_file(state.case), python_of(state)
+        self.link.value = query and f"http://{host}/?{query}"
 
     def _svg(self, draw: Callable[[Any], Any]) -> BytesIO:
         """A figure of the project's plots."""
@@ -74,5 +74,5 @@ def _text(name: str, wrap: str) -> Any:
 
 def _copy(name: str, text: Any) -> Any:
     button = pn.widgets.Button(name=f"Copy {name}", margin=5)
-    button.jscallback(clicks=COPY, args={"text": text})
+    button.jscallback(clicks=COPY, args={"text": text, "button": button})
     return button

@@ -28,11 +28,11 @@ window.mdr_last = now;
 back.value = '';
 window.onpopstate = () => { back.value = location.search; };
 """
-#: copy, and say so
+#: copy, and say whether it was allowed
 COPY = """
-navigator.clipboard.writeText(text.value).then(() => {
-  const label = cb_obj.label;
-  cb_obj.label = 'Copied ✓';
-  setTimeout(() => { cb_obj.label = label; }, 1500);
-});
+const label = button.label, say = words => {
+  button.label = words;
+  setTimeout(() => { button.label = label; }, 1500);
+};
+navigator.clipboard.writeText(text.value).then(() => say('Copied ✓'), () => say('Not allowed: select and copy it'));
 """
