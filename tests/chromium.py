@@ -91,8 +91,8 @@ class Browser:
 
     def inside(self, selector, part):
         """A part of a widget, in its shadow."""
-        script = "return arguments[0].shadowRoot.querySelector(arguments[1])"
-        return self.until(lambda: self.driver.execute_script(script, self.find(selector)[0], part))
+        script = f"{FIND}return found.length ? found[0].shadowRoot.querySelector(arguments[1]) : null"
+        return self.until(lambda: self.driver.execute_script(script, selector, part))
 
     def text(self, selector):
         """Words of all elements that are not hidden."""

@@ -16,8 +16,10 @@ from mdr.element.fmu import NoCompiler, fmu, sources
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import positive
+from mdr.tools.notation import value_in
 
 SPRINGS = 64  #: where none are asked for: forces to some 1e-3, a step of an elastic contact in about 1 µs
+MARGIN = 1.05  #: of the greatest depth of a case, where none is asked for
 MOST_SPRINGS = 4096  #: whose state a stack still holds
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,39}")  #: what names in C may begin with
 TOLD = 116  #: letters of a line about the contact
@@ -27,8 +29,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """Where to write, how deep and how fine."""
     files = "the header, name.h, or the unit, name.fmu; all names in it begin with this one"
     command.add_argument("-o", "--output", metavar="file", type=Path, required=True, help=files)
-    depth = "greatest depth of a step [m] (default: that of the case)"
-    read = read_as("a depth above zero in m", lambda text: positive("u_z_max", float(text)))
+    depth = "greatest depth of a step (default: 5 %% above that of the case)"
+    read = read_as("a depth above zero such as 40um", lambda text: positive("u_z_max", value_in("", text, "m")))
     command.add_argument("--u-z-max", metavar="m", type=read, help=depth)
     size = whole_number(MIN_SPRINGS, MOST_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, default=SPRINGS, help=f"springs (default: {SPRINGS})")
@@ -43,7 +45,7 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     if not NAME.fullmatch(name):
         raise WrongInput(f"-o {path}: {name!r} must be a word for names in C: at most 40 letters, digits and _")
     require_free([path])
-    u_z_max = args.u_z_max or mdr.resolved(case).u_z_max
+    u_z_max = args.u_z_max or MARGIN * mdr.resolved(case).u_z_max
     element = mdr.ContactElement(case.indenter, case.material, case.mu_0, u_z_max=u_z_max, n_springs=args.n_springs)
     texts = {path.name: header(element, name, told(args, case))}
     if path.suffix == ".fmu":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from dataclasses import asdict
 from typing import Any
 
@@ -14,7 +13,8 @@ from mdr.commands.written import add_output, output_folder, write_figure, write_
 from mdr.files.toml_text import StandardInput
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
-from mdr.tools.notation import UNITS
+from mdr.tools.checks import positive
+from mdr.tools.notation import value_in
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -26,8 +26,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
     case = "the case file: shape, material and mu_0 count; - is standard input"
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
-    high_pass = "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case"
-    command.add_argument("--high-pass", metavar="5Hz", type=read_as("a frequency such as 5Hz", hertz), help=high_pass)
+    high_pass = (
+        "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; both ends of"
+    )
+    high_pass += " the record are off for some of its periods (PeriodicMotion.from_acceleration has no ends)"
+    command.add_argument(
+        "--high-pass",
+        metavar="5Hz",
+        type=read_as("a frequency such as 5Hz", lambda text: positive("", value_in("", text, "Hz"))),
+        help=high_pass,
+    )
     size = whole_number(2 * MIN_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: 256)")
     add_output(command, "record.csv", "record.png", "record.svg")
@@ -66,14 +74,7 @@ def with_displacements(motion: dict[str, Array], high_pass: float | None, case: 
         if axis == "z":
             motion[u] += mdr.resolved(case).working_depth
     if "u_x" not in motion:
-        raise ValueError("the header names no u_x; write t [s], u_x [um], u_z [um]")
+        raise ValueError(
+            "the header names no u_x, which no accelerometer shows; write t [s], u_x [um], u_z [um] or a_z [g]"
+        )
     return motion
-
-
-def hertz(text: str) -> float:
-    """A frequency [Hz], positive; of a plain number too."""
-    unit = next((one for one in sorted(UNITS["rad/s"], key=len, reverse=True) if text.endswith(one)), "Hz")
-    value = float(text.removesuffix(unit)) * UNITS["rad/s"][unit] / math.tau
-    if not 0 < value < math.inf:
-        raise ValueError
-    return value

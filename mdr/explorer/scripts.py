@@ -19,12 +19,13 @@ for (const path in sliders) {
   if (box) handle.setAttribute('aria-valuetext', box.querySelector('input').value);
 }
 """
-#: the address is that of the state; what follows within a second, as while one drags, is the same step of the history
+#: the address is that of the state: the first takes the place of an address without one; what follows on a change
+#: within a second, as while one drags, is the same step of the history
 LINK = """
 const link = new URL(cb_obj.value || location.pathname, location.href).href, now = Date.now();
-const step = window.mdr_last && now - window.mdr_last > 1000 && link !== location.href;
+const begins = location.search === '', step = !begins && link !== location.href && now - (window.mdr_last || 0) > 1000;
 history[step ? 'pushState' : 'replaceState'](null, '', link);
-window.mdr_last = now;
+window.mdr_last = begins ? 0 : now;
 back.value = '';
 window.onpopstate = () => { back.value = location.search; };
 """

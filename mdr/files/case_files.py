@@ -54,7 +54,7 @@ from mdr.case.motion import LoadOscillation, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
-from mdr.normal.rig import OPEN, Setting, settings_of
+from mdr.normal.rig import OPEN, Setting, settings_of, warn_of_load
 from mdr.normal.vary import contact_of, fields_of, fields_set
 from mdr.tools.fields import checked, example_of, required, units_of
 from mdr.tools.messages import nearest, offer, short
@@ -215,6 +215,8 @@ def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
     if case is None or refused:
         raise CaseFileError.of([*faults, *refused, *whole])
     _ask_for_masses(case, content, axes if isinstance(axes, dict) else {})
+    if "load" in held and case.oscillation.knows_depth and not axes:
+        warn_of_load(case, held["load"])
     return Said(case, held)
 
 

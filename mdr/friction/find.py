@@ -243,5 +243,6 @@ class _Search:
             return f"none: there is no such case {where}: {self.refused}"
         least, most = (wish.told(end) for end in (min(self.found), max(self.found)))
         between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
-        gaps = f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
+        gaps = "" if self.is_flat else "; `within` may be widened"
+        gaps += f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
         return f"none: {wish.what} {between} for {path} {where}, and {wish.told(wish.wanted)} is asked for{gaps}"

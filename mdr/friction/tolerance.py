@@ -135,7 +135,7 @@ def tolerance(
     """
     case = as_given(case)
     at_rest(case)  # warns of what is unlikely
-    by, v_0 = between("by", by, 0.0, 1.0, "0.1 for 10 %"), finite("v_0", v_0)
+    by, v_0 = between("by", by, 0.0, 1.0, "0.1, or 10%"), finite("v_0", v_0)
     kept = still_held(held or {}, ())
     if isinstance(fields, str):
         raise TypeError(f"fields must be a list of paths, got {fields!r}; write [...]")

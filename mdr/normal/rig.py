@@ -255,13 +255,19 @@ def _held(case: SlidingContact, load: float, hold: str | None, is_driven: bool) 
         raise ValueError(f'hold must be "depth" or "load", got {hold!r}')
     if not is_driven and hold is not None:
         raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
-    excess = _mean_force(case) / load - 1 if is_driven else 0.0
-    if excess > MATTERS and hold is None:
+    excess = warn_of_load(case, load, hold is None) if is_driven else 0.0
+    return _under_mean_load(case, load) if hold == "load" and excess > SAME else case
+
+
+def warn_of_load(case: SlidingContact, load: float, warns: bool = True) -> float:
+    """Share by which the mean load exceeds the load [N] that rests at the mean depth; a warning where it matters."""
+    excess = _mean_force(case) / load - 1
+    if warns and excess > MATTERS:
         warn_outside(
             f"the mean load is {1 + excess:.3g} times the load of {load:.4g} N, as the depth where it rests is held: "
-            'say hold="load" if the load is a weight, which stays, or hold="depth" if the drive is stiff'
+            'right for a stiff drive; for a weight, which stays, take mdr.rig(..., hold="load")'
         )
-    return _under_mean_load(case, load) if hold == "load" and excess > SAME else case
+    return excess
 
 
 def _under_mean_load(case: SlidingContact, load: float) -> SlidingContact:
