@@ -15,7 +15,7 @@ not known, l; it goes with the limit mu_0 F_N. One bar fixes it, and all others 
 
 The answer: a constant limit cannot be. Friction of springs never falls with velocity, and here it falls from 1.07 N at
 rest to 0.50 N. With the limit of the same velocity, and l from the bar at rest, a rough face has the five bars of the
-slide to 0.08 N; a paraboloid is up to 0.3 N too low, a punch 0.5 N.
+slide to 0.07 N; a paraboloid is up to 0.3 N too low, a punch 0.5 N.
 """
 
 from pathlib import Path

@@ -53,6 +53,8 @@ def sawtooth(u_z0: float, du_z: float, omega: float, *, n_harmonics: int, fallin
     [22.99 17.01]
     """
     n = _orders(n_harmonics)
+    if not isinstance(falling, bool):
+        raise TypeError(f"falling must be True or False, got {falling!r}")
     return _smoothed(u_z0, du_z, omega, sin=(1 if falling else -1) / n)
 
 

@@ -42,11 +42,11 @@ def header(element: ContactElement, name: str, told: str) -> str:
     if law.arms is not None:
         what = "an elastic or a Kelvin material can be exported, not one with Maxwell arms"
         raise FieldError(f"{what}, got {element.material}: use element.step or element.address", "material")
-    values = {word: one if law.T > 0 else other for word, (one, other) in OF_DASHPOT.items()}
+    values = {word: named(one if law.T > 0 else other, name) for word, (one, other) in OF_DASHPOT.items()}
     values |= {
         "NAME": name,
         "VERSION": __version__,
-        "CASE": indent("\n".join(told.replace("*/", "* /").splitlines()), " *     "),
+        "CASE": indent("\n".join(told.replace("*/", "* /").replace("/*", "/ *").splitlines()), " *     "),
         "HALF": f"{0.5 * element.u_z_max:.6g}",
         "N": str(row.gap.size),
         "U_Z_MAX": numbers(element.u_z_max),
@@ -56,13 +56,15 @@ def header(element: ContactElement, name: str, told: str) -> str:
         "GAP": numbers(row.gap),
         "W": numbers(row.w),
     }
-    return named(filled("contact.h.in", values, {"KELVIN": law.T > 0, "ELASTIC": law.T == 0}), name)
+    return filled("contact.h.in", values, {"KELVIN": law.T > 0, "ELASTIC": law.T == 0}, name)
 
 
-def filled(template: str, values: dict[str, str], kept: dict[str, bool]) -> str:
-    """A template that stands beside this file, with values for @WORD@, without lines that #if WORD does not keep."""
+def filled(template: str, values: dict[str, str], kept: dict[str, bool], name: str) -> str:
+    """A template that stands beside this file, with values for @WORD@, without lines that #if WORD does not keep; names
+    in it begin with another word than "contact".
+    """
     text = files("mdr.element").joinpath(template).read_text(encoding="utf-8")
-    text = "\n".join(_kept(text, kept)) + "\n"
+    text = named("\n".join(_kept(text, kept)) + "\n", name)
     return re.sub(r"@(\w+)@", lambda found: values[found[1]], text)
 
 

@@ -19,7 +19,7 @@ from typing import Any
 from xml.etree import ElementTree
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from mdr.element.c_header import filled, header, named
+from mdr.element.c_header import filled, header
 from mdr.element.contact_element import ContactElement
 from mdr.tools.version import __version__
 
@@ -46,8 +46,8 @@ class NoCompiler(RuntimeError):
 def sources(element: ContactElement, name: str, told: str) -> dict[str, str]:
     """The texts of header and unit, by the names of their files."""
     text = header(element, name, told)
-    unit = filled("fmu.c.in", {"NAME": name, "VERSION": __version__, "GUID": guid(text)}, {})
-    return {f"{name}.h": text, f"{name}_fmu.c": named(unit, name)}
+    unit = filled("fmu.c.in", {"NAME": name, "VERSION": __version__, "GUID": guid(text)}, {}, name)
+    return {f"{name}.h": text, f"{name}_fmu.c": unit}
 
 
 def fmu(texts: dict[str, str], name: str) -> bytes:

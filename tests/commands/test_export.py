@@ -20,7 +20,7 @@ def test_a_header_names_its_case_and_command(tmp_path, capsys):
     assert f"mdr export {EXAMPLE}"[:60] in text
     assert '[material] model = "KelvinVoigt", E = 3000000.0' in text
     case = mdr.read_case(EXAMPLE)
-    assert said["u_z_max"] == case.u_z_max  # the greatest depth of the case
+    assert said["u_z_max"] == pytest.approx(1.05 * case.u_z_max)  # a little above the greatest depth of the case
     assert (said["n_springs"], said["n_state"]) == (64, 4 + 3 * 64)
     assert main(["export", EXAMPLE, "-o", str(path), "--u-z-max", "5e-5", "--n-springs", "16"]) == 0
     assert "#define FOOT_U_Z_MAX 5e-05" in path.read_text(encoding="utf-8")
@@ -38,7 +38,7 @@ def test_a_load_knows_its_depth(tmp_path, capsys):
     case = tmp_path / "load.toml"
     case.write_text(mdr.write_case(load), encoding="utf-8")
     assert main(["export", str(case), "-o", str(tmp_path / "a.h"), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["u_z_max"] == pytest.approx(mdr.resolved(load).u_z_max)
+    assert json.loads(capsys.readouterr().out)["u_z_max"] == pytest.approx(1.05 * mdr.resolved(load).u_z_max)
 
 
 @pytest.mark.parametrize(

@@ -112,8 +112,11 @@ def test_rolled_back_and_serialised_states_go_on_bit_for_bit(unit):
     read = other.deserializeFMUState(written)
     other.setFMUState(read)
     assert_array_equal(driven(other, us[12:]), forces)
-    with pytest.raises(fmpy.fmi1.FMICallException):
-        other.deserializeFMUState(written[:-8])
+    nan = bytearray(written)
+    nan[-16:-8] = np.array([np.nan]).tobytes()
+    for wrong in (written[:-8], bytes([written[0] ^ 1]) + bytes(written[1:]), bytes(nan)):  # cut, of another unit, NaN
+        with pytest.raises(fmpy.fmi1.FMICallException):
+            other.deserializeFMUState(wrong)
     one.freeFMUState(kept)
     other.freeFMUState(read)
 
@@ -175,3 +178,16 @@ def test_its_sources_compile_without_a_warning(monkeypatch, unit):
     contact, _, _ = unit
     monkeypatch.setattr("mdr.element.fmu.FLAGS", (*FLAGS, "-Wall", "-Wextra", "-Werror"))
     assert library(sources(contact, "pin", "a pin"), "pin")
+
+
+def test_a_state_that_is_set_while_it_is_initialised_is_that_state(unit):
+    _, _, instance = unit
+    one, us = instance(), walk()
+    forces = driven(one, us[:12])
+    kept = one.getFMUState()
+    one.reset()
+    one.setupExperiment(startTime=0.0)
+    one.enterInitializationMode()
+    one.setFMUState(kept)
+    assert_array_equal(one.getReal(F + LOST), forces[-1])
+    one.freeFMUState(kept)

@@ -21,6 +21,8 @@ from mdr.tools.checks import between, instance, not_negative, positive
 
 REACH = 9.0  #: of rms, amplitudes above b that are left out beyond; for b > 5 that share of 5/b
 N_AMPLITUDES = 64
+KEPT = 1 / 3  #: of the mean depth, rms up to which contact is hardly ever lost
+GONE = 38.0  #: b from which on the loss is below the least float
 SMALL = 1e-3  #: relative amplitude of a sine on a flat punch, which keeps contact
 
 
@@ -55,6 +57,8 @@ def random_loss(b: float, T: float = 0.0) -> float:
     0.0111
     """
     b, T = positive("b", b, "v_0/(mu_0 kappa sigma_v)"), not_negative("T", T, "tau sigma_a/sigma_v")
+    if b >= GONE:
+        return 0.0
     node, weight = np.polynomial.legendre.leggauss(N_AMPLITUDES)
     most = np.sqrt(REACH / max(1.0, b / 5))
     root = most * (node + 1) / 2  # psi begins with a power of x - b, 2 or 3/2
@@ -153,7 +157,8 @@ def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> flo
     Raises
     ------
     TypeError, ValueError
-        For a body, a shake in the plane, a material of Maxwell arms, and a mean depth that is not positive.
+        For a body, a shake in the plane, a material of Maxwell arms, a mean depth that is not positive, and an rms
+        above a third of it.
 
     Examples
     --------
@@ -170,6 +175,11 @@ def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> flo
         raise ValueError(
             "the law is that of a rigid pull on an elastic or Kelvin material at a positive mean depth, got "
             f"{case.pull!r}, shake = {case.shake!r}, {case.material!r}, u_z0 = {depth:.6g} m: use random_cof"
+        )
+    if spectrum.rms > KEPT * depth:
+        raise ValueError(
+            f"the rms of the spectrum, {spectrum.rms:.4g} m, is more than a third of the mean depth of {depth:.4g} m: "
+            "the contact is lost now and then, which the law leaves out; use random_cof"
         )
     velocity, acceleration = spectrum.rms_velocity, spectrum.rms_acceleration
     b = v_0 / (case.mu_0 * case.material.mindlin_ratio * velocity)

@@ -26,6 +26,7 @@ NARROWEST = 4e-15  #: piece of a period that is a jump if it is still no parabol
 SHORT = 1e-6  #: of a period; on pieces that are shorter slopes are rounding
 MOST_PIECES = 2**20
 STARTS = 4  #: random ones of a search for the best waveform
+MOST_HARMONICS = 1000
 SAMPLES = 512  #: of a waveform during that search
 
 
@@ -131,10 +132,8 @@ def steepest_waveform(n_harmonics: int) -> tuple[float, Array, Array]:
     >>> print(round(gain, 3), sin.round(3))
     4.472 [0.671 0.894 0.671]
     """
-    N = count("n_harmonics", n_harmonics, 1)
-    k = np.arange(N + 1) - 0.5 * N
-    h = 1 / np.sqrt(2 * (N + 1)) - 1j * k / (np.sqrt(2) * np.linalg.norm(k))
-    C = 2 * _products(h)
+    N = _harmonics(n_harmonics)
+    C = 2 * _products(_steepest(N))
     return (N + 1) * np.sqrt(N * (N + 2) / 12), C.real, -C.imag
 
 
@@ -168,14 +167,20 @@ def best_waveform(n_harmonics: int, beta: float) -> tuple[float, Array, Array]:
     """
     from scipy.optimize import minimize
 
-    N, beta = count("n_harmonics", n_harmonics, 1), not_negative("beta", beta, "velocity")
+    N, beta = _harmonics(n_harmonics), not_negative("beta", beta, "velocity")
     phase = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
 
     def kept(zeros: Array) -> float:
         return -float(waveform_loss(np.prod(1 - np.cos(phase[:, None] - np.r_[0.0, zeros]), axis=1), beta))
 
     rng, equal = np.random.default_rng(1), 2 * np.pi * np.arange(1, N) / N
-    starts = [equal, *(share * equal for share in (0.3, 0.6, 0.9)), *rng.uniform(0, 2 * np.pi, (STARTS, N - 1))]
+    steep = np.sort(np.angle(np.roots(_steepest(N)[::-1])))  # where the steepest depth is zero
+    starts = [
+        steep[1:] - steep[0],
+        equal,
+        *(share * equal for share in (0.3, 0.6, 0.9)),
+        *rng.uniform(0, 2 * np.pi, (STARTS, N - 1)),
+    ]
     knobs = {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 300 * N}
     found = [minimize(kept, start, method="Nelder-Mead", options=knobs) for start in starts if N > 1]
     zeros = np.r_[0.0, min(found, key=lambda one: float(one.fun)).x if found else equal]
@@ -183,6 +188,20 @@ def best_waveform(n_harmonics: int, beta: float) -> tuple[float, Array, Array]:
     C = 2 * _products(h / np.linalg.norm(h))
     loss = waveform_loss(lambda x: np.real(np.exp(2j * np.pi * np.multiply.outer(x, np.arange(1, N + 1))) @ C), beta)
     return float(loss), C.real, -C.imag
+
+
+def _harmonics(n: int) -> int:
+    """A number of harmonics."""
+    n = count("n_harmonics", n, 1)
+    if n > MOST_HARMONICS:
+        raise FieldError(f"n_harmonics must be at most {MOST_HARMONICS}, got {n}", "n_harmonics")
+    return n
+
+
+def _steepest(N: int) -> NDArray[np.complex128]:
+    """The series h whose square is the steepest depth."""
+    k = np.arange(N + 1) - 0.5 * N
+    return np.asarray(1 / np.sqrt(2 * (N + 1)) - 1j * k / (np.sqrt(2) * np.linalg.norm(k)))
 
 
 def _products(h: NDArray[np.complex128]) -> NDArray[np.complex128]:
