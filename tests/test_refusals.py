@@ -414,7 +414,7 @@ SAYINGS = {
     'find(CASE, "du_z", v_c=1e-3, within=(2, 1))': "within must be (low, high) with low < high, got 2 and 1",
     'find(replace(CASE, pull=replace(SLED, c_x=0)), "c_x", v_c=1e-3)': "pull.c_x is zero in this case: give the range",
     "tolerance(CASE, NAN)": "v_0 must be a finite number",
-    "tolerance(CASE, 1e-4, 10)": "by must lie between 0 and 1, got 10.0 (0.1 for 10 %)",
+    "tolerance(CASE, 1e-4, 10)": "by must lie between 0 and 1, got 10.0 (0.1, or 10%)",
     'tolerance(CASE, 1e-4, fields=["taw"])': "did you mean tau?",
     'tolerance(CASE, 1e-4, fields="tau")': "fields must be a list of paths, got 'tau'",
     "closed_forms.rigid_pull.average_friction('case', 1e-3)": "case must be a SlidingContact",
