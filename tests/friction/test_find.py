@@ -24,7 +24,7 @@ def test_friction_is_found_where_a_fine_grid_passes_it(path, within):
     v_0, cof = 0.4 * mdr.critical_velocity(CASE), 0.42
     found = mdr.find(CASE, path, v_0=v_0, cof=cof, within=within)
     low, high = within or (1e-1 * found.values[0], 10 * found.values[0])
-    grid = np.geomspace(low, high, 60)
+    grid = np.geomspace(low, high, 30)
     beside = np.array([mdr.cof_curve(case_at(CASE, {found.path: value}), v_0).cof[0] for value in grid]) - cof
     passed = np.flatnonzero(beside[1:] * beside[:-1] < 0)
     if within:

@@ -96,7 +96,7 @@ def test_short_waves_are_warned_of():
     rig(depth_amplitude=2e-6, density=1000.0)  # none at 50 Hz
 
 
-@pytest.mark.parametrize("share", [0.1, 0.44, 1.0, 3.0])
+@pytest.mark.parametrize("share", [0.44, 3.0])
 @pytest.mark.parametrize(
     "material",
     [RUBBER, mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.Prony(2e6, ((1e6, 1e-3),), 0.45)],

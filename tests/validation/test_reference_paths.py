@@ -123,7 +123,7 @@ def test_a_kelvin_ball_is_pulled_like_an_elastic_one_that_is_ahead():
 @each
 def test_explicit_steps_come_to_the_answer(path):
     """Their error is of first order; that of the cells is below it."""
-    c, (cells, parts) = path.contact, (300, 80)
+    c, (cells, parts) = path.contact, (150, 60)
     edge = c.radius(path.u[:, 2].max())
     gap = np.zeros(1) if c.shape == "punch" else ((np.arange(cells) + 0.5) * edge / cells) ** 2 / c.size
     arm = {"rho": [c.E_1 / c.E], "theta": [c.tau_1]} if c.E_1 else {}
