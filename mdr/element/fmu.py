@@ -109,7 +109,8 @@ def description(name: str, mark: str) -> str:
     """The text of modelDescription.xml."""
     top = ElementTree.Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=mark, variableNamingConvention="flat",
-        generationTool=f"mdr-friction {__version__}", description="A contact as a force element with memory",
+        generationTool=f"mdr-friction {__version__}",
+        description="A contact as a force element with memory: in a step it goes to the inputs that are set before it",
     )  # fmt: skip
     can = (
         "canHandleVariableCommunicationStepSize", "canGetAndSetFMUstate", "canSerializeFMUstate",
