@@ -63,7 +63,7 @@ rigid = without * 2 / np.pi * np.arcsin(v_0 / (omega * du_x))  # N
 
 
 def figure():
-    """Forces under vibration, measured and by springs whose deflection the bar at rest fixes, for two limits."""
+    """Forces under vibration, measured and by springs, fixed by the bar at rest (lines) or at 0.05 mm/s (dotted)."""
     import matplotlib.pyplot as plt
 
     from mdr.plots import COLOURS, style
@@ -75,10 +75,12 @@ def figure():
         for ax, limit, title in zip(panels, limits, titles, strict=True):
             ax.plot(x, vibrated, "ks", ms=7, label="measured")
             for face, colour in zip(faces, COLOURS, strict=False):
-                forces, _ = found[face, limit, "at rest"]
-                ax.plot(x, forces, "o-", lw=1.2, ms=4, color=colour, label=f"springs, {face}")
-            ax.plot(x, rigid, ":", color="0.4", label="no deflection")
-            ax.set(xticks=x, xticklabels=ticks, xlabel="velocity $v_0$ [mm/s]", ylim=(-0.05, 1.35), title=title)
+                for bar, line in (("0.05 mm/s", "o:"), ("at rest", "o-")):
+                    forces, _ = found[face, limit, bar]
+                    label = f"springs, {face}" if bar == "at rest" else None
+                    ax.plot(x, forces, line, lw=1.2, ms=4, color=colour, label=label)
+            ax.plot(x, rigid, "--", color="0.5", label="no deflection")
+            ax.set(xticks=x, xticklabels=ticks, xlabel="velocity $v_0$ [mm/s]", ylim=(-0.05, 1.9), title=title)
         panels[0].set_ylabel("friction under vibration [N]")
         panels[0].legend()
     return fig

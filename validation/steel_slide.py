@@ -12,10 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from geometries import steel_slide as measured
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.figures import figure
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, Figure
 
 ROUGH, SMOOTH = "rough face", ("flat punch", "paraboloid")
 ERROR, ERROR_WITH = 0.2, 0.1  #: N, in the middle of the error bars without and with vibration
@@ -141,24 +139,12 @@ def _stiff_checks() -> Checks:
     yield Check("kept at rest by d^11, amplitude 0.2 l", at_rest, 0.8**11, 1e-9, "F_N(d - du_x/(mu_0 kappa))/F_N(d)")
 
 
-@figure("bars", 1, 2, (10, 4.2), sharey=True)
-def _figure(fig, panels) -> str:  # type: ignore[no-untyped-def]
-    """Two panels, force under vibration at rest and at five velocities, measured and predicted for three faces."""
-    x = np.arange(measured.v_0.size)
-    titles = ("limit: of each velocity, without vibration", "limit: that at rest, for all")
-    for ax, limit, title in zip(panels, measured.limits, titles, strict=True):
-        ax.plot(x, measured.vibrated, "ks", ms=7, label="measured")
-        for face, colour in zip(measured.faces, COLOURS, strict=False):
-            for bar, line in (("at rest", "o-"), ("0.05 mm/s", "o:")):
-                label = f"{face}, fixed by the bar {bar}"
-                ax.plot(x, measured.found[face, limit, bar][0], line, lw=1.2, ms=4, color=colour, label=label)
-        ax.plot(x, measured.rigid, "--", color="0.5", label="no deflection")
-        ax.set(title=title, xlabel="velocity [mm/s]", xticks=x)
-        ax.set_xticklabels(["at rest", *(f"{1e3 * v:g}" for v in measured.v_0[1:])])
-    panels[0].set_ylabel("force under vibration [N]")
-    panels[0].legend(fontsize=8)
-    return (
+def _figure() -> Figure:
+    return Figure(
+        "bars",
         "Forces of a vibrated steel slide (squares; their errors are 0.03 to 0.2 N) and of springs, fixed by the bar at"
         " rest (full lines) or at 0.05 mm/s (dotted). Left, a rough face fixed at rest goes through all bars, smooth"
-        " ones do not. Right, with one limit springs rise wherever they are fixed, and cannot meet both."
+        " ones do not. Right, with one limit springs rise wherever they are fixed, and cannot meet both.",
+        measured.figure(),
+        "Two panels, force under vibration at rest and at five velocities, measured and predicted for three faces.",
     )

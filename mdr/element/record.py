@@ -2,7 +2,7 @@
 
 Between samples the motion is linear, and the springs go on it by the step of the library. For depth and way along one
 line on an elastic body this is exact. Otherwise the record is followed twice, with one and with two steps between
-samples; and in each case once more with half of the springs. The differences bound the error of the friction.
+samples; and in each case once more with half of the springs. The differences estimate a bound on the error of friction.
 """
 
 from __future__ import annotations
@@ -145,8 +145,8 @@ def slide_record(
     Returns
     -------
     SlideRecord
-        Forces at the samples, `cof` with a bound on its numerical error, `running_cof`, energies. What linear motion
-        between samples misses of the true one is not in `cof_error`.
+        Forces at the samples, `cof` with an estimated bound on its numerical error, `running_cof`, energies. What
+        linear motion between samples misses of the true one is not in `cof_error`.
 
     Raises
     ------

@@ -60,11 +60,11 @@ class Picture:
         run, known = self.run, resolved(self.state.case)
         depth = known.working_depth
         a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
-        rows = [("v_c", with_prefix(self.v_c, "m/s"), "critical velocity in closed form")]
+        rows = [("v_c", shown(self.v_c, "m/s", 4), "critical velocity in closed form")]
         if known.moves_across:
             rows = [("v_c", "infinite", "shaken across, friction is below mu_0 at every velocity")]
         elif self.v_c_back is not None:
-            rows.append(("v_c, other way", with_prefix(self.v_c_back, "m/s"), "the same, pulled the other way"))
+            rows.append(("v_c, other way", shown(self.v_c_back, "m/s", 4), "the same, pulled the other way"))
         elif self.static is not None:
             rows.append(("static COF", f"{self.static:.4g}", "limit of friction as v_0 → 0"))
         if self.band is not None:
@@ -80,8 +80,8 @@ class Picture:
             ("COF at v_0", cof, "mean F_x over mean F_z of the run"),
             *([("COF across", across, "mean F_y over mean F_z of the run")] if known.moves_across else []),
             ("stick", stick, "share of contact time, weighted by force"),
-            ("F_z", WAITS if self.load is None else with_prefix(self.load, "N"), "mean load"),
-            ("a", with_prefix(a, "m"), "contact radius at the mean depth"),
+            ("F_z", WAITS if self.load is None else shown(self.load, "N", 4), "mean load"),
+            ("a", shown(a, "m", 4), "contact radius at the mean depth"),
         ]
 
 
@@ -163,13 +163,6 @@ def velocities_of(state: State) -> Array:
         return np.unique([*(share * forward), *own])
     share[0] = share[1] ** 2  # beside zero, where friction of a shaken contact jumps
     return np.unique([*(-back * share), *(forward * share), *own])
-
-
-def with_prefix(value: float, unit: str) -> str:
-    """A number with the prefix that suits it; "infinite" where it is."""
-    if not np.isfinite(value):
-        return "infinite"
-    return shown(value, unit, 4)
 
 
 def verdict_of(case: SlidingContact, watch: Callable[[], None] = lambda: None) -> Iterator[str]:

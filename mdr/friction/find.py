@@ -130,10 +130,6 @@ class _Wish(NamedTuple):
             return found - self.wanted
         return 1 - 2 * self.wanted / (found + self.wanted)
 
-    def told(self, value: float) -> str:
-        """A value of what is asked."""
-        return "infinite" if np.isinf(value) else shown(value, self.unit)
-
 
 def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, v_c: Any) -> _Wish:
     """What was asked for."""
@@ -241,8 +237,8 @@ class _Search:
         where = f"from {shown(self.low, unit)} to {shown(self.high, unit)}"
         if not self.found:
             return f"none: there is no such case {where}: {self.refused}"
-        least, most = (wish.told(end) for end in (min(self.found), max(self.found)))
+        least, most = (shown(end, wish.unit) for end in (min(self.found), max(self.found)))
         between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
         gaps = "" if self.is_flat else "; `within` may be widened"
         gaps += f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
-        return f"none: {wish.what} {between} for {path} {where}, and {wish.told(wish.wanted)} is asked for{gaps}"
+        return f"none: {wish.what} {between} for {path} {where}, and {shown(wish.wanted, wish.unit)} is asked for{gaps}"

@@ -30,12 +30,12 @@ BALL, MOTION, MU_0 = Paraboloid(R=5e-3), NormalOscillation(u_z0=20e-6, du_z=4e-6
 ACROSS = InPlaneOscillation(omega=314.0, du_x=1e-6, du_y=1e-6)
 
 
-def compile_all(kinds: int | None = None) -> int:
-    """Number of kinds of run that are compiled from now on, all or the first so many; with progress.
+def compile_all() -> int:
+    """Number of kinds of run that are compiled from now on; with progress.
 
     What has been compiled on this machine is read from the disk.
     """
-    todo = kinds_of_run()[:kinds]
+    todo = kinds_of_run()
     with unsaid():
         for run in progress(todo, "compiling, once on this machine", "kinds of run"):
             with silent(lambda: None):
