@@ -9,8 +9,7 @@ import sys
 import time
 from contextlib import contextmanager
 
-PATIENCE = 30.0  #: s, for a machine that is busy
-COMPILES = 180.0  #: s, the same where the server may have to compile first
+PATIENCE = 600.0  #: s, until a wait is given up: the server may compile, on a machine that is busy
 FLAGS = (
     "headless=new", "no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
     "disable-component-update", "disable-sync", "disable-dev-shm-usage", "window-size=1400,1300",
@@ -71,20 +70,20 @@ class Browser:
 
     def open(self, query=""):
         self.driver.get(f"{self.address}{query}")
-        self.until(self.is_complete, COMPILES)
+        self.until(self.is_complete)
 
     def is_complete(self):
         """Whether the error of the curve is bounded."""
         return self.shown().startswith("error of friction")
 
-    def until(self, true, patience=PATIENCE):
+    def until(self, true):
         """Wait until something is so, and return it."""
-        end = time.monotonic() + patience
+        end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             if answer := true():
                 return answer
             time.sleep(0.02)
-        raise AssertionError(f"not so after {patience:g} s: {self.shown()}")
+        raise AssertionError(f"not so after {PATIENCE:g} s: {self.shown()}")
 
     def find(self, selector):
         return self.driver.execute_script(FIND + "return found", selector)

@@ -13,6 +13,7 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.element.contact_element import ContactElement
 from mdr.element.record import slide_record
+from mdr.friction.cof_curve import cof_curve
 from mdr.indenters.paraboloid import Paraboloid
 from mdr.march.slide import slide
 from mdr.materials import Elastic, KelvinVoigt, Material, Prony
@@ -46,7 +47,8 @@ def compile_all() -> int:
 def kinds_of_run() -> list[Callable[[], object]]:
     """Small runs, each of which compiles what it needs; the most frequent first."""
     slides = [partial(_slide, *parts) for parts in product(MATERIALS, PULLS)]
-    return [*slides, *(partial(one, material) for one in (_shaken, _indent, _record) for material in MATERIALS)]
+    others = (_shaken, _shaken_body, _shaken_along, _indent, _record)
+    return [*slides, *(partial(one, material) for one in others for material in MATERIALS)]
 
 
 def _slide(material: Material, pull: Pull) -> None:
@@ -58,6 +60,16 @@ def _slide(material: Material, pull: Pull) -> None:
 
 def _shaken(material: Material) -> None:
     slide(SlidingContact(BALL, material, MU_0, MOTION, RigidPull(), ACROSS), 1e-3, n_springs=32, steps_per_period=32)
+
+
+def _shaken_body(material: Material) -> None:
+    case = SlidingContact(BALL, material, MU_0, MOTION, PULLS[1], ACROSS)
+    slide(case, 1e-3, accuracy=1e-3)
+
+
+def _shaken_along(material: Material) -> None:
+    case = SlidingContact(BALL, material, MU_0, MOTION, RigidPull(), InPlaneOscillation(omega=314.0, du_x=1e-6))
+    cof_curve(case, [1e-3], accuracy=1e-3)
 
 
 def _indent(material: Material) -> None:

@@ -261,7 +261,7 @@ def completed(script, words):
     test = (
         f"COMP_WORDS=({' '.join(map(shlex.quote, words))}); COMP_CWORD={len(words) - 1}; _mdr; echo ${{COMPREPLY[@]}}"
     )
-    done = subprocess.run(["bash", "-c", f"{script}\n{test}"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(["bash", "-c", f"{script}\n{test}"], capture_output=True, text=True)
     assert done.stderr == ""
     return done.stdout.split()
 
@@ -469,7 +469,7 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
 
 def run(*command, **options):
     command = [sys.executable, "-m", "mdr", *command]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
+    return subprocess.run(command, capture_output=True, text=True, **options)
 
 
 def test_a_terminal_that_lacks_a_letter_still_shows_the_rest(tmp_path):

@@ -161,7 +161,8 @@ def test_a_batch_is_single_calls(material):
             assert_array_equal(f, F[b])
             assert_array_equal(k, K[b])
         assert_array_equal(singles, states)
-    assert_array_equal(contact.dissipated(states), [contact.dissipated(one) for one in singles])
+    lost = [contact.dissipated(one) for one in singles]
+    assert_allclose(contact.dissipated(states), lost, rtol=1e-12)  # a sum, in another order
 
 
 def test_names_of_a_state():

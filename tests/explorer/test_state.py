@@ -28,6 +28,7 @@ from mdr.plots.side_view import SideView
 from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
 
+PATIENCE = 600.0  #: s, until a wait is given up
 CASES = {
     "rigid": example(pull="RigidPull"),
     "body": example(),
@@ -231,7 +232,7 @@ def test_only_the_latest_request_is_answered():
 
     def work(request, watch):
         begun.set()
-        go.wait(10)
+        go.wait(PATIENCE)
         watch()
         if request == "wrong":
             raise ValueError(request)
@@ -244,21 +245,21 @@ def test_only_the_latest_request_is_answered():
 
     latest = Latest(work, deliver)
     latest.ask("first")
-    begun.wait(10)
+    begun.wait(PATIENCE)
     for request in ("second", "third"):
         latest.ask(request)
     go.set()
-    assert done.wait(10)
+    assert done.wait(PATIENCE)
     assert answered == [("third", "third"), ("third", None)]
     done.clear()
     begun.clear()
     go.clear()
     latest.ask("dropped")
-    begun.wait(10)
+    begun.wait(PATIENCE)
     latest.drop()
     go.set()
     latest.ask("wrong")
-    assert done.wait(10)
+    assert done.wait(PATIENCE)
     assert [request for request, _ in answered] == ["third", "third", "wrong"]
     assert isinstance(answered[-1][1], ValueError)
 

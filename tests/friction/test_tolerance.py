@@ -110,8 +110,8 @@ def test_a_body_is_varied_by_runs_and_a_run_that_does_not_settle_is_named(monkey
     v_0 = 0.5 * mdr.critical_velocity(case)
     found = mdr.tolerance(case, v_0, fields=["m"])
     heavy = replace(case, pull=mdr.SpringPull(2e3, 0.11))
-    assert found.cof["pull.m"][1] == mdr.slide(heavy, v_0).cof
-    assert found.v_c["pull.m"][1] == mdr.critical_velocity(heavy)
+    assert found.cof["pull.m"][1] == pytest.approx(mdr.slide(heavy, v_0).cof, rel=1e-9)  # 0.1 x 1.1 is not quite 0.11
+    assert found.v_c["pull.m"][1] == pytest.approx(mdr.critical_velocity(heavy), rel=1e-12)
     curve = mdr.cof_curve
     monkeypatch.setattr(module, "cof_curve", lambda *of: replace(curve(*of), settled=np.array([False])))
     loose = mdr.tolerance(replace(case, pull=mdr.RigidPull()), v_0, fields=["oscillation.du_z"])

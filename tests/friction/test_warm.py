@@ -1,17 +1,22 @@
 """Compiling ahead: said as kinds of run, complete, and from the disk the next time."""
 
+from itertools import product
+
 import numba
 import pytest
 
 import mdr
 from mdr.__main__ import main
+from mdr.closed_forms import shaken_spring
 from mdr.friction import warm
 from mdr.march import loop, orbit_loop, turning
 
 
 def all_compiled():
     """Compiled variants of the functions that runs enter by."""
-    entries = loop.march, loop.look, orbit_loop.search, turning.march_turning, turning.look_turning
+    entries = (
+        loop.march, loop.look, orbit_loop.search, turning.march_turning, turning.look_turning, shaken_spring.all_springs
+    )  # fmt: skip
     return {one.__name__: len(one.signatures) for one in entries}
 
 
@@ -25,6 +30,9 @@ def test_after_the_kinds_of_run_a_run_compiles_nothing(material):
     for pull in warm.PULLS:
         case = mdr.SlidingContact(mdr.Cone(theta=0.02), material, 0.3, warm.MOTION, pull)
         mdr.slide(case, 0.3 * mdr.full_slip_critical_velocity(case), accuracy=1e-3)
+    for shake, pull in product((warm.ACROSS, mdr.InPlaneOscillation(omega=628.0, du_x=2e-6)), warm.PULLS[:2]):
+        shaken = mdr.SlidingContact(mdr.Cone(theta=0.02), material, 0.3, warm.MOTION, pull, shake)
+        mdr.cof_curve(shaken, [1e-3], accuracy=1e-3)
     assert all_compiled() == before
     assert before["march"] >= len(warm.PULLS)
 

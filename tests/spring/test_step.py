@@ -97,12 +97,12 @@ def test_every_energy_goes_somewhere(material):
             assert sums[loss].min() >= 0
         # the law of friction holds at the end, where no spring in contact goes deeper than the indenter
         f_x, f_z, mode = (np.array([getattr(look, name)[0] for look in looks]) for name in ("f_x", "f_z", "mode"))
-        assert np.all(np.abs(f_x) <= f_z)
+        assert np.all(np.abs(f_x) <= f_z * (1 + 1e-12))
         assert np.all(f_z[mode == of.FREE] == 0)
         assert np.all(s[0] >= one.at(one.h)[0] - one.gap - 1e-14)
         assert np.all((stuck >= 0) & (stuck <= one.h * (1 + 1e-15)))
-        assert_array_equal(f_x[mode == of.SLIP], f_z[mode == of.SLIP])
-        assert_array_equal(f_x[mode == of.SLIP_BACK], -f_z[mode == of.SLIP_BACK])
+        for slips, side in ((of.SLIP, 1), (of.SLIP_BACK, -1)):
+            assert_allclose(f_x[mode == slips], side * f_z[mode == slips], rtol=1e-12)
 
 
 @every_material
