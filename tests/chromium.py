@@ -113,7 +113,9 @@ class Browser:
         from selenium.webdriver.common.keys import Keys
 
         box = self.inside(named("box", path), "input")
-        box.clear()
+        box.send_keys(
+            Keys.CONTROL + "a" + Keys.NULL
+        )  # emptied first it would be a change: the answer may overwrite the text
         box.send_keys(text + Keys.ENTER)
 
     def move(self, path, steps):
