@@ -18,6 +18,8 @@ What a frozen shape has been asked for is kept (`survey`, `image_of`), so that a
 
 import warnings
 from abc import ABC
+from collections.abc import Callable
+from functools import wraps
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -26,13 +28,19 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.chebyshev_panels import Chart
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
+from mdr.indenters.shape_check import AGREE, FINE, GRID, bends_down, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, plain, positive_array
 from mdr.tools.fields import Record
 from mdr.tools.memoise import remembered
 
+SAMPLES = 2048  #: heights among which a step, or a dip, stands out
+WARNED = 1e-3  #: share of F_N up to which it may be off where a warning tells of a kink that is not named
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 HOOKS = {"profile_3d": "_f", "profile_1d": "_g", "profile_area": "_area"}  #: what computes each, unchecked
+
+
+HELD = {"contact_radius", "force", "stiffness"}  #: what is compared with what follows from g, in a class of a user
 
 
 class Indenter(Record, ABC):
@@ -44,7 +52,10 @@ class Indenter(Record, ABC):
         super().__init_subclass__(**options)
         for public, hook in HOOKS.items():
             if public in vars(cls) and hook not in vars(cls):
-                setattr(cls, hook, vars(cls)[public])
+                setattr(cls, hook, _real(public, vars(cls)[public]))
+        if not cls.__module__.startswith(__package__ + "."):  # the tests hold those to it
+            for name in HELD & vars(cls).keys():
+                setattr(cls, name, _held(name, vars(cls)[name]))
         cls._gives_g = cls._g is not Indenter._g
         if not cls._gives_g and cls._f is Indenter._f:
             raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
@@ -124,7 +135,8 @@ class Indenter(Record, ABC):
         array([2.e-06, 8.e-06])
         """
         x = self._within(finite_array("x", x, "m"))
-        self._check_map(float(x.max(initial=0.0)))
+        if not self._gives_g and x.any():
+            self._mapped(float(x.max()))
         return plain(self._g(x))
 
     def contact_radius(self, d: ArrayLike) -> Array:
@@ -414,26 +426,40 @@ class Indenter(Record, ABC):
         return beyond if beyond.is_good else survey(self, radius)
 
     def _refuse_annular(self, a: float) -> None:
-        """A g that falls has no unique a(d): the contact would be a ring, which the method leaves out."""
-        found = self._surveyed(a)
-        self._check_map(a)
-        refuse_falling(self, found.x, found.g, found.further)
+        """ValueError unless it is a shape up to the contact radius a [m]; a g that falls has no unique a(d)."""
+        if found := self._mapped(a).why_not:
+            raise ValueError(f"{type(self).__name__} is no shape within r = {a:.6g} m: {found}")
 
-    def _check_map(self, radius: float) -> None:
-        """Warn where two quadrature rules disagree on g within a radius; ValueError where g is not finite."""
-        if self._gives_g or radius == 0:
+    def _refuse_other_radii(self, d: Array, a: Array) -> None:
+        """ValueError unless radii are those of a shape at depths, and those that g has there."""
+        order = np.argsort(d, axis=None)
+        d, a = np.clip(d.ravel()[order], 0, None), np.broadcast_to(a, d.shape).ravel()[order]
+        if not np.any(d > 0):
             return
-        error = self._surveyed(radius).error
-        if not np.isfinite(error):
-            raise ValueError(
-                f"{type(self).__name__} has no finite slope within r = {radius:.6g} m: name its end (r_max)"
-            )
-        if error > SAME:
+        wrong = why_no_shape(d, a)
+        if not wrong and self.least_depth == 0:
+            self._refuse_annular(float(a[-1]))
+            inner, outer = self._g(a * (1 - AGREE)), self._g(np.minimum(a * (1 + AGREE), self.max_radius))
+            off = (inner > d + AGREE * d[-1]) | ((outer < d - AGREE * d[-1]) & (a < self.max_radius * (1 - AGREE)))
+            if np.any(off):
+                i = int(np.argmax(off))
+                wrong = f"its contact_radius is {a[i]:.6g} m at d = {d[i]:.6g} m, where g(x) = {self._g(a)[i]:.6g} m"
+        if wrong:
+            raise ValueError(f"{type(self).__name__} is no shape: {wrong}")
+
+    def _mapped(self, radius: float) -> "Survey":
+        """How g is within a radius [m]; warns where two quadrature rules disagree, ValueError where it is not finite."""
+        found = self._surveyed(radius)
+        if not np.isfinite(found.error):
+            why = found.why_not or "it has no finite slope: name its end (r_max)"
+            raise ValueError(f"{type(self).__name__} is no shape within r = {radius:.6g} m: {why}")
+        if found.error > SAME:
             warnings.warn(
-                f"{type(self).__name__} is mapped to g(x) with an error of about {error:.1e} of its height: "
+                f"{type(self).__name__} is mapped to g(x) with an error of about {found.error:.1e} of its height: "
                 "name every radius where f or its slope is not smooth in kinks=",
-                stacklevel=3,
+                stacklevel=4,
             )
+        return found
 
 
 @remembered(64)
@@ -451,32 +477,86 @@ def area_of(shape: Indenter) -> Chart:
 class Survey(NamedTuple):
     """How a shape is mapped within a radius."""
 
-    x: Array
-    g: Array
-    further: float  #: g a little further out: at a flat face g is rounding up to a
+    why_not: str  #: what is wrong with it there, and where; empty for a shape
     error: float  #: difference of two quadrature rules, over the height; infinite where g is not finite
 
     @property
     def is_good(self) -> bool:
-        """Whether g is finite, rises and is mapped well."""
-        return bool(
-            np.isfinite(self.g[-1]) and np.all(np.diff(self.g) >= -SAME * np.abs(self.g[-1])) and self.error <= SAME
-        )
+        """Whether it is a shape, and mapped well."""
+        return not self.why_not and self.error <= SAME
 
 
 @remembered(256)
 def survey(shape: Indenter, radius: float) -> Survey:
-    """g at places within a radius [m], many of them near the tip, and how good it is."""
-    x = np.unique(radius * np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))
+    """What g, and F_N with it, are at places within a radius [m], and how good g is."""
     with np.errstate(all="ignore"):
-        g, more = shape._directly(x), shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
-        some = slice(None, None, 10)
-        other = (
-            g[some] if shape._gives_g else abel.profile_1d(shape._f, shape._edges, x[some], double_exponential(0.077))
-        )
-        height = np.max(np.abs(g[some]))
-        error = np.max(np.abs(g[some] - other)) / (height or 1.0)
-    return Survey(x, g, float(np.nan_to_num(more[0], posinf=0.0)), float(np.nan_to_num(error, nan=np.inf)))
+        r = radius * (np.append(0, FINE) if shape._gives_g else np.linspace(0, 1, SAMPLES + 1))
+        heights = (shape._g if shape._gives_g else shape._f)(r)
+        if heights[0] != 0:
+            return Survey(f"its height is {heights[0]!r} m on the axis, and the depth counts from 0 there", np.inf)
+        if not (known := np.isfinite(heights)).all():
+            end = r[np.argmin(known)]
+            return Survey(f"it has no finite height at {end:.6g} m from the axis: name its end (r_max)", np.inf)
+        error = _error_of_map(shape, radius)
+        x = np.unique(radius * FINE if shape._gives_g else np.append(radius * GRID, bends_down(heights, r)))
+        g, further = shape._directly(x), shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
+        area = shape._area(x) if shape._gives_g else area_of(shape).direct(x)
+        V = 2 * (g * x - area)
+    height = max(float(np.max(np.abs(g))), float(np.nan_to_num(further[0], posinf=0.0)))
+    near = SAME * height / (np.max(np.abs(g)) or 1.0)  # at a flat face g is rounding up to a
+    return Survey(why_no_shape(g, x, V, near, min(10 * error, WARNED)), error)
+
+
+def _error_of_map(shape: Indenter, radius: float) -> float:
+    """Difference of two quadrature rules for g, or for the area below a given g, over its height."""
+    x, rule = radius * GRID[::10], double_exponential(0.077)
+    if shape._gives_g and type(shape)._area is not Indenter._area:
+        return 0.0
+    if shape._gives_g:
+        one, other = shape._area(x), in_chunks(lambda a: abel.area_from_g(shape._g, shape._edges, a, rule), x)
+    else:
+        one, other = shape._directly(x), abel.profile_1d(shape._f, shape._edges, x, rule)
+    return float(np.nan_to_num(np.max(np.abs(one - other)) / (np.max(np.abs(one)) or 1.0), nan=np.inf))
+
+
+def _real(name: str, own: Callable[..., Array]) -> Callable[..., Array]:
+    """A profile of a user's class, which must answer as many real numbers as it is asked for."""
+
+    @wraps(own)
+    def real(self: Indenter, r: Array) -> Array:
+        answer = np.asarray(own(self, r))
+        if answer.dtype.kind not in "iufb" or answer.shape not in ((), np.shape(r)):
+            raise TypeError(
+                f"{name} of {type(self).__name__} must answer an array of radii with as many real heights, got "
+                f"{answer!r}"
+            )
+        return np.broadcast_to(answer.astype(np.float64, copy=False), np.shape(r))
+
+    return real
+
+
+def _held(name: str, own: Callable[..., Array]) -> Callable[..., Array]:
+    """A method of a user's class, compared with what g says whenever it is asked."""
+
+    @wraps(own)
+    def held(self: Indenter, d: ArrayLike, *given: ArrayLike, **named: ArrayLike) -> Array:
+        answer = own(self, d, *given, **named)
+        with np.errstate(all="ignore"):
+            if name == "contact_radius":
+                self._refuse_other_radii(finite_array("d", d, "m"), np.asarray(answer, dtype=float))
+                return answer
+            expected = getattr(Indenter, name)(self, d, *given, **named)
+            off = np.abs(np.asarray(answer) - expected)
+            if not np.all(off <= AGREE * np.max(np.abs(expected), initial=0.0)):
+                i = np.unravel_index(np.argmax(np.nan_to_num(off, nan=np.inf)), np.shape(off))
+                raise ValueError(
+                    f"{name} of {type(self).__name__} answers {np.asarray(answer)[i]:.6g} where its g(x) makes it "
+                    f"{np.asarray(expected)[i]:.6g}, at d = {np.broadcast_to(d, np.shape(off))[i]:.6g} m: correct it, "
+                    "or leave it out"
+                )
+        return answer
+
+    return held
 
 
 def rim_pressure(r: Array, a: Array | float, step: Array | float) -> Array:
@@ -484,15 +564,3 @@ def rim_pressure(r: Array, a: Array | float, step: Array | float) -> Array:
     share = r / a
     answer: Array = step / (np.pi * a * np.sqrt((1 - share) * (1 + share)))
     return answer
-
-
-def refuse_falling(shape: Indenter, x: Array, g: Array, further: float = 0.0) -> None:
-    """ValueError if g falls anywhere along ascending x by more than rounding; ``further`` is g a little further out."""
-    highest = np.maximum.accumulate(np.maximum(g, 0))
-    fall = highest - g > SAME * np.max(np.abs(g), initial=further)
-    if np.any(fall):
-        raise ValueError(
-            f"annular contact: the one-dimensional profile of {type(shape).__name__} falls at x = "
-            f"{x[fall][0]:.6g} m, so that a ring touches before the disc inside it; the method needs a full "
-            "disc: choose a shape whose g(x) rises"
-        )

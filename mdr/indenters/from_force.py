@@ -6,6 +6,7 @@ k_zc = dF_N/dd = 2E*a holds for any shape, so that F(d) tells the shape (Popov &
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike, fsdecode
@@ -19,6 +20,7 @@ from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
+from mdr.indenters.shape_check import noise_of, told_smoothing, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_table import fault
@@ -270,16 +272,25 @@ class FromForce(Indenter):
                 "press less or measure deeper"
             )
 
-    def _refuse_shrinking(self) -> None:
-        """F' must not fall: the contact would shrink."""
+    def _why_no_shape(self) -> str:
+        """What is wrong with the contact at depths eight times as many as those measured; empty for a shape."""
+        if self.tip == "any" and self._spline[1](0.0) < 1 - SAME:
+            return f"its slope falls at d = {self.d[1]:.6g} m, so that the contact would shrink there"
         n = len(self.d) - 1
         z = np.interp(np.arange(8 * n - 7) / 8, np.arange(n), self._place(np.array(self.d[1:])))
-        d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
-        a = self._radius(d)
-        falls = np.maximum.accumulate(a) - a > FALL * np.max(a)
-        falls[0] |= self.tip == "any" and self._spline[1](0.0) < 1 - SAME
-        if falls.any():
-            raise ValueError(
-                f"F must rise more and more steeply, but its slope falls at d = {d[falls][0]:.6g} m: the contact "
-                "would shrink there; if it is noise, give its standard deviation as smoothing="
-            )
+        with np.errstate(all="ignore"):
+            d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
+            return why_no_shape(d, self._radius(d), self._force(d) / self.E_star, FALL)
+
+    def _smoothed_enough(self, smoothing: float) -> bool:
+        """Whether another smoothing makes it a shape."""
+        other = copy(self)
+        object.__setattr__(other, "smoothing", smoothing)
+        return not other._why_no_shape()
+
+    def _refuse_shrinking(self) -> None:
+        """The contact must grow while it is pressed deeper."""
+        if why := self._why_no_shape():
+            d, F = np.array(self.d), np.array(self.F)
+            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, noise_of(d, F), 0.3 * max(F), "N")
+            raise ValueError(f"F must rise more and more steeply, but {why}; {smoothing}")

@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import Indenter
+from mdr.indenters.base import SAMPLES, Indenter
 from mdr.indenters.sampled_profile import radii
 from mdr.tools.arrays import Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite_array, plain, positive
 from mdr.tools.fields import facts
-
-SAMPLES = 2048  #: heights among which a step stands out
 
 
 def _function(name: str, value: Any, note: str = "") -> Any:

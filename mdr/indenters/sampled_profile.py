@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -11,9 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr.indenters.base import Indenter, refuse_falling
+from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
+from mdr.indenters.shape_check import FINE, noise_of, told_smoothing, why_no_shape
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_table import fault
@@ -102,11 +104,26 @@ class SampledProfile(Indenter):
                 "smoothing",
             )
         self._require_points(self.kinks)
-        try:
-            refuse_falling(self, self._image.ends, self._image.image_at_ends())
-        except ValueError as ring:
-            noise = "if it is noise, give its size as smoothing="
-            raise ValueError(f"{ring}; {self._way_out_of_a_kink()}; {noise}") from None
+        if why := self._why_no_shape():
+            r, f = np.array(self.r), np.array(self.f)
+            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, noise_of(r, f), 0.3 * range_of_f, "m")
+            raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {smoothing}")
+
+    def _why_no_shape(self) -> str:
+        """What is wrong with the contact at the ends of all pieces, in their middles and between; empty for a shape."""
+        ends = self._image.ends
+        x = np.unique(np.concatenate([ends[1:], (ends[1:] + ends[:-1]) / 2, ends[-1] * FINE]))
+        g, V = self._image.contacts(x)
+        return why_no_shape(g, x, V)
+
+    def _smoothed_enough(self, smoothing: float) -> bool:
+        """Whether another smoothing makes it a shape."""
+        other = copy(self)
+        object.__setattr__(other, "smoothing", smoothing)
+        return not other._why_no_shape()
+
+    def _refuse_annular(self, a: float) -> None:
+        """Asked when it was made."""
 
     @classmethod
     def read(

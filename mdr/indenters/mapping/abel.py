@@ -37,9 +37,9 @@ def area_from_f(f: Function, edges: tuple[float, ...], a: Array, rule: Rule | No
     return a * _along_arcs(lambda r, sine, *_: sine * f(r), edges, a, rule)
 
 
-def area_from_g(g: Function, edges: tuple[float, ...], a: Array) -> Array:
+def area_from_g(g: Function, edges: tuple[float, ...], a: Array, rule: Rule | None = None) -> Array:
     """∫₀^a g dx."""
-    rule = double_exponential()
+    rule = rule or double_exponential()
     total = np.zeros_like(a)
     for low, high in pairwise(edges):
         width = np.maximum(np.minimum(high, a) - low, 0)[:, None]

@@ -5,8 +5,9 @@ one too, c r^j → κ_j c x^j. Further out
 
     g(x) = x ∫₀^{π/2} f'(x sin t) dt,   dg/dx = ∫₀^{π/2} (r f')'(x sin t) dt + Σ Δf'(b) b / √(x² − b²),
 
-the sum over the kinks b passed, are summed piece by piece with Gauss's rule, exact to rounding, at a few nodes of each
-piece when it is first asked for. Between the nodes a polynomial in √(x − r_i) serves, as g is not smooth at r_i.
+the sum over the kinks b passed, are summed with Gauss's rule, exact to rounding, at a few nodes of each piece when it
+is first asked for. Pieces far from x go into the sum together (`arc_sums`). Between the nodes a polynomial in
+√(x − r_i) serves, as g is not smooth at r_i.
 """
 
 import math
@@ -16,16 +17,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.indenters.mapping.arc_sums import ArcSums
 from mdr.indenters.mapping.quadrature import N_FIT, chebyshev_fit
 from mdr.indenters.mapping.stable_functions import GAUSS, leg
 from mdr.tools.arrays import EXACT, Array
+from mdr.tools.progress import progress
 
 Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
 DEGREE = 5  #: of a spline, four times continuously differentiable
+AT_ONCE = 2048  #: radii whose sums are taken at once
 RULES = tuple(  #: for arcs between these widths [rad]
     (low, high, *np.polynomial.legendre.leggauss(n))
-    for low, high, n in ((0.0, 0.02, 3), (0.02, 0.5, 6), (0.5, 2.0, 14))
+    for low, high, n in ((0.0, 0.02, 7), (0.02, 0.5, 14), (0.5, 2.0, 24))
 )
 
 
@@ -38,7 +42,8 @@ def spline(x: Array, y: Array, noise: Array | float) -> Any:
     k, noise = min(DEGREE, x.size - 1 - x.size % 2), np.broadcast_to(noise, x.shape)
     if not noise.all() or x.size <= k + 1:
         return make_interp_spline(x, y, k=k)
-    t, c, k = splrep(x, y / noise.max(), noise.max() / noise, k=k, s=x.size)
+    weights = noise.max() / noise
+    (t, c, k), *_ = splrep(x, y / noise.max(), weights, k=k, s=x.size, full_output=1)  # whoever asks looks at its shape
     return BSpline(t, c * noise.max(), k)
 
 
@@ -109,9 +114,10 @@ class SplineImage:
         tip = _horner(self.tip[None], np.zeros_like(piece), np.where(first, x / self.width[0], 0))
         return np.asarray(np.where(first, tip, x * self._outer(0, x, piece)))
 
-    def image_at_ends(self) -> Array:
-        """g at all ends of pieces."""
-        return np.asarray(self.ends * np.concatenate([[0.0], self._arcs(self.ends[1:])[0]]))
+    def contacts(self, x: Array) -> tuple[Array, Array]:
+        """g and F_N/E* at contact radii x > 0, by sums at each of them."""
+        mean, _, area = x * self._arcs(x)
+        return mean, 2 * (mean * x - area)
 
     def area(self, a: Array) -> Array:
         """∫₀^a g dx."""
@@ -148,9 +154,9 @@ class SplineImage:
 
     def _outer(self, which: int, x: Array, piece: Pieces) -> Array:
         """g/x (0) or the smooth part of dg/dx (1) in pieces that are not the first."""
-        for i in np.unique(piece[piece > 0]):
-            if not self.made[i]:
-                self._make(int(i))
+        asked = np.unique(piece[piece > 0])
+        if not self.made[asked].all():
+            self._make(asked[~self.made[asked]])
         t = 2 * np.sqrt(np.clip((x - self.ends[piece]) / self.width[piece], 0, 1)) - 1
         c = self.chebyshev[which]
         one, two = np.zeros_like(t), np.zeros_like(t)
@@ -158,33 +164,42 @@ class SplineImage:
             one, two = c[piece, j] + 2 * t * one - two, one
         return np.asarray(c[piece, 0] + t * one - two)
 
-    def _make(self, i: int) -> None:
+    def _make(self, pieces: Pieces) -> None:
+        """The polynomials of some pieces."""
         nodes, to_coefficients = chebyshev_fit(N_FIT)
-        values = self._arcs(self.ends[i] + self.width[i] * ((nodes + 1) / 2) ** 2)
-        self.chebyshev[:, i] = values[:2] @ to_coefficients.T
-        self.made[i] = True
+        x = self.ends[pieces, None] + self.width[pieces, None] * ((nodes + 1) / 2) ** 2
+        values = self._arcs(x.ravel())[:2].reshape(2, *x.shape)
+        self.chebyshev[:, pieces] = values @ to_coefficients.T
+        self.made[pieces] = True
+
+    @cached_property
+    def _sums(self) -> ArcSums:
+        r_f = np.pad(self.pieces * self.ends[:-1, None], ((0, 0), (0, 1)))
+        r_f[:, 1:] += self.pieces * self.width[:, None]
+        slopes, radial = (np.pad(one, ((0, 0), (0, 2))) for one in (self.slopes, self.radial))
+        return ArcSums(self.ends, np.stack([slopes, radial, r_f]))
 
     def _arcs(self, x: Array) -> Array:
         """∫₀^{π/2} of f', of (r f')' and of f sin t along r = x sin t, (3, n_x)."""
-        total = np.zeros((3, x.size))
-        for i in range(0, x.size, 64):
-            total[:, i : i + 64] = self._some_arcs(x[i : i + 64])
+        total = np.empty((3, x.size))
+        starts = range(0, x.size, AT_ONCE)
+        for i in progress(starts, "image of the profile", "parts") if len(starts) > 1 else starts:
+            total[:, i : i + AT_ONCE] = self._some_arcs(x[i : i + AT_ONCE])
         return total
 
     def _some_arcs(self, x: Array) -> Array:
-        total = np.zeros((3, x.size))
-        unit = np.ones(1)
-        ends = np.minimum(self.ends[: np.searchsorted(self.ends, x.max()) + 1], x[:, None])
-        angles = np.arctan2(ends, leg(x[:, None], ends))
-        width = np.diff(angles, axis=1)
+        total, row, piece = self._sums.far(x)
+        total[2] /= x
+        unit, far = np.ones(1), x[row]
+        begin, end = (np.arctan2(r, leg(far, r)) for r in (self.ends[piece], np.minimum(self.ends[piece + 1], far)))
+        width = end - begin
         for least, most, nodes, weights in RULES:
-            row, piece = np.nonzero((least < width) & (width <= most))
-            half = width[row, piece][:, None] / 2
-            sine = np.sin(angles[row, piece][:, None] + half * (nodes + 1))
-            u = (x[row, None] * sine - self.ends[piece, None]) / self.width[piece, None]
+            on = (least < width) & (width <= most)
+            i, half = piece[on, None], width[on, None] / 2
+            sine = np.sin(begin[on, None] + half * (nodes + 1))
+            u = (far[on, None] * sine - self.ends[i]) / self.width[i]
             for k, (c, factor) in enumerate(((self.slopes, unit), (self.radial, unit), (self.pieces, sine))):
-                sums = (half * _horner(c, piece[:, None], u) * factor) @ weights
-                total[k] += np.bincount(row, sums, x.size)
+                total[k] += np.bincount(row[on], (half * _horner(c, i, u) * factor) @ weights, x.size)
         return total
 
 

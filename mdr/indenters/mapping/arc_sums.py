@@ -1,0 +1,99 @@
+"""∫ h(r)/√(x² − r²) dr over r < x for piecewise polynomials h of many pieces, at many x, in n log n.
+
+Pieces are grouped by twos, fours, eights … of leaves. Over a group that is at least its own width away from x the root
+is smooth: its polynomial through N_NODES Chebyshev points is good to 5.8**-22 = 1e-17, and the group then is as many
+weights at these points. The pieces near to x are left to whom they concern.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.indenters.mapping.quadrature import chebyshev_fit
+from mdr.indenters.mapping.stable_functions import GAUSS
+from mdr.tools.arrays import Array
+
+N_NODES = 22  #: Gauss's 14 points are exact up to degree 27: of a node's polynomial, 21, times h, 6
+LEAF = 4  #: pieces of the smallest groups
+
+Numbers = NDArray[np.intp]
+
+
+class Level(NamedTuple):
+    """Groups of one size, (n_groups,) from the axis outwards."""
+
+    low: Array  #: where each begins [m]
+    high: Array
+    nodes: Array  #: (n_groups, N_NODES) [m]
+    weights: Array  #: of each h at these, (n_h, n_groups, N_NODES)
+
+
+class ArcSums:
+    """The sums for functions h, whose polynomials (n_h, n, degree + 1) count u = 0 … 1 between ``ends`` (n + 1,)."""
+
+    def __init__(self, ends: Array, h: Array) -> None:
+        self.ends = ends
+        self.n = ends.size - 1
+        self.levels = [self._leaves(h)]
+        while self.levels[-1].low.size > 1:
+            self.levels.append(_pairs(self.levels[-1]))
+
+    def far(self, x: Array) -> tuple[Array, Numbers, Numbers]:
+        """What is far from each x (n_x,), (n_h, n_x), and the pieces that are near: numbers of x, and of pieces."""
+        total = np.zeros((self.levels[0].weights.shape[0], x.size))
+        row = np.arange(x.size)
+        group = np.zeros_like(row)
+        for i, level in reversed(list(enumerate(self.levels))):
+            low, high = level.low[group], level.high[group]
+            away = x[row] - high >= high - low
+            on, of = row[away], group[away]
+            r = level.nodes[of]
+            root = 1 / (np.sqrt(x[on, None] - r) * np.sqrt(x[on, None] + r))
+            for sums, weights in zip(total, level.weights, strict=True):
+                sums += np.bincount(on, np.einsum("ij,ij->i", weights[of], root), x.size)
+            row, group = row[~away], group[~away]
+            if i > 0:
+                row, group = _within(row, group, 2, self.levels[i - 1].low, x)
+        return (total, *_within(row, group, LEAF, self.ends[:-1], x))
+
+    def _leaves(self, h: Array) -> Level:
+        """The smallest groups, summed piece by piece."""
+        first = np.arange(0, self.n, LEAF)
+        low, high = self.ends[first], self.ends[np.minimum(first + LEAF, self.n)]
+        nodes, weights = GAUSS
+        u, group = (nodes + 1) / 2, np.arange(self.n) // LEAF
+        width = np.diff(self.ends)[:, None]
+        values = h @ u ** np.arange(h.shape[2])[:, None] * (width * weights / 2)
+        shares = _shares(self.ends[:-1, None] + width * u, low[group], high[group])
+        sums = np.einsum("kig,igm->kim", values, shares)
+        return Level(low, high, _nodes(low, high), np.add.reduceat(sums, first, axis=1))
+
+
+def _pairs(below: Level) -> Level:
+    """Groups of two groups each; the last may have one."""
+    first = np.arange(0, below.low.size, 2)
+    low, high = below.low[first], np.maximum.reduceat(below.high, first)
+    of = np.arange(below.low.size) // 2
+    sums = np.einsum("kig,igm->kim", below.weights, _shares(below.nodes, low[of], high[of]))
+    return Level(low, high, _nodes(low, high), np.add.reduceat(sums, first, axis=1))
+
+
+def _nodes(low: Array, high: Array) -> Array:
+    """Chebyshev points of each group, (n, N_NODES)."""
+    return np.asarray(low[:, None] + (high - low)[:, None] * (chebyshev_fit(N_NODES)[0] + 1) / 2)
+
+
+def _shares(r: Array, low: Array, high: Array) -> Array:
+    """Lagrange's polynomials of the nodes between low and high (n,) at places r (n, m): (n, m, N_NODES)."""
+    t = np.clip(2 * (r - low[:, None]) / (high - low)[:, None] - 1, -1, 1)
+    return np.cos(np.arccos(t)[:, :, None] * np.arange(N_NODES)) @ chebyshev_fit(N_NODES)[1]
+
+
+def _within(row: Numbers, group: Numbers, n: int, begins: Array, x: Array) -> tuple[Numbers, Numbers]:
+    """The n parts of each group that begin before x, where ``begins`` says where each part does."""
+    part = (n * group[:, None] + np.arange(n)).ravel()
+    row = np.repeat(row, n)
+    kept = part < begins.size
+    kept[kept] = begins[part[kept]] < x[row[kept]]
+    return row[kept], part[kept]
